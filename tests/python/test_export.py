@@ -1,0 +1,421 @@
+"""Files written by core/export.py: counts, exact numbers, valid references, and writing whole or not at all."""
+
+import os
+import resource
+import shutil
+import signal
+import tempfile
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from medial_axis.core import export as export_module
+from medial_axis.core.errors import ExportError
+from medial_axis.core.export import FORMATS, export_axis
+
+EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
+
+
+def axis_of(vertices, polygons, seed=0):
+    """A medial axis with made-up numbers on the given polygons."""
+    rng = np.random.default_rng(seed)
+    vertices = np.asarray(vertices, np.float64).reshape(-1, 3)
+    counts = [len(polygon) for polygon in polygons]
+    return SimpleNamespace(
+        vertices=vertices,
+        radius=rng.random(len(vertices)),
+        face_offsets=np.concatenate([[0], np.cumsum(counts)]).astype(np.int32),
+        face_vertices=np.array([v for polygon in polygons for v in polygon], np.int32),
+        theta=rng.random(len(polygons)),
+        rho=rng.random(len(polygons)) * 20,
+        side=rng.integers(0, 4, len(polygons)).astype(np.int32),
+        generators=rng.integers(0, 1000, (len(polygons), 2)).astype(np.int32),
+        unbounded=3,
+        zero_area=1,
+    )
+
+
+def fan_of_sheets(sheets=40, seed=1):
+    """Convex polygons of 3 to 9 corners in three sheets round a common line, as a Y-shaped axis has them."""
+    rng = np.random.default_rng(seed)
+    vertices, polygons = [], []
+    for _ in range(sheets):
+        corners = int(rng.integers(3, 10))
+        angles = np.sort(rng.random(corners)) * 2 * np.pi
+        frame = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        flat = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(corners)])
+        polygons.append(list(range(len(vertices), len(vertices) + corners)))
+        vertices.extend(flat @ frame.T * rng.random() + rng.normal(size=3) * 1e3)
+    return axis_of(vertices, polygons, seed)
+
+
+def grid_of_quads(n=12):
+    """A welded n x n sheet: shared edges, so that "every edge once" means something."""
+    ij = np.stack(np.meshgrid(np.arange(n), np.arange(n), indexing="ij"), axis=-1).reshape(-1, 2)
+    vertices = np.column_stack([ij / 7.0, np.sin(ij[:, 0] / 3.0)])
+    corner = [i * n + j for i in range(n - 1) for j in range(n - 1)]
+    return axis_of(vertices, [(c, c + n, c + n + 1, c + 1) for c in corner])
+
+
+EMPTY = axis_of([], [])
+AXES = {"sheets": fan_of_sheets(), "grid": grid_of_quads(), "empty": EMPTY}
+
+
+@pytest.fixture(params=AXES)
+def axis(request):
+    return AXES[request.param]
+
+
+# --- readers, written from the formats and not from the writers
+
+
+def read_ma(path):
+    """(v, 4) centres and radii, (e, 2) edges, (f, 3) triangles of a plain .ma file."""
+    tokens = Path(path).read_bytes().split()
+    counts, rest = [int(token) for token in tokens[:3]], tokens[3:]
+    sections = []
+    for letter, width, count, kind in zip((b"v", b"e", b"f"), (4, 2, 3), counts, (float, int, int)):
+        rows = [rest[at : at + width + 1] for at in range(0, count * (width + 1), width + 1)]
+        rest = rest[count * (width + 1) :]
+        assert all(row[0] == letter for row in rows)
+        sections.append(np.array([[kind(x) for x in row[1:]] for row in rows], kind).reshape(count, width))
+    assert rest == []
+    return sections
+
+
+def polygons_of(axis):
+    return np.split(axis.face_vertices, axis.face_offsets[1:-1]) if len(axis.face_offsets) > 1 else []
+
+
+def read_ply(path):
+    """vertices (v, 4), then per face: corners, theta, rho, side, p, q."""
+    data = Path(path).read_bytes()
+    head, body = data.split(b"end_header\n", 1)
+    lines = head.decode("ascii").splitlines()
+    assert lines[:2] == ["ply", "format binary_little_endian 1.0"]
+    vertex_count, face_count = (int(line.split()[2]) for line in lines if line.startswith("element"))
+    width = {"uchar": "u1", "int": "<i4"}[next(line for line in lines if "list" in line).split()[2]]
+    vertices = np.frombuffer(body, "<f8", vertex_count * 4).reshape(-1, 4)
+    at, faces = vertex_count * 32, []
+    for _ in range(face_count):
+        count = int(np.frombuffer(body, width, 1, at)[0])
+        at += np.dtype(width).itemsize
+        corners = np.frombuffer(body, "<i4", count, at)
+        theta, rho = np.frombuffer(body, "<f8", 2, at + 4 * count)
+        side, p, q = np.frombuffer(body, "<i4", 3, at + 4 * count + 16)
+        at += 4 * count + 28
+        faces.append((corners, theta, rho, side, p, q))
+    assert at == len(body)
+    return vertices, faces
+
+
+def area_vectors(vertices, triangles):
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return np.cross(b - a, c - a) / 2
+
+
+# --- content
+
+
+def test_ma_holds_every_number_exactly(axis, tmp_path):
+    vertices, _, _ = read_ma(export_axis(axis, tmp_path / "a.ma"))
+    assert np.array_equal(vertices, np.column_stack([axis.vertices, axis.radius]))
+
+
+def test_ma_lists_every_edge_once_and_only_edges_of_faces(axis, tmp_path):
+    _, edges, faces = read_ma(export_axis(axis, tmp_path / "a.ma"))
+    listed = [tuple(sorted(edge)) for edge in edges.tolist()]
+    of_faces = {tuple(sorted((f[i], f[i - 1]))) for f in faces.tolist() for i in range(3)}
+    assert len(set(listed)) == len(listed)
+    assert set(listed) == of_faces
+
+
+def test_ma_triangles_cover_each_polygon(axis, tmp_path):
+    vertices, _, faces = read_ma(export_axis(axis, tmp_path / "a.ma"))
+    counts = np.diff(axis.face_offsets)
+    assert len(faces) == (counts - 2).sum()
+    areas = area_vectors(vertices[:, :3], faces)
+    start = 0
+    for polygon in polygons_of(axis):
+        own = slice(start, start + len(polygon) - 2)
+        assert set(faces[own].ravel()) == set(polygon)
+        fan = np.column_stack([np.full(len(polygon) - 2, polygon[0]), polygon[1:-1], polygon[2:]])
+        whole = area_vectors(vertices[:, :3], fan).sum(axis=0)
+        assert np.allclose(areas[own].sum(axis=0), whole, rtol=1e-9, atol=1e-9 * np.linalg.norm(whole))
+        assert (areas[own] @ whole > 0).all()  # all turn as the polygon does, none is empty
+        start = own.stop
+
+
+def test_ma_is_plain_ascii_with_lf_and_no_comments(tmp_path):
+    text = export_axis(AXES["grid"], tmp_path / "a.ma").read_bytes().decode("ascii")
+    assert "\r" not in text and "#" not in text and text.endswith("\n")
+    assert all(line.split(" ")[0] in "vef" for line in text.splitlines()[1:])
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
+def test_triangles_of_polygons_with_straight_corners_have_area(tmp_path, scale):
+    """Corners on straight sides: a fan from the first corner would give triangles without area."""
+    triangle = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [2, 1, 0], [1, 2, 0], [0, 3, 0], [0, 1, 0]])
+    base_only = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [1, 4, 0]])
+    turns = [np.roll(shape, turn, axis=0) for shape in (triangle, base_only) for turn in range(len(shape))]
+    vertices, polygons = np.concatenate(turns), []
+    for turn in turns:
+        first = sum(len(p) for p in polygons)
+        polygons.append(range(first, first + len(turn)))
+    points, _, faces = read_ma(export_axis(axis_of(vertices * scale, polygons), tmp_path / "a.ma"))
+    areas = area_vectors(points[:, :3], faces)[:, 2]
+    assert len(faces) == len(vertices) - 2 * len(polygons)
+    assert areas.min() > 0.4 * scale**2
+
+
+def test_ply_holds_polygons_and_all_attributes(axis, tmp_path):
+    vertices, faces = read_ply(export_axis(axis, tmp_path / "a.ply"))
+    assert np.array_equal(vertices, np.column_stack([axis.vertices, axis.radius]))
+    assert len(faces) == len(axis.theta)
+    for i, (face, polygon) in enumerate(zip(faces, polygons_of(axis))):
+        corners, theta, rho, side, p, q = face
+        assert np.array_equal(corners, polygon)
+        assert (theta, rho, side) == (axis.theta[i], axis.rho[i], axis.side[i])
+        assert [p, q] == axis.generators[i].tolist()
+
+
+def test_ply_of_a_face_with_more_than_255_corners(tmp_path):
+    angles = np.linspace(0, 2 * np.pi, 300, endpoint=False)
+    wheel = axis_of(np.column_stack([np.cos(angles), np.sin(angles), 0 * angles]), [range(300), range(3)])
+    _, faces = read_ply(export_axis(wheel, tmp_path / "a.ply"))
+    assert [len(face[0]) for face in faces] == [300, 3]
+    _, _, triangles = read_ma(export_axis(wheel, tmp_path / "a.ma"))
+    assert len(triangles) == 299
+
+
+def test_obj_holds_polygons(axis, tmp_path):
+    lines = export_axis(axis, tmp_path / "a.obj").read_text(encoding="ascii").splitlines()
+    vertices = [[float(x) for x in line.split()[1:]] for line in lines if line.startswith("v ")]
+    faces = [[int(x) - 1 for x in line.split()[1:]] for line in lines if line.startswith("f ")]
+    assert len(lines) == len(vertices) + len(faces)
+    assert np.array_equal(np.reshape(vertices, (-1, 3)), axis.vertices)
+    assert faces == [polygon.tolist() for polygon in polygons_of(axis)]
+
+
+def test_off_holds_polygons(axis, tmp_path):
+    lines = export_axis(axis, tmp_path / "a.off").read_text(encoding="ascii").splitlines()
+    count = len(axis.vertices)
+    assert lines[:2] == ["OFF", f"{count} {len(axis.theta)} 0"]
+    vertices = [[float(x) for x in line.split()] for line in lines[2 : 2 + count]]
+    faces = [[int(x) for x in line.split()] for line in lines[2 + count :]]
+    assert np.array_equal(np.reshape(vertices, (-1, 3)), axis.vertices)
+    assert faces == [[len(polygon), *polygon] for polygon in polygons_of(axis)]
+
+
+def test_npz_holds_everything(axis, tmp_path):
+    arrays = np.load(export_axis(axis, tmp_path / "a.npz"))
+    assert set(arrays) == set(vars(axis))
+    for name, value in vars(axis).items():
+        assert np.array_equal(arrays[name], value) and arrays[name].dtype == np.asarray(value).dtype
+
+
+@pytest.mark.parametrize("extension", EXTENSIONS)
+def test_same_axis_same_bytes(extension, tmp_path):
+    first, second = (export_axis(AXES["sheets"], tmp_path / (name + extension)) for name in "ab")
+    assert first.read_bytes() == second.read_bytes()
+
+
+@pytest.mark.parametrize("extension", EXTENSIONS)
+def test_more_faces_than_one_chunk(extension, tmp_path, monkeypatch):
+    """Pieces of the file join without a seam: tiny chunks give the same bytes as one large one."""
+    from medial_axis.core import triangulate as triangulate_module
+
+    whole = export_axis(AXES["sheets"], tmp_path / ("a" + extension)).read_bytes()
+    monkeypatch.setattr(export_module, "_CHUNK", 7)
+    monkeypatch.setattr(triangulate_module, "_CHUNK", 3)
+    assert export_axis(AXES["sheets"], tmp_path / ("b" + extension)).read_bytes() == whole
+
+
+# --- placing
+
+
+def rotation(seed=3):
+    q = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    return q * np.sign(np.linalg.det(q))
+
+
+@pytest.mark.parametrize("rows", [3, 4])
+def test_rigid_transform_moves_points_and_leaves_radii(rows, tmp_path):
+    axis, turn = AXES["sheets"], rotation()
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = turn, (1, 2, 3)
+    matrix = matrix.astype(np.float32)[:rows]
+    vertices, _, _ = read_ma(export_axis(axis, tmp_path / "a.ma", matrix))
+    expected = axis.vertices @ matrix[:3, :3].T.astype(np.float64) + (1, 2, 3)
+    assert np.allclose(vertices[:, :3], expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+    assert np.array_equal(vertices[:, 3], axis.radius)
+
+
+def test_even_scale_scales_radii(tmp_path):
+    axis = AXES["grid"]
+    vertices, _, _ = read_ma(export_axis(axis, tmp_path / "a.ma", np.diag([2.0, 2.0, 2.0, 1.0])))
+    assert np.allclose(vertices, 2 * np.column_stack([axis.vertices, axis.radius]), rtol=1e-15)
+
+
+def test_mirror_turns_polygons_round(tmp_path):
+    axis = AXES["sheets"]
+    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
+    _, faces = read_ply(export_axis(axis, tmp_path / "a.ply", mirror))
+    for face, polygon in zip(faces, polygons_of(axis)):
+        assert face[0].tolist() == [polygon[0], *polygon[:0:-1]]
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [np.diag([1.0, 2.0, 1.0, 1.0]), np.zeros((4, 4)), np.full((4, 4), np.nan), np.eye(3)],
+    ids=["uneven", "zero", "nan", "3x3"],
+)
+def test_transform_that_makes_no_balls_is_refused(matrix, tmp_path):
+    with pytest.raises(ExportError, match="Expected"):
+        export_axis(AXES["grid"], tmp_path / "a.ma", matrix)
+    assert list(tmp_path.iterdir()) == []
+
+
+# --- whole or not at all
+
+
+def assert_unwritten(folder, target, old):
+    """`target` still holds `old` (None: is absent) and nothing else lies in `folder`."""
+    assert sorted(folder.iterdir()) == ([target] if old is not None else [])
+    assert old is None or target.read_bytes() == old
+
+
+def one_sentence(error):
+    text = str(error.value)
+    return "\n" not in text and ". " not in text and not text.endswith(".")
+
+
+@pytest.fixture(params=[b"precious", None], ids=["over old", "new"])
+def old(request):
+    return request.param
+
+
+@pytest.fixture(params=EXTENSIONS)
+def target(request, tmp_path, old):
+    path = tmp_path / ("axis" + request.param)
+    if old is not None:
+        path.write_bytes(old)
+    return path
+
+
+def test_old_file_is_replaced(target):
+    assert export_axis(AXES["grid"], target) == target
+    assert target.read_bytes()[:8] != b"precious" and len(list(target.parent.iterdir())) == 1
+
+
+def test_full_disk(target, old, tmp_path):
+    """The kernel refuses to let the file grow: the write fails in the middle, as on a full disk."""
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, limits[1]))
+    try:
+        with pytest.raises(ExportError, match="Expected to write .*system says") as error:
+            export_axis(AXES["sheets"], target)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, handler)
+    assert one_sentence(error)
+    assert_unwritten(tmp_path, target, old)
+
+
+@pytest.mark.parametrize("extension", EXTENSIONS)
+def test_read_only_folder(extension, old):
+    """Root may write everywhere, so root becomes nobody for the attempt."""
+    folder = Path(tempfile.mkdtemp())
+    target = folder / ("axis" + extension)
+    try:
+        if old is not None:
+            target.write_bytes(old)
+        folder.chmod(0o555)
+        user = os.geteuid()
+        if user == 0:
+            os.seteuid(65534)
+        try:
+            with pytest.raises(ExportError, match="Permission denied") as error:
+                export_axis(AXES["grid"], target)
+        finally:
+            os.seteuid(user)
+        assert one_sentence(error)
+        assert_unwritten(folder, target, old)
+    finally:
+        folder.chmod(0o755)
+        shutil.rmtree(folder)
+
+
+def test_failing_rename(target, old, tmp_path, monkeypatch):
+    def refuse(source, destination):
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(os, "replace", refuse)
+    with pytest.raises(ExportError, match="Input/output error"):
+        export_axis(AXES["grid"], target)
+    assert_unwritten(tmp_path, target, old)
+
+
+def test_interrupted_write_leaves_nothing(target, old, tmp_path, monkeypatch):
+    def interrupt(descriptor):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        export_axis(AXES["grid"], target)
+    assert_unwritten(tmp_path, target, old)
+
+
+def test_missing_folder(tmp_path):
+    with pytest.raises(ExportError, match="No such file or directory") as error:
+        export_axis(AXES["grid"], tmp_path / "none" / "a.ma")
+    assert one_sentence(error) and list(tmp_path.iterdir()) == []
+
+
+def test_folder_that_is_a_file(tmp_path):
+    (tmp_path / "file").write_bytes(b"precious")
+    with pytest.raises(ExportError, match="Not a directory"):
+        export_axis(AXES["grid"], tmp_path / "file" / "a.ma")
+    assert_unwritten(tmp_path, tmp_path / "file", b"precious")
+
+
+def test_target_that_is_a_folder(tmp_path):
+    (tmp_path / "a.ma").mkdir()
+    with pytest.raises(ExportError, match="is not one"):
+        export_axis(AXES["grid"], tmp_path / "a.ma")
+    assert list(tmp_path.rglob("*")) == [tmp_path / "a.ma"]
+
+
+def test_target_that_is_a_device(tmp_path):
+    """A device is never replaced by a file; the link to it stays a link."""
+    link = tmp_path / "a.ma"
+    link.symlink_to("/dev/full")
+    with pytest.raises(ExportError, match="is not one"):
+        export_axis(AXES["grid"], link)
+    assert os.readlink(link) == "/dev/full" and Path("/dev/full").is_char_device()
+
+
+def test_link_is_followed(tmp_path):
+    (tmp_path / "real").mkdir()
+    link = tmp_path / "a.off"
+    link.symlink_to(tmp_path / "real" / "b.off")
+    assert export_axis(EMPTY, link) == tmp_path / "real" / "b.off"
+    assert link.is_symlink() and link.read_text() == "OFF\n0 0 0\n"
+
+
+@pytest.mark.parametrize("name", ["axis.stl", "axis", "ma", ".ma"])
+def test_unknown_extension_names_the_known_ones(name, tmp_path):
+    with pytest.raises(ExportError, match=r"\.ma, \.ply, \.obj, \.off or \.npz") as error:
+        export_axis(EMPTY, tmp_path / name)
+    assert one_sentence(error) and list(tmp_path.iterdir()) == []
+
+
+def test_extension_in_capitals(tmp_path):
+    assert read_ma(export_axis(AXES["grid"], tmp_path / "A.MA"))[0].shape == (144, 4)
+
+
+def test_formats_are_the_documented_ones():
+    assert tuple(FORMATS) == EXTENSIONS
