@@ -1,0 +1,223 @@
+#include "analysis.h"
+
+#include <chrono>
+
+namespace medial {
+namespace {
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::vector<std::pair<std::string, double>>& timings) : timings_(timings) {}
+
+  void lap(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    timings_.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  std::vector<std::pair<std::string, double>>& timings_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+template <typename T>
+void reorder(std::vector<T>& values, std::span<const int32_t> order, const Run& run) {
+  std::vector<T> sorted(values.size());
+  parallel_for(static_cast<int64_t>(order.size()), run, [&](int64_t i) { sorted[i] = values[order[i]]; });
+  values = std::move(sorted);
+}
+
+void check_triangles(std::span<const Triangle> triangles, size_t rows) {
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    for (const int32_t corner : triangles[i]) {
+      if (corner >= 0 && static_cast<size_t>(corner) < rows) continue;
+      throw InvalidInputError("Expected triangle corners from 0 to " + std::to_string(rows - 1) + ", found " +
+                              std::to_string(corner) + " in triangle " + std::to_string(i) +
+                              "; rebuild the faces.");
+    }
+  }
+}
+
+void check(const Extraction& x, bool sides_known) {
+  if (!(x.thresholds.theta >= 0 && x.thresholds.theta <= std::numbers::pi / 2)) {
+    throw InvalidInputError("Expected theta from 0 to pi/2 radians, found " +
+                            std::to_string(x.thresholds.theta) + "; the paper uses pi/8.");
+  }
+  if (!(x.thresholds.rho >= 0)) {
+    throw InvalidInputError("Expected rho of 0 or more, found " + std::to_string(x.thresholds.rho) +
+                            "; the paper uses 8.");
+  }
+  if (x.side == Side::crossing) {
+    throw InvalidInputError("Expected side INNER, OUTER or BOTH, found CROSSING; choose one of them.");
+  }
+  if (x.side != Side::both && !sides_known) {
+    throw InvalidInputError(
+        "Expected triangles to tell inside from outside, found none; pass the faces or choose side BOTH.");
+  }
+}
+
+}  // namespace
+
+MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
+                               const AnalysisOptions& options, Progress* progress)
+    : threads_(thread_count(options.threads)) {
+  const Run run{threads_, progress}, quiet{threads_, nullptr};
+  Stopwatch watch(timings_);
+  begin_stage(progress, "Samples", 0, 0.02);
+  check_triangles(triangles, rows.size());
+  samples_ = make_samples(rows, quiet);
+  const int32_t count = samples_.count();
+  duplicates_ = static_cast<int64_t>(rows.size()) - count;
+  if (options.bounding_sphere) add_bounding_sphere(samples_);
+  const std::vector<Vec3>& points = samples_.points;
+  watch.lap("samples");
+  triangulation_ = triangulate(points, run);
+  watch.lap("triangulation");
+  voronoi_ = voronoi(points, triangulation_, run);
+  watch.lap("voronoi");
+  begin_stage(progress, "Delaunay edges", 0.66, 0.68);
+  const Csr<int32_t> incident = incident_cells(triangulation_, count);
+  edges_ = delaunay_edges(triangulation_, incident, run);
+  watch.lap("complex");
+  {
+    const Poles p = poles(points, triangulation_, voronoi_, incident, run);
+    watch.lap("poles");
+    const Umbrellas u = umbrellas(points, triangulation_, voronoi_, incident, p, run);
+    watch.lap("umbrellas");
+    significance_ = medial::significance(points, edges_, u, run);
+    watch.lap("significance");
+  }
+  if (!triangles.empty()) {
+    const Surface surface = make_surface(triangles, samples_.sample_of_row, count, quiet);
+    closed_ = surface.closed();
+    boundary_edges_ = surface.boundary_edges;
+    sides_ = sides_from_surface(points, surface, triangulation_, voronoi_, incident, run);
+    watch.lap("sides");
+  }
+  begin_stage(progress, "Order", 0.99, 1);
+  sort_edges(quiet);
+  watch.lap("order");
+}
+
+// From the order of the samples to that of the input rows: a counting sort by the lower row, then by the higher.
+void MedialAnalysis::sort_edges(const Run& run) {
+  const std::vector<int32_t>& row = samples_.row;
+  parallel_for(edges_.count(), run, [&](int64_t e) {
+    auto& [p, q] = edges_.ends[e];
+    if (row[p] > row[q]) std::swap(p, q);
+  });
+  std::vector<int64_t> start(samples_.sample_of_row.size() + 1, 0);
+  for (const Edge& ends : edges_.ends) ++start[row[ends[0]]];
+  counts_to_offsets(start);
+  std::vector<int32_t> order(edges_.ends.size());
+  auto next = start;
+  for (int32_t e = 0; e < static_cast<int32_t>(order.size()); ++e) order[next[row[edges_.ends[e][0]]]++] = e;
+  parallel_for(static_cast<int64_t>(start.size()) - 1, run, [&](int64_t r) {
+    std::sort(order.begin() + start[r], order.begin() + start[r + 1], [&](int32_t a, int32_t b) {
+      return row[edges_.ends[a][1]] < row[edges_.ends[b][1]];
+    });
+  });
+  reorder(edges_.ends, order, run);
+  reorder(edges_.cell, order, run);
+  for (auto* values : {&significance_.theta, &significance_.rho, &significance_.theta_both, &significance_.rho_both}) {
+    reorder(*values, order, run);
+  }
+}
+
+// Definition 4: |pq| >= eps^(1/4) mu, with mu the smallest ball radius at the facet's vertices and eps = R / mu, where
+// R = |pq| / rho is the umbrella radius that the Ratio condition compared.
+bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds, std::span<const int32_t> ring) const {
+  const Vec3& p = samples_.points[edges_.ends[edge][0]];
+  double mu = HUGE_VAL;
+  for (const int32_t cell : ring) {
+    if (!triangulation_.is_infinite(cell)) mu = std::min(mu, distance(p, voronoi_.centre[cell]));
+  }
+  const double size = distance(p, samples_.points[edges_.ends[edge][1]]);
+  const auto& rho = thresholds.rule == Rule::either ? significance_.rho : significance_.rho_both;
+  const double epsilon = size / (rho[edge] * mu);
+  return size >= std::pow(epsilon, 0.25) * mu;
+}
+
+std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
+  check(x, !sides_.empty());
+  const Run run{threads_, progress};
+  std::vector<int32_t> ids = medial::select(significance_, x.thresholds, run);
+  if (x.side == Side::both && !x.limit_set) return ids;
+  const auto wanted = [&](int32_t edge, std::vector<int32_t>& ring) {
+    const bool angle = satisfies_angle(significance_, edge, x.thresholds);
+    ring_of_cells(triangulation_, edges_.ends[edge], edges_.cell[edge], ring);
+    if (x.side != Side::both && facet_side(ring, sides_) != x.side) return false;
+    return !x.limit_set || angle || in_limit_set(edge, x.thresholds, ring);
+  };
+  std::vector<std::vector<int32_t>> rings(threads_);
+  return parallel_append<int32_t>(static_cast<int64_t>(ids.size()), run,
+                                  [&](int64_t i, std::vector<int32_t>& kept, int worker) {
+                                    if (wanted(ids[i], rings[worker])) kept.push_back(ids[i]);
+                                  });
+}
+
+MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
+  begin_stage(progress, "Selection", 0, 0.4);
+  const std::vector<int32_t> ids = select(x, progress);
+  begin_stage(progress, "Facets", 0.4, 1);
+  const Run run{threads_, progress};
+  auto [mesh, kept] = voronoi_facets(ids, samples_.points, triangulation_, voronoi_, edges_, run);
+  const auto faces = static_cast<int64_t>(kept.size());
+  const bool either = x.thresholds.rule == Rule::either;
+  mesh.theta.resize(kept.size());
+  mesh.rho.resize(kept.size());
+  mesh.side.assign(kept.size(), x.side);
+  mesh.generators.resize(kept.size());
+  parallel_for(faces, run, [&, &mesh = mesh, &kept = kept](int64_t f) {
+    const int32_t e = kept[f];
+    mesh.theta[f] = (either ? significance_.theta : significance_.theta_both)[e];
+    mesh.rho[f] = (either ? significance_.rho : significance_.rho_both)[e];
+    mesh.generators[f] = {samples_.row[edges_.ends[e][0]], samples_.row[edges_.ends[e][1]]};
+  });
+  if (x.side == Side::both && !sides_.empty()) {
+    std::vector<std::vector<int32_t>> rings(threads_);
+    parallel_chunks(faces, run, [&, &mesh = mesh, &kept = kept](int64_t begin, int64_t end, int worker) {
+      for (int64_t f = begin; f < end; ++f) {
+        ring_of_cells(triangulation_, edges_.ends[kept[f]], edges_.cell[kept[f]], rings[worker]);
+        mesh.side[f] = facet_side(rings[worker], sides_);
+      }
+    });
+  }
+  return std::move(mesh);
+}
+
+std::vector<Edge> MedialAnalysis::edge_rows() const {
+  std::vector<Edge> rows(edges_.ends);
+  for (auto& [p, q] : rows) {
+    p = samples_.row[p];
+    q = samples_.row[q];
+  }
+  return rows;
+}
+
+std::vector<Side> MedialAnalysis::edge_sides() const {
+  std::vector<Side> sides(edges_.ends.size(), Side::both);
+  if (sides_.empty()) return sides;
+  parallel_chunks(edges_.count(), {threads_, nullptr}, [&](int64_t begin, int64_t end, int) {
+    std::vector<int32_t> ring;
+    for (int64_t e = begin; e < end; ++e) {
+      ring_of_cells(triangulation_, edges_.ends[e], edges_.cell[e], ring);
+      sides[e] = facet_side(ring, sides_);
+    }
+  });
+  return sides;
+}
+
+std::vector<uint8_t> MedialAnalysis::edges_bounded() const {
+  std::vector<uint8_t> bounded(edges_.ends.size());
+  for (size_t e = 0; e < bounded.size(); ++e) bounded[e] = !triangulation_.is_infinite(edges_.cell[e]);
+  return bounded;
+}
+
+std::vector<int32_t> MedialAnalysis::sample_rows() const {
+  std::vector<int32_t> rows(samples_.row);
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+}  // namespace medial

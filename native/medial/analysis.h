@@ -1,0 +1,64 @@
+// MEDIAL(P): everything that does not depend on the thresholds, computed once; the axis, extracted as often as one likes.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "medial_mesh.h"
+#include "samples.h"
+
+namespace medial {
+
+struct AnalysisOptions {
+  bool bounding_sphere = false;  // sect. 4.2
+  int threads = 0;               // 0: all cores
+};
+
+struct Extraction {
+  Thresholds thresholds;
+  Side side = Side::both;  // both, inner or outer
+  bool limit_set = false;  // Definition 4 for facets selected by the Ratio condition alone
+};
+
+class MedialAnalysis {
+ public:
+  // `rows` are the samples, `triangles` the outward faces of the surface as ids of rows (none: inside is not known).
+  // Throws InvalidInputError, DegenerateInputError, Cancelled.
+  MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
+                 const AnalysisOptions& options, Progress* progress);
+
+  // Ids of the selected edges: the set F of the paper, facets without area or end included.
+  std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
+  // The closure of F.
+  MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
+
+  // All Delaunay edges as input rows p < q in lexicographic order; significance and side in the same order.
+  std::vector<Edge> edge_rows() const;
+  const Significance& significance() const { return significance_; }
+  std::vector<Side> edge_sides() const;
+  std::vector<uint8_t> edges_bounded() const;
+
+  std::vector<int32_t> sample_rows() const;  // ascending
+  int64_t duplicates() const { return duplicates_; }
+  int64_t finite_cells() const { return triangulation_.finite_cells; }
+  bool closed() const { return closed_; }
+  int64_t boundary_edges() const { return boundary_edges_; }
+  const std::vector<std::pair<std::string, double>>& timings() const { return timings_; }
+
+ private:
+  void sort_edges(const Run& run);
+  bool in_limit_set(int32_t edge, const Thresholds& thresholds, std::span<const int32_t> ring) const;
+
+  Samples samples_;
+  Triangulation triangulation_;
+  Voronoi voronoi_;
+  Edges edges_;
+  Significance significance_;
+  CellSides sides_;
+  int64_t duplicates_ = 0, boundary_edges_ = 0;
+  bool closed_ = false;
+  int threads_ = 1;
+  std::vector<std::pair<std::string, double>> timings_;
+};
+
+}  // namespace medial

@@ -1,0 +1,49 @@
+#include "poles.h"
+
+namespace medial {
+namespace {
+
+// Of equally far vertices the one of the lowest cell.
+Vec3 to_farthest_vertex(const Vec3& p, std::span<const int32_t> finite_cells, const Voronoi& voronoi) {
+  Vec3 farthest;
+  for (const int32_t cell : finite_cells) {
+    const Vec3 v = voronoi.centre[cell] - p;
+    if (squared_length(v) > squared_length(farthest)) farthest = v;
+  }
+  return farthest;
+}
+
+// Each distinct infinite edge counts once, however many cocircular hull triangles share it.
+Vec3 mean_direction(std::span<const int32_t> infinite_cells, const Voronoi& voronoi) {
+  std::vector<int32_t> rays;
+  for (const int32_t cell : infinite_cells) rays.push_back(voronoi.vertex[cell]);
+  std::sort(rays.begin(), rays.end());
+  rays.erase(std::unique(rays.begin(), rays.end()), rays.end());
+  Vec3 sum;
+  for (const int32_t ray : rays) sum = sum + voronoi.centre[ray];
+  return (1 / static_cast<double>(rays.size())) * sum;
+}
+
+}  // namespace
+
+Poles poles(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
+            const Csr<int32_t>& incident, const Run& run) {
+  begin_stage(run.progress, "Poles", 0.68, 0.72);
+  Poles result;
+  result.vector.resize(static_cast<size_t>(incident.size()));
+  result.unbounded.resize(static_cast<size_t>(incident.size()));
+  parallel_for(incident.size(), run, [&](int64_t p) {
+    const auto cells = incident[p];
+    const auto finite = static_cast<size_t>(
+        std::lower_bound(cells.begin(), cells.end(), t.finite_cells) - cells.begin());
+    result.unbounded[p] = finite < cells.size();
+    Vec3 pole;
+    if (result.unbounded[p]) pole = mean_direction(cells.subspan(finite), voronoi);
+    // Directions that cancel out leave no mean: then the farthest vertex speaks, as in a bounded cell.
+    if (pole == Vec3{}) pole = to_farthest_vertex(points[p], cells.first(finite), voronoi);
+    result.vector[p] = pole;
+  });
+  return result;
+}
+
+}  // namespace medial

@@ -1,0 +1,131 @@
+#include "samples.h"
+
+#include <array>
+#include <numbers>
+#include <string>
+
+namespace medial {
+namespace {
+
+// Beyond these the fifth powers in a circumcentre would leave the range of a double.
+constexpr double kSmallestExtent = 1e-50, kLargestCoordinate = 1e50;
+
+struct Keyed {
+  uint64_t key;
+  int32_t row;
+};
+
+std::string text(const Vec3& p) {
+  return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
+}
+
+Box checked_box(std::span<const Vec3> rows) {
+  Box box;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const Vec3& p = rows[i];
+    if (!(max_abs(p) <= kLargestCoordinate) || std::isnan(p.x) || std::isnan(p.y) ||
+        std::isnan(p.z)) {
+      throw InvalidInputError("Expected finite coordinates below 1e50, found " + text(p) +
+                              " in row " + std::to_string(i) + "; repair or remove this point.");
+    }
+    box.add(p);
+  }
+  const double extent = max_abs(box.extent());
+  if (rows.size() >= 4 && extent > 0 && extent < kSmallestExtent) {
+    throw InvalidInputError(
+        "Expected points that spread over more than 1e-50, found less; scale them up.");
+  }
+  return box;
+}
+
+// Index along a 3D Hilbert curve of 2^21 steps per axis (J. Skilling, Programming the Hilbert curve, 2004).
+uint64_t hilbert_key(std::array<uint32_t, 3> x) {
+  constexpr int kBits = 21;
+  for (uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
+    const uint32_t mask = q - 1;
+    for (auto& xi : x) {
+      if (xi & q) {
+        x[0] ^= mask;
+      } else {
+        const uint32_t t = (x[0] ^ xi) & mask;
+        x[0] ^= t;
+        xi ^= t;
+      }
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  uint32_t t = 0;
+  for (uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
+    if (x[2] & q) t ^= q - 1;
+  }
+  for (auto& xi : x) xi ^= t;
+  uint64_t key = 0;
+  for (int bit = kBits - 1; bit >= 0; --bit) {
+    for (const uint32_t xi : x) key = key << 1 | (xi >> bit & 1u);
+  }
+  return key;
+}
+
+std::vector<Keyed> along_hilbert_curve(std::span<const Vec3> rows, const Box& box, const Run& run) {
+  const double extent = max_abs(box.extent());
+  const double scale = extent > 0 ? 2097151 / extent : 0;
+  std::vector<Keyed> order(rows.size());
+  parallel_for(static_cast<int64_t>(rows.size()), run, [&](int64_t i) {
+    const Vec3 p = scale * (rows[i] - box.low);
+    order[i] = {hilbert_key({static_cast<uint32_t>(p.x), static_cast<uint32_t>(p.y),
+                             static_cast<uint32_t>(p.z)}),
+                static_cast<int32_t>(i)};
+  });
+  const auto before = [&](const Keyed& a, const Keyed& b) {
+    if (a.key != b.key) return a.key < b.key;
+    const Vec3 &p = rows[a.row], &q = rows[b.row];
+    if (p.x != q.x) return p.x < q.x;
+    if (p.y != q.y) return p.y < q.y;
+    if (p.z != q.z) return p.z < q.z;
+    return a.row < b.row;
+  };
+  std::sort(order.begin(), order.end(), before);
+  return order;
+}
+
+}  // namespace
+
+Samples make_samples(std::span<const Vec3> rows, const Run& run) {
+  const Box box = checked_box(rows);
+  Samples samples;
+  samples.points.reserve(rows.size() + 200);
+  samples.row.reserve(rows.size());
+  samples.sample_of_row.resize(rows.size());
+  for (const Keyed& next : along_hilbert_curve(rows, box, run)) {
+    const Vec3& p = rows[next.row];
+    if (samples.points.empty() || samples.points.back() != p) {
+      samples.points.push_back(p);
+      samples.row.push_back(next.row);
+    }
+    samples.sample_of_row[next.row] = samples.count() - 1;
+  }
+  if (samples.count() < 4) {
+    throw DegenerateInputError("Expected at least 4 distinct points, found " +
+                               std::to_string(samples.count()) + "; add points.");
+  }
+  return samples;
+}
+
+void add_bounding_sphere(Samples& samples) {
+  constexpr int kPoints = 200;
+  Box box;
+  for (const Vec3& p : samples.points) box.add(p);
+  const Vec3 centre = box.centre();
+  double radius = 0;
+  for (const Vec3& p : samples.points) radius = std::max(radius, distance(p, centre));
+  // A Fibonacci lattice: equal steps in height, golden-angle steps round the axis.
+  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kPoints, r = std::sqrt(1 - z * z);
+    const Vec3 direction{r * std::cos(golden_angle * i), r * std::sin(golden_angle * i), z};
+    samples.points.push_back(centre + 2 * radius * direction);
+  }
+}
+
+}  // namespace medial

@@ -1,0 +1,21 @@
+// How strongly each Delaunay edge pq satisfies the two conditions (Dey & Zhao, sect. 3.1 and 3.2), for all thresholds
+// at once: the Angle condition [theta0] holds at p exactly when theta_p > theta0, the Ratio condition [rho0] exactly
+// when rho_p > rho0, where
+//   theta_p = pi/2 - max over t in U_p of angle(n_t, pq) = asin(min |n_t . pq| / |pq|)
+//   rho_p   = |pq| / max over t in U_p of R_t
+#pragma once
+
+#include "umbrellas.h"
+
+namespace medial {
+
+// Per edge, the larger value of the two ends (rule EITHER) and the smaller one (rule BOTH).
+struct Significance {
+  std::vector<double> theta, rho;
+  std::vector<double> theta_both, rho_both;
+};
+
+Significance significance(std::span<const Vec3> points, const Edges& edges, const Umbrellas& umbrellas,
+                          const Run& run);
+
+}  // namespace medial

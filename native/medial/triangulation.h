@@ -1,0 +1,34 @@
+// The Delaunay triangulation D_P as plain arrays. The only unit that knows CGAL.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "parallel.h"
+#include "vec3.h"
+
+namespace medial {
+
+inline constexpr int32_t kInfinite = -1;
+
+using Cell = std::array<int32_t, 4>;
+
+// Cells are positively oriented (an infinite cell as if the infinite vertex lay outside the hull) and start with
+// their lowest id. Finite cells come first; each part is in lexicographic order of the sorted ids, so the arrays are the
+// same however the triangulation was built.
+struct Triangulation {
+  std::vector<Cell> cells;      // point ids, kInfinite for the infinite vertex
+  std::vector<Cell> neighbors;  // neighbors[c][i]: the cell across the facet opposite to cells[c][i]
+  int32_t finite_cells = 0;
+
+  int32_t cell_count() const { return static_cast<int32_t>(cells.size()); }
+  bool is_infinite(int32_t cell) const { return cell >= finite_cells; }
+};
+
+// `points` must be distinct and should be in spatial order. Cospherical points are triangulated by CGAL's symbolic
+// perturbation, which depends on coordinates alone. Throws DegenerateInputError when the points span no volume.
+Triangulation triangulate(std::span<const Vec3> points, const Run& run);
+
+}  // namespace medial

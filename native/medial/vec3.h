@@ -1,0 +1,47 @@
+// A point or vector of R^3: three contiguous doubles, so that an (n, 3) array is a span of Vec3.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace medial {
+
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+
+  friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+inline Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
+
+inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double squared_length(const Vec3& a) { return dot(a, a); }
+inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+inline double distance(const Vec3& a, const Vec3& b) { return length(a - b); }
+inline double max_abs(const Vec3& a) {
+  return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+}
+// The zero vector stays zero.
+inline Vec3 normalized(const Vec3& a) {
+  const double l = length(a);
+  return l > 0 ? (1 / l) * a : a;
+}
+
+struct Box {
+  Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void add(const Vec3& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  Vec3 centre() const { return 0.5 * low + 0.5 * high; }
+  Vec3 extent() const { return high - low; }
+};
+
+}  // namespace medial

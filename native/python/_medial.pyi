@@ -1,0 +1,273 @@
+"""The medial axis of a surface sample (Dey & Zhao's MEDIAL), computed in C++.
+
+Every id that leaves this module is a row of the input array: `edges`, `generators`, cells and umbrellas
+speak of the caller's points. Of rows with the same coordinates only the first is a sample; the others are
+merged into it and counted. Angles are radians, lengths are in the unit of the input, -1 means "none" or
+"the infinite vertex". Returned arrays are read-only and keep their owner alive. The GIL is released while
+C++ works; one object may be used from several threads.
+"""
+
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+class InvalidInputError(ValueError):
+    """An argument has the wrong shape, type, range or a value that is not finite; the message says which."""
+
+class DegenerateInputError(ValueError):
+    """The points are valid but span no volume: fewer than 4 distinct ones, or all on a line or a plane."""
+
+class Cancelled(Exception):
+    """`Progress.cancel` was called; nothing was computed."""
+
+class Side:
+    """Which axis a facet belongs to; also the values of `MedialMesh.side`."""
+
+    BOTH: Side  # 0: as an argument every facet, as a value "not known" (there was no surface)
+    INNER: Side  # 1: every Voronoi vertex of the facet has winding number > 1/2
+    OUTER: Side  # 2: none has
+    CROSSING: Side  # 3: some have (only as a value)
+
+class Rule:
+    """Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3)."""
+
+    EITHER: Rule  # 0: p or q, the paper's text
+    BOTH: Rule  # 1: p and q, per criterion
+
+class Criteria:
+    """Which conditions select (Dey & Zhao, sect. 3.1 and 3.2; figures 5 and 7 show one alone)."""
+
+    ANGLE_OR_RATIO: Criteria  # 0
+    ANGLE: Criteria  # 1
+    RATIO: Criteria  # 2
+
+@final
+class Progress:
+    """Shared by the thread that computes and the one that watches; every member is safe to use at any time."""
+
+    def __init__(self) -> None: ...
+    @property
+    def fraction(self) -> float:
+        """Share of the whole job that is done, 0 to 1, never falling."""
+    @property
+    def stage(self) -> str:
+        """Name of the running stage, for people: 'Delaunay triangulation', 'Poles', ..."""
+    @property
+    def cancelled(self) -> bool: ...
+    def cancel(self) -> None:
+        """Ask the computation to stop; it raises `Cancelled` within 0.3 s."""
+
+@final
+class MedialMesh:
+    """The selected Voronoi facets as convex, planar polygons that share their vertices.
+
+    Facets are ordered by their generators (p < q); each polygon turns counter-clockwise about the direction
+    from p to q and starts at its lowest vertex id. No facet has zero area, no two vertices coincide.
+    """
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """(v, 3) float64: Voronoi vertices, the centres of empty balls, in order of first use."""
+    @property
+    def radius(self) -> NDArray[np.float64]:
+        """(v,) float64: radius of each vertex' empty ball: its distance to the nearest samples."""
+    @property
+    def face_offsets(self) -> NDArray[np.int32]:
+        """(f + 1,) int32: facet i has the corners `face_vertices[face_offsets[i] : face_offsets[i + 1]]`."""
+    @property
+    def face_vertices(self) -> NDArray[np.int32]:
+        """(c,) int32: vertex ids, facet after facet."""
+    @property
+    def theta(self) -> NDArray[np.float64]:
+        """(f,) float64, radians in [0, pi/2]: the Angle condition holds for every theta0 below it."""
+    @property
+    def rho(self) -> NDArray[np.float64]:
+        """(f,) float64: the Ratio condition holds for every rho0 below it."""
+    @property
+    def side(self) -> NDArray[np.int32]:
+        """(f,) int32: values of `Side`."""
+    @property
+    def generators(self) -> NDArray[np.int32]:
+        """(f, 2) int32: rows p < q of the two samples whose cells meet in the facet."""
+    @property
+    def unbounded(self) -> int:
+        """Selected facets that reach infinity; they are counted, never emitted."""
+    @property
+    def zero_area(self) -> int:
+        """Selected facets that are a point or a segment (cospherical samples); they are not emitted."""
+
+@final
+class MedialAnalysis:
+    """Everything about a point set that does not depend on the thresholds; computed once, extracted often.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        Samples of the surface, finite. Float32 is accepted and converted; other types are refused.
+    triangles : (m, 3) int32, optional
+        Outward-facing triangles of the surface as rows of `points`: they tell inside from outside.
+        Rows that no triangle uses are samples all the same.
+    bounding_sphere : bool
+        Add 200 points at twice the radius (Dey & Zhao, sect. 4.2). It bounds the outer axis and removes
+        its far junk; only edges between true samples are analysed and selected.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, DegenerateInputError, Cancelled
+    """
+
+    def __init__(
+        self,
+        points: NDArray[np.float64],
+        triangles: NDArray[np.int32] | None = None,
+        *,
+        bounding_sphere: bool = False,
+        progress: Progress | None = None,
+        threads: int = 0,
+    ) -> None: ...
+    @property
+    def samples(self) -> NDArray[np.int32]:
+        """(k,) int32: rows of the distinct points, ascending."""
+    @property
+    def duplicates(self) -> int:
+        """Rows merged into an earlier row with the same coordinates: n - k."""
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """(e, 2) int32: all Delaunay edges between samples, p < q, in lexicographic order."""
+    @property
+    def theta(self) -> NDArray[np.float64]:
+        """(e,) float64: max over the two ends of pi/2 - max over t in U_p of angle(n_t, pq) (sect. 3.1)."""
+    @property
+    def rho(self) -> NDArray[np.float64]:
+        """(e,) float64: max over the two ends of |pq| / max over t in U_p of R_t (sect. 3.2)."""
+    @property
+    def theta_both(self) -> NDArray[np.float64]:
+        """(e,) float64: as `theta` with the minimum of the two ends (`Rule.BOTH`)."""
+    @property
+    def rho_both(self) -> NDArray[np.float64]:
+        """(e,) float64: as `rho` with the minimum of the two ends (`Rule.BOTH`)."""
+    @property
+    def side(self) -> NDArray[np.int32]:
+        """(e,) int32: values of `Side` for the facet dual to each edge; all BOTH without triangles."""
+    @property
+    def bounded(self) -> NDArray[np.bool_]:
+        """(e,) bool: the dual facet does not reach infinity."""
+    @property
+    def closed(self) -> bool:
+        """Every edge of the triangles is used equally often in both directions, and there are triangles."""
+    @property
+    def boundary_edges(self) -> int:
+        """Edges of the triangles that break this."""
+    @property
+    def cells(self) -> int:
+        """Number of finite Delaunay cells."""
+    @property
+    def timings(self) -> dict[str, float]:
+        """Seconds of each stage, in order."""
+    def select(
+        self,
+        theta: float = ...,
+        rho: float = ...,
+        side: Side = ...,
+        rule: Rule = ...,
+        criteria: Criteria = ...,
+        *,
+        limit_set: bool = False,
+    ) -> NDArray[np.int32]:
+        """Ids (rows of `edges`), ascending, of the edges that satisfy Angle[theta] or Ratio[rho]: the set F of
+        MEDIAL, unbounded and zero-area facets included. Parameters as in `extract`."""
+    def extract(
+        self,
+        theta: float = ...,
+        rho: float = ...,
+        side: Side = ...,
+        rule: Rule = ...,
+        criteria: Criteria = ...,
+        *,
+        limit_set: bool = False,
+        progress: Progress | None = None,
+    ) -> MedialMesh:
+        """The closure of the selected facets.
+
+        Parameters
+        ----------
+        theta : float
+            theta0 of the Angle condition, radians in [0, pi/2]; default pi/8.
+        rho : float
+            rho0 of the Ratio condition, >= 0; default 8.
+        side : Side
+            BOTH (default), INNER or OUTER; INNER and OUTER need triangles.
+        rule : Rule
+            EITHER (default) or BOTH.
+        criteria : Criteria
+            ANGLE_OR_RATIO (default), ANGLE or RATIO.
+        limit_set : bool
+            Keep a facet selected by the Ratio condition alone only if |pq| >= eps^(1/4) mu (Definition 4), where
+            mu is the smallest ball radius at the facet's vertices and eps = |pq| / (rho mu). Default off.
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
+
+# The stages by themselves, for study and tests. Every one starts from the points.
+
+def delaunay(
+    points: NDArray[np.float64],
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]:
+    """Delaunay triangulation of the distinct rows.
+
+    Returns
+    -------
+    cells : (c, 4) int32
+        Rows of the corners, positively oriented; -1 is the infinite vertex. Infinite cells included.
+    neighbors : (c, 4) int32
+        Cell across the facet opposite to each corner.
+    circumcentres : (c, 3) float64
+        Voronoi vertex of a finite cell, relative error below 2^-24 of its radius; of an infinite cell the outward
+        unit normal of its hull triangle: the direction of its Voronoi ray.
+    """
+
+def poles(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Pole vectors (Definition 1) of the distinct rows in ascending order.
+
+    Returns
+    -------
+    vectors : (k, 3) float64
+        v_p = p+ - p; for an unbounded cell the mean of the unit directions of its distinct infinite edges.
+    unbounded : (k,) bool
+        The pole is at infinity.
+    """
+
+def umbrellas(points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+    """Umbrellas U_p (Definition 3) of the distinct rows in ascending order.
+
+    Returns
+    -------
+    offsets : (k + 1,) int64
+    triangles : (t, 3) int32
+        Rows (p, a, b), a < b, sorted; U_p of the i-th sample is `triangles[offsets[i] : offsets[i + 1]]`.
+    """
+
+def winding_number(
+    queries: NDArray[np.float64], vertices: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> NDArray[np.float64]:
+    """Generalized winding number (Jacobson et al. 2013) of a triangle soup at each query: 1 inside an outward one.
+
+    Parameters
+    ----------
+    queries : (q, 3) float64
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+
+    Returns
+    -------
+    winding : (q,) float64
+        Hierarchical, on the right side of 1/2 always; elsewhere within 0.1 of the sum of the solid angles.
+    """

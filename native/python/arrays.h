@@ -1,0 +1,100 @@
+// NumPy arrays in and out: checked views of the caller's memory, read-only arrays that keep their owner alive.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <climits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "medial/errors.h"
+#include "medial/vec3.h"
+
+namespace medial::python {
+
+namespace py = pybind11;
+
+inline std::string describe(const py::handle& object) {
+  if (!py::isinstance<py::array>(object)) return "an object of type " + std::string(py::str(object.get_type()));
+  return "shape " + std::string(py::str(object.attr("shape"))) + " of " + std::string(py::str(object.attr("dtype")));
+}
+
+// `columns` columns, one of the dtype kinds ('f' float, 'i' int, 'u' unsigned).
+inline py::array checked_rows(const py::handle& object, const char* name, int columns, const std::string& kinds,
+                              const char* expected) {
+  const bool array = py::isinstance<py::array>(object);
+  const auto view = array ? py::reinterpret_borrow<py::array>(object) : py::array();
+  if (!array || view.ndim() != 2 || view.shape(1) != columns || kinds.find(view.dtype().kind()) == std::string::npos) {
+    throw InvalidInputError("Expected " + std::string(name) + " as " + expected + ", found " + describe(object) +
+                            "; convert it.");
+  }
+  if (view.shape(0) > INT_MAX / 8) {
+    throw InvalidInputError("Expected at most " + std::to_string(INT_MAX / 8) + " " + name + ", found " +
+                            std::to_string(view.shape(0)) + "; thin them.");
+  }
+  return view;
+}
+
+// An (n, 3) float array as points: a view when it is C-contiguous float64, else a converted copy.
+class Points {
+ public:
+  Points(const py::handle& object, const char* name)
+      : rows_(py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(
+            checked_rows(object, name, 3, "f", "an (n, 3) float64 array"))) {}
+
+  std::span<const Vec3> span() const {
+    return {reinterpret_cast<const Vec3*>(rows_.data()), static_cast<size_t>(rows_.shape(0))};
+  }
+
+ private:
+  py::array_t<double, py::array::c_style | py::array::forcecast> rows_;
+};
+
+// An (m, 3) integer array as triangles: a view when it is C-contiguous int32, else a checked copy.
+class Triangles {
+ public:
+  explicit Triangles(const py::handle& object) {
+    if (object.is_none()) return;
+    const py::array view = checked_rows(object, "triangles", 3, "iu", "an (m, 3) int32 array");
+    if (view.size() > 0 && !py::isinstance<py::array_t<int32_t>>(view)) {
+      const auto low = view.attr("min")().cast<long long>(), high = view.attr("max")().cast<long long>();
+      if (low < INT_MIN || high > INT_MAX) {
+        throw InvalidInputError("Expected triangle corners that fit an int32, found " +
+                                std::to_string(low < INT_MIN ? low : high) + "; rebuild the faces.");
+      }
+    }
+    rows_ = py::array_t<int32_t, py::array::c_style | py::array::forcecast>::ensure(view);
+  }
+
+  std::span<const std::array<int32_t, 3>> span() const {
+    if (rows_.ndim() != 2) return {};
+    return {reinterpret_cast<const std::array<int32_t, 3>*>(rows_.data()), static_cast<size_t>(rows_.shape(0))};
+  }
+
+ private:
+  py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
+};
+
+// Rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis for one).
+template <typename Scalar, typename T>
+py::array view_of(const std::vector<T>& rows, const py::handle& owner) {
+  constexpr auto columns = static_cast<py::ssize_t>(sizeof(T) / sizeof(Scalar));
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows.size())};
+  if (columns > 1) shape.push_back(columns);
+  py::array_t<Scalar> array(shape, reinterpret_cast<const Scalar*>(rows.data()), owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+// Hands a result over to Python.
+template <typename Scalar, typename T>
+py::array array_of(std::vector<T> rows) {
+  auto* kept = new std::vector<T>(std::move(rows));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  return view_of<Scalar>(*kept, owner);
+}
+
+}  // namespace medial::python

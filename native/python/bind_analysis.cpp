@@ -1,0 +1,201 @@
+// Progress, MedialAnalysis and MedialMesh for Python.
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "medial/analysis.h"
+
+namespace medial::python {
+namespace {
+
+constexpr const char* kProgressDoc =
+    "Shared by the thread that computes and the one that watches; every member is safe to use at any time.";
+
+constexpr const char* kMeshDoc =
+    "The selected Voronoi facets as convex, planar polygons that share their vertices.\n\n"
+    "Facets are ordered by their generators (p < q); each polygon turns counter-clockwise about the direction\n"
+    "from p to q and starts at its lowest vertex id. No facet has zero area, no two vertices coincide.";
+
+constexpr const char* kAnalysisDoc =
+    "Everything about a point set that does not depend on the thresholds; computed once, extracted often.\n\n"
+    "Parameters\n----------\n"
+    "points : (n, 3) float64\n    Samples of the surface, finite. Float32 is converted; other types are refused.\n"
+    "triangles : (m, 3) int32, optional\n    Outward-facing triangles of the surface as rows of `points`: they tell\n"
+    "    inside from outside. Rows that no triangle uses are samples all the same.\n"
+    "bounding_sphere : bool\n    Add 200 points at twice the radius (Dey & Zhao, sect. 4.2); only edges between true\n"
+    "    samples are analysed and selected.\n"
+    "progress : Progress, optional\n"
+    "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
+    "Raises\n------\nInvalidInputError, DegenerateInputError, Cancelled";
+
+constexpr const char* kExtractDoc =
+    "The closure of the selected facets, as a MedialMesh.\n\n"
+    "Parameters\n----------\n"
+    "theta : float\n    theta0 of the Angle condition, radians in [0, pi/2]; default pi/8.\n"
+    "rho : float\n    rho0 of the Ratio condition, >= 0; default 8.\n"
+    "side : Side\n    BOTH (default), INNER or OUTER; INNER and OUTER need triangles.\n"
+    "rule : Rule\n    EITHER (default) or BOTH ends of a Delaunay edge must pass.\n"
+    "criteria : Criteria\n    ANGLE_OR_RATIO (default), ANGLE or RATIO.\n"
+    "limit_set : bool\n    Keep a facet selected by the Ratio condition alone only if |pq| >= eps^(1/4) mu\n"
+    "    (Definition 4), mu: smallest ball radius at its vertices, eps = |pq| / (rho mu). Default off.\n"
+    "progress : Progress, optional\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+constexpr const char* kSelectDoc =
+    "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and zero-area\n"
+    "facets included. Parameters as in `extract`.\n\nReturns\n-------\nids : (s,) int32";
+
+int thread_argument(int threads) {
+  if (threads < 0 || threads > 1024) {
+    throw InvalidInputError("Expected 0 to 1024 threads, found " + std::to_string(threads) +
+                            "; 0 takes all cores.");
+  }
+  return threads;
+}
+
+std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles, bool bounding_sphere,
+                                        Progress* progress, int threads) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  const AnalysisOptions options{bounding_sphere, thread_argument(threads)};
+  const auto row_span = rows.span();
+  const auto face_span = faces.span();
+  const py::gil_scoped_release release;
+  return std::make_unique<MedialAnalysis>(row_span, face_span, options, progress);
+}
+
+Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria criteria, bool limit_set) {
+  return {{theta, rho, rule, criteria}, side, limit_set};
+}
+
+void bind_enums(py::module_& m) {
+  py::enum_<Side>(m, "Side", "Which axis a facet belongs to; also the values of MedialMesh.side.")
+      .value("BOTH", Side::both, "As an argument every facet, as a value not known: there was no surface.")
+      .value("INNER", Side::inner, "Every Voronoi vertex of the facet has winding number > 1/2.")
+      .value("OUTER", Side::outer, "No Voronoi vertex has.")
+      .value("CROSSING", Side::crossing, "Some have; only as a value.");
+  py::enum_<Rule>(m, "Rule", "Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3).")
+      .value("EITHER", Rule::either, "p or q, the paper's text.")
+      .value("BOTH", Rule::both, "p and q, per criterion.");
+  py::enum_<Criteria>(m, "Criteria", "Which conditions select (Dey & Zhao, sect. 3.1 and 3.2).")
+      .value("ANGLE_OR_RATIO", Criteria::angle_or_ratio)
+      .value("ANGLE", Criteria::angle)
+      .value("RATIO", Criteria::ratio);
+}
+
+void bind_progress(py::module_& m) {
+  py::class_<Progress>(m, "Progress", kProgressDoc, py::is_final())
+      .def(py::init<>())
+      .def_property_readonly("fraction", &Progress::fraction, "Share of the whole job that is done, 0 to 1, never falling.")
+      .def_property_readonly("stage", &Progress::stage, "Name of the running stage, for people.")
+      .def_property_readonly("cancelled", &Progress::cancelled, "Whether `cancel` was called.")
+      .def("cancel", &Progress::cancel, "Ask the computation to stop; it raises `Cancelled` within 0.3 s.");
+}
+
+// A property that is a view of a vector inside the object.
+template <typename Scalar, typename Owner, typename T>
+auto view_property(std::vector<T> Owner::*member) {
+  return [member](const py::object& self) { return view_of<Scalar>(self.cast<const Owner&>().*member, self); };
+}
+
+void bind_mesh(py::module_& m) {
+  py::class_<MedialMesh>(m, "MedialMesh", kMeshDoc, py::is_final())
+      .def_property_readonly("vertices", view_property<double>(&MedialMesh::vertices),
+                             "(v, 3) float64: Voronoi vertices, the centres of empty balls, in order of first use.")
+      .def_property_readonly("radius", view_property<double>(&MedialMesh::radius),
+                             "(v,) float64: radius of each vertex' empty ball.")
+      .def_property_readonly("face_offsets", view_property<int32_t>(&MedialMesh::face_offsets),
+                             "(f + 1,) int32: facet i has the corners face_vertices[face_offsets[i] : face_offsets[i + 1]].")
+      .def_property_readonly("face_vertices", view_property<int32_t>(&MedialMesh::face_vertices),
+                             "(c,) int32: vertex ids, facet after facet.")
+      .def_property_readonly("theta", view_property<double>(&MedialMesh::theta),
+                             "(f,) float64, radians in [0, pi/2]: the Angle condition holds for every theta0 below it.")
+      .def_property_readonly("rho", view_property<double>(&MedialMesh::rho),
+                             "(f,) float64: the Ratio condition holds for every rho0 below it.")
+      .def_property_readonly("side", view_property<int32_t>(&MedialMesh::side), "(f,) int32: values of `Side`.")
+      .def_property_readonly("generators", view_property<int32_t>(&MedialMesh::generators),
+                             "(f, 2) int32: rows p < q of the two samples whose cells meet in the facet.")
+      .def_readonly("unbounded", &MedialMesh::unbounded,
+                    "Selected facets that reach infinity; they are counted, never emitted.")
+      .def_readonly("zero_area", &MedialMesh::zero_area,
+                    "Selected facets that are a point or a segment (cospherical samples); they are not emitted.");
+}
+
+// A property that is a view of one of the significance arrays.
+auto significance_property(std::vector<double> Significance::*member) {
+  return [member](const py::object& self) {
+    return view_of<double>(self.cast<const MedialAnalysis&>().significance().*member, self);
+  };
+}
+
+py::array bounded(const MedialAnalysis& a) { return array_of<uint8_t>(a.edges_bounded()).attr("view")("bool"); }
+
+py::dict timings(const MedialAnalysis& a) {
+  py::dict seconds;
+  for (const auto& [stage, time] : a.timings()) seconds[stage.c_str()] = time;
+  return seconds;
+}
+
+}  // namespace
+
+void bind_analysis(py::module_& m) {
+  bind_enums(m);
+  bind_progress(m);
+  bind_mesh(m);
+  const Thresholds paper;
+  py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final())
+      .def(py::init(&analyse), py::arg("points"), py::arg("triangles") = py::none(), py::kw_only(),
+           py::arg("bounding_sphere") = false, py::arg("progress") = nullptr, py::arg("threads") = 0)
+      .def_property_readonly(
+          "samples", [](const MedialAnalysis& a) { return array_of<int32_t>(a.sample_rows()); },
+          "(k,) int32: rows of the distinct points, ascending.")
+      .def_property_readonly("duplicates", &MedialAnalysis::duplicates,
+                             "Rows merged into an earlier row with the same coordinates: n - k.")
+      .def_property_readonly(
+          "edges", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_rows()); },
+          "(e, 2) int32: all Delaunay edges between samples, p < q, in lexicographic order.")
+      .def_property_readonly("theta", significance_property(&Significance::theta),
+                             "(e,) float64: max over both ends of pi/2 - max over t in U_p of angle(n_t, pq) (sect. 3.1).")
+      .def_property_readonly("rho", significance_property(&Significance::rho),
+                             "(e,) float64: max over both ends of |pq| / max over t in U_p of R_t (sect. 3.2).")
+      .def_property_readonly("theta_both", significance_property(&Significance::theta_both),
+                             "(e,) float64: as `theta` with the minimum of the two ends (Rule.BOTH).")
+      .def_property_readonly("rho_both", significance_property(&Significance::rho_both),
+                             "(e,) float64: as `rho` with the minimum of the two ends (Rule.BOTH).")
+      .def_property_readonly(
+          "side", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_sides()); },
+          "(e,) int32: values of `Side` for the facet dual to each edge; all BOTH without triangles.")
+      .def_property_readonly("bounded", &bounded, "(e,) bool: the dual facet does not reach infinity.")
+      .def_property_readonly("closed", &MedialAnalysis::closed,
+                             "Every edge of the triangles is used equally often in both directions, and there are triangles.")
+      .def_property_readonly("boundary_edges", &MedialAnalysis::boundary_edges,
+                             "Edges of the triangles that break this.")
+      .def_property_readonly("cells", &MedialAnalysis::finite_cells, "Number of finite Delaunay cells.")
+      .def_property_readonly("timings", &timings, "Seconds of each stage, in order.")
+      .def(
+          "select",
+          [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule, Criteria criteria, bool limit_set) {
+            std::vector<int32_t> ids;
+            {
+              const py::gil_scoped_release release;
+              ids = a.select(extraction(theta, rho, side, rule, criteria, limit_set));
+            }
+            return array_of<int32_t>(std::move(ids));
+          },
+          kSelectDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho, py::arg("side") = Side::both,
+          py::arg("rule") = paper.rule, py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false)
+      .def(
+          "extract",
+          [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule, Criteria criteria, bool limit_set,
+             Progress* progress) {
+            const py::gil_scoped_release release;
+            return a.extract(extraction(theta, rho, side, rule, criteria, limit_set), progress);
+          },
+          kExtractDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho, py::arg("side") = Side::both,
+          py::arg("rule") = paper.rule, py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false,
+          py::arg("progress") = nullptr);
+}
+
+}  // namespace medial::python

@@ -1,0 +1,157 @@
+// The stages by themselves, for study and tests: each starts from the points and ends with ids of input rows.
+#include "arrays.h"
+#include "bindings.h"
+#include "medial/samples.h"
+#include "medial/umbrellas.h"
+#include "medial/winding_number.h"
+
+namespace medial::python {
+namespace {
+
+constexpr const char* kDelaunayDoc =
+    "Delaunay triangulation of the distinct rows.\n\nReturns\n-------\n"
+    "cells : (c, 4) int32\n    Rows of the corners, positively oriented; -1 is the infinite vertex.\n"
+    "neighbors : (c, 4) int32\n    Cell across the facet opposite to each corner.\n"
+    "circumcentres : (c, 3) float64\n    Voronoi vertex of a finite cell; of an infinite cell the outward unit normal of\n"
+    "    its hull triangle: the direction of its Voronoi ray.";
+
+constexpr const char* kPolesDoc =
+    "Pole vectors (Definition 1) of the distinct rows in ascending order.\n\nReturns\n-------\n"
+    "vectors : (k, 3) float64\n    v_p = p+ - p; for an unbounded cell the mean of the unit directions of its distinct\n"
+    "    infinite edges.\n"
+    "unbounded : (k,) bool\n    The pole is at infinity.";
+
+constexpr const char* kUmbrellasDoc =
+    "Umbrellas U_p (Definition 3) of the distinct rows in ascending order.\n\nReturns\n-------\n"
+    "offsets : (k + 1,) int64\n"
+    "triangles : (t, 3) int32\n    Rows (p, a, b), a < b, sorted; U_p of the i-th sample is\n"
+    "    triangles[offsets[i] : offsets[i + 1]].";
+
+constexpr const char* kWindingDoc =
+    "Generalized winding number of a triangle soup at each query: 1 inside an outward one.\n\n"
+    "Parameters\n----------\n"
+    "queries : (q, 3) float64\nvertices : (v, 3) float64\ntriangles : (m, 3) int32\n\nReturns\n-------\n"
+    "winding : (q,) float64\n    On the right side of 1/2 always; elsewhere within 0.1 of the sum of the solid angles.";
+
+Run all_cores() { return {thread_count(0), nullptr}; }
+
+// The pipeline up to the umbrellas.
+struct Stages {
+  explicit Stages(std::span<const Vec3> rows)
+      : samples(make_samples(rows, all_cores())),
+        triangulation(triangulate(samples.points, all_cores())),
+        voronoi(medial::voronoi(samples.points, triangulation, all_cores())),
+        incident(incident_cells(triangulation, samples.count())) {}
+
+  // Samples in ascending order of their rows.
+  std::vector<int32_t> by_row() const {
+    std::vector<int32_t> order(samples.row.size());
+    for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int32_t>(i);
+    std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return samples.row[a] < samples.row[b]; });
+    return order;
+  }
+  Poles poles() const { return medial::poles(samples.points, triangulation, voronoi, incident, all_cores()); }
+
+  Samples samples;
+  Triangulation triangulation;
+  Voronoi voronoi;
+  Csr<int32_t> incident;
+};
+
+std::vector<Cell> cell_rows(const Stages& stages) {
+  std::vector<Cell> rows(stages.triangulation.cells);
+  for (Cell& cell : rows) {
+    for (int32_t& id : cell) id = id == kInfinite ? kInfinite : stages.samples.row[id];
+  }
+  return rows;
+}
+
+py::tuple delaunay(const py::object& points) {
+  const Points rows(points, "points");
+  auto stages = [&, span = rows.span()] {
+    const py::gil_scoped_release release;
+    return Stages(span);
+  }();
+  return py::make_tuple(array_of<int32_t>(cell_rows(stages)), array_of<int32_t>(std::move(stages.triangulation.neighbors)),
+                        array_of<double>(std::move(stages.voronoi.centre)));
+}
+
+py::tuple pole_vectors(const py::object& points) {
+  const Points rows(points, "points");
+  std::vector<Vec3> vectors;
+  std::vector<uint8_t> unbounded;
+  {
+    const auto span = rows.span();
+    const py::gil_scoped_release release;
+    const Stages stages(span);
+    const Poles poles = stages.poles();
+    for (const int32_t p : stages.by_row()) {
+      vectors.push_back(poles.vector[p]);
+      unbounded.push_back(poles.unbounded[p]);
+    }
+  }
+  return py::make_tuple(array_of<double>(std::move(vectors)), array_of<uint8_t>(std::move(unbounded)).attr("view")("bool"));
+}
+
+void append_rows(int32_t p, const Umbrellas& umbrellas, const Samples& samples, std::vector<std::array<int32_t, 3>>& out) {
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  for (const auto& [a, b] : umbrellas[p]) {
+    const auto [low, high] = std::minmax(samples.row[a], samples.row[b]);
+    out.push_back({samples.row[p], low, high});
+  }
+  std::sort(out.begin() + begin, out.end());
+}
+
+py::tuple umbrella_triangles(const py::object& points) {
+  const Points rows(points, "points");
+  std::vector<int64_t> offsets{0};
+  std::vector<std::array<int32_t, 3>> triangles;
+  {
+    const auto span = rows.span();
+    const py::gil_scoped_release release;
+    const Stages s(span);
+    const Umbrellas found = umbrellas(s.samples.points, s.triangulation, s.voronoi, s.incident, s.poles(), all_cores());
+    for (const int32_t p : s.by_row()) {
+      append_rows(p, found, s.samples, triangles);
+      offsets.push_back(static_cast<int64_t>(triangles.size()));
+    }
+  }
+  return py::make_tuple(array_of<int64_t>(std::move(offsets)), array_of<int32_t>(std::move(triangles)));
+}
+
+void require_corners(std::span<const Triangle> triangles, size_t vertices) {
+  for (const Triangle& t : triangles) {
+    for (const int32_t corner : t) {
+      if (corner >= 0 && static_cast<size_t>(corner) < vertices) continue;
+      throw InvalidInputError("Expected triangle corners from 0 to " + std::to_string(static_cast<long long>(vertices) - 1) +
+                              ", found " + std::to_string(corner) + "; rebuild the faces.");
+    }
+  }
+}
+
+py::array winding_numbers(const py::object& queries, const py::object& vertices, const py::object& triangles) {
+  const Points query_rows(queries, "queries"), vertex_rows(vertices, "vertices");
+  const Triangles faces(triangles);
+  const auto at = query_rows.span();
+  std::vector<double> result(at.size());
+  {
+    const auto corners = vertex_rows.span();
+    const auto face_span = faces.span();
+    const py::gil_scoped_release release;
+    require_corners(face_span, corners.size());
+    const WindingNumber winding(corners, face_span);
+    parallel_for(static_cast<int64_t>(at.size()), all_cores(), [&](int64_t i) { result[i] = winding(at[i]); });
+  }
+  return array_of<double>(std::move(result));
+}
+
+}  // namespace
+
+void bind_stages(py::module_& m) {
+  m.def("delaunay", &delaunay, kDelaunayDoc, py::arg("points"));
+  m.def("poles", &pole_vectors, kPolesDoc, py::arg("points"));
+  m.def("umbrellas", &umbrella_triangles, kUmbrellasDoc, py::arg("points"));
+  m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"), py::arg("triangles"));
+}
+
+}  // namespace medial::python

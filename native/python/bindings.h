@@ -1,0 +1,11 @@
+// What module.cpp puts together.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace medial::python {
+
+void bind_analysis(pybind11::module_& module);
+void bind_stages(pybind11::module_& module);
+
+}  // namespace medial::python
