@@ -1,0 +1,87 @@
+"""A result object -> the medial axis that it holds, in the object's own frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..core.analysis import MedialAxis
+from ..core.errors import InvalidInputError
+from .attributes import Attribute, attributes
+from .results import UNBOUNDED, is_gone, is_result, result_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def find_axis(thing: bpy.types.Object | None) -> bpy.types.Object | None:
+    """The result that `thing` is, or that was computed from it; None when there is neither."""
+    if is_gone(thing):
+        return None
+    return thing if is_result(thing) else result_of(thing)
+
+
+def read_axis(result: bpy.types.Object) -> MedialAxis:
+    """Read a medial axis back from a mesh and its attributes, as it is now: an artist may have edited it.
+
+    Raises
+    ------
+    InvalidInputError
+        An attribute of the table is missing.
+    """
+    result.update_from_editmode()
+    mesh = result.data
+    offsets, corners = _faces(mesh)
+    positions = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", positions)
+    return MedialAxis(
+        vertices=positions.reshape(-1, 3).astype(np.float64),
+        face_offsets=offsets,
+        face_vertices=corners,
+        unbounded=int(result.get(UNBOUNDED, 0)),
+        zero_area=0,  # what was left out of the mesh is not known to it
+        **_fields(result),
+    )
+
+
+def world_matrix(result: bpy.types.Object) -> NDArray[np.float64]:
+    """(4, 4) where the object lies in the world."""
+    return np.array(result.matrix_world, np.float64)
+
+
+def _faces(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """`face_offsets` and `face_vertices` of a mesh."""
+    starts, totals = (np.empty(len(mesh.polygons), np.int32) for _ in range(2))
+    mesh.polygons.foreach_get("loop_start", starts)
+    mesh.polygons.foreach_get("loop_total", totals)
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    offsets = np.zeros(len(totals) + 1, np.int32)
+    np.cumsum(totals, out=offsets[1:])
+    places = np.arange(offsets[-1]) + np.repeat(starts - offsets[:-1], totals)
+    return offsets, corners[places]
+
+
+def _fields(result: bpy.types.Object) -> dict[str, NDArray]:
+    """The fields of `MedialAxis` that are stored as attributes."""
+    columns: dict[str, list[NDArray]] = {}
+    for attribute in attributes():
+        columns.setdefault(attribute.field, []).append(_values(result, attribute))
+    return {field: np.column_stack(parts) if len(parts) > 1 else parts[0] for field, parts in columns.items()}
+
+
+def _values(result: bpy.types.Object, attribute: Attribute) -> NDArray:
+    found = result.data.attributes.get(attribute.name)
+    if found is None or (found.domain, found.data_type) != (attribute.domain, attribute.type):
+        raise InvalidInputError(
+            f"Expected the {attribute.domain.lower()} attribute '{attribute.name}' on '{result.name}', "
+            "found none; compute the medial axis again"
+        )
+    width = 2 if attribute.type == "INT32_2D" else 1
+    values = np.empty(len(found.data) * width, attribute.dtype)
+    found.data.foreach_get("value", values)
+    if attribute.dtype == np.float32:
+        values = values.astype(np.float64)
+    return values.reshape(-1, 2) if width == 2 else values
