@@ -1,0 +1,509 @@
+#!/usr/bin/env python3
+"""Builds, shows and tests the Medial Axis add-on.
+
+    python3 build_addon.py build     compile the native module, pack dist/medial_axis-VERSION.zip
+    python3 build_addon.py demo      build, then compute and render real models in a real Blender
+    python3 build_addon.py test      everything that must hold: native, Python and Blender tests, sanitizers
+    python3 build_addon.py clean     remove what the other commands made
+
+Any Python 3.8 or newer can run this file; it needs nothing but the standard library. The module itself is
+built for, and tested with, the Python that Blender uses. Missing Debian packages are installed when this
+user may (root, or sudo without a password); otherwise the apt-get line to run is printed.
+
+Exit codes: 0 all went well, 1 something failed, 2 a tool or package is missing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+ADDON = ROOT / "blender_addon"
+LIBRARY = ADDON / "lib"
+BUILD = ROOT / "build"
+DIST = ROOT / "dist"
+PACKAGE = "medial_axis"  # the add-on's name inside Blender and the top folder of its zip
+
+# What is needed -> the Debian package that brings it, by command.
+BUILD_NEEDS = {
+    "C++ compiler": "g++",
+    "CMake": "cmake",
+    "Ninja": "ninja-build",
+    "CGAL headers": "libcgal-dev",
+    "Boost headers": "libboost-dev",
+    "pybind11 headers": "pybind11-dev",
+    "Python headers": "python3-dev",
+    "NumPy for Blender's Python": "python3-numpy",
+    "Blender": "blender",
+    "GoogleTest": "libgtest-dev",
+}
+DEMO_NEEDS = {
+    "CGAL's demo meshes": "libcgal-demo",
+    "software OpenGL": "libgl1-mesa-dri",
+    "EGL, to draw without a display": "libegl1",
+}
+TEST_NEEDS = {
+    **DEMO_NEEDS,
+    "SciPy, the independent triangulation": "python3-scipy",
+    "pytest": "python3-pytest",
+    "virtual display": "xvfb",
+    "X authority for xvfb-run": "xauth",
+    "mouse and keyboard for the GUI tests": "xdotool",
+    "screenshots": "imagemagick",
+}
+
+# Symbols and libraries that a module inside Blender's process must not bring along.
+FORBIDDEN_LIBRARIES = re.compile(r"lib(tbb|gmp|mpfr|python)")
+ZIPPED_SUFFIXES = {".py", ".toml", ".so", ".png", ".svg"}
+
+
+class Failure(Exception):
+    """A step did not succeed; the message is for the person at the terminal."""
+
+    def __init__(self, message: str, exit_code: int = 1) -> None:
+        super().__init__(message)
+        self.exit_code = exit_code
+
+
+# --- talking and running
+
+
+def say(text: str) -> None:
+    print(f"\n== {text}" if sys.stdout.isatty() is False else f"\n\033[1m== {text}\033[0m", flush=True)
+
+
+def run(*command: object, **options) -> None:
+    """Run a command with its output shown; raise Failure when it fails."""
+    words = [str(word) for word in command]
+    print("$ " + " ".join(map(shlex.quote, words)), flush=True)
+    code = subprocess.run(words, cwd=options.pop("cwd", ROOT), **options).returncode
+    if code != 0:
+        raise Failure(f"'{' '.join(words[:3])} ...' ended with exit code {code}; its output is above")
+
+
+def output_of(*command: object, **options) -> str:
+    """The standard output of a command; raise Failure when it fails."""
+    words = [str(word) for word in command]
+    done = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, **options)
+    if done.returncode != 0:
+        raise Failure(f"'{' '.join(words[:3])} ...' ended with exit code {done.returncode}: {done.stderr.strip()}")
+    return done.stdout
+
+
+def parallel_jobs() -> int:
+    """Compilers to run at once: one unit that includes CGAL takes up to 2 GB."""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return max(1, min(len(os.sched_getaffinity(0)), memory // (2 << 30)))
+
+
+# --- Debian packages
+
+
+def is_installed(package: str) -> bool:
+    query = ["dpkg-query", "-W", "-f", "${db:Status-Status}", package]
+    return subprocess.run(query, capture_output=True, text=True).stdout.startswith("installed")
+
+
+def require(needs: dict[str, str]) -> None:
+    """Install the missing packages, or say how and stop with exit code 2."""
+    if shutil.which("dpkg-query") is None:
+        print("This is no Debian system: nothing is installed; needed are " + ", ".join(needs) + ".")
+        return
+    missing = {name: package for name, package in needs.items() if not is_installed(package)}
+    if not missing:
+        return
+    say("Missing: " + ", ".join(f"{name} ({package})" for name, package in missing.items()))
+    install = ["apt-get", "install", "-y", "--no-install-recommends", *missing.values()]
+    advice = "run  sudo apt-get update && sudo " + " ".join(install) + "  and start again"
+    rights = administrator_prefix()
+    if rights is None:
+        raise Failure("Debian packages are missing and this user may not install them: " + advice, 2)
+    try:
+        run(*rights, "apt-get", "update", "-q")
+        run(*rights, "env", "DEBIAN_FRONTEND=noninteractive", *install)
+    except Failure as failure:
+        raise Failure(f"Installing Debian packages failed ({failure}): {advice}", 2) from None
+
+
+def administrator_prefix() -> list[str] | None:
+    """The words before a command that only root may run; None when this user may not."""
+    if os.geteuid() == 0:
+        return []
+    if shutil.which("sudo") and subprocess.run(["sudo", "-n", "true"], capture_output=True).returncode == 0:
+        return ["sudo", "-n"]
+    return None
+
+
+# --- Blender and its Python
+
+
+def find_blender(name: str) -> Path:
+    path = shutil.which(name)
+    if path is None:
+        raise Failure(f"Expected Blender as '{name}', found none; install it or pass --blender PATH", 2)
+    return Path(path)
+
+
+class Profile:
+    """A private Blender profile: the person's own settings are neither read nor written."""
+
+    def __init__(self, folder: Path) -> None:
+        self.environment = {**os.environ, "HOME": str(folder)}
+        for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES", "EXTENSIONS"):
+            path = folder / part.lower()
+            path.mkdir(parents=True, exist_ok=True)
+            self.environment[f"BLENDER_USER_{part}"] = str(path)
+
+    def command(self, blender: Path, *arguments: object) -> list[str]:
+        quiet = ["--background", "--factory-startup", "--python-exit-code", "1"]
+        return [str(blender), *quiet, *map(str, arguments)]
+
+
+def blender_python(blender: Path) -> tuple[Path, str]:
+    """The interpreter that Blender uses, with its ABI tag, such as cpython-311-x86_64-linux-gnu."""
+    tell = "import sys, sysconfig, bpy; print('ABI', bpy.app.version_string.split()[0], '%d.%d' % sys.version_info[:2]"
+    tell += ", sysconfig.get_config_var('SOABI'))"
+    with tempfile.TemporaryDirectory() as folder:
+        profile = Profile(Path(folder))
+        text = output_of(*profile.command(blender, "--python-expr", tell), env=profile.environment)
+    version, python_version, abi = re.search(r"^ABI (\S+) (\S+) (\S+)$", text, re.MULTILINE).groups()
+    python = Path(f"/usr/bin/python{python_version}")
+    ask = "import sysconfig; print(sysconfig.get_config_var('SOABI'))"
+    found = output_of(python, "-c", ask).strip() if python.exists() else "none"
+    if found != abi:
+        raise Failure(
+            f"Blender {version} uses Python {abi}, but {python} is {found}; install python{python_version}-dev", 2
+        )
+    print(f"Blender {version} ({blender}) uses {python}, ABI {abi}")
+    return python, abi
+
+
+# --- building
+
+
+def build_module(blender: Path) -> tuple[Path, Path]:
+    """Compile the release module into blender_addon/lib; returns it and Blender's Python."""
+    say("Building the native module")
+    python, abi = blender_python(blender)
+    build_preset("release", python)
+    built = sorted((BUILD / "release").rglob(f"_medial.{abi}.so"))
+    if len(built) != 1:
+        raise Failure(f"Expected one _medial.{abi}.so under build/release, found {len(built)}; run clean first")
+    LIBRARY.mkdir(exist_ok=True)
+    module = LIBRARY / built[0].name
+    fresh = module.with_suffix(".new")  # renamed at the end: a running Blender keeps the file that it has open
+    shutil.copy2(built[0], fresh)
+    run("strip", "--strip-unneeded", fresh)
+    os.replace(fresh, module)
+    check_module(module)
+    print(output_of(python, "-c", IMPORT_MODULE, module).strip())
+    return module, python
+
+
+IMPORT_MODULE = """
+import importlib.util, sys
+spec = importlib.util.spec_from_file_location("_medial", sys.argv[1])
+module = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(module)
+print("imports as _medial", module.__version__)
+"""
+
+
+def build_preset(preset: str, python: Path) -> None:
+    run("cmake", "--preset", preset, f"-DPython_EXECUTABLE={python}")
+    run("cmake", "--build", "--preset", preset, "--parallel", parallel_jobs())
+
+
+def check_module(module: Path) -> None:
+    """Refuse a module that would meet Blender's own libraries, and print what it needs of the system."""
+    libraries = re.findall(r"\(NEEDED\).*\[(.+)\]", output_of("readelf", "-d", module))
+    unwanted = [library for library in libraries if FORBIDDEN_LIBRARIES.match(library)]
+    if unwanted:
+        raise Failure(f"{module.name} must not need {', '.join(unwanted)}; link it statically or leave it out")
+    exported = [line.split()[-1] for line in output_of("nm", "-D", "--defined-only", module).splitlines()]
+    if exported != ["PyInit__medial"]:
+        raise Failure(f"{module.name} must export PyInit__medial only, found {len(exported)}: {exported[:5]}")
+    versions = output_of("objdump", "-T", module)
+    floors = [f"{name} {newest(name, versions)}" for name in ("GLIBC", "GLIBCXX", "CXXABI")]
+    print(f"{module.relative_to(ROOT)}: {module.stat().st_size / 1e6:.1f} MB, needs {', '.join(libraries)}")
+    print(f"exports PyInit__medial only; newest versions needed: {', '.join(floors)}")
+
+
+def newest(name: str, text: str) -> str:
+    found = re.findall(rf"\b{name}_([0-9.]+)", text)
+    return max(found, key=lambda version: [int(part) for part in version.split(".")], default="none")
+
+
+def version() -> str:
+    """The one version number, from the manifest; `bl_info` must agree."""
+    manifest = (ADDON / "blender_manifest.toml").read_text(encoding="utf-8")
+    stated = re.search(r'^version = "(.+)"', manifest, re.MULTILINE).group(1)
+    info = re.search(r'"version": \((.+?)\)', (ADDON / "__init__.py").read_text(encoding="utf-8")).group(1)
+    if stated.split("-")[0] != ".".join(part.strip() for part in info.split(",")):
+        raise Failure(f"blender_manifest.toml says version {stated}, bl_info says ({info}); make them equal")
+    return stated
+
+
+def pack() -> Path:
+    """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension). Same files, same bytes."""
+    say("Packing the add-on")
+    DIST.mkdir(exist_ok=True)
+    target = DIST / f"{PACKAGE}-{version()}.zip"
+    fresh = target.with_suffix(".new")
+    files = {path.relative_to(ADDON).as_posix(): path for path in packed_files()}
+    files["LICENSE"] = ROOT / "LICENSE"
+    with zipfile.ZipFile(fresh, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, path in sorted(files.items()):
+            entry = zipfile.ZipInfo(f"{PACKAGE}/{name}")  # with the same date always
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, path.read_bytes())
+    os.replace(fresh, target)
+    print(f"{target.relative_to(ROOT)}: {len(files)} files, {target.stat().st_size / 1e6:.1f} MB")
+    return target
+
+
+def packed_files() -> list[Path]:
+    """The add-on's files without caches, hidden files and leftovers."""
+    return [
+        path
+        for path in ADDON.rglob("*")
+        if path.is_file()
+        and path.suffix in ZIPPED_SUFFIXES
+        and not any(part.startswith((".", "__pycache__")) for part in path.relative_to(ADDON).parts)
+    ]
+
+
+def build(arguments: argparse.Namespace) -> None:
+    require(BUILD_NEEDS)
+    build_module(find_blender(arguments.blender))
+    print(f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {pack().relative_to(ROOT)}")
+
+
+# --- demo
+
+
+def demo(arguments: argparse.Namespace) -> None:
+    require({**BUILD_NEEDS, **DEMO_NEEDS})
+    blender = find_blender(arguments.blender)
+    meshes = [Path(mesh).resolve() for mesh in arguments.meshes]
+    absent = [mesh for mesh in meshes if not mesh.is_file()]
+    if absent:
+        raise Failure(f"Expected mesh files, found no file {absent[0]}; check the path")
+    build_module(blender)
+    archive = pack()
+    output = Path(arguments.output).resolve()
+    output.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="medial_axis_demo_") as folder:
+        models = meshes or ["suzanne", *cgal_meshes(Path(folder))]
+        reports = [show_model(blender, archive, model, output, Path(folder)) for model in models]
+    print_table(reports)
+
+
+def cgal_meshes(folder: Path) -> list[Path]:
+    """Two meshes of CGAL's demo data (CC0): a knotted tube and a machine part."""
+    names = {"data/meshes/knot1.off": "knot.off", "data/meshes/fandisk_large.off": "fandisk.off"}
+    package = Path("/usr/share/doc/libcgal-dev/data.tar.gz")
+    if not package.exists():
+        raise Failure(f"Expected CGAL's demo data at {package}, found none; name mesh files: demo PATH ...")
+    run("tar", "xzf", package, "-C", folder, *names)
+    return [Path(shutil.move(str(folder / member), str(folder / name))) for member, name in names.items()]
+
+
+def show_model(blender: Path, archive: Path, model: Path | str, output: Path, folder: Path) -> dict:
+    """Compute and render one model in a Blender of its own; returns what it reports."""
+    say(f"Medial axis of {model if isinstance(model, str) else model.name}")
+    report = folder / "report.json"
+    report.unlink(missing_ok=True)
+    profile = Profile(folder / "profile")
+    script = ROOT / "tests" / "demo" / "blender_demo.py"
+    options = ("--zip", archive, "--model", model, "--output", output, "--report", report)
+    run(*profile.command(blender, "--python", script, "--", *options), env=profile.environment)
+    return json.loads(report.read_text(encoding="utf-8"))
+
+
+def print_table(reports: list[dict]) -> None:
+    columns = list(reports[0])
+    rows = [columns, *([str(report[column]) for column in columns] for report in reports)]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(columns))]
+    say("Results")
+    for row in rows:
+        print("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip())
+
+
+# --- test
+
+
+def test(arguments: argparse.Namespace) -> None:
+    require({**BUILD_NEEDS, **TEST_NEEDS})
+    blender = find_blender(arguments.blender)
+    unknown = set(arguments.only) - set(PARTS)
+    if unknown:
+        raise Failure(f"Expected parts out of {', '.join(PARTS)}, found {', '.join(sorted(unknown))}")
+    results = {}
+    started = time.monotonic()
+    for name, part in PARTS.items():
+        if arguments.only and name not in arguments.only:
+            continue
+        results[name] = test_part(name, part, blender)
+    say(f"Summary after {time.monotonic() - started:.0f} s")
+    for name, (verdict, seconds) in results.items():
+        print(f"{name:<10} {seconds:6.0f} s  {verdict}")
+    failed = [name for name, (verdict, _) in results.items() if verdict.startswith("FAILED")]
+    if failed:
+        raise Failure("failed: " + ", ".join(failed))
+    print("all passed")
+
+
+class Skip(Exception):
+    """A part of the tests cannot run here, for lack of a tool."""
+
+
+def test_part(name: str, part, blender: Path) -> tuple[str, float]:
+    say(f"Testing: {name}")
+    started = time.monotonic()
+    try:
+        part(blender)
+        verdict = "passed"
+    except Skip as reason:
+        verdict = f"skipped: {reason}"
+    except Failure as failure:
+        verdict = f"FAILED: {failure}"
+    print(verdict, flush=True)
+    return verdict, time.monotonic() - started
+
+
+def test_build(blender: Path) -> None:
+    build_module(blender)
+    pack()
+
+
+def test_native(blender: Path) -> None:
+    run("ctest", "--preset", "release", "--output-on-failure")
+
+
+def test_python(blender: Path) -> None:
+    python, _ = blender_python(blender)
+    run(python, "-m", "pytest", "-q", "tests/python", env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+
+
+def test_addon(blender: Path) -> None:
+    python, _ = blender_python(blender)
+    run(python, "tests/addon/run.py", "--zip", DIST / f"{PACKAGE}-{version()}.zip")
+
+
+def test_gui(blender: Path) -> None:
+    for tool in ("Xvfb", "xdotool", "import"):
+        if shutil.which(tool) is None:
+            raise Skip(f"{tool} is not installed")
+    python, _ = blender_python(blender)
+    run(python, "tests/addon/run.py", "--zip", DIST / f"{PACKAGE}-{version()}.zip", "--gui")
+
+
+def test_asan(blender: Path) -> None:
+    test_sanitizer("asan", blender)
+
+
+def test_tsan(blender: Path) -> None:
+    test_sanitizer("tsan", blender)
+
+
+def test_sanitizer(preset: str, blender: Path) -> None:
+    """The native tests under a sanitizer; without address randomisation, which older ones cannot live with."""
+    library = output_of("g++", f"-print-file-name=lib{preset}.so").strip()
+    if not Path(library).is_absolute():
+        raise Skip(f"the compiler has no lib{preset}")
+    build_preset(preset, blender_python(blender)[0])
+    fixed = ["setarch", os.uname().machine, "-R"]
+    can_fix = shutil.which("setarch") and subprocess.run([*fixed, "true"], capture_output=True).returncode == 0
+    run(*(fixed if can_fix else []), "ctest", "--preset", preset, "--output-on-failure")
+
+
+PARTS = {
+    "build": test_build,
+    "native": test_native,
+    "python": test_python,
+    "addon": test_addon,
+    "gui": test_gui,
+    "asan": test_asan,
+    "tsan": test_tsan,
+}
+
+
+# --- clean
+
+
+def clean(arguments: argparse.Namespace) -> None:
+    """Remove what the other commands made; the results of the demo only with --all."""
+    made = [BUILD, DIST, LIBRARY, *ROOT.rglob("__pycache__"), ROOT / ".pytest_cache", ROOT / ".ruff_cache"]
+    if arguments.all:
+        made.append(ROOT / "demo_output")
+    for path in filter(Path.exists, made):
+        print(f"removing {path.relative_to(ROOT)}")
+        shutil.rmtree(path)
+
+
+# --- command line
+
+
+def parse(words: list[str]) -> argparse.Namespace:
+    formatter = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=formatter)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    def add(name: str, action, text: str, more: str = "") -> argparse.ArgumentParser:
+        command = commands.add_parser(name, help=text, description=f"{text}.\n\n{more}", formatter_class=formatter)
+        command.set_defaults(action=action)
+        return command
+
+    add_build = add("build", build, "compile the native module and pack the add-on", BUILD_HELP)
+    add_demo = add("demo", demo, "build, then compute and render real models in Blender", DEMO_HELP)
+    add_demo.add_argument("meshes", nargs="*", metavar="MESH", help="a .ply, .obj, .stl or .off file")
+    add_demo.add_argument("--output", default="demo_output", metavar="FOLDER", help="default: ./demo_output")
+    add_test = add("test", test, "build and run every test", TEST_HELP)
+    add_test.add_argument("--only", nargs="+", default=[], metavar="PART", help=f"out of: {', '.join(PARTS)}")
+    for command in (add_build, add_demo, add_test):
+        command.add_argument("--blender", default="blender", metavar="PATH", help="the Blender to build for")
+    add_clean = add("clean", clean, "remove what the other commands made")
+    add_clean.add_argument("--all", action="store_true", help="the results of the demo as well")
+    return parser.parse_args(words)
+
+
+BUILD_HELP = """Compiles with the CMake preset `release` for the Python that Blender uses, puts the module into
+blender_addon/lib/, checks that it needs no library that Blender brings too, and packs
+dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer."""
+
+DEMO_HELP = """Installs the zip into a private Blender profile, computes the medial axis of Blender's Suzanne and of two
+meshes of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .ply, .ma and a rendered
+.png of each. Works without a display."""
+
+TEST_HELP = f"""Parts, in order: {', '.join(PARTS)}. One failing part fails the whole; a part that cannot run for
+lack of a tool is skipped by name. The parts after `build` use what `build` made."""
+
+
+def main(words: list[str]) -> int:
+    arguments = parse(words)
+    try:
+        arguments.action(arguments)
+    except Failure as failure:
+        print(f"\nbuild_addon.py {arguments.command}: {failure}", file=sys.stderr, flush=True)
+        return failure.exit_code
+    except KeyboardInterrupt:
+        print("\ninterrupted", file=sys.stderr)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
