@@ -3,5 +3,29 @@
 from __future__ import annotations
 
 
-class ExportError(OSError):
+class MedialAxisError(Exception):
+    """A medial axis could not be made; nothing was changed."""
+
+
+class NativeModuleError(MedialAxisError, ImportError):
+    """The compiled module for this Python is missing or does not load."""
+
+
+class InvalidInputError(MedialAxisError, ValueError):
+    """An input has the wrong shape, type, range or a value that is not finite; the message says which."""
+
+
+class DegenerateInputError(MedialAxisError, ValueError):
+    """The points are valid but span no volume: fewer than 4 distinct ones, or all on a line or a plane."""
+
+
+class OutOfMemoryError(MedialAxisError, MemoryError):
+    """The computer has not enough memory for this many points."""
+
+
+class Cancelled(MedialAxisError):
+    """The computation was cancelled; nothing was computed."""
+
+
+class ExportError(MedialAxisError, OSError):
     """A medial axis could not be written; no file was changed."""

@@ -1,0 +1,1 @@
+"""Blender's data in and out: objects to arrays, medial axes to objects. No user interface."""

@@ -1,0 +1,1 @@
+"""The method for Python, without Blender: settings, analysis, files."""

@@ -1,0 +1,126 @@
+"""Medial axes of several shapes, one after the other: at once, or in a thread that can be watched and cancelled."""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from .analysis import Computation, compute, new_progress, progress_text
+from .errors import Cancelled, MedialAxisError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .settings import Settings
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """One shape and what is wanted of it; `name` is for messages. Arrays as in `compute`."""
+
+    name: str
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    settings: Settings
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What became of a task: a computation, or an error."""
+
+    computation: Computation | None
+    error: MedialAxisError | None
+
+
+def run_task(task: Task, progress: Any | None = None) -> Outcome:
+    """Compute one medial axis; only `Cancelled` leaves as an exception."""
+    try:
+        return Outcome(compute(task.points, task.triangles, task.settings, progress), None)
+    except Cancelled:
+        raise
+    except MedialAxisError as error:
+        return Outcome(None, error)
+
+
+class Job:
+    """A thread that runs tasks. It is left with `wait` or when Python ends; until `done` only `cancel` and the
+    progress may be used.
+    """
+
+    def __init__(self, tasks: Sequence[Task]) -> None:
+        self.names = tuple(task.name for task in tasks)
+        self._progress = tuple(new_progress() for _ in tasks)
+        self._current = 0
+        self._cancelled = False
+        self._outcomes: list[Outcome] = []
+        self._failure: BaseException | None = None
+        self._thread = threading.Thread(
+            target=self._run, args=(tuple(tasks),), name="medial axis", daemon=True
+        )
+        atexit.register(self.stop)  # a daemon thread inside the module must not outlive the interpreter
+        self._thread.start()
+
+    @property
+    def done(self) -> bool:
+        return not self._thread.is_alive()
+
+    @property
+    def cancelled(self) -> bool:
+        return self._cancelled
+
+    @property
+    def fraction(self) -> float:
+        """Share of all tasks that is done, 0 to 1."""
+        return (self._current + self._progress[self._current].fraction) / len(self._progress)
+
+    @property
+    def text(self) -> str:
+        """'Suzanne (1 of 2): Poles, 42 %'."""
+        number, count = self._current, len(self.names)
+        which = f" ({number + 1} of {count})" if count > 1 else ""
+        return f"{self.names[number]}{which}: " + progress_text(
+            self._progress[number].stage, self._progress[number].fraction
+        )
+
+    def cancel(self) -> None:
+        """Ask the thread to end; it does within 0.3 s."""
+        self._cancelled = True
+        for progress in self._progress:
+            progress.cancel()
+
+    def stop(self) -> None:
+        """Cancel and wait."""
+        self.cancel()
+        self._thread.join()
+        atexit.unregister(self.stop)
+
+    def outcomes(self) -> list[Outcome]:
+        """One for each task, in order; waits for the thread.
+
+        Raises
+        ------
+        Cancelled
+        """
+        self._thread.join()
+        atexit.unregister(self.stop)
+        if self._failure is not None:
+            raise self._failure
+        if self._cancelled:
+            raise Cancelled("The computation was cancelled; nothing was changed")
+        return self._outcomes
+
+    def _run(self, tasks: tuple[Task, ...]) -> None:
+        try:
+            for number, task in enumerate(tasks):
+                self._current = number
+                self._outcomes.append(run_task(task, self._progress[number]))
+                if self._cancelled:
+                    return
+        except Cancelled:
+            self._cancelled = True
+        except BaseException as failure:  # raised where the outcomes are asked for
+            self._failure = failure

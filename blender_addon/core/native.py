@@ -1,0 +1,68 @@
+"""The compiled module `_medial`: found late and once, one file per Python ABI side by side in `lib/`."""
+
+from __future__ import annotations
+
+import importlib
+from importlib.machinery import EXTENSION_SUFFIXES
+from pathlib import Path
+from types import ModuleType
+
+from .errors import NativeModuleError
+
+LIB = Path(__file__).resolve().parent.parent / "lib"
+NAME = "_medial"
+
+_package = __package__.rpartition(".")[0]
+_module: ModuleType | None = None
+_failure: str = ""  # why the file that is there does not load; trying again would not help
+
+
+def load() -> ModuleType:
+    """The compiled module.
+
+    Raises
+    ------
+    NativeModuleError
+        No file for this Python, or one that does not load.
+    """
+    global _module, _failure
+    if _module is None:
+        if reason := problem():
+            raise NativeModuleError(reason)
+        try:
+            _module = importlib.import_module(f"{_package}.lib.{NAME}")
+        except ImportError as error:
+            _failure = (
+                f"Expected a compiled module for {expected_abi()} that loads, but the system says "
+                f"'{error}'; install the add-on's zip made for this system"
+            )
+            raise NativeModuleError(_failure) from error
+    return _module
+
+
+def problem() -> str:
+    """Why `load` would fail, in one sentence, or an empty string. Loads nothing; cheap enough for a panel."""
+    if _module is not None or _failure:
+        return _failure
+    if any((LIB / f"{NAME}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES):
+        return ""
+    found = ", ".join(found_abis()) or "none"
+    return (
+        f"Expected the compiled module for {expected_abi()}, found {found}; "
+        "install the add-on's zip made for this Blender and system"
+    )
+
+
+def expected_abi() -> str:
+    """The tag in the file name that this Python loads, such as 'cpython-311-x86_64-linux-gnu'."""
+    return _tag(EXTENSION_SUFFIXES[0])
+
+
+def found_abis() -> list[str]:
+    """The tags of the compiled modules that are installed."""
+    files = [*LIB.glob(f"{NAME}.*.so"), *LIB.glob(f"{NAME}.*.pyd")]
+    return sorted(_tag(file.name.removeprefix(NAME)) for file in files)
+
+
+def _tag(suffix: str) -> str:
+    return suffix.strip(".").rpartition(".")[0]

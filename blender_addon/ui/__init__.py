@@ -1,0 +1,21 @@
+"""Blender's user interface: properties, operators, panels, menus. No geometry."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+
+def _modules() -> tuple[ModuleType, ...]:
+    from . import export, menus, operators, panels, properties, running
+
+    return (properties, operators, export, panels, menus, running)
+
+
+def register() -> None:
+    for module in _modules():
+        module.register()
+
+
+def unregister() -> None:
+    for module in reversed(_modules()):
+        module.unregister()

@@ -1,0 +1,25 @@
+"""Entries in Blender's menus; being there is also what lets F3 find an operator."""
+
+import bpy
+
+from .properties import copy_settings
+
+
+def _compute(self, context):
+    self.layout.separator()
+    button = self.layout.operator("object.medial_axis", icon="OUTLINER_DATA_MESH")
+    copy_settings(context.scene.medial_axis, button)
+
+
+def _menus():
+    return (bpy.types.VIEW3D_MT_object, bpy.types.VIEW3D_MT_object_context_menu)
+
+
+def register():
+    for menu in _menus():
+        menu.append(_compute)
+
+
+def unregister():
+    for menu in _menus():
+        menu.remove(_compute)

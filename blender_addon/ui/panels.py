@@ -1,0 +1,131 @@
+"""The sidebar tab of the 3D viewport."""
+
+import textwrap
+
+import bpy
+
+from ..bridge import results
+from ..core import native
+from . import running
+from .operators import obstacle
+from .properties import copy_settings, shown_result
+
+_CHARACTER = 7  # pixels of an average character at resolution scale 1; only decides where lines break
+
+
+class _Tab:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Medial Axis"
+
+
+class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
+    """Settings, the button, progress"""
+
+    bl_label = "Medial Axis"
+    bl_idname = "VIEW3D_PT_medial_axis"
+
+    def draw(self, context):
+        layout = self.layout
+        if problem := native.problem():
+            _sentence(context, layout.box(), problem, "ERROR")
+        _draw_settings(context, layout)
+        _draw_compute(context, layout)
+        if note := context.scene.medial_axis.note:
+            _sentence(context, layout, note, "INFO")
+
+
+class VIEW3D_PT_medial_axis_result(_Tab, bpy.types.Panel):
+    """Figures of the result, and files"""
+
+    bl_label = "Result"
+    bl_idname = "VIEW3D_PT_medial_axis_result"
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+
+    def draw(self, context):
+        layout = self.layout
+        result = shown_result(context)
+        if result is None:
+            layout.label(text="None yet for the active object", icon="INFO")
+        else:
+            _draw_figures(context, layout, result)
+        layout.operator("export_scene.medial_axis", icon="EXPORT")
+
+
+def _draw_settings(context, layout):
+    panel = context.scene.medial_axis
+    column = layout.column()
+    column.use_property_split = True
+    column.use_property_decorate = False
+    for name in ("theta", "rho"):
+        column.prop(panel, name, slider=True)
+    for name in ("side", "rule", "criteria", "limit_set"):
+        column.prop(panel, name)
+
+
+def _draw_compute(context, layout):
+    job = running.job()
+    if job is not None:
+        _draw_progress(context, layout, job)
+        return
+    row = layout.row()
+    row.scale_y = 1.5
+    copy_settings(
+        context.scene.medial_axis,
+        row.operator("object.medial_axis", icon="OUTLINER_DATA_MESH"),
+    )
+    if reason := obstacle(context):
+        if reason != native.problem():
+            _sentence(context, layout, reason, "INFO")
+
+
+def _draw_progress(context, layout, job):
+    if hasattr(layout, "progress"):  # from 4.0
+        layout.progress(factor=job.fraction, text=job.text)
+    else:
+        row = layout.row()
+        row.enabled = False
+        row.prop(context.window_manager.medial_axis_progress, "percentage", text=job.text, slider=True)
+    layout.operator("object.medial_axis_cancel", icon="CANCEL")
+
+
+def _draw_figures(context, layout, result):
+    layout.label(text=result.name, icon="OUTLINER_OB_MESH")
+    column = layout.column(align=True)
+    for label, value in (
+        ("Points", result.get(results.POINTS, 0)),
+        ("Duplicates merged", result.get(results.DUPLICATES, 0)),
+        ("Facets", len(result.data.polygons)),
+        ("Vertices", len(result.data.vertices)),
+        ("Unbounded facets", result.get(results.UNBOUNDED, 0)),
+    ):
+        row = column.split(factor=0.6)
+        row.label(text=label)
+        row.label(text=f"{value:,}")
+    row = column.split(factor=0.6)
+    row.label(text="Radius")
+    row.label(text="{:.4g} to {:.4g}".format(result.get(results.RADIUS_MIN, 0), result.get(results.RADIUS_MAX, 0)))
+    for warning in result.get(results.WARNINGS, "").splitlines():
+        _sentence(context, layout, warning, "ERROR")
+
+
+def _sentence(context, layout, text, icon):
+    """A sentence over as many lines as the sidebar needs; Blender's labels do not wrap."""
+    width = context.region.width / context.preferences.system.ui_scale - 60
+    column = layout.column(align=True)
+    column.scale_y = 0.8
+    for number, line in enumerate(textwrap.wrap(text, max(20, int(width / _CHARACTER)))):
+        column.label(text=line, icon="BLANK1" if number else icon)
+
+
+CLASSES = (VIEW3D_PT_medial_axis, VIEW3D_PT_medial_axis_result)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,160 @@
+"""The options of core.settings as Blender properties, and those of the panel."""
+
+import ctypes
+import math
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty
+
+from ..bridge.results import is_gone, is_result, result_of, settings_of, update_result
+from ..core.analysis import refilter
+from ..core.errors import MedialAxisError
+from ..core.settings import OPTIONS, Choice, Number, Settings
+from . import running
+
+
+def number(name, update=None):
+    """A FloatProperty for an option."""
+    option = OPTIONS[name]
+    limits = {"min": option.minimum, "soft_max": option.soft_maximum}
+    if math.isfinite(option.maximum):
+        limits["max"] = option.maximum
+    if option.unit == "rad":
+        limits |= {"subtype": "ANGLE", "step": 100}
+    return FloatProperty(
+        name=option.label,
+        description=option.description,
+        default=option.default,
+        update=update,
+        **limits,
+    )
+
+
+def choice(name, update=None):
+    """An EnumProperty for an option."""
+    option = OPTIONS[name]
+    return EnumProperty(
+        name=option.label,
+        description=option.description,
+        items=[(member.name, *words) for member, words in option.items.items()],
+        default=option.default.name,
+        update=update,
+    )
+
+
+def switch(name, update=None):
+    """A BoolProperty for an option."""
+    option = OPTIONS[name]
+    return BoolProperty(
+        name=option.label, description=option.description, default=option.default, update=update
+    )
+
+
+def settings_from(properties) -> Settings:
+    """Properties of an operator or of the panel -> Settings, raising InvalidInputError."""
+    return Settings(
+        **{name: _value(option, getattr(properties, name)) for name, option in OPTIONS.items()}
+    )
+
+
+def copy_settings(source, target) -> None:
+    """Set the properties of an operator button to those of the panel."""
+    for name in OPTIONS:
+        setattr(target, name, getattr(source, name))
+
+
+def _value(option, value):
+    if isinstance(option, Choice):
+        return type(option.default)[value]
+    if isinstance(option, Number):
+        return _exact(option, value)
+    return value
+
+
+def _exact(option: Number, value: float) -> float:
+    """Blender keeps float32: what was rounded from a default or a limit means that number itself."""
+    for meant in (option.default, option.minimum, option.maximum):
+        if ctypes.c_float(meant).value == value:
+            return meant
+    return value
+
+
+def shown_result(context):
+    """The result that the panel speaks of: the active object, or the result of the active object."""
+    active = getattr(context, "object", None)
+    if active is None or active.type != "MESH":
+        return None
+    return active if is_result(active) else result_of(active)
+
+
+def _refilter(panel, context):
+    """Apply new thresholds to the shown result at once, as long as its analysis is kept."""
+    panel.note = ""
+    result = shown_result(context)
+    if result is None or is_gone(result) or running.job() is not None:
+        return
+    try:
+        panel.note = _refilter_result(result, panel)
+    except MedialAxisError as error:
+        panel.note = str(error)
+
+
+def _refilter_result(result, panel) -> str:
+    kept = settings_of(result)
+    wanted = settings_from(panel)
+    wanted = Settings(**{**vars(wanted), "side": kept.side})  # another side is another analysis
+    axis = refilter(result["ma_analysis"], wanted)
+    if axis is None:
+        return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
+    if axis.facets == 0:
+        return "No facet passes these conditions; the medial axis was left as it was"
+    update_result(result, axis, wanted)
+    return ""
+
+
+class MedialAxisPanelSettings(bpy.types.PropertyGroup):
+    """What the sidebar panel shows; theta, rho, rule and criteria act on the result at once."""
+
+    theta: number("theta", _refilter)
+    rho: number("rho", _refilter)
+    side: choice("side")
+    rule: choice("rule", _refilter)
+    criteria: choice("criteria", _refilter)
+    limit_set: switch("limit_set", _refilter)
+    note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+
+def _percentage(_):
+    job = running.job()
+    return 0.0 if job is None else 100 * job.fraction
+
+
+class MedialAxisProgress(bpy.types.PropertyGroup):
+    """The progress bar of the panel."""
+
+    percentage: FloatProperty(
+        name="Progress",
+        description="Share of the computation that is done",
+        subtype="PERCENTAGE",
+        min=0.0,
+        max=100.0,
+        precision=0,
+        get=_percentage,
+    )
+
+
+CLASSES = (MedialAxisPanelSettings, MedialAxisProgress)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.medial_axis = PointerProperty(type=MedialAxisPanelSettings)
+    bpy.types.WindowManager.medial_axis_progress = PointerProperty(type=MedialAxisProgress)
+
+
+def unregister():
+    del bpy.types.WindowManager.medial_axis_progress
+    del bpy.types.Scene.medial_axis
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,82 @@
+"""The one computation that may run: who asks, who shows, who stops it."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.app.handlers import persistent
+
+from ..core import native
+from ..core.analysis import CACHE
+from ..core.job import Job, Task
+
+_job: Job | None = None
+
+
+def start(tasks: list[Task]) -> Job:
+    """Begin a computation; `finish` or `stop` ends it. There must be none."""
+    global _job
+    _job = Job(tasks)
+    return _job
+
+
+def job() -> Job | None:
+    """The computation that runs now."""
+    return _job
+
+
+def finish(ended: Job) -> None:
+    """Forget a computation and clear what was shown of it."""
+    global _job
+    if _job is ended:
+        _job = None
+        for workspace in bpy.data.workspaces:
+            workspace.status_text_set(None)
+        redraw()
+
+
+def stop() -> None:
+    """Cancel the computation, if there is one, and wait for its end (at most 0.3 s)."""
+    if _job is not None:
+        _job.stop()
+        finish(_job)
+
+
+def show(context: bpy.types.Context) -> None:
+    """Stage and percentage in the status bar and the panel."""
+    if _job is not None and context.workspace is not None:
+        context.workspace.status_text_set(f"Medial Axis of {_job.text}    Esc: Cancel")
+    redraw()
+
+
+def redraw() -> None:
+    """Draw the sidebars again."""
+    for manager in bpy.data.window_managers:
+        for window in manager.windows:
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    area.tag_redraw()
+
+
+def obstacle() -> str:
+    """Why nothing can be computed now, in one sentence, or an empty string."""
+    if problem := native.problem():
+        return problem
+    if _job is not None:
+        return "A medial axis is being computed; wait for it, or press Esc to cancel it"
+    return ""
+
+
+@persistent
+def _before_load(*_: object) -> None:
+    stop()
+    CACHE.clear()
+
+
+def register() -> None:
+    bpy.app.handlers.load_pre.append(_before_load)
+
+
+def unregister() -> None:
+    bpy.app.handlers.load_pre.remove(_before_load)
+    stop()
+    CACHE.clear()

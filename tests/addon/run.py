@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Installs the add-on's zip into a private Blender profile and runs the tests inside that Blender.
+
+    python3 tests/addon/run.py --zip dist/medial_axis-0.1.0.zip [--blender blender] [pytest arguments]
+    python3 tests/addon/run.py --zip ... --gui [--keep FOLDER]
+
+Without --zip the add-on's sources and compiled modules are packed first. --gui drives Blender's window under
+Xvfb with xdotool; its screenshots and logs are written to the folder that --keep names. The exit code is 0
+when every test passed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ADDON = HERE.parents[1] / "blender_addon"
+PACKAGE = "medial_axis"
+
+
+class Blender:
+    """A Blender with a profile of its own, into which the zip is installed."""
+
+    def __init__(self, program: str, folder: Path) -> None:
+        self.program = program
+        self.environment = {**os.environ, "HOME": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+        for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES", "EXTENSIONS"):
+            path = folder / part.lower()
+            path.mkdir(parents=True, exist_ok=True)
+            self.environment[f"BLENDER_USER_{part}"] = str(path)
+
+    def run(self, *arguments: object, check: bool = True) -> int:
+        command = [self.program, *map(str, arguments)]
+        code = subprocess.run(command, env=self.environment).returncode
+        if check and code != 0:
+            raise SystemExit(f"{' '.join(command)} ended with exit code {code}")
+        return code
+
+    def background(self, *arguments: object, check: bool = True) -> int:
+        quiet = ("--background", "--python-exit-code", "1")
+        return self.run(*quiet, *arguments, check=check)
+
+    def version(self) -> tuple[int, ...]:
+        text = subprocess.run(
+            [self.program, "--version"], env=self.environment, capture_output=True, text=True
+        ).stdout
+        return tuple(int(part) for part in text.split()[1].split(".")[:2])
+
+    def install(self, archive: Path) -> str:
+        """Install and enable the zip; returns the module name that it got."""
+        if self.version() >= (4, 2):
+            self.run("--command", "extension", "install-file", "-r", "user_default", "--enable", archive)
+            return f"bl_ext.user_default.{PACKAGE}"
+        self.background("--python", HERE / "install.py", "--", archive)
+        return PACKAGE
+
+
+def pack(folder: Path) -> Path:
+    """The sources with the compiled modules as an installable zip."""
+    target = folder / f"{PACKAGE}.zip"
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for path in sorted(ADDON.rglob("*")):
+            if path.is_file() and "__pycache__" not in path.parts:
+                archive.write(path, f"{PACKAGE}/{path.relative_to(ADDON).as_posix()}")
+    return target
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--zip", type=Path, help="the add-on; default: packed from the sources")
+    parser.add_argument("--blender", default="blender", help="the Blender to test")
+    parser.add_argument("--gui", action="store_true", help="drive the window instead of background mode")
+    parser.add_argument("--keep", type=Path, help="where --gui leaves its screenshots and logs")
+    arguments, pytest_arguments = parser.parse_known_args()
+    with tempfile.TemporaryDirectory(prefix="medial_axis_test_") as folder:
+        blender = Blender(arguments.blender, Path(folder) / "profile")
+        archive = (arguments.zip or pack(Path(folder))).resolve()
+        module = blender.install(archive)
+        blender.environment["MEDIAL_AXIS_MODULE"] = module
+        if arguments.gui:
+            sys.path.insert(0, str(HERE / "gui"))
+            import drive
+
+            return drive.run_all(blender, arguments.keep or Path(folder) / "gui", pytest_arguments)
+        return blender.background(
+            "--factory-startup", "--python", HERE / "inside.py", "--", *pytest_arguments, check=False
+        )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
