@@ -1,18 +1,8 @@
 """Tests of the installed add-on inside Blender; start them with run.py."""
 
-import importlib
-import os
-
 import bpy
-import numpy as np
 import pytest
-
-MODULE = os.environ["MEDIAL_AXIS_MODULE"]
-
-
-def addon(path=""):
-    """A module of the installed add-on, such as addon('core.analysis')."""
-    return importlib.import_module(f"{MODULE}.{path}" if path else MODULE)
+from scene import addon
 
 
 @pytest.fixture(autouse=True)
@@ -20,77 +10,3 @@ def empty_scene():
     """Every test starts with nothing: no objects, no kept analyses, paper defaults."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     addon("core.analysis").CACHE.clear()
-    yield
-
-
-def link(name, vertices, faces=(), edges=()):
-    """A new mesh object, selected and active."""
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([tuple(map(float, v)) for v in vertices], edges, [tuple(map(int, f)) for f in faces])
-    mesh.update()
-    thing = bpy.data.objects.new(name, mesh)
-    bpy.context.scene.collection.objects.link(thing)
-    select(thing)
-    return thing
-
-
-def select(*things):
-    """Select these objects and nothing else; the first is active."""
-    for other in bpy.context.view_layer.objects:
-        other.select_set(other in things)
-    bpy.context.view_layer.objects.active = things[0] if things else None
-
-
-def suzanne(levels=1):
-    """A monkey under a Subdivision Surface modifier: 507 points of the mesh, 1,966 after one level."""
-    bpy.ops.mesh.primitive_monkey_add()
-    thing = bpy.context.object
-    if levels:
-        thing.modifiers.new("Subdivision", "SUBSURF").levels = levels
-    return thing
-
-
-def ellipsoid(name="Ellipsoid", axes=(1.0, 0.7, 0.5), segments=3):
-    """A closed mesh without symmetry to speak of."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=segments)
-    thing = bpy.context.object
-    thing.name = name
-    points = positions(thing.data) * axes
-    points += np.random.default_rng(7).normal(scale=1e-3, size=points.shape)
-    thing.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    thing.data.update()
-    return thing
-
-
-def positions(mesh):
-    """(n, 3) the vertices of a mesh."""
-    values = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", values)
-    return values.reshape(-1, 3).astype(np.float64)
-
-
-def world_positions(thing):
-    """(n, 3) the vertices of an object in the world."""
-    bpy.context.view_layer.update()
-    matrix = np.array(thing.matrix_world)
-    return positions(thing.data) @ matrix[:3, :3].T + matrix[:3, 3]
-
-
-def attribute(mesh, name):
-    """The values of an attribute, (n,) or (n, 2)."""
-    found = mesh.attributes[name]
-    width = 2 if found.data_type == "INT32_2D" else 1
-    dtype = np.float32 if found.data_type == "FLOAT" else np.int32
-    values = np.empty(width * len(found.data), dtype)
-    found.data.foreach_get("value", values)
-    return values.reshape(-1, 2) if width == 2 else values
-
-
-def result_of(source):
-    """The result object of a source, or None."""
-    return addon("bridge.results").result_of(source)
-
-
-def analyses():
-    """How many analyses were computed since Blender started."""
-    return addon("core.analysis").CACHE.analyses

@@ -1,0 +1,134 @@
+"""Scenes and measuring sticks for the tests inside Blender."""
+
+import ctypes
+import importlib
+import os
+import re
+
+import bpy
+import numpy as np
+
+MODULE = os.environ["MEDIAL_AXIS_MODULE"]
+
+
+def addon(path=""):
+    """A module of the installed add-on, such as addon('core.analysis')."""
+    return importlib.import_module(f"{MODULE}.{path}" if path else MODULE)
+
+
+def link(name, vertices, faces=(), edges=()):
+    """A new mesh object, selected and active."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([tuple(map(float, v)) for v in vertices], edges, [tuple(map(int, f)) for f in faces])
+    mesh.update()
+    thing = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(thing)
+    select(thing)
+    return thing
+
+
+def select(*things):
+    """Select these objects and nothing else; the first is active."""
+    bpy.context.view_layer.update()
+    for other in bpy.context.view_layer.objects:
+        other.select_set(other in things)
+    bpy.context.view_layer.objects.active = things[0] if things else None
+
+
+def suzanne(levels=1):
+    """A monkey under a Subdivision Surface modifier: 507 points, 2,012 after one level."""
+    bpy.ops.mesh.primitive_monkey_add()
+    thing = bpy.context.object
+    if levels:
+        thing.modifiers.new("Subdivision", "SUBSURF").levels = levels
+    return thing
+
+
+def ellipsoid(name="Ellipsoid", axes=(1.0, 0.7, 0.5), segments=3):
+    """A closed mesh without symmetry to speak of."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=segments)
+    thing = bpy.context.object
+    thing.name = name
+    points = positions(thing.data) * axes
+    points += np.random.default_rng(7).normal(scale=1e-3, size=points.shape)
+    thing.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    thing.data.update()
+    return thing
+
+
+def torus(name="Torus"):
+    """A closed mesh with inner and outer axis, and facets near every threshold."""
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=48, minor_segments=24, major_radius=1.0, minor_radius=0.4
+    )
+    thing = bpy.context.object
+    thing.name = name
+    points = positions(thing.data)
+    points += np.random.default_rng(7).normal(scale=5e-3, size=points.shape)
+    thing.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    thing.data.update()
+    return thing
+
+
+def positions(mesh):
+    """(n, 3) the vertices of a mesh."""
+    values = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", values)
+    return values.reshape(-1, 3).astype(np.float64)
+
+
+def world_positions(thing):
+    """(n, 3) the vertices of an object in the world."""
+    bpy.context.view_layer.update()
+    matrix = np.array(thing.matrix_world)
+    return positions(thing.data) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def attribute(mesh, name):
+    """The values of an attribute, (n,) or (n, 2)."""
+    found = mesh.attributes[name]
+    width = 2 if found.data_type == "INT32_2D" else 1
+    dtype = np.float32 if found.data_type == "FLOAT" else np.int32
+    values = np.empty(width * len(found.data), dtype)
+    found.data.foreach_get("value", values)
+    return values.reshape(-1, 2) if width == 2 else values
+
+
+def result_of(source):
+    """The result object of a source, or None."""
+    return addon("bridge.results").result_of(source)
+
+
+def analyses():
+    """How many analyses were computed since Blender started."""
+    return addon("core.analysis").CACHE.analyses
+
+
+def compute(**settings):
+    """Run the operator on the selection; it must succeed."""
+    assert bpy.ops.object.medial_axis(**settings) == {"FINISHED"}
+
+
+def direct(points, triangles=None, sphere=False, **settings):
+    """The compiled module's answer without the add-on: a MedialMesh."""
+    module = addon("core.native").load()
+    return module.MedialAnalysis(points, triangles, bounding_sphere=sphere).extract(**settings)
+
+
+def triangles_of(mesh):
+    """(m, 3) the loop triangles of a mesh."""
+    mesh.calc_loop_triangles()
+    values = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", values)
+    return values.reshape(-1, 3)
+
+
+def reports(capfd):
+    """What operators reported since the last call: [('Info', text), ...]."""
+    ctypes.CDLL(None).fflush(None)
+    return re.findall(r"^(Info|Warning|Error): (.*)$", capfd.readouterr().out, re.MULTILINE)
+
+
+def medial_objects():
+    """All result objects in the file."""
+    return [thing for thing in bpy.data.objects if addon("bridge.results").is_result(thing)]

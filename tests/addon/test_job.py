@@ -1,0 +1,162 @@
+"""The thread that computes: watched, cancelled, and never left behind."""
+
+import threading
+import time
+
+import bpy
+import numpy as np
+import pytest
+from scene import MODULE, addon, analyses, compute, ellipsoid, medial_objects, result_of, select
+
+
+def task(count=60_000, name="Cloud"):
+    """A task of about a second."""
+    points = np.random.default_rng(9).normal(size=(count, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    points *= (1.0, 0.8, 0.6)
+    return addon("core.job").Task(name, points, np.zeros((0, 3), np.int32), addon("core.settings").Settings())
+
+
+def threads():
+    return [thread for thread in threading.enumerate() if thread.name == "medial axis"]
+
+
+def wait(job, seconds=120):
+    end = time.monotonic() + seconds
+    while not job.done and time.monotonic() < end:
+        time.sleep(0.01)
+    assert job.done
+
+
+def test_job_reports_stages_and_a_fraction_that_never_falls():
+    job = addon("core.job").Job([task(name="One"), task(20_000, name="Two")])
+    seen = []
+    while not job.done:
+        seen.append((job.fraction, job.text))
+        time.sleep(0.002)
+    fractions = [fraction for fraction, _ in seen]
+    assert fractions == sorted(fractions) and 0 <= fractions[0] and fractions[-1] <= 1
+    texts = {text.split(",")[0] for _, text in seen}
+    assert any(text.startswith("One (1 of 2): ") for text in texts)
+    assert any(text.startswith("Two (2 of 2): ") for text in texts)
+    assert len(texts) > 3, texts
+    assert [outcome.computation.points for outcome in job.outcomes()] == [60_000, 20_000]
+    assert threads() == []
+
+
+def test_job_gives_what_the_script_way_gives():
+    one = task(3_000)
+    job = addon("core.job").Job([one])
+    mine = job.outcomes()[0].computation.axis
+    addon("core.analysis").CACHE.clear()
+    other = addon("core.job").run_task(one).computation.axis
+    for name in ("vertices", "radius", "face_offsets", "face_vertices", "theta", "rho", "side", "generators"):
+        assert getattr(mine, name).tobytes() == getattr(other, name).tobytes()
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.05, 0.2, 0.5])
+def test_cancel_ends_the_job_soon_and_keeps_nothing(delay):
+    before = analyses()
+    job = addon("core.job").Job([task(300_000)])
+    time.sleep(delay)
+    assert not job.done
+    start = time.monotonic()
+    job.cancel()
+    wait(job)
+    assert time.monotonic() - start < 1.0  # 0.3 s on a quiet machine
+    with pytest.raises(addon("core.errors").Cancelled):
+        job.outcomes()
+    assert analyses() == before and threads() == []
+
+
+def test_an_error_belongs_to_its_task():
+    flat = addon("core.job").Task("Flat", np.zeros((9, 3)), np.zeros((0, 3), np.int32), task(9).settings)
+    bad, good = addon("core.job").Job([flat, task(1000)]).outcomes()
+    assert isinstance(bad.error, addon("core.errors").DegenerateInputError) and bad.computation is None
+    assert good.error is None and good.computation.axis.facets > 0
+
+
+def test_an_unforeseen_failure_is_raised_where_the_outcomes_are_asked_for():
+    wrong = addon("core.job").Task("Wrong", None, None, None)
+    with pytest.raises(TypeError):
+        addon("core.job").Job([wrong]).outcomes()
+
+
+def test_second_run_is_refused_while_one_runs():
+    ellipsoid()
+    running = addon("ui.running")
+    job = running.start([task(300_000)])
+    with pytest.raises(RuntimeError, match="A medial axis is being computed"):
+        bpy.ops.object.medial_axis()
+    assert bpy.context.window_manager.medial_axis_progress.percentage >= 0
+    bpy.ops.object.medial_axis_cancel()
+    wait(job)
+    running.stop()
+    compute()
+    with pytest.raises(RuntimeError, match="No medial axis is being computed"):
+        bpy.ops.object.medial_axis_cancel()
+
+
+def test_sliders_rest_while_a_job_runs():
+    source = ellipsoid()
+    compute()
+    count = len(result_of(source).data.polygons)
+    addon("ui.running").start([task(300_000)])
+    bpy.context.scene.medial_axis.theta = 1.2
+    assert len(result_of(source).data.polygons) == count
+    addon("ui.running").stop()
+
+
+def test_loading_a_file_stops_the_job_and_forgets_analyses():
+    ellipsoid()
+    compute()
+    assert len(addon("core.analysis").CACHE) == 1
+    addon("ui.running").start([task(300_000)])
+    assert threads()
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    assert threads() == [] and addon("ui.running").job() is None
+    assert len(addon("core.analysis").CACHE) == 0 and medial_objects() == []
+
+
+def test_disabling_the_addon_stops_the_job():
+    addon("ui.running").start([task(300_000)])
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    assert threads() == []
+    bpy.ops.preferences.addon_enable(module=MODULE)
+
+
+def test_source_deleted_before_the_result_is_written(capfd):
+    source = ellipsoid()
+    operators = addon("ui.operators")
+    found = operators.Source(source.name, getattr(source, "session_uid", None), None)
+    assert found.find() == source
+    bpy.data.objects.remove(source)
+    assert found.find() is None
+
+
+def test_messages_of_a_missing_compiled_module(monkeypatch, tmp_path):
+    native = addon("core.native")
+    expected = native.expected_abi()
+    (tmp_path / "_medial.cpython-399-x86_64-linux-gnu.so").write_bytes(b"")
+    monkeypatch.setattr(native, "_module", None)
+    monkeypatch.setattr(native, "LIB", tmp_path)
+    sentence = f"Expected the compiled module for {expected}, found cpython-399-x86_64-linux-gnu; install"
+    with pytest.raises(addon("core.errors").NativeModuleError, match=sentence):
+        native.load()
+    select(ellipsoid())
+    with pytest.raises(RuntimeError, match=sentence):
+        bpy.ops.object.medial_axis()
+    monkeypatch.setattr(native, "LIB", tmp_path / "nowhere")
+    assert "found none" in native.problem()
+
+
+def test_message_of_a_compiled_module_that_does_not_load(monkeypatch, tmp_path):
+    native = addon("core.native")
+    monkeypatch.setattr(native, "_module", None)
+    monkeypatch.setattr(native, "_failure", "")
+    monkeypatch.setattr(native, "NAME", "_absent")
+    monkeypatch.setattr(native, "LIB", tmp_path)
+    (tmp_path / f"_absent.{native.expected_abi()}.so").write_bytes(b"not a library")
+    with pytest.raises(addon("core.errors").NativeModuleError, match="Expected .* that loads, but the system says"):
+        native.load()
+    assert "that loads" in native.problem(), "the panel must not try again at every draw"

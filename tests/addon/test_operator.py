@@ -1,0 +1,454 @@
+"""Compute Medial Axis on real objects: what is made, where it lies, what it is called, what stays as it was."""
+
+import bpy
+import numpy as np
+import pytest
+from scene import (
+    addon,
+    analyses,
+    attribute,
+    compute,
+    direct,
+    ellipsoid,
+    link,
+    medial_objects,
+    positions,
+    reports,
+    result_of,
+    select,
+    suzanne,
+    torus,
+    triangles_of,
+    world_positions,
+)
+
+
+def evaluated_points(source):
+    evaluated = source.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    points = positions(evaluated.to_mesh())
+    evaluated.to_mesh_clear()
+    return points
+
+
+def snapshot(thing):
+    """Everything of an object that a computation must not touch."""
+    mesh = thing.data
+    return (
+        thing.name,
+        mesh.name,
+        positions(mesh).tobytes(),
+        triangles_of(mesh).tobytes(),
+        [(m.name, m.type, m.show_viewport, getattr(m, "levels", None)) for m in thing.modifiers],
+        [list(row) for row in thing.matrix_world],
+        thing.parent,
+        thing.hide_get(),
+        thing.display_type,
+        [c.name for c in thing.users_collection],
+        dict(thing.items()),
+        [slot.name for slot in thing.material_slots],
+        [a.name for a in mesh.attributes],
+    )
+
+
+def assert_holds(thing, axis):
+    """The result object holds these arrays, rounded to float32 and not otherwise."""
+    mesh = thing.data
+    np.testing.assert_array_equal(positions(mesh), axis.vertices.astype(np.float32))
+    np.testing.assert_array_equal(attribute(mesh, "ma_radius"), axis.radius.astype(np.float32))
+    np.testing.assert_array_equal(attribute(mesh, "ma_theta"), axis.theta.astype(np.float32))
+    np.testing.assert_array_equal(attribute(mesh, "ma_rho"), axis.rho.astype(np.float32))
+    np.testing.assert_array_equal(attribute(mesh, "ma_side"), axis.side)
+    if "ma_generators" in mesh.attributes:
+        pairs = attribute(mesh, "ma_generators")
+    else:
+        pairs = np.column_stack([attribute(mesh, f"ma_generator_{end}") for end in "ab"])
+    np.testing.assert_array_equal(pairs, axis.generators)
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    starts = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    np.testing.assert_array_equal(corners, axis.face_vertices)
+    np.testing.assert_array_equal(starts, axis.face_offsets[:-1])
+
+
+def test_subdivided_suzanne():
+    source = suzanne(levels=1)
+    collection = bpy.data.collections.new("Animals")
+    bpy.context.scene.collection.children.link(collection)
+    for other in source.users_collection:
+        other.objects.unlink(source)
+    collection.objects.link(source)
+    select(source)
+    before = snapshot(source)
+    points = evaluated_points(source)
+    compute()
+    result = result_of(source)
+    assert result.name == "Suzanne Medial Axis"
+    assert list(result.users_collection) == [collection]
+    assert snapshot(source) == before
+    assert len(medial_objects()) == 1
+    mesh = result.data
+    assert mesh.validate() is False
+    assert not any(polygon.use_smooth for polygon in mesh.polygons)
+    assert [m.name for m in mesh.materials] == ["Medial Axis Radius"]
+    assert result["ma_points"] == len(points) == 2012
+    radius = attribute(mesh, "ma_radius")
+    assert np.isfinite(positions(mesh)).all() and (radius > 0).all()
+    some = np.random.default_rng(1).choice(len(radius), 300)
+    nearest = np.linalg.norm(positions(mesh)[some, None] - points, axis=2).min(axis=1)
+    np.testing.assert_allclose(radius[some], nearest, rtol=1e-4, atol=1e-5)
+
+
+def test_result_is_the_compiled_modules_answer():
+    source = ellipsoid()
+    compute()
+    points, triangles = positions(source.data), triangles_of(source.data)
+    module = addon("core.native").load()
+    assert result_of(source)["ma_side"] == "INNER"
+    assert_holds(result_of(source), direct(points, triangles, side=module.Side.INNER))
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"theta": 0.9},
+        {"rho": 3.0},
+        {"side": "OUTER"},
+        {"side": "BOTH"},
+        {"rule": "BOTH"},
+        {"criteria": "ANGLE", "theta": 1.2},
+        {"criteria": "RATIO"},
+        {"limit_set": True, "rho": 1.5},
+    ],
+    ids=str,
+)
+def test_every_setting_reaches_the_compiled_module(settings):
+    source = torus()
+    compute(**settings)
+    module = addon("core.native").load()
+    enums = {"side": module.Side, "rule": module.Rule, "criteria": module.Criteria}
+    wanted = {"side": module.Side.INNER}
+    for name, value in settings.items():
+        wanted[name] = getattr(enums[name], value) if name in enums else value
+    for name in ("theta", "rho"):
+        if name in wanted:
+            wanted[name] = float(np.float32(wanted[name]))
+    sphere = settings.get("side", "INNER") != "INNER"
+    points, triangles = positions(source.data), triangles_of(source.data)
+    axis = direct(points, triangles, sphere, **wanted)
+    assert_holds(result_of(source), axis)
+    for name in settings:
+        others = {key: value for key, value in wanted.items() if key != name or name == "side"}
+        others["side"] = module.Side.INNER if name == "side" else others["side"]
+        without = direct(points, triangles, sphere, **others)
+        assert len(axis.theta) != len(without.theta), f"{name} changed nothing, so nothing was tested"
+    for name, value in settings.items():
+        assert result_of(source)[f"ma_{name}"] == pytest.approx(value)
+
+
+def test_vertex_only_mesh_gives_both_sides():
+    points = np.random.default_rng(2).normal(size=(300, 3)).astype(np.float32)
+    source = link("Cloud", points)
+    compute()
+    result = result_of(source)
+    assert result["ma_side"] == "BOTH"
+    assert set(attribute(result.data, "ma_side")) == {0}
+    assert_holds(result, direct(points.astype(float), None, True))
+
+
+def test_loose_vertices_are_samples_too():
+    source = ellipsoid()
+    count = len(source.data.vertices)
+    source.data.vertices.add(1)
+    source.data.vertices[count].co = (0.1, 0.05, 0.02)
+    source.data.update()
+    compute()
+    result = result_of(source)
+    assert result["ma_points"] == count + 1
+    pairs = attribute(result.data, "ma_generator_b" if "ma_generator_b" in result.data.attributes else "ma_generators")
+    assert count in pairs
+
+
+def test_modifiers_are_applied_as_the_viewport_shows_them():
+    source = ellipsoid(segments=2)
+    count = len(source.data.vertices)
+    source.modifiers.new("Array", "ARRAY").relative_offset_displace = (2, 0, 0)
+    compute()
+    assert result_of(source)["ma_points"] == 2 * count
+    source.modifiers["Array"].show_viewport = False
+    select(source)
+    compute()
+    assert result_of(source)["ma_points"] == count
+
+
+def test_several_selected_objects_give_one_result_each(capfd):
+    first, second = ellipsoid("First"), ellipsoid("Second", axes=(1, 1, 0.4))
+    select(first, second)
+    compute()
+    assert {thing.name for thing in medial_objects()} == {"First Medial Axis", "Second Medial Axis"}
+    assert set(bpy.context.selected_objects) == {result_of(first), result_of(second)}
+    assert bpy.context.object == result_of(first)
+    infos = [text for kind, text in reports(capfd) if kind == "Info" and "points" in text]
+    assert len(infos) == 2
+    assert "162 points" in infos[0] and "facets" in infos[0] and "duplicates merged 0" in infos[0]
+    assert "unbounded facets" in infos[0] and " s," in infos[0]
+
+
+def test_one_bad_object_does_not_take_the_others_down():
+    good, flat = ellipsoid("Good"), link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)])
+    select(good, flat)
+    with pytest.raises(RuntimeError, match="'Flat': "):
+        bpy.ops.object.medial_axis()
+    assert [thing.name for thing in medial_objects()] == ["Good Medial Axis"]
+
+
+def test_objects_that_are_no_meshes_are_passed_over():
+    source = ellipsoid()
+    bpy.ops.object.camera_add()
+    select(bpy.context.object, source)
+    compute()
+    assert len(medial_objects()) == 1
+
+
+def test_running_again_updates_the_same_object():
+    source = ellipsoid()
+    compute()
+    result = result_of(source)
+    result.data.name = "My Axis"
+    first = len(result.data.polygons)
+    meshes = len(bpy.data.meshes)
+    select(source)
+    compute(theta=1.0, rho=20.0)
+    assert result_of(source) == result and len(medial_objects()) == 1
+    assert 0 < len(result.data.polygons) < first
+    assert result.data.name == "My Axis" and len(bpy.data.meshes) == meshes
+    assert result["ma_theta"] == pytest.approx(1.0)
+
+
+def test_renamed_source_and_result_are_found_again():
+    source = ellipsoid()
+    compute()
+    result = result_of(source)
+    source.name, result.name = "Pebble", "Bone"
+    select(source)
+    compute(theta=1.0)
+    assert medial_objects() == [result] and result.name == "Bone"
+
+
+def test_selected_result_is_computed_from_its_source():
+    source = ellipsoid()
+    compute()
+    result = result_of(source)
+    assert bpy.context.selected_objects == [result]
+    compute(theta=1.0)
+    assert medial_objects() == [result] and result["ma_theta"] == pytest.approx(1.0)
+    assert result["ma_points"] == len(source.data.vertices)
+
+
+def test_result_whose_source_is_deleted_says_so():
+    source = ellipsoid()
+    compute()
+    result = result_of(source)
+    bpy.data.objects.remove(source)
+    select(result)
+    with pytest.raises(RuntimeError, match="source is gone"):
+        bpy.ops.object.medial_axis()
+
+
+def test_source_deleted_by_the_user_is_gone_although_its_result_points_to_it():
+    source = ellipsoid()
+    compute()
+    result = result_of(source)
+    select(source)
+    bpy.ops.object.delete()
+    select(result)
+    with pytest.raises(RuntimeError, match="source is gone"):
+        bpy.ops.object.medial_axis()
+
+
+def test_moved_and_changed_result_is_put_back_and_keeps_the_artists_choices():
+    source = ellipsoid()
+    compute()
+    result = result_of(source)
+    lies = world_positions(result)
+    own = bpy.data.materials.new("Own")
+    result.data.materials[0] = own
+    result.location, result.show_in_front = (5, 5, 5), False
+    copy = bpy.data.objects.new("Linked Duplicate", result.data)
+    bpy.context.scene.collection.objects.link(copy)
+    select(source)
+    compute(criteria="ANGLE")
+    assert list(result.data.materials) == [own] and not result.show_in_front
+    assert copy.data == result.data
+    bpy.context.view_layer.update()
+    assert result.matrix_world.translation.length == 0
+    assert len(lies) > 0
+
+
+def test_material_is_made_once_and_spans_each_objects_own_radii():
+    first, second = ellipsoid("First"), ellipsoid("Second", axes=(3, 2, 2))
+    select(first, second)
+    compute()
+    materials = [m for m in bpy.data.materials if m.name.startswith("Medial Axis")]
+    assert len(materials) == 1
+    for source in (first, second):
+        radius = attribute(result_of(source).data, "ma_radius")
+        assert result_of(source)["ma_radius_min"] == pytest.approx(radius.min(), rel=1e-6)
+        assert result_of(source)["ma_radius_max"] == pytest.approx(radius.max(), rel=1e-6)
+
+
+def pixels_of(result, folder):
+    """The result rendered from above with light that shows base colours only: (n, 3)."""
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising = 4, False
+    scene.view_settings.view_transform = "Raw"
+    scene.render.resolution_x = scene.render.resolution_y = 48
+    scene.render.film_transparent = True
+    scene.world = bpy.data.worlds.new("White")
+    scene.world.color = (1, 1, 1)
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.data.type, camera.data.ortho_scale = "ORTHO", 2.5 * max(result.dimensions)
+    camera.location = result.matrix_world.translation
+    camera.location.z += 10
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.filepath = str(folder / "render.png")
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(scene.render.filepath)
+    values = np.array(image.pixels[:]).reshape(-1, 4)
+    return values[values[:, 3] > 0.9, :3]
+
+
+def test_material_renders_the_whole_ramp_from_thin_to_thick(tmp_path):
+    source = ellipsoid(axes=(1.0, 0.7, 0.3))
+    compute()
+    source.hide_render = True
+    bpy.context.view_layer.update()
+    colours = pixels_of(result_of(source), tmp_path)
+    assert len(colours) > 20
+    red_minus_blue = colours[:, 0] - colours[:, 2]
+    assert red_minus_blue.max() - red_minus_blue.min() > 0.2, "one colour: the radius does not reach the shader"
+
+
+def test_theta_and_rho_are_filtered_from_the_kept_analysis():
+    source = torus()
+    compute()
+    before = analyses()
+    panel = bpy.context.scene.medial_axis
+    counts = {}
+    for theta in (0.2, 0.6, 1.2):
+        panel.theta = theta
+        counts[theta] = len(result_of(source).data.polygons)
+        assert result_of(source)["ma_theta"] == pytest.approx(theta)
+    assert counts[0.2] >= counts[0.6] >= counts[1.2] > 0 and counts[0.2] > counts[1.2]
+    panel.rho = 40.0
+    assert len(result_of(source).data.polygons) < counts[1.2]
+    select(source)
+    compute(theta=0.2)
+    assert len(result_of(source).data.polygons) == counts[0.2]
+    assert analyses() == before
+    module = addon("core.native").load()
+    points, triangles = positions(source.data), triangles_of(source.data)
+    theta = float(np.float32(0.2))
+    assert_holds(result_of(source), direct(points, triangles, side=module.Side.INNER, theta=theta))
+
+
+def test_sliders_act_on_the_source_too_and_leave_placement_alone():
+    source = ellipsoid()
+    compute()
+    result = result_of(source)
+    result.location = (3, 0, 0)
+    select(source)
+    bpy.context.scene.medial_axis.criteria = "ANGLE"
+    assert result["ma_criteria"] == "ANGLE" and tuple(result.location) == (3, 0, 0)
+
+
+def test_slider_that_leaves_nothing_leaves_the_result_as_it_was():
+    source = torus()
+    compute()
+    count = len(result_of(source).data.polygons)
+    panel = bpy.context.scene.medial_axis
+    panel.criteria = "RATIO"
+    kept = len(result_of(source).data.polygons)
+    panel.rho = 1e9
+    assert len(result_of(source).data.polygons) == kept <= count
+    assert "No facet" in panel.note
+    panel.rho = 8.0
+    assert panel.note == ""
+
+
+def test_slider_without_kept_analysis_asks_for_compute():
+    source = ellipsoid()
+    compute()
+    addon("core.analysis").CACHE.clear()
+    count = len(result_of(source).data.polygons)
+    bpy.context.scene.medial_axis.theta = 1.2
+    assert len(result_of(source).data.polygons) == count
+    assert "Press Compute Medial Axis" in bpy.context.scene.medial_axis.note
+
+
+def test_changed_mesh_is_analysed_again():
+    source = ellipsoid()
+    compute()
+    before = analyses()
+    source.data.vertices[0].co *= 1.01
+    source.data.update()
+    select(source)
+    compute()
+    assert analyses() == before + 1
+
+
+def test_kept_analyses_are_bounded():
+    cache = addon("core.analysis").AnalysisCache(entries=2, points=100)
+    for key, points in (("a", 40), ("b", 40), ("c", 40)):
+        cache.put(key, key, points)
+    assert cache.get("a") is None and cache.get("b") == "b" and cache.get("c") == "c"
+    cache.put("d", "d", 1000)
+    assert len(cache) == 1 and cache.get("d") == "d"
+
+
+def test_edit_mode_is_flushed_not_refused():
+    source = ellipsoid()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.transform.resize(value=(2, 2, 2))
+    compute()
+    assert source.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    points = positions(source.data)
+    assert np.abs(points).max() == pytest.approx(2.0, rel=0.01)
+    module = addon("core.native").load()
+    assert_holds(result_of(source), direct(points, triangles_of(source.data), side=module.Side.INNER))
+
+
+def test_edit_mode_sees_modifiers():
+    source = ellipsoid(segments=2)
+    source.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    bpy.ops.object.mode_set(mode="EDIT")
+    compute()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert result_of(source)["ma_points"] == len(evaluated_points(source)) > len(source.data.vertices)
+
+
+def test_result_in_edit_mode_is_refused():
+    source = ellipsoid()
+    compute()
+    result = result_of(source)
+    count = len(result.data.polygons)
+    bpy.ops.object.mode_set(mode="EDIT")
+    with pytest.raises(RuntimeError, match="in object mode, found it in edit mode"):
+        bpy.ops.object.medial_axis(theta=1.2)
+    bpy.context.scene.medial_axis.theta = 1.2
+    assert "object mode" in bpy.context.scene.medial_axis.note
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(result.data.polygons) == count
+
+
+def test_object_in_two_collections():
+    source = ellipsoid()
+    other = bpy.data.collections.new("Other")
+    bpy.context.scene.collection.children.link(other)
+    other.objects.link(source)
+    compute()
+    assert set(result_of(source).users_collection) == set(source.users_collection)

@@ -1,0 +1,129 @@
+"""The add-on comes and goes without a trace, and every option reaches the user as core.settings states it."""
+
+import ast
+import math
+import sys
+from pathlib import Path
+
+import bpy
+import pytest
+from scene import MODULE, addon, compute, ellipsoid, link, result_of
+
+OPTIONS = ("theta", "rho", "side", "rule", "criteria", "limit_set")
+
+
+def menu_texts(menu):
+    return [function.__module__ for function in menu._dyn_ui_initialize()]
+
+
+def present():
+    return {
+        "operator": hasattr(bpy.types, "OBJECT_OT_medial_axis"),
+        "cancel": hasattr(bpy.types, "OBJECT_OT_medial_axis_cancel"),
+        "export": hasattr(bpy.types, "EXPORT_SCENE_OT_medial_axis"),
+        "panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis"),
+        "settings": hasattr(bpy.types.Scene, "medial_axis"),
+        "progress": hasattr(bpy.types.WindowManager, "medial_axis_progress"),
+        "object menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object),
+        "context menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object_context_menu),
+        "export menu": f"{MODULE}.ui.export" in menu_texts(bpy.types.TOPBAR_MT_file_export),
+        "handler": any(h.__module__.startswith(MODULE) for h in bpy.app.handlers.load_pre),
+    }
+
+
+def test_everything_is_registered():
+    assert all(present().values()), present()
+
+
+def test_disable_removes_everything_and_enable_brings_it_back():
+    for _ in range(2):
+        bpy.ops.preferences.addon_disable(module=MODULE)
+        assert not any(present().values()), present()
+        assert not [name for name in sys.modules if name.startswith(f"{MODULE}.") and ".lib" not in name]
+        bpy.ops.preferences.addon_enable(module=MODULE)
+        assert all(present().values()), present()
+    source = ellipsoid()
+    compute()
+    assert result_of(source) is not None
+
+
+def test_registration_leaves_the_file_alone():
+    link("Something", [(0, 0, 0)])
+    kinds = ("objects", "meshes", "materials", "collections", "node_groups")
+    before = {kind: [thing.name for thing in getattr(bpy.data, kind)] for kind in kinds}
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    bpy.ops.preferences.addon_enable(module=MODULE)
+    assert {kind: [thing.name for thing in getattr(bpy.data, kind)] for kind in kinds} == before
+
+
+def test_importing_needs_no_blender():
+    source = Path(addon().__file__).read_text(encoding="utf-8")
+    top = [node for node in ast.parse(source).body if isinstance(node, (ast.Import, ast.ImportFrom))]
+    assert top == []
+
+
+def test_one_version():
+    manifest = (Path(addon().__file__).parent / "blender_manifest.toml").read_text(encoding="utf-8")
+    assert f'version = "{addon().__version__}"' in manifest
+    assert addon("core.native").load().__version__ == addon().__version__
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_options_of_operator_and_panel_come_from_settings(name):
+    option = addon("core.settings").OPTIONS[name]
+    for owner in (bpy.ops.object.medial_axis.get_rna_type(), bpy.context.scene.medial_axis.bl_rna):
+        shown = owner.properties[name]
+        assert (shown.name, shown.description) == (option.label, option.description)
+        if shown.type == "ENUM":
+            assert shown.default == option.default.name
+            assert [(i.identifier, i.name) for i in shown.enum_items] == [
+                (member.name, label) for member, (label, _) in option.items.items()
+            ]
+        elif shown.type == "FLOAT":
+            assert shown.default == pytest.approx(option.default, rel=1e-7)
+            assert shown.hard_min == option.minimum
+            if math.isfinite(option.maximum):
+                assert shown.hard_max == pytest.approx(option.maximum, rel=1e-7)
+            assert shown.soft_max == pytest.approx(option.soft_maximum, rel=1e-7)
+            assert (shown.subtype == "ANGLE") == (option.unit == "rad")
+        else:
+            assert shown.default == option.default
+
+
+def test_all_options_are_tested_here():
+    assert tuple(addon("core.settings").OPTIONS) == OPTIONS
+    assert tuple(addon("core.settings").Settings.__dataclass_fields__) == OPTIONS
+
+
+def test_defaults_are_those_of_the_compiled_module():
+    settings = addon("core.settings")
+    module = addon("core.native").load()
+    default = settings.Settings()
+    signature = module.MedialAnalysis.extract.__doc__.splitlines()[0]
+    assert f"theta: float = {default.theta!r}," in signature
+    assert f"rho: float = {default.rho!r}," in signature
+    assert f"Rule.{default.rule.name}:" in signature
+    assert f"Criteria.{default.criteria.name}:" in signature
+    assert f"limit_set: bool = {default.limit_set}," in signature
+    for enum in (settings.Rule, settings.Criteria):
+        assert {member.name for member in enum} == set(getattr(module, enum.__name__).__members__)
+    for side in set(settings.Side) - {settings.Side.AUTOMATIC}:
+        assert side.name in module.Side.__members__
+
+
+def test_rounded_limits_and_defaults_mean_the_exact_numbers():
+    exact = addon("ui.properties")._exact
+    theta = addon("core.settings").OPTIONS["theta"]
+    panel = bpy.context.scene.medial_axis
+    assert panel.theta != theta.default
+    assert exact(theta, panel.theta) == math.pi / 8
+    panel.theta = math.pi / 2
+    assert panel.theta > math.pi / 2
+    assert exact(theta, panel.theta) == math.pi / 2
+    assert exact(theta, 0.5) == 0.5
+
+
+@pytest.mark.parametrize("values", [{"theta": -0.1}, {"theta": 1.6}, {"rho": -1.0}, {"rho": math.nan}])
+def test_settings_out_of_range_are_refused(values):
+    with pytest.raises(addon("core.errors").InvalidInputError, match="Expected (theta|rho) .*, found"):
+        addon("core.settings").Settings(**values)

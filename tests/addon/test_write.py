@@ -1,0 +1,95 @@
+"""Writing a mesh: fast, exact in float32, and all or nothing."""
+
+import time
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, attribute, positions
+
+
+def honeycomb(rows, columns):
+    """A MedialAxis of rows x columns hexagons that share their vertices."""
+    width = 2 * columns + 2
+    first = (np.arange(rows)[:, None] * width + 2 * np.arange(columns)).ravel()
+    corners = first[:, None] + np.array([0, 1, 2, width + 2, width + 1, width])
+    count, facets = (rows + 1) * width + 2, rows * columns
+    random = np.random.default_rng(0)
+    return addon("core.analysis").MedialAxis(
+        vertices=random.normal(size=(count, 3)),
+        radius=random.random(count),
+        face_offsets=np.arange(0, 6 * facets + 1, 6, dtype=np.int32),
+        face_vertices=corners.astype(np.int32).ravel(),
+        theta=random.random(facets),
+        rho=random.random(facets) * 50,
+        side=random.integers(0, 4, facets).astype(np.int32),
+        generators=random.integers(0, 99, (facets, 2)).astype(np.int32),
+        unbounded=0,
+        zero_area=0,
+    )
+
+
+def changed(axis, **fields):
+    return type(axis)(**{**{name: getattr(axis, name) for name in axis.__dataclass_fields__}, **fields})
+
+
+def test_arrays_arrive():
+    axis = honeycomb(4, 5)
+    mesh = addon("bridge.write_object").new_mesh(axis, "Honeycomb")
+    np.testing.assert_array_equal(positions(mesh), axis.vertices.astype(np.float32))
+    assert [len(p.vertices) for p in mesh.polygons] == [6] * 20
+    np.testing.assert_array_equal(
+        [list(p.vertices) for p in mesh.polygons], axis.face_vertices.reshape(-1, 6)
+    )
+    for entry in addon("bridge.attributes").attributes():
+        found = mesh.attributes[entry.name]
+        assert (found.domain, found.data_type) == (entry.domain, entry.type)
+        np.testing.assert_array_equal(attribute(mesh, entry.name).ravel(), entry.values(axis))
+    assert not any(p.use_smooth for p in mesh.polygons)
+    if "sharp_face" in mesh.attributes or bpy.app.version >= (4, 1):
+        assert all(d.value for d in mesh.attributes["sharp_face"].data)
+    assert len(mesh.edges) > 0 and mesh.validate() is False
+
+
+def test_polygons_of_different_sizes():
+    axis = changed(
+        honeycomb(1, 2),
+        face_offsets=np.array([0, 3, 7], np.int32),
+        face_vertices=np.array([0, 1, 2, 4, 3, 2, 1], np.int32),
+    )
+    mesh = addon("bridge.write_object").new_mesh(axis, "Mixed")
+    assert [list(p.vertices) for p in mesh.polygons] == [[0, 1, 2], [4, 3, 2, 1]]
+
+
+def test_a_million_facets_take_two_seconds_at_most():
+    """Measured in processor time: the machine may be busy with other things."""
+    axis = honeycomb(500, 500)
+    write = addon("bridge.write_object").new_mesh
+    seconds = []
+    for _ in range(3):
+        start = time.process_time()
+        mesh = write(axis, "Honeycomb")
+        seconds.append(time.process_time() - start)
+        bpy.data.meshes.remove(mesh)
+    per_million = 4 * min(seconds)
+    print(f"{per_million:.2f} s per million facets")
+    assert per_million <= 2.0
+
+
+@pytest.mark.parametrize(
+    ("fields", "error"),
+    [
+        ({"vertices": np.full((20, 3), 1e39)}, "InvalidInputError"),
+        ({"face_vertices": np.full(12, 10**6, np.int32)}, AssertionError),
+        ({"face_vertices": np.full(12, -1, np.int32)}, AssertionError),
+        ({"face_offsets": np.array([0, 1, 12], np.int32)}, AssertionError),
+        ({"theta": np.zeros(1)}, Exception),
+    ],
+    ids=["too large", "index too large", "negative index", "polygon of one corner", "short attribute"],
+)
+def test_nothing_is_left_of_a_mesh_that_cannot_be_made(fields, error):
+    if isinstance(error, str):
+        error = getattr(addon("core.errors"), error)
+    with pytest.raises(error):
+        addon("bridge.write_object").new_mesh(changed(honeycomb(1, 2), **fields), "Broken")
+    assert len(bpy.data.meshes) == 0
