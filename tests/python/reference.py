@@ -33,7 +33,10 @@ def to_integers(points: Array) -> tuple[NDArray, int]:
 
 def cross(a: NDArray, b: NDArray) -> NDArray:
     """Cross product of object arrays (..., 3)."""
-    return np.stack([a[..., i] * b[..., j] - a[..., j] * b[..., i] for i, j in ((1, 2), (2, 0), (0, 1))], axis=-1)
+    result = np.empty(a.shape, dtype=object)  # never int64, which would overflow
+    for axis, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        result[..., axis] = a[..., i] * b[..., j] - a[..., j] * b[..., i]
+    return result
 
 
 def dot(a: NDArray, b: NDArray) -> NDArray:
@@ -225,25 +228,29 @@ class Medial:
                 triangles[sample].append(corners)
         return triangles
 
-    def infinite_directions(self, sample: int) -> Array:
-        """Unit directions of the distinct infinite Voronoi edges of a cell: rays from one vertex along one line are one."""
+    def infinite_directions(self, sample: int) -> tuple[Array, bool]:
+        """Unit directions of the distinct infinite Voronoi edges of a cell, where rays from one vertex along one line
+        are one; and whether two of the others lie so close that rounding decides."""
         rays = {}
         for corners in self.incident_triangles[sample]:
             if corners in self.rays:
-                start = self.centre_ratios[self.triangles[corners][0][0]]
-                rays[start, primitive(self.rays[corners])] = unit(self.rays[corners])
-        return np.array(list(rays.values())).reshape(-1, 3)
+                cell = self.triangles[corners][0][0]
+                key = self.centre_ratios[cell], primitive(self.rays[corners])
+                rays[key] = np.concatenate((unit(self.rays[corners]), self.centres[cell] / self.radius[cell]))
+        rows = np.array(list(rays.values())).reshape(-1, 6)
+        gap = np.abs(rows[:, None] - rows[None]).max(axis=2)[np.triu_indices(len(rows), 1)]
+        return rows[:, :3], bool((gap < NEAR).any())
 
     @cached_property
     def _poles(self) -> tuple[Array, NDArray[np.bool_], list[NDArray], NDArray[np.bool_]]:
         vectors, unbounded, exact, ambiguous = [], [], [], []
         for sample in range(len(self.points)):
-            directions = self.infinite_directions(sample)
+            directions, close = self.infinite_directions(sample)
             vector, integer, tie = self._infinite_pole(directions) if len(directions) else self._farthest(sample)
             vectors.append(vector)
             unbounded.append(len(directions) > 0)
             exact.append(integer)
-            ambiguous.append(tie)
+            ambiguous.append(tie or close)
         return np.array(vectors), np.array(unbounded), exact, np.array(ambiguous)
 
     def _infinite_pole(self, directions: Array) -> tuple[Array, NDArray, bool]:
@@ -327,6 +334,12 @@ class Medial:
         return theta, rho
 
     @cached_property
+    def in_umbrella(self) -> NDArray[np.bool_]:
+        """(e, 2) the edge is one of U_p, of U_q: step 5 of MEDIAL tries only the others from that end."""
+        links = [{x for triangle in umbrella for x in triangle[1:]} for umbrella in self.umbrellas]
+        return np.array([[q in links[p], p in links[q]] for p, q in self.edges.tolist()])
+
+    @cached_property
     def _umbrella_shapes(self) -> tuple[list[Array], Array]:
         """Unit normals of each umbrella's triangles and its largest circumradius."""
         normals, largest = [], np.zeros(len(self.points))
@@ -387,14 +400,15 @@ class Medial:
         return self.centres[sorted(distinct.values())]
 
     def selected(self, theta0: float, rho0: float, rule: str, criteria: str, limit_set: bool) -> NDArray[np.bool_]:
-        """(e,) Angle[theta0] or Ratio[rho0], by one end or by both; edges whose dual lies in an umbrella never pass."""
-        theta = self.theta if rule == "EITHER" else self.theta_both
-        rho = self.rho if rule == "EITHER" else self.rho_both
+        """(e,) Angle[theta0] or Ratio[rho0], by one end or by both; from p only edges that are not in U_p."""
+        either = np.max if rule == "EITHER" else np.min
+        theta, rho = (either(np.where(self.in_umbrella, 0.0, x), axis=1) for x in self._directed)
         angle = (theta > theta0) & (criteria != "RATIO")
         ratio = (rho > rho0) & (criteria != "ANGLE")
         if limit_set:
             mu = np.array([self.radius[ring].min() for ring in self.rings])
-            ratio &= self.length >= (self.length / (rho * mu)) ** 0.25 * mu
+            eps = self.length / (np.maximum(rho, np.finfo(float).tiny) * mu)
+            ratio &= self.length >= eps**0.25 * mu
         return angle | ratio
 
     def side(self, vertices: Array, triangles: Ints) -> Ints:

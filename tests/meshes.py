@@ -1,0 +1,204 @@
+"""Closed and open triangle meshes: (vertices (n, 3) float64, triangles (m, 3) int32, outward)."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
+
+
+def icosphere(subdivisions: int = 2, radius: float = 1.0, centre: tuple = (0.0, 0.0, 0.0)) -> Mesh:
+    phi = (1 + np.sqrt(5)) / 2
+    corners = [(-1, phi, 0), (1, phi, 0), (-1, -phi, 0), (1, -phi, 0), (0, -1, phi), (0, 1, phi)]
+    corners += [(0, -1, -phi), (0, 1, -phi), (phi, 0, -1), (phi, 0, 1), (-phi, 0, -1), (-phi, 0, 1)]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2)]
+    faces += [(10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5)]
+    faces += [(2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
+    mesh = np.array(corners) / np.hypot(1, phi), np.array(faces, dtype=np.int32)
+    for _ in range(subdivisions):
+        vertices, triangles = split(mesh)
+        mesh = vertices / np.linalg.norm(vertices, axis=1)[:, None], triangles
+    return mesh[0] * radius + centre, mesh[1]
+
+
+def split(mesh: Mesh) -> Mesh:
+    """Each triangle into four, at the edge midpoints."""
+    vertices, triangles = mesh
+    pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    unique, inverse = np.unique(pairs, axis=0, return_inverse=True)
+    ab, bc, ca = (inverse.reshape(3, -1) + len(vertices)).astype(np.int32)
+    a, b, c = triangles.T
+    quarters = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    midpoints = vertices[unique].mean(axis=1)
+    return np.concatenate((vertices, midpoints)), np.concatenate([np.column_stack(q) for q in quarters])
+
+
+def uv_sphere(segments: int = 32, rings: int = 16, radius: float = 1.0) -> Mesh:
+    """Blender's UV sphere: exactly cospherical up to rounding, rows of cocircular points."""
+    polar = np.arange(1, rings) * np.pi / rings
+    turn = np.arange(segments) * 2 * np.pi / segments
+    rows = np.stack(
+        [np.outer(np.sin(polar), np.cos(turn)), np.outer(np.sin(polar), np.sin(turn)),
+         np.outer(np.cos(polar), np.ones(segments))], axis=-1)
+    vertices = np.concatenate([[[0, 0, 1.0]], rows.reshape(-1, 3), [[0, 0, -1.0]]]) * radius
+    i = np.arange(segments)
+    j, last = (i + 1) % segments, len(vertices) - 1
+    triangles = [np.column_stack((np.zeros_like(i), 1 + i, 1 + j))]
+    for row in range(rings - 2):
+        a, b = 1 + row * segments, 1 + (row + 1) * segments
+        triangles += [np.column_stack((a + i, b + i, b + j)), np.column_stack((a + i, b + j, a + j))]
+    end = 1 + (rings - 2) * segments
+    triangles.append(np.column_stack((np.full_like(i, last), end + j, end + i)))
+    return vertices, np.concatenate(triangles).astype(np.int32)
+
+
+def torus(big: float = 1.0, small: float = 0.4, around: int = 48, across: int = 20) -> Mesh:
+    u, v = np.meshgrid(np.arange(around) * 2 * np.pi / around, np.arange(across) * 2 * np.pi / across, indexing="ij")
+    ring = big + small * np.cos(v)
+    vertices = np.stack((ring * np.cos(u), ring * np.sin(u), small * np.sin(v)), -1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    k, l = (i + 1) % around, (j + 1) % across
+    a, b, c, d = (x.ravel() for x in (i * across + j, k * across + j, k * across + l, i * across + l))
+    return vertices, np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d)))).astype(np.int32)
+
+
+def box(counts: tuple[int, int, int] = (8, 6, 4), half: tuple[float, float, float] = (1.0, 0.7, 0.4)) -> Mesh:
+    """A box with a grid of counts edges along x, y, z; (1, 1, 1) is the plain cube of 8 vertices."""
+    index: dict[tuple[int, int, int], int] = {}
+    triangles = []
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for end in (0, counts[axis]):
+            for i in range(counts[u]):
+                for j in range(counts[v]):
+                    quad = [_grid_id(index, axis, end, u, i + x, v, j + y) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                    quad = quad if end else quad[::-1]
+                    triangles += [(quad[0], quad[1], quad[2]), (quad[0], quad[2], quad[3])]
+    grid = np.array(list(index))
+    return (2.0 * grid / counts - 1.0) * half, np.array(triangles, dtype=np.int32)
+
+
+def _grid_id(index: dict, axis: int, end: int, u: int, i: int, v: int, j: int) -> int:
+    key = [0, 0, 0]
+    key[axis], key[u], key[v] = end, i, j
+    return index.setdefault(tuple(key), len(index))
+
+
+def join(*meshes: Mesh) -> Mesh:
+    """Several meshes as one, without joining vertices."""
+    start = np.cumsum([0] + [len(vertices) for vertices, _ in meshes])
+    triangles = [triangles + offset for (_, triangles), offset in zip(meshes, start)]
+    return np.concatenate([vertices for vertices, _ in meshes]), np.concatenate(triangles).astype(np.int32)
+
+
+def flip(mesh: Mesh) -> Mesh:
+    return mesh[0], np.ascontiguousarray(mesh[1][:, ::-1])
+
+
+def warp(mesh: Mesh, function: Callable) -> Mesh:
+    return function(mesh[0]), mesh[1]
+
+
+def jitter(mesh: Mesh, amount: float, seed: int = 0) -> Mesh:
+    """General position: every vertex moved by up to `amount` along each axis."""
+    vertices, triangles = mesh
+    return vertices + np.random.default_rng(seed).uniform(-amount, amount, vertices.shape), triangles
+
+
+def nested_shell(subdivisions: int = 2) -> Mesh:
+    """A ball with a round cavity: the inner sphere faces inward."""
+    return join(icosphere(subdivisions, 1.0), flip(icosphere(subdivisions, 0.6, (0.1, 0.05, 0.0))))
+
+
+def read_off(path: Path) -> Mesh:
+    """A triangle mesh in OFF or COFF text."""
+    words = [line.split("#")[0].split() for line in Path(path).read_text().splitlines()]
+    words = [row for row in words if row]
+    header = words.pop(0)
+    counts = header[1:] or words.pop(0)
+    n, m = int(counts[0]), int(counts[1])
+    vertices = np.array([row[:3] for row in words[:n]], dtype=float)
+    triangles = np.array([row[1:4] for row in words[n : n + m]], dtype=np.int32)
+    return vertices, triangles
+
+
+def read_obj(path: Path) -> Mesh:
+    """Vertices and triangles of an OBJ file; larger polygons become fans."""
+    vertices, triangles = [], []
+    for line in Path(path).read_text().splitlines():
+        words = line.split()
+        if words[:1] == ["v"]:
+            vertices.append([float(x) for x in words[1:4]])
+        elif words[:1] == ["f"]:
+            ids = [int(word.split("/")[0]) - 1 for word in words[1:]]
+            triangles += [(ids[0], ids[i], ids[i + 1]) for i in range(1, len(ids) - 1)]
+    return np.array(vertices), np.array(triangles, dtype=np.int32)
+
+
+def read_ply(path: Path) -> Mesh:
+    """Vertices (and triangles, when all faces are) of a PLY file, ASCII or binary little endian."""
+    content = Path(path).read_bytes()
+    end = content.index(b"end_header\n") + len(b"end_header\n")
+    header = content[:end].decode().split("\n")
+    elements = _ply_elements(header)
+    if any(line.startswith("format ascii") for line in header):
+        return _read_ply_text(content[end:].decode(), elements)
+    return _read_ply_binary(content, end, elements)
+
+
+PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
+             "float": "<f4", "double": "<f8", "int8": "i1", "uint8": "u1", "int16": "<i2", "uint16": "<u2",
+             "int32": "<i4", "uint32": "<u4", "float32": "<f4", "float64": "<f8"}
+
+
+def _ply_elements(header: list[str]) -> list[tuple[str, int, list[list[str]]]]:
+    elements = []
+    for line in header:
+        words = line.split()
+        if words[:1] == ["element"]:
+            elements.append((words[1], int(words[2]), []))
+        elif words[:1] == ["property"]:
+            elements[-1][2].append(words[1:])
+    return elements
+
+
+def _read_ply_text(text: str, elements: list) -> Mesh:
+    rows = iter(text.splitlines())
+    vertices, triangles = np.empty((0, 3)), np.empty((0, 3), dtype=np.int32)
+    for name, count, properties in elements:
+        table = [next(rows).split() for _ in range(count)]
+        if name == "vertex":
+            names = [prop[-1] for prop in properties]
+            vertices = np.array([[row[names.index(x)] for x in "xyz"] for row in table], dtype=float)
+        elif name == "face":
+            triangles = np.array([row[1:4] for row in table], dtype=np.int32)
+    return vertices, triangles
+
+
+def _read_ply_binary(content: bytes, start: int, elements: list) -> Mesh:
+    vertices, triangles = np.empty((0, 3)), np.empty((0, 3), dtype=np.int32)
+    for name, count, properties in elements:
+        fields = []
+        for prop in properties:
+            if prop[0] == "list":  # triangles only
+                fields += [(prop[-1] + "_count", PLY_TYPES[prop[1]]), (prop[-1], PLY_TYPES[prop[2]], 3)]
+            else:
+                fields.append((prop[-1], PLY_TYPES[prop[0]]))
+        table = np.frombuffer(content, dtype=np.dtype(fields), count=count, offset=start)
+        start += table.nbytes
+        if name == "vertex":
+            vertices = np.column_stack([table[x] for x in "xyz"]).astype(float)
+        elif name == "face":
+            lists = [field[0] for field in fields if len(field) == 3]
+            triangles = np.ascontiguousarray(table[lists[0]], dtype=np.int32)
+    return vertices, triangles
+
+
+def read(path: Path) -> Mesh:
+    """A mesh or a point set (then without triangles) by its suffix: off, obj, ply, xyz."""
+    suffix = Path(path).suffix
+    if suffix == ".xyz":
+        return np.loadtxt(path)[:, :3], np.empty((0, 3), dtype=np.int32)
+    return {".off": read_off, ".obj": read_obj, ".ply": read_ply}[suffix](path)

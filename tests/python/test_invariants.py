@@ -1,0 +1,251 @@
+"""What must hold for every output: empty balls, planar convex polygons, order, welded vertices, types."""
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+import inputs
+import meshes
+import shapes
+
+MESHES = {
+    "torus": meshes.jitter(meshes.torus(around=60, across=24), 1e-3),
+    "shell": meshes.jitter(meshes.nested_shell(3), 1e-3),
+    "box": meshes.box((16, 12, 8)),
+    "uv sphere": meshes.uv_sphere(),
+}
+CLOUDS = {
+    "ellipsoid": shapes.SHAPES["ellipsoid"].sample(3000, 2),
+    "shell samples": shapes.SHAPES["shell"].sample(3000, 2),
+    "grid cube": shapes.grid_cube(),
+    "grid cube turned": shapes.grid_cube() @ inputs.rotation(1).T,
+    "random": np.random.default_rng(0).random((2000, 3)),
+    "cosphere": shapes.Sphere().sample(1000, 0),
+}
+
+
+@pytest.fixture(params=[*MESHES, *CLOUDS], scope="module")
+def result(request, medial):
+    """points, analysis, mesh"""
+    if request.param in MESHES:
+        points, triangles = MESHES[request.param]
+        analysis = medial.MedialAnalysis(points, triangles)
+    else:
+        points = CLOUDS[request.param]
+        analysis = medial.MedialAnalysis(points)
+    return points, analysis, analysis.extract(0.2, 4.0)
+
+
+def polygons(mesh):
+    return [mesh.face_vertices[a:b] for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:])]
+
+
+def assert_invariants(points, mesh):
+    """Everything below but the types, for one output; test_fuzz uses it too."""
+    assert_balls(points, mesh)
+    assert_polygons(points, mesh)
+    assert_order(mesh)
+
+
+def assert_balls(points, mesh):
+    """Each vertex is as far from its generators as its radius says, and no sample is nearer."""
+    if len(mesh.vertices) == 0:
+        return
+    size = np.abs(mesh.vertices).max(axis=1) + np.abs(points).max()
+    slack = 2.0**-22 * mesh.radius + 8 * np.spacing(size)
+    nearest, _ = cKDTree(points).query(mesh.vertices)
+    assert (np.abs(nearest - mesh.radius) <= slack).all()
+    face = np.repeat(np.arange(len(mesh.generators)), np.diff(mesh.face_offsets))
+    for end in (0, 1):
+        arm = np.linalg.norm(mesh.vertices[mesh.face_vertices] - points[mesh.generators[face, end]], axis=1)
+        assert (np.abs(arm - mesh.radius[mesh.face_vertices]) <= slack[mesh.face_vertices]).all()
+
+
+def assert_polygons(points, mesh):
+    """Planar, across pq; convex and counter-clockwise about the direction from p to q, up to 24 bits of the radius."""
+    for corners, (p, q) in zip(polygons(mesh), mesh.generators):
+        ring = mesh.vertices[corners]
+        axis = (points[q] - points[p]) / np.linalg.norm(points[q] - points[p])
+        slack = 2.0**-21 * mesh.radius[corners].max() + 8 * np.spacing(np.abs(ring).max() + np.abs(points).max())
+        middle = 0.5 * (points[p] + points[q])
+        stretch = mesh.radius[corners].max() / np.linalg.norm(points[q] - points[p])
+        assert (np.abs((ring - middle) @ axis) <= slack * (1 + stretch)).all(), "not planar"
+        step = np.roll(ring, -1, axis=0) - ring
+        turn = np.cross(step, np.roll(step, -1, axis=0)) @ axis
+        length = np.linalg.norm(step, axis=1)
+        assert (turn >= -2 * slack * (length + np.roll(length, -1))).all(), "not convex"
+        centred = ring - ring.mean(axis=0)
+        area = 0.5 * np.cross(centred, np.roll(centred, -1, axis=0)).sum(axis=0) @ axis
+        assert area > -slack * length.sum(), "turns the wrong way"
+
+
+def assert_order(mesh):
+    """Facets by generators, p < q; each starts at its lowest vertex; vertices in order of first use, none twice."""
+    generators = mesh.generators.astype(np.int64)
+    assert (generators[:, 0] < generators[:, 1]).all()
+    key = generators[:, 0] * 2**32 + generators[:, 1]
+    assert (np.diff(key) > 0).all()
+    assert mesh.face_offsets[0] == 0 and mesh.face_offsets[-1] == len(mesh.face_vertices)
+    assert (np.diff(mesh.face_offsets) >= 3).all()
+    for corners in polygons(mesh):
+        assert corners[0] == corners.min() and len(set(corners.tolist())) == len(corners)
+    used, first = np.unique(mesh.face_vertices, return_index=True)
+    assert np.array_equal(used, np.arange(len(mesh.vertices)))
+    facet_of_first_use = np.searchsorted(mesh.face_offsets, first, side="right")
+    assert (np.diff(facet_of_first_use) >= 0).all()
+    assert len(np.unique(mesh.vertices, axis=0)) == len(mesh.vertices)
+    for array in (mesh.vertices, mesh.radius, mesh.theta, mesh.rho):
+        assert np.isfinite(array).all()
+    assert ((mesh.theta >= 0) & (mesh.theta <= np.pi / 2)).all() and (mesh.rho >= 0).all()
+
+
+def test_balls_are_empty_and_vertices_equidistant(result):
+    assert_balls(result[0], result[2])
+
+
+def test_polygons_are_planar_convex_and_turn_about_pq(result):
+    assert_polygons(result[0], result[2])
+
+
+def test_order_and_welding(result):
+    assert_order(result[2])
+
+
+def test_facets_of_positive_area_leave_no_counted_facet_out(result):
+    _, analysis, mesh = result
+    chosen = analysis.select(0.2, 4.0)
+    assert len(mesh.generators) + mesh.unbounded + mesh.zero_area == len(chosen)
+    assert mesh.unbounded == (~analysis.bounded[chosen]).sum()
+
+
+def test_types_and_shapes(result):
+    points, analysis, mesh = result
+    v, f, c, e = len(mesh.vertices), len(mesh.generators), len(mesh.face_vertices), len(analysis.edges)
+    expected = [
+        (mesh, "vertices", (v, 3), "f8"), (mesh, "radius", (v,), "f8"), (mesh, "face_offsets", (f + 1,), "i4"),
+        (mesh, "face_vertices", (c,), "i4"), (mesh, "theta", (f,), "f8"), (mesh, "rho", (f,), "f8"),
+        (mesh, "side", (f,), "i4"), (mesh, "generators", (f, 2), "i4"),
+        (analysis, "edges", (e, 2), "i4"), (analysis, "theta", (e,), "f8"), (analysis, "rho", (e,), "f8"),
+        (analysis, "theta_both", (e,), "f8"), (analysis, "rho_both", (e,), "f8"), (analysis, "side", (e,), "i4"),
+        (analysis, "bounded", (e,), "?"), (analysis, "samples", (len(points) - analysis.duplicates,), "i4"),
+    ]
+    for owner, name, shape, dtype in expected:
+        array = getattr(owner, name)
+        assert array.shape == shape and array.dtype == np.dtype(dtype) and array.flags.c_contiguous, name
+        assert not array.flags.writeable, name
+        if array.size:
+            with pytest.raises(ValueError):
+                array.flags.writeable = True
+            with pytest.raises(ValueError):
+                array[...] = 0
+    assert isinstance(mesh.unbounded, int) and isinstance(mesh.zero_area, int)
+    assert isinstance(analysis.duplicates, int) and isinstance(analysis.cells, int) and isinstance(analysis.closed, bool)
+
+
+def test_stage_arrays_have_the_documented_types(medial):
+    points = CLOUDS["random"][:100]
+    cells, neighbors, centres = medial.delaunay(points)
+    vectors, unbounded = medial.poles(points)
+    offsets, triangles = medial.umbrellas(points)
+    winding = medial.winding_number(points, *meshes.icosphere(1))
+    for array, dtype in ((cells, "i4"), (neighbors, "i4"), (centres, "f8"), (vectors, "f8"), (unbounded, "?"),
+                         (offsets, "i8"), (triangles, "i4"), (winding, "f8")):
+        assert array.dtype == np.dtype(dtype) and not array.flags.writeable
+
+
+def test_arrays_outlive_their_owner(medial):
+    analysis = medial.MedialAnalysis(CLOUDS["random"])
+    mesh = analysis.extract()
+    kept, copies = (analysis.theta, mesh.vertices), (analysis.theta.copy(), mesh.vertices.copy())
+    del analysis, mesh
+    medial.MedialAnalysis(CLOUDS["ellipsoid"]).extract()
+    assert all(np.array_equal(a, b) for a, b in zip(kept, copies))
+
+
+def test_the_input_is_not_changed(medial):
+    points = CLOUDS["random"].copy()
+    medial.MedialAnalysis(points).extract()
+    assert np.array_equal(points, CLOUDS["random"])
+
+
+def test_timings_name_the_stages(result):
+    timings = result[1].timings
+    assert list(timings)[0] and all(isinstance(name, str) and seconds >= 0 for name, seconds in timings.items())
+    assert any("triangulation" in name for name in timings)
+
+
+def umbrella_is_disc(triangles):
+    """The links (a, b) of the triangles form one closed ring."""
+    links = {}
+    for _, a, b in triangles.tolist():
+        links.setdefault(a, []).append(b)
+        links.setdefault(b, []).append(a)
+    if any(len(x) != 2 for x in links.values()):
+        return False
+    start = here = next(iter(links))
+    before, count = None, 0
+    while count == 0 or here != start:
+        a, b = links[here]
+        here, before = (a if a != before else b), here
+        count += 1
+    return count == len(links)
+
+
+@pytest.mark.parametrize("name, chi", [("ellipsoid", 2), ("oblate", 2), ("slab", 2), ("torus", 0), ("capsule", 2),
+                                       ("knot", 0), ("shell", 4)])
+def test_umbrellas_of_dense_closed_samples_are_discs(medial, name, chi):
+    """And they make a closed surface: sum |U_p| / n = 6 (1 - chi / n)."""
+    points = shapes.SHAPES[name].sample(4000, 1)
+    offsets, triangles = medial.umbrellas(points)
+    umbrellas = np.split(triangles, offsets[1:-1])
+    assert all(umbrella_is_disc(umbrella) for umbrella in umbrellas)
+    assert len(triangles) / len(points) == pytest.approx(6 * (1 - chi / len(points)), rel=3e-3)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_umbrellas_are_never_empty(medial, seed):
+    points = np.random.default_rng(seed).random((5 + 40 * seed, 3))
+    offsets, _ = medial.umbrellas(points)
+    assert (np.diff(offsets) > 0).all()
+
+
+def test_umbrella_edges_have_angle_zero_and_ratio_below_two(medial):
+    points = shapes.SHAPES["ellipsoid"].sample(2000, 4)
+    analysis = medial.MedialAnalysis(points)
+    _, triangles = medial.umbrellas(points)
+    own = {(min(p, x), max(p, x)) for p, a, b in triangles.tolist() for x in (a, b)}
+    rows = np.array([tuple(edge) in own for edge in analysis.edges.tolist()])
+    assert analysis.theta_both[rows].max() < 1e-14 and analysis.rho_both[rows].max() < 2 + 1e-12
+
+
+def test_a_cosphere_gives_a_point_and_does_not_crash(medial):
+    for points in (meshes.uv_sphere()[0], meshes.icosphere(3)[0], meshes.uv_sphere()[0].astype(np.float32)):
+        mesh = medial.MedialAnalysis(points).extract()
+        assert (np.linalg.norm(mesh.vertices, axis=1) < 1e-5).all()
+
+
+def test_bounding_sphere_bounds_the_outer_axis(medial):
+    """Dey & Zhao, sect. 4.2: nothing selected reaches infinity, ids stay those of the input, the inner axis stays."""
+    points = shapes.SHAPES["slab"].sample(2000, 0)
+    slab = shapes.SHAPES["slab"]
+    plain, bounded = medial.MedialAnalysis(points), medial.MedialAnalysis(points, bounding_sphere=True)
+    assert bounded.edges.max() < len(points) and bounded.bounded.all()
+    far = [np.linalg.norm(a.extract().vertices, axis=1).max() for a in (plain, bounded)]
+    assert plain.extract().unbounded > 0 and bounded.extract().unbounded == 0
+    assert far[1] < 4 * np.linalg.norm(points, axis=1).max() < far[0]
+    inner = []
+    for analysis in (plain, bounded):
+        mesh = analysis.extract()
+        inside = slab.inside(mesh.vertices)
+        inner.append({tuple(g) for g, c in zip(mesh.generators.tolist(), polygons(mesh)) if inside[c].all()})
+    assert len(inner[0] ^ inner[1]) <= 0.01 * len(inner[0])
+
+
+def test_bounding_sphere_of_a_torus_keeps_its_outer_axis(medial):
+    torus = shapes.SHAPES["torus"]
+    vertices, triangles = meshes.jitter(meshes.torus(around=96, across=40), 1e-4)
+    mesh = medial.MedialAnalysis(vertices, triangles, bounding_sphere=True).extract(side=medial.Side.OUTER)
+    near = np.linalg.norm(mesh.vertices, axis=1) < 1.0
+    assert mesh.unbounded == 0 and near.sum() > 100
+    assert torus.outer_axis_distance(mesh.vertices[near]).max() < 0.08
+    assert np.linalg.norm(mesh.vertices, axis=1).max() < 2 * 1.4
