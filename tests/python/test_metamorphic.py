@@ -1,0 +1,285 @@
+"""Changes of the input or the thresholds whose effect on the output is known exactly."""
+
+import numpy as np
+import pytest
+
+import inputs
+import meshes
+import shapes
+
+INPUTS = {
+    "ellipsoid": shapes.SHAPES["ellipsoid"].sample(3000, 7),
+    "shell": shapes.SHAPES["shell"].sample(3000, 7),
+    "random": np.random.default_rng(7).random((1500, 3)),
+    "graded": inputs.generic("graded", 1500, 7),
+}
+DEGENERATE = {
+    "grid cube": shapes.grid_cube(6),
+    "torus grid": meshes.torus(around=24, across=12)[0],
+    "uv sphere": meshes.uv_sphere()[0] * (1.0, 0.8, 0.6),
+}
+ANALYSIS_ARRAYS = ("samples", "edges", "theta", "rho", "theta_both", "rho_both", "side", "bounded")
+MESH_ARRAYS = ("vertices", "radius", "face_offsets", "face_vertices", "theta", "rho", "side", "generators")
+
+
+@pytest.fixture(params=INPUTS)
+def points(request):
+    return INPUTS[request.param]
+
+
+@pytest.fixture(params=[*INPUTS, *DEGENERATE])
+def any_points(request):
+    return (INPUTS | DEGENERATE)[request.param]
+
+
+def everything(analysis, scale=1.0, **thresholds):
+    """All arrays of an analysis and of what it extracts, lengths divided by scale."""
+    mesh = analysis.extract(**thresholds)
+    arrays = {f"analysis.{name}": getattr(analysis, name) for name in ANALYSIS_ARRAYS}
+    arrays |= {f"mesh.{name}": getattr(mesh, name) for name in MESH_ARRAYS}
+    arrays["mesh.vertices"] = mesh.vertices / scale
+    arrays["mesh.radius"] = mesh.radius / scale
+    return arrays | {"counts": np.array([mesh.unbounded, mesh.zero_area, analysis.cells, analysis.duplicates])}
+
+
+def assert_same_bytes(a, b):
+    for name in a:
+        assert a[name].dtype == b[name].dtype and a[name].tobytes() == b[name].tobytes(), name
+
+
+def facets(mesh):
+    """generators -> number of corners, for facets of any order."""
+    return dict(zip(map(tuple, mesh.generators.tolist()), np.diff(mesh.face_offsets).tolist()))
+
+
+def test_the_same_input_gives_the_same_bytes(medial, any_points):
+    assert_same_bytes(everything(medial.MedialAnalysis(any_points)), everything(medial.MedialAnalysis(any_points)))
+
+
+@pytest.mark.parametrize("threads", [2, 3, 7, 0])
+def test_thread_count_changes_no_byte(medial, any_points, threads):
+    one = everything(medial.MedialAnalysis(any_points, threads=1))
+    assert_same_bytes(one, everything(medial.MedialAnalysis(any_points, threads=threads)))
+
+
+def test_thread_count_changes_no_byte_of_sides(medial):
+    mesh = meshes.jitter(meshes.nested_shell(3), 1e-3)
+    one, two = (everything(medial.MedialAnalysis(*mesh, threads=n, bounding_sphere=True)) for n in (1, 2))
+    assert_same_bytes(one, two)
+
+
+def test_thread_count_of_a_large_input(medial):
+    cloud = shapes.SHAPES["knot"].random_sample(60000, 0)
+    assert_same_bytes(*(everything(medial.MedialAnalysis(cloud, threads=n)) for n in (1, 2)))
+
+
+@pytest.mark.parametrize("exponent", [-30, -1, 1, 40])
+def test_scale_by_a_power_of_two_changes_no_bit(medial, any_points, exponent):
+    scale = 2.0**exponent
+    plain, scaled = medial.MedialAnalysis(any_points), medial.MedialAnalysis(any_points * scale)
+    for limit_set in (False, True):
+        wanted = everything(plain, limit_set=limit_set)
+        assert_same_bytes(wanted, everything(scaled, scale, limit_set=limit_set))
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1e6, 3.7e5])
+def test_uniform_scale_changes_only_last_bits(medial, points, scale):
+    plain, scaled = medial.MedialAnalysis(points), medial.MedialAnalysis(points * scale)
+    assert_equal_up_to_rounding(plain, scaled, scale)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rotation_changes_only_last_bits(medial, points, seed):
+    turn = inputs.rotation(seed)
+    plain, turned = medial.MedialAnalysis(points), medial.MedialAnalysis(points @ turn.T)
+    assert_equal_up_to_rounding(plain, turned, 1.0, turn)
+
+
+def test_shift_changes_only_last_bits(medial, points):
+    plain, shifted = medial.MedialAnalysis(points), medial.MedialAnalysis(points + 4.0)
+    assert_equal_up_to_rounding(plain, shifted, 1.0, shift=4.0, digits=1e-6)
+
+
+def assert_equal_up_to_rounding(plain, moved, scale, turn=np.eye(3), shift=0.0, digits=1e-7):
+    assert np.array_equal(plain.edges, moved.edges) and np.array_equal(plain.bounded, moved.bounded)
+    for name in ("theta", "rho", "theta_both", "rho_both"):
+        a, b = getattr(plain, name), getattr(moved, name)
+        assert np.allclose(np.minimum(a, 1.5), np.minimum(b, 1.5), rtol=digits, atol=digits) and np.allclose(a, b, rtol=digits, atol=1e-6)
+    before, after = plain.extract(), moved.extract()
+    assert np.array_equal(before.generators, after.generators)
+    assert np.array_equal(before.face_offsets, after.face_offsets)
+    assert (before.unbounded, before.zero_area) == (after.unbounded, after.zero_area)
+    corner = np.linalg.norm(before.vertices[before.face_vertices] @ turn.T * scale + shift - after.vertices[after.face_vertices], axis=1)
+    # The polygons may start at another corner: compare each corner with the nearest of its facet.
+    face = np.repeat(np.arange(len(before.generators)), np.diff(before.face_offsets))
+    for row in np.unique(face[corner > digits * scale * before.radius[before.face_vertices]]):
+        a = before.vertices[before.face_vertices[face == row]] @ turn.T * scale + shift
+        b = after.vertices[after.face_vertices[face == row]]
+        gap = np.linalg.norm(a[:, None] - b[None], axis=2)
+        radius = before.radius[before.face_vertices[face == row]].max() * scale
+        assert max(gap.min(axis=0).max(), gap.min(axis=1).max()) <= 1e-5 * radius
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_permutation_permutes_ids(medial, points, seed):
+    order = np.random.default_rng(seed).permutation(len(points))
+    plain, mixed = medial.MedialAnalysis(points), medial.MedialAnalysis(points[order])
+    edges = np.sort(order[mixed.edges], axis=1)
+    row = np.lexsort(edges.T[::-1])
+    assert np.array_equal(edges[row], plain.edges)
+    for name in ("theta", "rho", "theta_both", "rho_both"):
+        assert np.allclose(getattr(mixed, name)[row], getattr(plain, name), rtol=1e-9, atol=1e-9)
+    assert np.array_equal(mixed.bounded[row], plain.bounded)
+    named = {tuple(sorted(order[list(g)].tolist())): count for g, count in facets(mixed.extract()).items()}
+    assert named == facets(plain.extract())
+
+
+SYMMETRIES = [np.array(m, float) for m in ([[0, 1, 0], [0, 0, 1], [1, 0, 0]], [[0, 1, 0], [-1, 0, 0], [0, 0, 1]],
+                                           [[-1, 0, 0], [0, -1, 0], [0, 0, 1]], [[-1, 0, 0], [0, 1, 0], [0, 0, 1]])]
+
+
+@pytest.mark.parametrize("turn", range(4))
+@pytest.mark.parametrize("name", ["grid cube"])
+def test_facets_of_a_grid_do_not_depend_on_how_it_is_triangulated(medial, name, turn):
+    """Exact symmetries map facets of positive area to each other; cocircular triangles share normal and radius."""
+    cube = DEGENERATE[name]
+    before = medial.MedialAnalysis(cube).extract()
+    turned = cube @ SYMMETRIES[turn].T
+    after = medial.MedialAnalysis(turned).extract()
+    image = [(p @ SYMMETRIES[turn].T) for p in cube]
+    row = {tuple(x): i for i, x in enumerate(turned.tolist())}
+    moved = {tuple(sorted((row[tuple(image[p])], row[tuple(image[q])]))): n for (p, q), n in facets(before).items()}
+    assert moved == facets(after)
+
+
+@pytest.mark.parametrize("name", DEGENERATE)
+def test_order_of_rows_does_not_change_facets_of_cospherical_samples(medial, name):
+    points = DEGENERATE[name]
+    before = inner_area(medial.MedialAnalysis(points).extract())
+    for seed in range(3):
+        order = np.random.default_rng(seed).permutation(len(points))
+        after = inner_area(medial.MedialAnalysis(points[order]).extract())
+        assert after == pytest.approx(before, rel=1e-6)
+
+
+def inner_area(mesh, reach=2.0):
+    """Total area of the facets with all vertices near the origin."""
+    total = 0.0
+    for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:]):
+        ring = mesh.vertices[mesh.face_vertices[a:b]]
+        if np.linalg.norm(ring, axis=1).max() < reach:
+            total += 0.5 * np.linalg.norm(np.cross(ring - ring[0], np.roll(ring, -1, axis=0) - ring[0]).sum(axis=0))
+    return total
+
+
+def test_selection_falls_with_theta_and_rho(medial, points):
+    analysis = medial.MedialAnalysis(points)
+    for rule in (medial.Rule.EITHER, medial.Rule.BOTH):
+        by_theta = [set(analysis.select(t, 8.0, rule=rule).tolist()) for t in np.linspace(0, np.pi / 2, 9)]
+        by_rho = [set(analysis.select(0.4, r, rule=rule).tolist()) for r in (0, 1, 2, 4, 8, 16, 64, 1e9)]
+        for sets in (by_theta, by_rho):
+            assert all(a >= b for a, b in zip(sets, sets[1:])) and len(sets[0]) > len(sets[-1])
+
+
+def test_facets_are_those_of_select(medial, any_points):
+    """extract is select without what is unbounded or has no area; tight thresholds give a subset of the polygons."""
+    analysis = medial.MedialAnalysis(any_points)
+    loose, tight = facets(analysis.extract(0.2, 4.0)), facets(analysis.extract(0.6, 12.0))
+    chosen = set(map(tuple, analysis.edges[analysis.select(0.2, 4.0)].tolist()))
+    assert tight.items() <= loose.items() and loose.keys() <= chosen
+
+
+@pytest.mark.parametrize("rule", ["EITHER", "BOTH"])
+def test_union_of_angle_and_ratio(medial, any_points, rule):
+    analysis = medial.MedialAnalysis(any_points)
+    angle, ratio, union = (
+        analysis.select(rule=getattr(medial.Rule, rule), criteria=criteria)
+        for criteria in (medial.Criteria.ANGLE, medial.Criteria.RATIO, medial.Criteria.ANGLE_OR_RATIO)
+    )
+    assert np.array_equal(np.union1d(angle, ratio), union)
+
+
+def test_both_ends_select_a_subset_of_either_end(medial, any_points):
+    analysis = medial.MedialAnalysis(any_points)
+    for criteria in (medial.Criteria.ANGLE, medial.Criteria.RATIO, medial.Criteria.ANGLE_OR_RATIO):
+        both, either = (analysis.select(rule=r, criteria=criteria) for r in (medial.Rule.BOTH, medial.Rule.EITHER))
+        assert set(both.tolist()) <= set(either.tolist())
+    assert (analysis.theta_both <= analysis.theta).all() and (analysis.rho_both <= analysis.rho).all()
+
+
+def test_limit_set_drops_only_facets_of_the_ratio_condition(medial, points):
+    analysis = medial.MedialAnalysis(points)
+    angle = set(analysis.select(criteria=medial.Criteria.ANGLE).tolist())
+    plain, limited = (set(analysis.select(limit_set=x).tolist()) for x in (False, True))
+    assert angle <= limited <= plain
+
+
+def test_limit_set_removes_fins_of_a_tube(medial):
+    capsule = shapes.SHAPES["capsule"]
+    analysis = medial.MedialAnalysis(capsule.sample(16000, 0))
+    plain, limited = (analysis.select(limit_set=x) for x in (False, True))
+    assert len(limited) < 0.95 * len(plain)
+    middle = [np.linalg.norm(analysis.extract(limit_set=x).vertices[:, 1:], axis=1) for x in (False, True)]
+    assert np.mean(middle[1]) < np.mean(middle[0])
+
+
+def test_duplicates_are_merged_and_counted(medial, points):
+    rng = np.random.default_rng(1)
+    extra = rng.integers(0, len(points), 200)
+    repeated = np.concatenate((points, points[extra]))
+    plain, merged = medial.MedialAnalysis(points), medial.MedialAnalysis(repeated)
+    assert merged.duplicates == 200 and plain.duplicates == 0
+    assert np.array_equal(merged.samples, np.arange(len(points)))
+    assert_same_bytes(everything(plain) | {"counts": np.zeros(1)}, everything(merged) | {"counts": np.zeros(1)})
+
+
+def test_the_first_of_equal_rows_is_the_sample(medial, points):
+    repeated = np.repeat(points, 2, axis=0)
+    repeated[0::2] += 0.0
+    analysis = medial.MedialAnalysis(repeated)
+    assert np.array_equal(analysis.samples, np.arange(0, len(repeated), 2))
+    assert np.array_equal(analysis.edges, 2 * medial.MedialAnalysis(points).edges)
+    vectors, _ = medial.poles(repeated)
+    assert len(vectors) == len(points)
+
+
+def test_negative_zero_is_zero(medial):
+    points = np.concatenate((inputs.grid((3, 3, 3)), [[-0.0, 0.0, -0.0]]))
+    assert medial.MedialAnalysis(points).duplicates == 1
+
+
+def test_duplicates_keep_a_mesh_closed(medial):
+    """A seam of doubled vertices, as every UV-mapped mesh has after import."""
+    vertices, triangles = meshes.jitter(meshes.icosphere(2), 1e-2)
+    soup = vertices[triangles].reshape(-1, 3)
+    analysis = medial.MedialAnalysis(soup, np.arange(len(soup), dtype=np.int32).reshape(-1, 3))
+    plain = medial.MedialAnalysis(vertices, triangles)
+    assert analysis.closed and analysis.boundary_edges == 0
+    assert analysis.duplicates == len(soup) - len(vertices)
+    assert sorted(analysis.side.tolist()) == sorted(plain.side.tolist())
+
+
+def test_float32_input_is_converted(medial, points):
+    single = points.astype(np.float32)
+    a, b = medial.MedialAnalysis(single), medial.MedialAnalysis(single.astype(float))
+    assert_same_bytes(everything(a), everything(b))
+
+
+def test_strided_views_are_read_as_they_look(medial, points):
+    wide = np.zeros((len(points) * 2, 6))
+    wide[::2, 1:4] = points
+    fortran = np.asfortranarray(points)
+    wanted = everything(medial.MedialAnalysis(points))
+    assert_same_bytes(wanted, everything(medial.MedialAnalysis(wide[::2, 1:4])))
+    assert_same_bytes(wanted, everything(medial.MedialAnalysis(fortran)))
+
+
+def test_one_analysis_may_be_used_from_several_threads(medial):
+    import concurrent.futures
+
+    analysis = medial.MedialAnalysis(INPUTS["shell"])
+    wanted = [everything(analysis, theta=t) for t in (0.1, 0.4, 0.8)]
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda t: everything(analysis, theta=t), [0.1, 0.4, 0.8] * 8))
+    for i, arrays in enumerate(found):
+        assert_same_bytes(wanted[i % 3], arrays)

@@ -1,0 +1,208 @@
+"""A facet is inner exactly when all its Voronoi vertices have generalized winding number > 1/2: against brute force.
+
+Facets with a vertex on the surface itself (winding number undefined) are left out, and are few.
+"""
+
+import numpy as np
+import pytest
+
+import distance
+import meshes
+import reference
+
+
+
+def without_triangles(mesh, share, seed=0):
+    keep = np.random.default_rng(seed).random(len(mesh[1])) >= share
+    return mesh[0], np.ascontiguousarray(mesh[1][keep])
+
+
+def with_flips(mesh, share, seed=0):
+    triangles = mesh[1].copy()
+    rows = np.random.default_rng(seed).random(len(triangles)) < share
+    triangles[rows] = triangles[rows][:, ::-1]
+    return mesh[0], triangles
+
+
+def squashed(mesh, *sizes):
+    return mesh[0] * sizes, mesh[1]
+
+
+def noisy(mesh, amount=2e-3):
+    return meshes.jitter(mesh, amount)
+
+
+def with_loose_points(mesh, count=100):
+    """Samples that no triangle uses, inside and outside."""
+    extra = np.random.default_rng(5).uniform(-1.5, 1.5, (count, 3))
+    return np.concatenate((mesh[0], extra)), mesh[1]
+
+
+def sliver_tower():
+    """A tall prism with vertices only at its ends: triangles longer than the spacing of samples by far."""
+    return noisy(squashed(meshes.box((3, 3, 1), (1.0, 1.0, 1.0)), 0.2, 0.2, 3.0), 1e-3)
+
+
+CLOSED = {
+    "sphere": noisy(meshes.icosphere(3)),
+    "coarse sphere": noisy(meshes.icosphere(1)),
+    "icosahedron": noisy(meshes.icosphere(0)),
+    "exact icosphere": meshes.icosphere(2),
+    "exact uv sphere": meshes.uv_sphere(24, 12),
+    "ellipsoid": noisy(squashed(meshes.icosphere(3), 1.0, 0.6, 0.3)),
+    "torus": noisy(meshes.torus()),
+    "coarse torus": noisy(meshes.torus(around=9, across=5)),
+    "box": meshes.box((10, 8, 5)),
+    "noisy box": noisy(meshes.box((10, 8, 5))),
+    "cube": meshes.box((1, 1, 1)),
+    "noisy cube": noisy(meshes.box((1, 1, 1)), 0.05),
+    "long triangles": sliver_tower(),
+    "plate": noisy(squashed(meshes.icosphere(2), 1.0, 1.0, 0.01), 1e-4),
+    "nested shell": noisy(meshes.nested_shell(3)),
+    "coarse nested shell": noisy(meshes.nested_shell(1)),
+    "ball in a cavity": noisy(meshes.join(meshes.nested_shell(2), meshes.icosphere(2, 0.3, (0.1, 0.0, 0.0)))),
+    "two balls": noisy(meshes.join(meshes.icosphere(2), meshes.icosphere(2, 0.5, (2.0, 0.1, 0.0)))),
+    "overlapping balls": noisy(meshes.join(meshes.icosphere(3), meshes.icosphere(3, 0.8, (0.9, 0.1, 0.05)))),
+    "overlapping coarse balls": noisy(meshes.join(meshes.icosphere(1), meshes.icosphere(1, 0.8, (0.9, 0.1, 0.05)))),
+    "linked tori": noisy(meshes.join(meshes.torus(small=0.25), (meshes.torus(small=0.25)[0][:, [0, 2, 1]] + (1.0, 0, 0), meshes.torus()[1][:, ::-1]))),
+    "inside out": noisy(meshes.flip(meshes.icosphere(2))),
+    "doubled ball": noisy(meshes.join(meshes.icosphere(2), meshes.icosphere(2, 0.999, (1e-3, 0, 0)))),
+    "loose points": with_loose_points(noisy(meshes.icosphere(2))),
+}
+OPEN = {
+    "flipped faces": with_flips(noisy(meshes.icosphere(3)), 0.2),
+    "one flipped face": with_flips(noisy(meshes.torus()), 0.001, 3),
+    "missing faces": without_triangles(noisy(meshes.icosphere(3)), 0.03),
+    "half missing": without_triangles(noisy(meshes.torus()), 0.5),
+    "bowl": (noisy(meshes.icosphere(3))[0], meshes.icosphere(3)[1][meshes.icosphere(3)[0][meshes.icosphere(3)[1]].mean(axis=1)[:, 2] < 0.3]),
+    "box without lid": (meshes.box((8, 6, 4))[0], meshes.box((8, 6, 4))[1][meshes.box((8, 6, 4))[0][meshes.box((8, 6, 4))[1]][:, :, 2].min(axis=1) < 0.39]),
+    "one triangle": (noisy(meshes.icosphere(1))[0], meshes.icosphere(1)[1][:1]),
+    "repeated face": (noisy(meshes.icosphere(2))[0], np.concatenate((meshes.icosphere(2)[1], meshes.icosphere(2)[1][:1]))),
+}
+ALL = CLOSED | OPEN
+
+
+def circumcentres(medial, points):
+    """Finite cells of the points and their circumcentres, from a mesh's rows."""
+    cells, _, centres = medial.delaunay(points)
+    finite = (cells >= 0).all(axis=1)
+    return cells[finite], centres[finite]
+
+
+def expected_sides(medial, points, triangles, analysis):
+    """(e,) side by brute force and (e,) whether every vertex is off the surface."""
+    cells, centres = circumcentres(medial, points)
+    near = np.linalg.norm(centres - points.mean(axis=0), axis=1) < 1e3 * np.ptp(points)
+    inside, settled = np.zeros(len(cells), dtype=bool), np.ones(len(cells), dtype=bool)
+    winding = reference.winding_number(centres[near], points, triangles)
+    inside[near] = winding > 0.5
+    radius = np.linalg.norm(centres - points[cells[:, 0]], axis=1)
+    on_surface = distance.to_triangles(centres[near], points[triangles]) < 1e-6 * np.minimum(radius[near], np.ptp(points))
+    settled[near] = ~on_surface & (np.abs(winding - 0.5) > 1e-9)
+    row = {tuple(edge): i for i, edge in enumerate(analysis.edges.tolist())}
+    count, inner, unsettled = (np.zeros(len(row), dtype=int) for _ in range(3))
+    for i, j in ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)):
+        edge = np.array([row[tuple(pair)] for pair in np.sort(cells[:, [i, j]], axis=1).tolist()])
+        np.add.at(count, edge, 1)
+        np.add.at(inner, edge, inside)
+        np.add.at(unsettled, edge, ~settled)
+    side = np.where(inner == 0, 2, np.where((inner == count) & analysis.bounded, 1, 3))
+    return side, unsettled == 0
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_sides_equal_brute_force(medial, name):
+    points, triangles = ALL[name]
+    analysis = medial.MedialAnalysis(points, triangles)
+    wanted, settled = expected_sides(medial, points, triangles, analysis)
+    assert np.array_equal(analysis.side[settled], wanted[settled])
+    assert settled.mean() > (0.5 if "box" in name or "cube" in name or "exact" in name else 0.98)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_no_inner_vertex_is_outside(medial, name):
+    points, triangles = ALL[name]
+    mesh = medial.MedialAnalysis(points, triangles).extract(0.0, 0.0, medial.Side.INNER)
+    assert (mesh.side == 1).all()
+    winding = reference.winding_number(mesh.vertices, points, triangles)
+    off = distance.to_triangles(mesh.vertices, points[triangles]) > 1e-6 * mesh.radius
+    assert (winding[off] > 0.5).all()
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_side_filters_by_the_side_array(medial, name):
+    analysis = medial.MedialAnalysis(*ALL[name])
+    every = analysis.select()
+    for side, value in ((medial.Side.INNER, 1), (medial.Side.OUTER, 2)):
+        chosen = analysis.select(side=side)
+        assert np.array_equal(chosen, every[analysis.side[every] == value])
+        mesh = analysis.extract(side=side)
+        assert (mesh.side == value).all()
+    mesh = analysis.extract()
+    assert len(mesh.generators) + mesh.unbounded + mesh.zero_area == len(every)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_closed_and_boundary_edges(medial, name):
+    points, triangles = ALL[name]
+    analysis = medial.MedialAnalysis(points, triangles)
+    assert analysis.boundary_edges == reference.boundary_edges(triangles)
+    assert analysis.closed == (name in CLOSED)
+
+
+def test_without_triangles_no_side_is_known(medial):
+    points = ALL["sphere"][0]
+    for triangles in (None, np.empty((0, 3), dtype=np.int32)):
+        analysis = medial.MedialAnalysis(points, triangles)
+        assert not analysis.closed and analysis.boundary_edges == 0 and (analysis.side == 0).all()
+
+
+@pytest.mark.parametrize("name", ["nested shell", "torus", "ellipsoid", "overlapping balls"])
+def test_sides_do_not_depend_on_the_bounding_sphere(medial, name):
+    points, triangles = ALL[name]
+    plain = medial.MedialAnalysis(points, triangles)
+    bounded = medial.MedialAnalysis(points, triangles, bounding_sphere=True)
+    sides = {tuple(e): s for e, s in zip(plain.edges.tolist(), plain.side.tolist())}
+    inner = [tuple(e) for e, s in zip(bounded.edges.tolist(), bounded.side.tolist()) if s == 1]
+    assert len(inner) > 100 and np.mean([sides.get(e) == 1 for e in inner]) > 0.99
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_winding_number_is_on_the_right_side_of_one_half(medial, name):
+    """And within 0.1 of the sum of the solid angles: inside, outside, near the surface, far away."""
+    points, triangles = ALL[name]
+    rng = np.random.default_rng(3)
+    near = points[rng.integers(0, len(points), 500)] * (1 + rng.normal(size=(500, 1)) * 0.02)
+    queries = np.concatenate((rng.uniform(-1.5, 1.5, (1000, 3)), near, rng.normal(size=(100, 3)) * 1e3))
+    wanted = reference.winding_number(queries, points, triangles)
+    found = medial.winding_number(queries, points, triangles)
+    off = (distance.to_triangles(queries, points[triangles]) > 1e-7) & (np.abs(wanted - 0.5) > 1e-9)
+    assert off.sum() > 1000
+    assert np.array_equal(found[off] > 0.5, wanted[off] > 0.5)
+    assert np.abs(found - wanted)[off].max() <= 0.1
+
+
+def test_winding_number_of_no_triangles_is_zero(medial):
+    found = medial.winding_number(np.zeros((3, 3)), np.eye(3), np.empty((0, 3), dtype=np.int32))
+    assert np.array_equal(found, np.zeros(3))
+
+
+def test_winding_number_of_many_queries_and_triangles(medial):
+    mesh = noisy(meshes.nested_shell(5), 1e-4)
+    queries = np.random.default_rng(0).uniform(-1.2, 1.2, (300, 3))
+    wanted = reference.winding_number(queries, *mesh)
+    assert np.array_equal(medial.winding_number(queries, *mesh) > 0.5, wanted > 0.5)
+
+
+@pytest.mark.parametrize("file, closed", [("spot_low.obj", True), ("3holes.off", True), ("elephant-with-holes.off", False),
+                                          ("openscad-nonmanifold-crash.obj", None), ("knot1.off", True)])
+def test_sides_of_real_meshes(medial, data_file, file, closed):
+    points, triangles = meshes.read(data_file(file))
+    analysis = medial.MedialAnalysis(points, triangles)
+    if closed is not None:
+        assert analysis.closed is closed
+    mesh = analysis.extract(side=medial.Side.INNER)
+    picked = np.random.default_rng(0).choice(len(mesh.vertices), min(1500, len(mesh.vertices)), replace=False)
+    winding = reference.winding_number(mesh.vertices[picked], points, triangles)
+    off = distance.to_triangles(mesh.vertices[picked], points[triangles]) > 1e-6 * mesh.radius[picked]
+    assert len(picked) > 50 and (winding[off] > 0.5).all()
