@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import bpy
@@ -31,24 +33,38 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
     InvalidInputError
         An attribute of the table is missing.
     """
-    result.update_from_editmode()
-    mesh = result.data
-    offsets, corners = _faces(mesh)
-    positions = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", positions)
+    with _readable_mesh(result) as mesh:
+        offsets, corners = _faces(mesh)
+        positions = np.empty(3 * len(mesh.vertices), np.float32)
+        mesh.vertices.foreach_get("co", positions)
+        fields = _fields(mesh, result.name)
     return MedialAxis(
         vertices=positions.reshape(-1, 3).astype(np.float64),
         face_offsets=offsets,
         face_vertices=corners,
         unbounded=int(result.get(UNBOUNDED, 0)),
         zero_area=0,  # what was left out of the mesh is not known to it
-        **_fields(result),
+        **fields,
     )
 
 
 def world_matrix(result: bpy.types.Object) -> NDArray[np.float64]:
     """(4, 4) where the object lies in the world."""
     return np.array(result.matrix_world, np.float64)
+
+
+@contextmanager
+def _readable_mesh(result: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+    """The mesh of the object; in edit mode a copy, for there Blender shows no attribute values."""
+    if not result.data.is_editmode:
+        yield result.data
+        return
+    result.update_from_editmode()
+    mesh = result.data.copy()
+    try:
+        yield mesh
+    finally:
+        bpy.data.meshes.remove(mesh)
 
 
 def _faces(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
@@ -64,19 +80,22 @@ def _faces(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     return offsets, corners[places]
 
 
-def _fields(result: bpy.types.Object) -> dict[str, NDArray]:
-    """The fields of `MedialAxis` that are stored as attributes."""
+def _fields(mesh: bpy.types.Mesh, name: str) -> dict[str, NDArray]:
+    """The fields of `MedialAxis` that are stored as attributes; `name` is for messages."""
     columns: dict[str, list[NDArray]] = {}
     for attribute in attributes():
-        columns.setdefault(attribute.field, []).append(_values(result, attribute))
-    return {field: np.column_stack(parts) if len(parts) > 1 else parts[0] for field, parts in columns.items()}
+        columns.setdefault(attribute.field, []).append(_values(mesh, attribute, name))
+    return {
+        field: np.column_stack(parts) if len(parts) > 1 else parts[0]
+        for field, parts in columns.items()
+    }
 
 
-def _values(result: bpy.types.Object, attribute: Attribute) -> NDArray:
-    found = result.data.attributes.get(attribute.name)
+def _values(mesh: bpy.types.Mesh, attribute: Attribute, name: str) -> NDArray:
+    found = mesh.attributes.get(attribute.name)
     if found is None or (found.domain, found.data_type) != (attribute.domain, attribute.type):
         raise InvalidInputError(
-            f"Expected the {attribute.domain.lower()} attribute '{attribute.name}' on '{result.name}', "
+            f"Expected the {attribute.domain.lower()} attribute '{attribute.name}' on '{name}', "
             "found none; compute the medial axis again"
         )
     width = 2 if attribute.type == "INT32_2D" else 1

@@ -1,0 +1,333 @@
+"""Files made inside Blender: by our operator, and of the result by Blender's own exporters, read back."""
+
+import os
+from pathlib import Path
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from scene import (
+    addon,
+    attribute,
+    compute,
+    link,
+    positions,
+    reports,
+    result_of,
+    select,
+    torus,
+    world_positions,
+)
+
+EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
+BEFORE_4 = bpy.app.version < (4, 0, 0)
+
+
+@pytest.fixture
+def result():
+    """The inner axis of a torus that stands somewhere, turned; selected and active."""
+    source = torus()
+    source.location, source.rotation_euler = (3, -2, 1), (0.3, -0.5, 0.7)
+    select(source)
+    compute(side="INNER")
+    axis = result_of(source)
+    select(axis)
+    return axis
+
+
+def export(path):
+    return bpy.ops.export_scene.medial_axis(filepath=str(path))
+
+
+def corner_counts(mesh):
+    counts = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", counts)
+    return counts
+
+
+def polygons(mesh):
+    """Corners of every polygon."""
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    return np.split(corners, np.cumsum(corner_counts(mesh))[:-1])
+
+
+def read_ma(path):
+    """(v, 4), (e, 2), (f, 3) of a plain .ma file."""
+    lines = Path(path).read_text(encoding="ascii").splitlines()
+    counts = [int(word) for word in lines[0].split()]
+    assert len(lines) == 1 + sum(counts)
+    rows = {letter: [line.split()[1:] for line in lines[1:] if line[0] == letter] for letter in "vef"}
+    assert [len(rows[letter]) for letter in "vef"] == counts
+    return np.array(rows["v"], float), np.array(rows["e"], int), np.array(rows["f"], int)
+
+
+def assert_same_points(found, expected, rounding=4):
+    """Equal row by row, up to a few last bits of the float32 coordinates that Blender keeps."""
+    tolerance = rounding * np.finfo(np.float32).eps * np.abs(expected).max()
+    assert found.shape == expected.shape
+    np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance)
+
+
+def assert_same_point_set(found, expected):
+    """The same places, in any order and any number of times."""
+    from scipy.spatial import cKDTree
+
+    tolerance = 4 * np.finfo(np.float32).eps * np.abs(expected).max()
+    assert cKDTree(expected).query(found)[0].max() <= tolerance
+    assert cKDTree(found).query(expected)[0].max() <= tolerance
+
+
+# --- our operator
+
+
+@pytest.mark.parametrize("extension", EXTENSIONS)
+def test_operator_writes_every_format(result, extension, tmp_path, capfd):
+    path = tmp_path / f"axis{extension}"
+    assert export(path) == {"FINISHED"}
+    assert [p.name for p in tmp_path.iterdir()] == [path.name] and path.stat().st_size > 1000
+    kind, text = reports(capfd)[-1]
+    assert kind == "Info" and f"{len(result.data.polygons):,} facets" in text and path.name in text
+
+
+def test_ma_holds_the_result_in_the_world(result, tmp_path):
+    export(tmp_path / "axis.ma")
+    vertices, edges, faces = read_ma(tmp_path / "axis.ma")
+    assert_same_points(vertices[:, :3], world_positions(result), rounding=1)
+    assert np.array_equal(vertices[:, 3], attribute(result.data, "ma_radius").astype(np.float64))
+    assert len(faces) == (corner_counts(result.data) - 2).sum()
+    assert len(np.unique(edges, axis=0)) == len(edges) and (edges[:, 0] < edges[:, 1]).all()
+
+
+def test_npz_holds_all_attributes(result, tmp_path):
+    export(tmp_path / "axis.npz")
+    arrays, mesh = np.load(tmp_path / "axis.npz"), result.data
+    for name in ("theta", "rho", "side"):
+        assert np.array_equal(arrays[name], attribute(mesh, f"ma_{name}").astype(arrays[name].dtype))
+    assert np.array_equal(np.diff(arrays["face_offsets"]), corner_counts(mesh))
+    assert np.array_equal(arrays["face_vertices"], np.concatenate(polygons(mesh)))
+    assert arrays["generators"].shape == (len(mesh.polygons), 2)
+    source = addon("bridge.results").source_of(result)
+    samples = world_positions(source)[arrays["generators"]]  # the axis lies halfway between its generators
+    first = arrays["vertices"][arrays["face_vertices"][arrays["face_offsets"][:-1]]]
+    near, far = (np.linalg.norm(first - samples[:, end], axis=1) for end in (0, 1))
+    np.testing.assert_allclose(near, far, rtol=1e-4)
+
+
+def test_read_axis_is_the_computed_axis_in_float32(result):
+    read = addon("bridge.read_axis").read_axis(result)
+    analysis, results = addon("core.analysis"), addon("bridge.results")
+    axis = analysis.refilter(result[results.ANALYSIS], results.settings_of(result))
+    for name in ("face_offsets", "face_vertices", "side", "generators", "unbounded"):
+        assert np.array_equal(getattr(read, name), getattr(axis, name)), name
+    for name in ("vertices", "radius", "theta", "rho"):
+        assert getattr(read, name).dtype == np.float64
+        assert np.array_equal(getattr(read, name), getattr(axis, name).astype(np.float32)), name
+
+
+def test_source_exports_its_result(result, tmp_path):
+    export(tmp_path / "result.off")
+    select(addon("bridge.results").source_of(result))
+    export(tmp_path / "source.off")
+    assert (tmp_path / "result.off").read_bytes() == (tmp_path / "source.off").read_bytes()
+
+
+def test_scripts_may_move_the_result_just_before(result, tmp_path):
+    result.location.x += 10
+    export(tmp_path / "axis.ma")
+    assert_same_points(read_ma(tmp_path / "axis.ma")[0][:, :3], world_positions(result), rounding=1)
+
+
+def test_result_scaled_evenly_scales_its_radii(result, tmp_path):
+    result.scale = (2, 2, 2)
+    export(tmp_path / "axis.ma")
+    vertices = read_ma(tmp_path / "axis.ma")[0]
+    assert_same_points(vertices[:, :3], world_positions(result))
+    np.testing.assert_allclose(vertices[:, 3], 2 * attribute(result.data, "ma_radius"), rtol=1e-5)
+
+
+def test_result_scaled_unevenly_is_refused(result, tmp_path):
+    result.scale = (2, 1, 1)
+    with pytest.raises(RuntimeError, match="scaled evenly, found scales from 1 to 2"):
+        export(tmp_path / "axis.ma")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_edited_result_is_exported_as_it_is(result, tmp_path):
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for face in result.data.polygons[:50]:
+        face.select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.delete(type="FACE")
+    export(tmp_path / "axis.npz")  # still in edit mode
+    bpy.ops.object.mode_set(mode="OBJECT")
+    arrays = np.load(tmp_path / "axis.npz")
+    assert np.array_equal(arrays["face_vertices"], np.concatenate(polygons(result.data)))
+    assert np.array_equal(arrays["rho"], attribute(result.data, "ma_rho").astype(np.float64))
+
+
+def test_missing_attribute_is_named(result, tmp_path):
+    result.data.attributes.remove(result.data.attributes["ma_radius"])
+    with pytest.raises(RuntimeError, match="'ma_radius' on 'Torus Medial Axis'.*compute the medial axis again"):
+        export(tmp_path / "axis.ma")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_nothing_to_export_says_so(tmp_path):
+    for thing in (None, link("Plain", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])):
+        select(*([thing] if thing else []))
+        with pytest.raises(RuntimeError, match="Select a medial axis"):
+            export(tmp_path / "axis.ma")
+
+
+def test_unknown_extension_raises(result, tmp_path):
+    with pytest.raises(RuntimeError, match=r"\.ma, \.ply, \.obj, \.off or \.npz, found 'axis\.stl'"):
+        export(tmp_path / "axis.stl")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_name_without_extension_takes_the_format(result, tmp_path):
+    bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "axis"), file_format="OFF")
+    assert [path.name for path in tmp_path.iterdir()] == ["axis.off"]
+
+
+def test_failed_write_raises_and_leaves_the_old_file(result, tmp_path, monkeypatch):
+    path = tmp_path / "axis.ply"
+    path.write_bytes(b"precious")
+
+    def full(source, destination):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(RuntimeError, match="No space left on device"):
+        export(path)
+    assert [p.name for p in tmp_path.iterdir()] == ["axis.ply"] and path.read_bytes() == b"precious"
+
+
+def test_path_beside_the_blend_file(result, tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    export("//axis.obj")
+    assert (tmp_path / "axis.obj").is_file()
+
+
+def test_export_does_not_change_the_result(result, tmp_path):
+    before = (positions(result.data).tobytes(), [a.name for a in result.data.attributes], dict(result.items()))
+    for extension in EXTENSIONS:
+        export(tmp_path / f"axis{extension}")
+    after = (positions(result.data).tobytes(), [a.name for a in result.data.attributes], dict(result.items()))
+    assert after == before
+
+
+def test_menu_entry():
+    draw = addon("ui.export").menu_func_export
+    assert draw in bpy.types.TOPBAR_MT_file_export._dyn_ui_initialize()
+    shown = {}
+    layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
+    draw(SimpleNamespace(layout=layout), bpy.context)
+    assert shown == {"export_scene.medial_axis": "Medial Axis (.ma/.ply/.obj/.off/.npz)"}
+
+
+@pytest.mark.parametrize(
+    "path, shown, chosen, expected",
+    [
+        ("/a/axis.ma", "MA", "PLY", ("/a/axis.ply", "PLY")),  # another format was chosen
+        ("/a/axis.OBJ", "MA", "MA", ("/a/axis.OBJ", "OBJ")),  # another name was typed
+        ("/a/axis", "OFF", "OFF", ("/a/axis.off", "OFF")),  # no extension was typed
+        ("/a/axis.v2", "MA", "MA", ("/a/axis.v2.ma", "MA")),  # a dot that is no extension
+        ("/a/axis.ma", "MA", "MA", ("/a/axis.ma", "MA")),
+    ],
+)
+def test_file_browser_keeps_name_and_format_together(path, shown, chosen, expected):
+    cls = addon("ui.export").EXPORT_SCENE_OT_medial_axis
+    extensions = addon("ui.export")._EXTENSIONS
+
+    class Browser:
+        filepath, file_format, _shown_format = path, chosen, shown
+        filename_ext = property(lambda self: extensions[self.file_format])
+
+    browser = Browser()
+    changed = cls.check(browser, bpy.context)
+    assert (browser.filepath, browser.file_format) == expected
+    assert bool(changed) == (browser.filepath != path)
+    assert not cls.check(browser, bpy.context), "nothing changed since"
+
+
+# --- our files in Blender's importers
+
+
+def imported(operator, **options):
+    """The object that an import operator makes."""
+    before = set(bpy.data.objects)
+    assert operator(**options) == {"FINISHED"}
+    (new,) = [thing for thing in set(bpy.data.objects) - before if thing.type == "MESH"]
+    return new
+
+
+def test_our_ply_in_blenders_importer(result, tmp_path):
+    export(tmp_path / "axis.ply")
+    importer = bpy.ops.import_mesh.ply if BEFORE_4 else bpy.ops.wm.ply_import
+    again = imported(importer, filepath=str(tmp_path / "axis.ply"))
+    assert_same_points(world_positions(again), world_positions(result))
+    for found, expected in zip(polygons(again.data), polygons(result.data)):
+        assert sorted(found) == sorted(expected)
+    assert len(again.data.polygons) == len(result.data.polygons)
+
+
+def test_our_obj_in_blenders_importer(result, tmp_path):
+    export(tmp_path / "axis.obj")
+    again = imported(
+        bpy.ops.wm.obj_import, filepath=str(tmp_path / "axis.obj"), forward_axis="Y", up_axis="Z"
+    )
+    assert_same_points(world_positions(again), world_positions(result))
+    for found, expected in zip(polygons(again.data), polygons(result.data)):
+        assert np.array_equal(found, expected)
+    assert len(again.data.polygons) == len(result.data.polygons)
+
+
+# --- the result in Blender's exporters
+
+
+def write_and_read(name, path):
+    """Export the selection with Blender's exporter for a format and import the file; returns the new object."""
+    path = str(path / f"axis.{name}")
+    if name == "ply":
+        if BEFORE_4:
+            quiet = {"use_normals": False, "use_uv_coords": False, "use_colors": False}
+            bpy.ops.export_mesh.ply(filepath=path, use_selection=True, **quiet)
+            return imported(bpy.ops.import_mesh.ply, filepath=path)
+        bpy.ops.wm.ply_export(filepath=path, export_selected_objects=True)
+        return imported(bpy.ops.wm.ply_import, filepath=path)
+    if name == "stl":
+        if BEFORE_4:
+            bpy.ops.export_mesh.stl(filepath=path, use_selection=True)
+            return imported(bpy.ops.import_mesh.stl, filepath=path)
+        bpy.ops.wm.stl_export(filepath=path, export_selected_objects=True)
+        return imported(bpy.ops.wm.stl_import, filepath=path)
+    if name == "obj":
+        bpy.ops.wm.obj_export(filepath=path, export_selected_objects=True)
+        return imported(bpy.ops.wm.obj_import, filepath=path)
+    if name == "fbx":
+        bpy.ops.export_scene.fbx(filepath=path, use_selection=True)
+        importer = bpy.ops.wm.fbx_import if hasattr(bpy.types, "WM_OT_fbx_import") else bpy.ops.import_scene.fbx
+        return imported(importer, filepath=path)
+    bpy.ops.export_scene.gltf(filepath=path, use_selection=True)
+    flat = {"import_shading": "FLAT"}  # other shading stumbles over np.bool in Blender 3.4 with NumPy 1.24
+    return imported(bpy.ops.import_scene.gltf, filepath=path, **flat)
+
+
+@pytest.mark.parametrize("name", ["ply", "obj", "fbx"])
+def test_blenders_exporters_keep_polygons(result, name, tmp_path):
+    again = write_and_read(name, tmp_path)
+    assert np.array_equal(corner_counts(again.data), corner_counts(result.data))
+    assert len(again.data.vertices) == len(result.data.vertices)
+    assert_same_point_set(world_positions(again), world_positions(result))
+
+
+@pytest.mark.parametrize("name", ["glb", "stl"])
+def test_blenders_exporters_that_triangulate(result, name, tmp_path):
+    again = write_and_read(name, tmp_path)
+    assert len(again.data.polygons) == (corner_counts(result.data) - 2).sum()
+    assert_same_point_set(world_positions(again), world_positions(result))
