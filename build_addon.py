@@ -101,6 +101,14 @@ def output_of(*command: object, **options) -> str:
     return done.stdout
 
 
+def use_system_python() -> None:
+    """Debian's Blender takes its Python library from the first python3 on PATH: let that be the system's, also
+    when a pyenv or virtual environment runs this script."""
+    os.environ["PATH"] = "/usr/bin:" + os.environ.get("PATH", "/bin")
+    for name in ("PYTHONHOME", "PYTHONPATH", "VIRTUAL_ENV"):
+        os.environ.pop(name, None)
+
+
 def parallel_jobs() -> int:
     """Compilers to run at once: one unit that includes CGAL takes up to 2 GB."""
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
@@ -306,31 +314,53 @@ def demo(arguments: argparse.Namespace) -> None:
     output = Path(arguments.output).resolve()
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="medial_axis_demo_") as folder:
-        models = meshes or ["suzanne", *cgal_meshes(Path(folder))]
-        reports = [show_model(blender, archive, model, output, Path(folder)) for model in models]
+        models = [(mesh, 0) for mesh in meshes] or demo_models(Path(folder))
+        reports = [show_model(blender, archive, *model, output, Path(folder)) for model in models]
     print_table(reports)
 
 
-def cgal_meshes(folder: Path) -> list[Path]:
-    """Two meshes of CGAL's demo data (CC0): a knotted tube and a machine part."""
+def demo_models(folder: Path) -> list[tuple[Path | str, int]]:
+    """Blender's Suzanne, and a knotted tube and a machine part of CGAL's demo data (CC0), each with the
+    level of a Subdivision Surface modifier."""
     names = {"data/meshes/knot1.off": "knot.off", "data/meshes/fandisk_large.off": "fandisk.off"}
     package = Path("/usr/share/doc/libcgal-dev/data.tar.gz")
     if not package.exists():
         raise Failure(f"Expected CGAL's demo data at {package}, found none; name mesh files: demo PATH ...")
     run("tar", "xzf", package, "-C", folder, *names)
-    return [Path(shutil.move(str(folder / member), str(folder / name))) for member, name in names.items()]
+    for member, name in names.items():
+        (folder / member).rename(folder / name)
+    return [("suzanne", 3), (folder / "knot.off", 1), (folder / "fandisk.off", 0)]
 
 
-def show_model(blender: Path, archive: Path, model: Path | str, output: Path, folder: Path) -> dict:
+def show_model(
+    blender: Path, archive: Path, model: Path | str, levels: int, output: Path, folder: Path
+) -> dict:
     """Compute and render one model in a Blender of its own; returns what it reports."""
     say(f"Medial axis of {model if isinstance(model, str) else model.name}")
     report = folder / "report.json"
     report.unlink(missing_ok=True)
     profile = Profile(folder / "profile")
     script = ROOT / "tests" / "demo" / "blender_demo.py"
-    options = ("--zip", archive, "--model", model, "--output", output, "--report", report)
-    run(*profile.command(blender, "--python", script, "--", *options), env=profile.environment)
+    options = ["--zip", archive, "--model", model, "--subdivide", levels, "--output", output, "--report", report]
+    run_rendering(profile.command(blender, "--python", script, "--", *options), profile.environment)
     return json.loads(report.read_text(encoding="utf-8"))
+
+
+def run_rendering(command: list[str], environment: dict[str, str]) -> None:
+    """As `run`, with Blender's many lines about a rendering as one line about every tenth part of it."""
+    print("$ " + " ".join(map(shlex.quote, command)), flush=True)
+    with subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, text=True) as blender:
+        told = ""
+        for line in blender.stdout:
+            samples = re.search(r"Sample (\d+)/(\d+)", line)
+            part = f"{10 * int(samples[1]) // int(samples[2])}0 %" if samples else told
+            if not line.startswith("Fra:"):
+                print(line, end="", flush=True)
+            elif part != told:
+                told = part
+                print(f"rendering, {part}", flush=True)
+    if blender.returncode != 0:
+        raise Failure(f"Blender ended with exit code {blender.returncode}; its output is above")
 
 
 def print_table(reports: list[dict]) -> None:
@@ -399,16 +429,21 @@ def test_python(blender: Path) -> None:
 
 
 def test_addon(blender: Path) -> None:
-    python, _ = blender_python(blender)
-    run(python, "tests/addon/run.py", "--zip", DIST / f"{PACKAGE}-{version()}.zip")
+    run_inside(blender)
 
 
 def test_gui(blender: Path) -> None:
     for tool in ("Xvfb", "xdotool", "import"):
         if shutil.which(tool) is None:
             raise Skip(f"{tool} is not installed")
+    run_inside(blender, "--gui", "--keep", BUILD / "gui")
+
+
+def run_inside(blender: Path, *options: object) -> None:
+    """The tests of the installed zip inside Blender."""
     python, _ = blender_python(blender)
-    run(python, "tests/addon/run.py", "--zip", DIST / f"{PACKAGE}-{version()}.zip", "--gui")
+    archive = DIST / f"{PACKAGE}-{version()}.zip"
+    run(python, "tests/addon/run.py", "--zip", archive, "--blender", blender, *options)
 
 
 def test_asan(blender: Path) -> None:
@@ -494,6 +529,7 @@ lack of a tool is skipped by name. The parts after `build` use what `build` made
 
 def main(words: list[str]) -> int:
     arguments = parse(words)
+    use_system_python()
     try:
         arguments.action(arguments)
     except Failure as failure:

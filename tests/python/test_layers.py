@@ -21,24 +21,6 @@ MAY_IMPORT = {
     "bridge": {"bridge", "core", ""},
     "ui": {"ui", "bridge", "core", ""},
 }
-STAGES = (  # pipeline order: a stage may include itself, stages before it, and the vocabulary
-    "samples",
-    "triangulation",
-    "circumcentre",
-    "voronoi",
-    "complex",
-    "poles",
-    "umbrellas",
-    "significance",
-    "selection",
-    "winding_number",
-    "surface",
-    "sides",
-    "tight_cocone",
-    "medial_mesh",
-    "analysis",
-)
-VOCABULARY = {"vec3", "csr", "parallel", "progress", "errors", "union_find"}
 
 
 # --- Python
@@ -104,12 +86,11 @@ def test_ui_imports_no_numpy(python_file):
         assert not {name for name in outside if name.split(".")[0] in {"numpy", "scipy"}}
 
 
-@pytest.mark.parametrize("name", ["__init__", "cli"])
-def test_front_doors_import_without_blender(name):
+@pytest.mark.parametrize("path", sorted(ADDON.glob("*.py")), ids=lambda path: path.name)
+def test_front_doors_import_without_blender(path):
     """The package and its command line load where there is no bpy: it is only imported inside functions."""
-    path = ADDON / f"{name}.py"
     top = [node for node in ast.parse(path.read_text(encoding="utf-8")).body if "Import" in type(node).__name__]
-    outside, _ = imports_of("\n".join(ast.unparse(node) for node in top), name)
+    outside, _ = imports_of("\n".join(ast.unparse(node) for node in top), dotted(path))
     assert not {module for module in outside if module.split(".")[0] in BLENDER_MODULES}
 
 
@@ -149,18 +130,24 @@ def test_tbb_and_openmp_have_no_home():
     assert users_of("tbb/", "oneapi/", "omp.h") == []
 
 
+# A unit with a .cpp is a stage; native/CMakeLists.txt lists the stages in pipeline order. Headers alone are vocabulary.
+STAGES = re.findall(r"^\s*medial/(\w+)\.cpp", (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
+VOCABULARY = {path.stem for path in native_files("medial")} - set(STAGES)
+
+
 @pytest.mark.parametrize("path", native_files("medial"), ids=lambda path: path.name)
 def test_native_looks_down_only(path):
-    """A stage includes itself, earlier stages, the vocabulary and the standard library."""
-    own = {name.removeprefix("medial/") for name in includes_of(path) if name.endswith(".h")}
-    name = path.stem
-    below = [*VOCABULARY, *STAGES[: STAGES.index(name) + 1]] if name in STAGES else VOCABULARY
-    assert name in {*STAGES, *VOCABULARY}, "name the new unit in STAGES or VOCABULARY"
-    assert {include.removesuffix(".h") for include in own if not include.startswith("CGAL/")} <= set(below)
+    """A stage includes itself, earlier stages, the vocabulary and the standard library; the vocabulary only itself."""
+    own = {name for name in includes_of(path) if name.endswith(".h") and not name.startswith("CGAL/")}
+    below = STAGES[: STAGES.index(path.stem) + 1] if path.stem in STAGES else []
+    assert {name.removesuffix(".h") for name in own} <= {*below, *VOCABULARY}
 
 
-def test_vocabulary_is_header_only():
-    assert not [path for path in native_files("medial") if path.stem in VOCABULARY and path.suffix == ".cpp"]
+def test_stages_are_listed():
+    """Every .cpp is built; the pipeline begins with the samples and ends with the whole analysis."""
+    assert sorted(STAGES) == sorted(path.stem for path in native_files("medial") if path.suffix == ".cpp")
+    assert (STAGES[0], STAGES[-1]) == ("samples", "analysis")
+    assert {"vec3", "csr", "parallel", "progress", "errors"} <= VOCABULARY
 
 
 # --- the readers above see what they should

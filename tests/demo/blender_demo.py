@@ -1,0 +1,198 @@
+"""One model of the demo, inside Blender: install the zip, compute, export, render, report.
+
+    blender --background --factory-startup --python-exit-code 1 --python tests/demo/blender_demo.py -- \\
+        --zip dist/medial_axis-0.1.0.zip --model suzanne --subdivide 3 --output demo_output --report report.json
+"""
+
+import argparse
+import importlib
+import json
+import sys
+import time
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import blender_scene
+
+DELAUNAY = "triangulation"  # its stage in `MedialAnalysis.timings`
+
+
+def main():
+    arguments = parse()
+    package = install(arguments.zip)
+    source = load(arguments.model, arguments.subdivide)
+    result = compute(source)
+    files = write(result, arguments.output, source.name)
+    blender_scene.arrange(source, result)
+    files += [save(arguments.output, source.name), render(arguments.output, source.name)]
+    report = {**figures(package, result), "files": ", ".join(path.name for path in files)}
+    arguments.report.write_text(json.dumps(report), encoding="utf-8")
+
+
+def parse():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--zip", required=True)
+    parser.add_argument("--model", required=True, help="'suzanne', or a .ply, .obj, .stl or .off file")
+    parser.add_argument("--subdivide", type=int, default=0, help="levels of a Subdivision Surface modifier")
+    parser.add_argument("--output", type=Path, required=True)
+    parser.add_argument("--report", type=Path, required=True)
+    return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
+
+
+def install(archive):
+    """Install and enable the add-on as a person would; returns the name of its package."""
+    if bpy.app.version < (4, 2, 0):
+        bpy.ops.preferences.addon_install(filepath=archive, overwrite=True)
+        bpy.ops.preferences.addon_enable(module="medial_axis")
+        return "medial_axis"
+    bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
+    return "bl_ext.user_default.medial_axis"
+
+
+# --- models
+
+
+def load(model, levels):
+    """The only object of a new scene, smooth and with the modifier."""
+    for thing in list(bpy.data.objects):
+        bpy.data.objects.remove(thing)
+    path = Path(model)
+    if model == "suzanne":
+        bpy.ops.mesh.primitive_monkey_add()
+        bpy.context.object.name = "Suzanne"
+    elif path.suffix.lower() == ".off":
+        link(path.stem.capitalize(), *read_off(path))
+    else:
+        import_file(path)
+    source = join_meshes()
+    source.data.polygons.foreach_set("use_smooth", np.ones(len(source.data.polygons), bool))
+    if levels:
+        modifier = source.modifiers.new("Subdivision", "SUBSURF")
+        modifier.levels = modifier.render_levels = levels
+    print(f"{source.name}: {len(source.data.vertices):,} vertices, subdivision level {levels}")
+    return source
+
+
+def import_file(path):
+    kind = path.suffix.lower()
+    new = bpy.app.version >= (4, 0, 0)
+    importers = {
+        ".ply": bpy.ops.wm.ply_import if new else bpy.ops.import_mesh.ply,
+        ".stl": bpy.ops.wm.stl_import if new else bpy.ops.import_mesh.stl,
+        ".obj": bpy.ops.wm.obj_import,
+    }
+    if kind not in importers:
+        raise SystemExit(f"Expected a .ply, .obj, .stl or .off file, found '{path.name}'; convert it first")
+    importers[kind](filepath=str(path))
+
+
+def join_meshes():
+    """All imported meshes as one object, selected and active."""
+    meshes = [thing for thing in bpy.context.scene.objects if thing.type == "MESH"]
+    if not meshes:
+        raise SystemExit("Expected a file with a mesh, found none; choose another file")
+    for thing in bpy.context.scene.objects:
+        thing.select_set(thing in meshes)
+    bpy.context.view_layer.objects.active = meshes[0]
+    if len(meshes) > 1:
+        bpy.ops.object.join()
+    return bpy.context.object
+
+
+def link(name, vertices, faces):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(vertices, [], faces)
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
+
+
+def read_off(path):
+    """(vertices, faces) of an OFF file; comments and colours are skipped."""
+    lines = (line.split("#")[0].split() for line in path.read_text(encoding="utf-8").splitlines())
+    lines = [line for line in lines if line]
+    if not lines[0][0].endswith("OFF"):
+        raise SystemExit(f"Expected OFF on the first line of '{path.name}', found '{lines[0][0]}'")
+    counts, rows = (lines[0][1:], lines[1:]) if len(lines[0]) > 1 else (lines[1], lines[2:])
+    vertex_count, face_count = int(counts[0]), int(counts[1])
+    vertices = [tuple(map(float, row[:3])) for row in rows[:vertex_count]]
+    faces = [
+        tuple(map(int, row[1 : 1 + int(row[0])])) for row in rows[vertex_count : vertex_count + face_count]
+    ]
+    return vertices, faces
+
+
+# --- the add-on at work
+
+
+def compute(source):
+    side = "INNER" if source.data.polygons else "AUTOMATIC"
+    start = time.perf_counter()
+    bpy.ops.object.medial_axis(side=side)
+    result = bpy.context.view_layer.objects.active
+    print(f"{result.name}: {len(result.data.polygons):,} facets after {time.perf_counter() - start:.2f} s")
+    return result
+
+
+def write(result, folder, name):
+    bpy.context.view_layer.objects.active = result
+    files = [folder / f"{name}{suffix}" for suffix in (".ply", ".ma")]
+    for path in files:
+        bpy.ops.export_scene.medial_axis(filepath=str(path))
+    return files
+
+
+def figures(package, result):
+    """One row of the table: what was computed, and how long it took."""
+    results = importlib.import_module(package + ".bridge.results")
+    analysis = importlib.import_module(package + ".core.analysis")
+    key = result[results.ANALYSIS]
+    start = time.perf_counter()
+    analysis.refilter(key, results.settings_of(result))
+    seconds = dict(analysis.CACHE.get(key).timings)
+    delaunay = seconds.pop(DELAUNAY)
+    filter_seconds = sum(seconds.values()) + time.perf_counter() - start
+    return {
+        "model": result.name.removesuffix(results.SUFFIX),
+        "points": f"{result[results.POINTS]:,}",
+        "Delaunay s": f"{delaunay:.2f}",
+        "filter s": f"{filter_seconds:.2f}",
+        "facets": f"{len(result.data.polygons):,}",
+        "components": component_count(result.data),
+    }
+
+
+def component_count(mesh):
+    """Number of connected parts."""
+    parent = list(range(len(mesh.vertices)))
+
+    def root(vertex):
+        while parent[vertex] != vertex:
+            parent[vertex] = vertex = parent[parent[vertex]]
+        return vertex
+
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    for a, b in ends.reshape(-1, 2).tolist():
+        parent[root(a)] = root(b)
+    return sum(root(vertex) == vertex for vertex in range(len(parent)))
+
+
+def save(folder, name):
+    path = folder / f"{name}.blend"
+    bpy.context.preferences.filepaths.save_version = 0
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=True)
+    return path
+
+
+def render(folder, name):
+    path = folder / f"{name}.png"
+    start = time.perf_counter()
+    bpy.context.scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)
+    print(f"{path.name}: rendered in {time.perf_counter() - start:.1f} s")
+    return path
+
+
+main()

@@ -1,0 +1,179 @@
+"""build_addon.py: what it asks for, what it packs, what it refuses."""
+
+import importlib.util
+import os
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def script(monkeypatch):
+    """The script as a module, with an environment that it may change."""
+    spec = importlib.util.spec_from_file_location("build_addon", ROOT / "build_addon.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    monkeypatch.setenv("PATH", os.environ["PATH"])
+    return module
+
+
+@pytest.fixture
+def sources(script, tmp_path, monkeypatch):
+    """A tiny add-on in place of the real one."""
+    addon = tmp_path / "blender_addon"
+    for name in ("__init__.py", "core/a.py", "lib/_medial.cpython-311-x86_64-linux-gnu.so", "blender_manifest.toml"):
+        (addon / name).parent.mkdir(parents=True, exist_ok=True)
+        (addon / name).write_text(f"content of {name}", encoding="utf-8")
+    (addon / "__init__.py").write_text('bl_info = {"version": (1, 2, 3)}\n', encoding="utf-8")
+    (addon / "blender_manifest.toml").write_text('version = "1.2.3"\n', encoding="utf-8")
+    (tmp_path / "LICENSE").write_text("licence", encoding="utf-8")
+    for name, path in {"ROOT": tmp_path, "ADDON": addon, "DIST": tmp_path / "dist"}.items():
+        monkeypatch.setattr(script, name, path)
+    return addon
+
+
+@pytest.mark.parametrize("command", ["", "build", "demo", "test", "clean"])
+def test_help_is_there(command):
+    words = [sys.executable, str(ROOT / "build_addon.py"), *command.split(), "--help"]
+    done = subprocess.run(words, capture_output=True, text=True)
+    assert done.returncode == 0 and done.stdout.startswith("usage:") and "--help" in done.stdout
+
+
+def test_missing_packages_without_rights_name_the_command_and_exit_2(script, monkeypatch, capsys):
+    monkeypatch.setattr(script.shutil, "which", lambda name: f"/usr/bin/{name}")
+    monkeypatch.setattr(script, "is_installed", lambda package: package not in ("cmake", "libcgal-dev"))
+    monkeypatch.setattr(script, "administrator_prefix", lambda: None)
+    assert script.main(["build"]) == 2
+    advice = "sudo apt-get update && sudo apt-get install -y --no-install-recommends cmake libcgal-dev"
+    assert advice in capsys.readouterr().err
+
+
+def test_missing_packages_with_rights_are_installed(script, monkeypatch):
+    commands = []
+    monkeypatch.setattr(script.shutil, "which", lambda name: f"/usr/bin/{name}")
+    monkeypatch.setattr(script, "is_installed", lambda package: package != "xvfb")
+    monkeypatch.setattr(script, "administrator_prefix", lambda: ["sudo", "-n"])
+    monkeypatch.setattr(script, "run", lambda *words: commands.append(" ".join(words)))
+    script.require(script.TEST_NEEDS)
+    assert commands == [
+        "sudo -n apt-get update -q",
+        "sudo -n env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends xvfb",
+    ]
+
+
+def test_nothing_missing_runs_nothing(script, monkeypatch):
+    monkeypatch.setattr(script, "is_installed", lambda package: True)
+    monkeypatch.setattr(script, "run", lambda *words: pytest.fail("ran " + " ".join(words)))
+    script.require(script.BUILD_NEEDS)
+
+
+def test_missing_blender_exits_2(script, monkeypatch):
+    monkeypatch.setattr(script, "require", lambda needs: None)
+    assert script.main(["build", "--blender", "no-such-blender"]) == 2
+
+
+def test_zip_holds_what_is_needed_and_nothing_else(script, sources):
+    for extra in ("core/__pycache__/a.cpython-311.pyc", ".hidden/b.py", "core/.c.py", "core/notes.txt", "lib/_medial.new"):
+        (sources / extra).parent.mkdir(parents=True, exist_ok=True)
+        (sources / extra).write_text("not wanted", encoding="utf-8")
+    target = script.pack()
+    assert target.name == "medial_axis-1.2.3.zip"
+    assert sorted(zipfile.ZipFile(target).namelist()) == [
+        "medial_axis/LICENSE",
+        "medial_axis/__init__.py",
+        "medial_axis/blender_manifest.toml",
+        "medial_axis/core/a.py",
+        "medial_axis/lib/_medial.cpython-311-x86_64-linux-gnu.so",
+    ]
+
+
+def test_same_sources_same_zip(script, sources):
+    first = script.pack().read_bytes()
+    for path in sources.rglob("*.py"):
+        os.utime(path, (0, 0))
+    assert script.pack().read_bytes() == first
+
+
+def test_versions_must_agree(script, sources):
+    (sources / "blender_manifest.toml").write_text('version = "1.2.4"\n', encoding="utf-8")
+    with pytest.raises(script.Failure, match=r"1\.2\.4.*1, 2, 3"):
+        script.pack()
+
+
+def test_real_versions_agree(script):
+    assert script.version().count(".") == 2
+
+
+def compile_library(folder, source, *options):
+    """A shared library of one C++ source."""
+    target = folder / "_medial.so"
+    (folder / "a.cpp").write_text(source, encoding="utf-8")
+    subprocess.run(["g++", "-shared", "-fPIC", "-o", target, folder / "a.cpp", *options], check=True)
+    return target
+
+
+GOOD = 'extern "C" __attribute__((visibility("default"))) int PyInit__medial() { return 0; }\n'
+
+
+def test_module_that_exports_one_symbol_passes(script, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(script, "ROOT", tmp_path)
+    script.check_module(compile_library(tmp_path, GOOD))
+    assert "exports PyInit__medial only" in capsys.readouterr().out
+
+
+def test_module_that_exports_more_is_refused(script, tmp_path, monkeypatch):
+    monkeypatch.setattr(script, "ROOT", tmp_path)
+    with pytest.raises(script.Failure, match="PyInit__medial only, found 2"):
+        script.check_module(compile_library(tmp_path, GOOD + 'extern "C" int other() { return 1; }\n'))
+
+
+@pytest.mark.parametrize("name", ["libtbb.so.12", "libgmp.so.10", "libmpfr.so.6", "libpython3.11.so.1.0"])
+def test_module_that_needs_blenders_libraries_is_refused(script, tmp_path, monkeypatch, name):
+    monkeypatch.setattr(script, "ROOT", tmp_path)
+    needed = tmp_path / name
+    subprocess.run(
+        ["g++", "-shared", "-fPIC", "-o", needed, f"-Wl,-soname,{name}", "-x", "c++", "/dev/null"], check=True
+    )
+    with pytest.raises(script.Failure, match=f"must not need {name}"):
+        script.check_module(compile_library(tmp_path, GOOD, "-Wl,--no-as-needed", needed))
+
+
+def test_newest_version_counts_in_numbers(script):
+    assert script.newest("GLIBC", "GLIBC_2.9 GLIBC_2.34 GLIBC_2.4 GLIBCXX_3.4.29") == "2.34"
+    assert script.newest("CXXABI", "GLIBC_2.9") == "none"
+
+
+def test_one_failing_part_fails_the_whole(script, monkeypatch, capsys):
+    def fail(blender):
+        raise script.Failure("broken")
+
+    def skip(blender):
+        raise script.Skip("no tool")
+
+    monkeypatch.setattr(script, "require", lambda needs: None)
+    monkeypatch.setattr(script, "find_blender", lambda name: name)
+    monkeypatch.setattr(script, "PARTS", {"one": fail, "two": skip, "three": lambda blender: None})
+    assert script.main(["test"]) == 1
+    text = capsys.readouterr().out
+    summary = text[text.index("Summary") :].splitlines()
+    verdicts = [line.split(" s  ")[1] for line in summary[1:4]]
+    assert verdicts == ["FAILED: broken", "skipped: no tool", "passed"]
+    assert script.main(["test", "--only", "two", "three"]) == 0
+    assert script.main(["test", "--only", "four"]) == 1
+
+
+def test_clean_removes_what_was_made(script, tmp_path, monkeypatch):
+    for name in ("build/release/x", "dist/a.zip", "blender_addon/lib/m.so", "core/__pycache__/a.pyc", "demo_output/a.png", "keep.py"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("x", encoding="utf-8")
+    for name, path in {"ROOT": "", "BUILD": "build", "DIST": "dist", "LIBRARY": "blender_addon/lib"}.items():
+        monkeypatch.setattr(script, name, tmp_path / path)
+    assert script.main(["clean"]) == 0
+    assert sorted(p.name for p in tmp_path.rglob("*") if p.is_file()) == ["a.png", "keep.py"]
+    assert script.main(["clean", "--all"]) == 0
+    assert [p.name for p in tmp_path.rglob("*") if p.is_file()] == ["keep.py"]
