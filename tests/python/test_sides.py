@@ -124,9 +124,14 @@ def test_no_inner_vertex_is_outside(medial, name):
     points, triangles = ALL[name]
     mesh = medial.MedialAnalysis(points, triangles).extract(0.0, 0.0, medial.Side.INNER)
     assert (mesh.side == 1).all()
-    winding = reference.winding_number(mesh.vertices, points, triangles)
-    off = distance.to_triangles(mesh.vertices, points[triangles]) > 1e-6 * mesh.radius
-    assert (winding[off] > 0.5).all()
+    assert_inside(mesh.vertices, mesh.radius, points, triangles)
+
+
+def assert_inside(vertices, radius, points, triangles):
+    """Winding number > 1/2, or on the surface itself."""
+    bad = reference.winding_number(vertices, points, triangles) <= 0.5
+    if bad.any():
+        assert (distance.to_triangles(vertices[bad], points[triangles]) <= 1e-6 * radius[bad]).all()
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -176,10 +181,9 @@ def test_winding_number_is_on_the_right_side_of_one_half(medial, name):
     queries = np.concatenate((rng.uniform(-1.5, 1.5, (1000, 3)), near, rng.normal(size=(100, 3)) * 1e3))
     wanted = reference.winding_number(queries, points, triangles)
     found = medial.winding_number(queries, points, triangles)
-    off = (distance.to_triangles(queries, points[triangles]) > 1e-7) & (np.abs(wanted - 0.5) > 1e-9)
-    assert off.sum() > 1000
-    assert np.array_equal(found[off] > 0.5, wanted[off] > 0.5)
-    assert np.abs(found - wanted)[off].max() <= 0.1
+    doubtful = ((found > 0.5) != (wanted > 0.5)) | (np.abs(found - wanted) > 0.1)
+    if doubtful.any():
+        assert (distance.to_triangles(queries[doubtful], points[triangles]) < 1e-7).all()
 
 
 def test_winding_number_of_no_triangles_is_zero(medial):
@@ -203,6 +207,5 @@ def test_sides_of_real_meshes(medial, data_file, file, closed):
         assert analysis.closed is closed
     mesh = analysis.extract(side=medial.Side.INNER)
     picked = np.random.default_rng(0).choice(len(mesh.vertices), min(1500, len(mesh.vertices)), replace=False)
-    winding = reference.winding_number(mesh.vertices[picked], points, triangles)
-    off = distance.to_triangles(mesh.vertices[picked], points[triangles]) > 1e-6 * mesh.radius[picked]
-    assert len(picked) > 50 and (winding[off] > 0.5).all()
+    assert len(picked) > 50
+    assert_inside(mesh.vertices[picked], mesh.radius[picked], points, triangles)

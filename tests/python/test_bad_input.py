@@ -1,0 +1,315 @@
+"""Every error of the module's contract: the right class, one sentence, and nothing half-made; extreme input that is valid."""
+
+import re
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import inputs
+import meshes
+import shapes
+
+CLOUD = np.random.default_rng(0).random((50, 3))
+BALL = meshes.icosphere(1)
+STAGES = ("MedialAnalysis", "delaunay", "poles", "umbrellas")
+
+
+def one_sentence(error):
+    """Expected ..., found ...; what to do."""
+    text = str(error.value)
+    assert re.match(r"^Expected .+", text), text
+    assert "found" in text and "\n" not in text and "nan" not in text.split("found")[0], text
+    assert 20 < len(text) < 300, text
+    return text
+
+
+def with_value(row, value):
+    points = CLOUD.copy()
+    points[row, 1] = value
+    return points
+
+
+@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize(
+    "points",
+    [CLOUD[:, :2], CLOUD.ravel(), CLOUD[None], np.zeros((5, 4)), np.zeros((3, 0)), CLOUD.astype(int), CLOUD > 0.5,
+     CLOUD.astype(complex), CLOUD.astype(str), CLOUD.astype(object), np.float64(1.0)],
+    ids=["two columns", "flat", "three axes", "four columns", "no columns", "int", "bool", "complex", "str", "object", "scalar"],
+)
+def test_points_of_a_wrong_shape_or_type(medial, stage, points):
+    with pytest.raises(medial.InvalidInputError) as error:
+        getattr(medial, stage)(points)
+    one_sentence(error)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("row", [0, 17, 49])
+def test_values_that_are_not_finite_name_their_row(medial, stage, value, row):
+    with pytest.raises(medial.InvalidInputError) as error:
+        getattr(medial, stage)(with_value(row, value))
+    assert re.search(rf"\b{row}\b", one_sentence(error))
+
+
+def test_the_first_row_that_is_not_finite_is_named(medial):
+    points = with_value(20, np.nan)
+    points[40, 0] = np.inf
+    with pytest.raises(medial.InvalidInputError, match=r"\b20\b"):
+        medial.MedialAnalysis(points)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize(
+    "points",
+    [CLOUD[:0], CLOUD[:1], CLOUD[:2], CLOUD[:3], np.ones((20, 3)), np.repeat(CLOUD[:3], 10, axis=0),
+     np.outer(np.arange(20.0), [1, 2, 4]), np.column_stack((CLOUD[:, :2], np.zeros(50))),
+     np.column_stack((CLOUD[:, :2], np.full(50, 7.25))), CLOUD @ np.diag([1, 1, 0]) + 3, np.zeros((4, 3)),
+     np.column_stack((np.round(CLOUD[:, :2] * 64) / 64, np.round(CLOUD[:, 0] * 64) / 64)),
+     inputs.grid((5, 5, 1)), inputs.grid((9, 1, 1))],
+    ids=["none", "one", "two", "three", "identical", "three distinct", "line", "plane z = 0", "plane z = 7.25", "flattened",
+         "origin", "slanted plane", "flat grid", "grid line"],
+)
+def test_points_without_volume(medial, stage, points):
+    with pytest.raises(medial.DegenerateInputError) as error:
+        getattr(medial, stage)(points)
+    one_sentence(error)
+
+
+@pytest.mark.parametrize(
+    "triangles",
+    [BALL[1].astype(float), BALL[1][:, :2], BALL[1].ravel(), np.zeros((2, 4), np.int32), BALL[1] > 3],
+    ids=["float", "two columns", "flat", "quads", "bool"],
+)
+def test_triangles_of_a_wrong_shape_or_type(medial, triangles):
+    with pytest.raises(medial.InvalidInputError) as error:
+        medial.MedialAnalysis(BALL[0], triangles)
+    one_sentence(error)
+
+
+@pytest.mark.parametrize("index", [-1, 42, 2**31 - 1, -(2**31)])
+@pytest.mark.parametrize("row", [0, 79])
+def test_triangles_that_name_no_point(medial, index, row):
+    triangles = BALL[1].copy()
+    triangles[row, 2] = index
+    assert len(BALL[0]) == 42
+    for call in (lambda: medial.MedialAnalysis(BALL[0], triangles),
+                 lambda: medial.winding_number(CLOUD, BALL[0], triangles)):
+        with pytest.raises(medial.InvalidInputError) as error:
+            call()
+        assert re.search(rf"\b{row}\b|{index}", one_sentence(error))
+
+
+def test_triangles_with_repeated_corners_are_harmless(medial):
+    triangles = np.concatenate((BALL[1], [[0, 0, 1], [5, 5, 5]])).astype(np.int32)
+    analysis = medial.MedialAnalysis(meshes.jitter(BALL, 1e-3)[0], triangles)
+    plain = medial.MedialAnalysis(meshes.jitter(BALL, 1e-3)[0], BALL[1])
+    assert np.array_equal(analysis.side, plain.side)
+
+
+@pytest.mark.parametrize("theta", [-1e-9, -1.0, np.pi / 2 + 1e-6, 22.5, np.nan, np.inf])
+def test_theta_out_of_range(medial, theta):
+    analysis = medial.MedialAnalysis(CLOUD)
+    for call in (analysis.select, analysis.extract):
+        with pytest.raises(medial.InvalidInputError) as error:
+            call(theta=theta)
+        assert "theta" in one_sentence(error)
+
+
+@pytest.mark.parametrize("rho", [-1e-9, -8.0, np.nan])
+def test_rho_out_of_range(medial, rho):
+    analysis = medial.MedialAnalysis(CLOUD)
+    for call in (analysis.select, analysis.extract):
+        with pytest.raises(medial.InvalidInputError) as error:
+            call(rho=rho)
+        assert "rho" in one_sentence(error)
+
+
+def test_limits_of_the_thresholds_are_valid(medial):
+    analysis = medial.MedialAnalysis(CLOUD)
+    assert len(analysis.select(np.pi / 2, 1e300)) == 0
+    assert len(analysis.extract(np.pi / 2, np.inf).generators) == 0
+    assert len(analysis.select(0.0, 0.0)) > len(analysis.select(0.1, 2.0))
+
+
+@pytest.mark.parametrize("side", ["INNER", "OUTER"])
+def test_a_side_needs_triangles(medial, side):
+    analysis = medial.MedialAnalysis(CLOUD)
+    for call in (analysis.select, analysis.extract):
+        with pytest.raises(medial.InvalidInputError) as error:
+            call(side=getattr(medial.Side, side))
+        assert "triangles" in one_sentence(error)
+
+
+def test_crossing_is_no_argument(medial):
+    analysis = medial.MedialAnalysis(*meshes.jitter(BALL, 1e-3))
+    with pytest.raises(medial.InvalidInputError):
+        analysis.extract(side=medial.Side.CROSSING)
+
+
+def test_an_open_mesh_may_be_asked_for_its_inner_axis(medial):
+    vertices, triangles = meshes.jitter(meshes.icosphere(3), 1e-3)
+    analysis = medial.MedialAnalysis(vertices * (1.0, 0.7, 0.4), triangles[vertices[triangles].mean(axis=1)[:, 2] < 0.8])
+    assert not analysis.closed and len(analysis.extract(side=medial.Side.INNER).generators) > 100
+
+
+def test_threads_must_not_be_negative(medial):
+    with pytest.raises(medial.InvalidInputError):
+        medial.MedialAnalysis(CLOUD, threads=-1)
+
+
+@pytest.mark.parametrize("argument", ["theta", "side", "rule", "criteria"])
+def test_arguments_of_a_wrong_type(medial, argument):
+    with pytest.raises(TypeError):
+        medial.MedialAnalysis(CLOUD).extract(**{argument: "INNER"})
+
+
+def test_errors_are_value_errors(medial):
+    assert issubclass(medial.InvalidInputError, ValueError) and issubclass(medial.DegenerateInputError, ValueError)
+    assert issubclass(medial.Cancelled, Exception) and not issubclass(medial.Cancelled, ValueError)
+
+
+@pytest.mark.parametrize("queries", [CLOUD[:, :2], CLOUD.astype(int), with_value(3, np.nan)], ids=["2d", "int", "nan"])
+def test_winding_number_checks_its_queries(medial, queries):
+    with pytest.raises(medial.InvalidInputError) as error:
+        medial.winding_number(queries, *BALL)
+    one_sentence(error)
+
+
+# ---- cancelling
+
+
+def test_cancelled_before_it_starts(medial):
+    progress = medial.Progress()
+    progress.cancel()
+    assert progress.cancelled
+    with pytest.raises(medial.Cancelled):
+        medial.MedialAnalysis(CLOUD, progress=progress)
+    with pytest.raises(medial.Cancelled):
+        medial.MedialAnalysis(CLOUD).extract(progress=progress)
+
+
+@pytest.mark.parametrize("when", [0.02, 0.3, 0.62])
+def test_cancel_from_another_thread(medial, when):
+    """At the start, during the triangulation and after: the computation raises, and the module works on."""
+    points = np.random.default_rng(0).random((200_000, 3))
+    progress, raised = medial.Progress(), []
+
+    def compute():
+        try:
+            medial.MedialAnalysis(points, progress=progress)
+            raised.append(None)
+        except medial.Cancelled as error:
+            raised.append(error)
+
+    worker = threading.Thread(target=compute)
+    worker.start()
+    while worker.is_alive() and progress.fraction < when:
+        time.sleep(0.001)
+    progress.cancel()
+    worker.join(60)
+    assert isinstance(raised[0], medial.Cancelled) and 0 <= progress.fraction < 1
+    assert len(medial.MedialAnalysis(CLOUD).edges) > 0
+
+
+def test_progress_rises_to_one_and_names_its_stages(medial):
+    """Also shows that the GIL is released: this thread looks on while the other computes."""
+    points = np.random.default_rng(0).random((60_000, 3))
+    progress, seen = medial.Progress(), []
+    assert progress.fraction == 0.0 and not progress.cancelled and isinstance(progress.stage, str)
+    work = lambda: medial.MedialAnalysis(points, progress=progress).extract(progress=progress)
+    worker = threading.Thread(target=work)
+    worker.start()
+    while worker.is_alive():
+        seen.append((progress.fraction, progress.stage))
+        time.sleep(0.002)
+    fractions = [fraction for fraction, _ in seen]
+    assert fractions == sorted(fractions) and 0 <= fractions[0] and progress.fraction == 1.0
+    assert len(set(fractions)) > 5 and "Delaunay triangulation" in {stage for _, stage in seen}
+
+
+# ---- valid, but extreme
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e9, 1e-30, 1e30])
+def test_coordinates_of_any_size(medial, size):
+    points = shapes.SHAPES["ellipsoid"].sample(1000, 0)
+    plain, scaled = medial.MedialAnalysis(points).extract(), medial.MedialAnalysis(points * size).extract()
+    assert np.array_equal(plain.generators, scaled.generators)
+    assert np.allclose(plain.vertices, scaled.vertices / size, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("size", [1e60, 1e155, 1e300, 1e-60, 1e-200, 5e-324])
+def test_sizes_whose_squares_leave_the_doubles(medial, size):
+    """An answer or a sentence, never a crash or a NaN."""
+    points = shapes.SHAPES["ellipsoid"].sample(300, 0) * size
+    try:
+        mesh = medial.MedialAnalysis(points).extract()
+    except (medial.InvalidInputError, medial.DegenerateInputError) as error:
+        assert str(error).startswith("Expected ") and len(str(error)) < 250
+        return
+    assert np.isfinite(mesh.vertices).all() and np.isfinite(mesh.radius).all()
+    assert np.isfinite(mesh.theta).all() and np.isfinite(mesh.rho).all()
+
+
+def test_a_cloud_shifted_by_a_million(medial):
+    """The grid of doubles there is 1e-10: the same facets but for the smallest."""
+    points = shapes.SHAPES["ellipsoid"].sample(2000, 0)
+    plain, shifted = medial.MedialAnalysis(points).extract(), medial.MedialAnalysis(points + 1e6).extract()
+    a, b = ({tuple(g) for g in mesh.generators.tolist()} for mesh in (plain, shifted))
+    assert len(a ^ b) <= 0.002 * len(a)
+    assert shapes.SHAPES["ellipsoid"].axis_distance(shifted.vertices - 1e6).max() < 0.05
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_rotated_box_keeps_its_inner_axis(medial, dtype, seed):
+    """Coplanar faces, turned: nearly flat hull cells of any circumradius must cost no inner facet."""
+    vertices, triangles = meshes.box((20, 14, 8))
+    turn = inputs.rotation(seed)
+    straight = medial.MedialAnalysis(vertices, triangles).extract(side=medial.Side.INNER)
+    turned = medial.MedialAnalysis((vertices @ turn.T).astype(dtype), triangles).extract(side=medial.Side.INNER)
+    areas = [total_area(mesh) for mesh in (straight, turned)]
+    assert areas[1] == pytest.approx(areas[0], rel=0.02)
+    back = turned.vertices @ turn
+    assert shapes.Box().axis_distance(back).max() < 0.06
+    assert np.isfinite(turned.vertices).all()
+
+
+def total_area(mesh):
+    area = 0.0
+    for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:]):
+        ring = mesh.vertices[mesh.face_vertices[a:b]]
+        area += 0.5 * np.linalg.norm(np.cross(ring - ring[0], np.roll(ring, -1, axis=0) - ring[0]).sum(axis=0))
+    return area
+
+
+def test_a_rotated_box_of_random_samples_in_float64(medial):
+    """Faces of many coplanar samples without a grid: flat cells with circumradii up to 1e16."""
+    box = shapes.Box()
+    points = box.sample(1500, 0) @ inputs.rotation(2).T
+    mesh = medial.MedialAnalysis(points).extract()
+    inside = box.inside(mesh.vertices @ inputs.rotation(2))
+    facet = np.array([inside[mesh.face_vertices[a:b]].all() for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:])])
+    plain = medial.MedialAnalysis(box.sample(1500, 0)).extract()
+    inner = box.inside(plain.vertices)
+    wanted = {tuple(g) for g, a, b in zip(plain.generators.tolist(), plain.face_offsets[:-1], plain.face_offsets[1:])
+              if inner[plain.face_vertices[a:b]].all()}
+    found = {tuple(g) for g in mesh.generators[facet].tolist()}
+    assert len(wanted ^ found) <= 0.005 * len(wanted)
+
+
+@pytest.mark.parametrize("points", [meshes.uv_sphere(64, 32)[0], meshes.icosphere(4)[0], inputs.grid((12, 12, 12)),
+                                    inputs.prism(64, 8), np.concatenate((np.eye(3), -np.eye(3)))],
+                         ids=["uv sphere", "icosphere", "grid", "prism", "octahedron"])
+def test_exactly_cospherical_samples(medial, points):
+    mesh = medial.MedialAnalysis(points).extract(0.1, 2.0)
+    assert np.isfinite(mesh.vertices).all()
+    assert len(np.unique(mesh.vertices, axis=0)) == len(mesh.vertices)
+
+
+def test_a_plain_cube_of_eight_vertices(medial):
+    vertices, triangles = meshes.box((1, 1, 1))
+    mesh = medial.MedialAnalysis(vertices, triangles).extract(0.0, 0.0)
+    assert len(mesh.generators) == 0 and len(mesh.vertices) == 0 and np.array_equal(mesh.face_offsets, [0])

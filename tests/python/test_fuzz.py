@@ -1,0 +1,84 @@
+"""10,000 small inputs, most of them full of coincidences: no crash, no broken invariant, errors only where they belong."""
+
+import numpy as np
+import pytest
+
+import inputs
+from test_invariants import assert_invariants
+
+BATCHES, BATCH = 50, 200
+
+
+def random_points(rng):
+    """4 to 30 points of one of a dozen kinds of trouble."""
+    n, kind = int(rng.integers(4, 31)), int(rng.integers(0, 12))
+    if kind == 0:
+        return rng.random((n, 3))
+    if kind == 1:
+        return rng.integers(0, 3, (n, 3)).astype(float)
+    if kind == 2:
+        return rng.integers(0, 6, (n, 3)).astype(float)
+    if kind == 3:  # two or three coplanar layers
+        return np.column_stack((rng.random((n, 2)), rng.integers(0, 1 + n % 3, n)))
+    if kind == 4:  # repeated rows
+        return rng.random((max(2, n // 2), 3))[rng.integers(0, max(2, n // 2), n)]
+    if kind == 5:  # cospherical
+        points = rng.normal(size=(n, 3))
+        return points / np.linalg.norm(points, axis=1)[:, None]
+    if kind == 6:  # cocircular rings
+        turn = rng.integers(0, 12, n) * np.pi / 6
+        return np.column_stack((np.cos(turn), np.sin(turn), rng.integers(0, 4, n) * 0.25))
+    if kind == 7:  # a turned integer grid
+        return rng.integers(0, 4, (n, 3)) @ inputs.rotation(int(rng.integers(100))).T
+    if kind == 8:  # wild sizes
+        return rng.normal(size=(n, 3)) * 10.0 ** rng.uniform(-12, 12, (n, 1))
+    if kind == 9:  # nearly flat, nearly straight
+        return rng.normal(size=(n, 3)) * (1.0, 10.0 ** rng.uniform(-15, 0), 10.0 ** rng.uniform(-15, 0))
+    if kind == 10:  # a grid far away, rounded
+        return (rng.integers(0, 3, (n, 3)) * 0.1 + 1e6 * rng.integers(-1, 2)).astype(np.float32).astype(float)
+    points = rng.random((n, 3))  # clusters one rounding apart
+    return points[rng.integers(0, 4, n)] + rng.integers(0, 3, (n, 3)) * np.spacing(1.0)
+
+
+def spans_volume(points):
+    """Whether integer points span a volume; None for others, where rounding decides."""
+    if not np.array_equal(points, np.round(points)) or np.abs(points).max() > 1e6:
+        return None
+    return np.linalg.matrix_rank(points - points[0]) == 3
+
+
+def random_triangles(rng, n):
+    return rng.integers(0, n, (int(rng.integers(0, 2 * n)), 3)).astype(np.int32)
+
+
+@pytest.mark.parametrize("batch", range(BATCHES))
+def test_small_inputs(medial, batch):
+    degenerate = 0
+    for seed in range(batch * BATCH, (batch + 1) * BATCH):
+        rng = np.random.default_rng(seed)
+        points = random_points(rng)
+        triangles = random_triangles(rng, len(points)) if seed % 3 == 0 else None
+        try:
+            analysis = medial.MedialAnalysis(points, triangles, bounding_sphere=seed % 5 == 0, threads=1 + seed % 2)
+        except medial.DegenerateInputError:
+            degenerate += 1
+            assert spans_volume(points) is not True, seed
+            continue
+        assert spans_volume(points) is not False, seed
+        assert_sound(medial, analysis, points, rng, seed)
+    assert degenerate < BATCH / 2
+
+
+def assert_sound(medial, analysis, points, rng, seed):
+    edges = analysis.edges.astype(np.int64)
+    assert len(edges) == 0 or (np.diff(edges[:, 0] * 2**32 + edges[:, 1]) > 0).all(), seed
+    assert np.isin(edges, analysis.samples).all(), seed
+    for name in ("theta", "rho", "theta_both", "rho_both"):
+        assert np.isfinite(getattr(analysis, name)).all(), (seed, name)
+    thresholds = {"theta": rng.uniform(0, 1.0), "rho": rng.uniform(0, 10), "limit_set": bool(seed % 2)}
+    mesh, chosen = analysis.extract(**thresholds), analysis.select(**thresholds)
+    assert len(mesh.generators) + mesh.unbounded + mesh.zero_area == len(chosen), seed
+    try:
+        assert_invariants(points, mesh)
+    except AssertionError as error:
+        raise AssertionError(f"seed {seed}: {error}") from error
