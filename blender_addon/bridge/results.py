@@ -101,6 +101,11 @@ def update_result(result: bpy.types.Object, axis: MedialAxis, settings: Settings
     _remember_axis(result, axis)
 
 
+def radius_range(result: bpy.types.Object) -> tuple[float, float]:
+    """The smallest and the largest radius."""
+    return result.get(RADIUS_MIN, 0.0), result.get(RADIUS_MAX, 0.0)
+
+
 def settings_of(result: bpy.types.Object) -> Settings:
     """The settings that a result was made with."""
     values = {}

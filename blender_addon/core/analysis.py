@@ -136,11 +136,6 @@ def new_progress() -> Any:
     return native.load().Progress()
 
 
-def progress_text(stage: str, fraction: float) -> str:
-    """'Poles, 42 %'."""
-    return f"{stage or 'Preparing'}, {100 * fraction:.0f} %"
-
-
 # --- sides
 
 

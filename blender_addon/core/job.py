@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from .analysis import Computation, compute, new_progress, progress_text
+from .analysis import Computation, compute, new_progress
 from .errors import Cancelled, MedialAxisError
 
 if TYPE_CHECKING:
@@ -78,13 +78,16 @@ class Job:
         return (self._current + self._progress[self._current].fraction) / len(self._progress)
 
     @property
+    def stage(self) -> str:
+        """'Poles', or '1 of 2: Poles' when there are several tasks."""
+        count = len(self.names)
+        which = f"{self._current + 1} of {count}: " if count > 1 else ""
+        return which + (self._progress[self._current].stage or "Preparing")
+
+    @property
     def text(self) -> str:
-        """'Suzanne (1 of 2): Poles, 42 %'."""
-        number, count = self._current, len(self.names)
-        which = f" ({number + 1} of {count})" if count > 1 else ""
-        return f"{self.names[number]}{which}: " + progress_text(
-            self._progress[number].stage, self._progress[number].fraction
-        )
+        """'Suzanne, 1 of 2: Poles, 42 %'."""
+        return f"{', '.join((self.names[self._current], self.stage))}, {100 * self.fraction:.0f} %"
 
     def cancel(self) -> None:
         """Ask the thread to end; it does within 0.3 s."""

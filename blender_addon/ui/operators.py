@@ -117,7 +117,7 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
         try:
             return self._write(context, self._sources, self._job.outcomes())
         except Cancelled as error:
-            self.report({"WARNING"}, self._gone or str(error))
+            self._tell(context, "WARNING", self._gone or str(error))
             return {"CANCELLED"}
 
     def cancel(self, context):
@@ -135,8 +135,16 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
                 self._gone = f"'{source.name}' was deleted while its medial axis was computed; nothing was changed"
                 self._job.cancel()
 
+    def _tell(self, context, kind, text):
+        """Report, and keep what went wrong in the panel: Blender's own message fades after seconds."""
+        self.report({kind}, text)
+        if kind != "INFO":
+            panel = context.scene.medial_axis
+            panel.note = f"{panel.note}\n{text}".strip()
+
     def _read(self, context):
         """The sources that can be read, and what to compute of them; the others are reported."""
+        context.scene.medial_axis.note = ""
         found, tasks = [], []
         depsgraph = context.evaluated_depsgraph_get()
         for thing in sources(context):
@@ -145,7 +153,7 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
                 check_writable(thing)
                 shape = read_object(thing, depsgraph)
             except MedialAxisError as error:
-                self.report({"ERROR"}, f"'{thing.name}': {error}")
+                self._tell(context, "ERROR", f"'{thing.name}': {error}")
                 continue
             found.append(Source(thing.name, getattr(thing, "session_uid", None), shape.frame))
             tasks.append(Task(thing.name, shape.points, shape.triangles, settings))
@@ -155,27 +163,28 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
         results = []
         for source, outcome in zip(found, outcomes):
             try:
-                results += self._write_one(source, outcome)
+                results += self._write_one(context, source, outcome)
             except MedialAxisError as error:
-                self.report({"ERROR"}, f"'{source.name}': {error}")
+                self._tell(context, "ERROR", f"'{source.name}': {error}")
         _select(context, results)
         return {"FINISHED"} if results else {"CANCELLED"}
 
-    def _write_one(self, source, outcome):
+    def _write_one(self, context, source, outcome):
         if outcome.error is not None:
             raise outcome.error
         thing = source.find()
         if thing is None:
-            self.report({"WARNING"}, f"'{source.name}' is gone; its medial axis was dropped")
+            self._tell(context, "WARNING", f"'{source.name}' is gone; its medial axis was dropped")
             return []
         computation = outcome.computation
         for warning in computation.warnings:
-            self.report({"WARNING"}, f"'{source.name}': {warning}")
+            self._tell(context, "WARNING", f"'{source.name}': {warning}")
         if computation.axis.facets == 0:
             return []
         start = time.perf_counter()
         result = write_result(thing, computation, source.frame)
-        self.report({"INFO"}, _summary(source.name, computation, time.perf_counter() - start))
+        seconds = computation.seconds + time.perf_counter() - start
+        self._tell(context, "INFO", _summary(source.name, computation, seconds))
         return [result]
 
 
@@ -197,11 +206,11 @@ class OBJECT_OT_medial_axis_cancel(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _summary(name, computation, writing):
+def _summary(name, computation, seconds):
     axis = computation.axis
     return (
         f"'{name}': {computation.points:,} points, {axis.facets:,} facets, "
-        f"{computation.seconds + writing:.2f} s, duplicates merged {computation.duplicates:,}, "
+        f"{seconds:.2f} s, duplicates merged {computation.duplicates:,}, "
         f"unbounded facets {axis.unbounded:,}"
     )
 
@@ -210,6 +219,7 @@ def _select(context, results):
     """Select the results and nothing else, as Blender does with new objects; not in edit mode."""
     if not results or context.mode != "OBJECT":
         return
+    context.view_layer.update()
     for thing in context.selected_objects:
         thing.select_set(False)
     shown = [result for result in results if result.name in context.view_layer.objects]

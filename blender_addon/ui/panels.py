@@ -31,7 +31,7 @@ class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
             _sentence(context, layout.box(), problem, "ERROR")
         _draw_settings(context, layout)
         _draw_compute(context, layout)
-        if note := context.scene.medial_axis.note:
+        for note in context.scene.medial_axis.note.splitlines():
             _sentence(context, layout, note, "INFO")
 
 
@@ -46,7 +46,7 @@ class VIEW3D_PT_medial_axis_result(_Tab, bpy.types.Panel):
         layout = self.layout
         result = shown_result(context)
         if result is None:
-            layout.label(text="None yet for the active object", icon="INFO")
+            layout.label(text="No medial axis yet", icon="INFO")
         else:
             _draw_figures(context, layout, result)
         layout.operator("export_scene.medial_axis", icon="EXPORT")
@@ -81,30 +81,29 @@ def _draw_compute(context, layout):
 
 def _draw_progress(context, layout, job):
     if hasattr(layout, "progress"):  # from 4.0
-        layout.progress(factor=job.fraction, text=job.text)
+        layout.progress(factor=job.fraction, text=f"{job.stage}, {100 * job.fraction:.0f} %")
     else:
         row = layout.row()
         row.enabled = False
-        row.prop(context.window_manager.medial_axis_progress, "percentage", text=job.text, slider=True)
+        bar = context.window_manager.medial_axis_progress
+        row.prop(bar, "percentage", text=job.stage, slider=True)
     layout.operator("object.medial_axis_cancel", icon="CANCEL")
 
 
 def _draw_figures(context, layout, result):
     layout.label(text=result.name, icon="OUTLINER_OB_MESH")
     column = layout.column(align=True)
-    for label, value in (
-        ("Points", result.get(results.POINTS, 0)),
-        ("Duplicates merged", result.get(results.DUPLICATES, 0)),
-        ("Facets", len(result.data.polygons)),
-        ("Vertices", len(result.data.vertices)),
-        ("Unbounded facets", result.get(results.UNBOUNDED, 0)),
+    for label, text in (
+        ("Points", f"{result.get(results.POINTS, 0):,}"),
+        ("Duplicates", f"{result.get(results.DUPLICATES, 0):,}"),
+        ("Facets", f"{len(result.data.polygons):,}"),
+        ("Vertices", f"{len(result.data.vertices):,}"),
+        ("Unbounded", f"{result.get(results.UNBOUNDED, 0):,}"),
+        ("Radius", "{:.3g} to {:.3g}".format(*results.radius_range(result))),
     ):
-        row = column.split(factor=0.6)
+        row = column.split(factor=0.45)
         row.label(text=label)
-        row.label(text=f"{value:,}")
-    row = column.split(factor=0.6)
-    row.label(text="Radius")
-    row.label(text="{:.4g} to {:.4g}".format(result.get(results.RADIUS_MIN, 0), result.get(results.RADIUS_MAX, 0)))
+        row.label(text=text)
     for warning in result.get(results.WARNINGS, "").splitlines():
         _sentence(context, layout, warning, "ERROR")
 

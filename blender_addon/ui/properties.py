@@ -20,7 +20,7 @@ def number(name, update=None):
     if math.isfinite(option.maximum):
         limits["max"] = option.maximum
     if option.unit == "rad":
-        limits |= {"subtype": "ANGLE", "step": 100}
+        limits |= {"subtype": "ANGLE", "step": 100, "precision": 3}
     return FloatProperty(
         name=option.label,
         description=option.description,

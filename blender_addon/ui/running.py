@@ -49,12 +49,13 @@ def show(context: bpy.types.Context) -> None:
 
 
 def redraw() -> None:
-    """Draw the sidebars again."""
+    """Draw the sidebars again, not the viewports: a large scene would take Blender's time."""
     for manager in bpy.data.window_managers:
         for window in manager.windows:
             for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+                for region in area.regions:
+                    if area.type == "VIEW_3D" and region.type == "UI":
+                        region.tag_redraw()
 
 
 def obstacle() -> str:

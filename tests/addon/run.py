@@ -30,6 +30,8 @@ class Blender:
     def __init__(self, program: str, folder: Path) -> None:
         self.program = program
         self.environment = {**os.environ, "HOME": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+        self.environment["TMPDIR"] = str(folder)  # Blender saves quit.blend there
+        folder.mkdir(parents=True, exist_ok=True)
         for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES", "EXTENSIONS"):
             path = folder / part.lower()
             path.mkdir(parents=True, exist_ok=True)

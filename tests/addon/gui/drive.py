@@ -1,0 +1,101 @@
+"""Runs each scene of scenes.py in a Blender window of its own under Xvfb, and tells which passed."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import subprocess
+import time
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SIZE = (1280, 800)
+LIMIT = 240  # seconds for one scene, start of Blender included
+
+SCENES = {  # name -> whether the compiled module is installed
+    "compute_drag_undo": True,
+    "cancel_with_escape": True,
+    "cancel_with_button": True,
+    "source_deleted": True,
+    "file_loaded": True,
+    "edit_mode": True,
+    "quit_while_running": True,
+    "missing_module": False,
+}
+
+
+def run_all(blender, folder: Path, wanted: list[str]) -> int:
+    """Run the scenes, or those named; returns the exit code."""
+    folder.mkdir(parents=True, exist_ok=True)
+    unknown = set(wanted) - set(SCENES)
+    if unknown:
+        raise SystemExit(f"expected scenes out of {', '.join(SCENES)}, found {', '.join(unknown)}")
+    failed = []
+    with display() as number:
+        blender.environment |= {"DISPLAY": number, "LIBGL_ALWAYS_SOFTWARE": "1"}
+        for name, with_module in SCENES.items():
+            if wanted and name not in wanted:
+                continue
+            with contextlib.nullcontext() if with_module else module_hidden(blender):
+                problem = run_scene(blender, name, folder)
+            print(f"{'FAILED' if problem else 'passed'}  {name}  {problem}", flush=True)
+            failed += [name] if problem else []
+    return 1 if failed else 0
+
+
+@contextlib.contextmanager
+def display() -> Iterator[str]:
+    """An X server without a screen."""
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", "1", "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "+extension", "GLX", "-nolisten", "tcp"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    try:
+        yield f":{server.stdout.readline().strip()}"
+    finally:
+        server.terminate()
+        server.wait()
+
+
+@contextlib.contextmanager
+def module_hidden(blender) -> Iterator[None]:
+    """The installed add-on without its compiled modules."""
+    folders = [p for p in Path(blender.environment["HOME"]).rglob("medial_axis/lib") if p.is_dir()]
+    for folder in folders:
+        folder.rename(folder.with_name("lib_hidden"))
+    try:
+        yield
+    finally:
+        for folder in folders:
+            folder.with_name("lib_hidden").rename(folder)
+
+
+def run_scene(blender, name: str, folder: Path) -> str:
+    """Run one scene; returns what went wrong, or an empty string."""
+    answer, log = folder / f"{name}.json", folder / f"{name}.log"
+    answer.unlink(missing_ok=True)
+    command = [blender.program, "--factory-startup", "--window-geometry", "0", "0", *map(str, SIZE)]
+    command += ["--python-exit-code", "1", "--python", str(HERE / "scenes.py"), "--", name, str(folder)]
+    with open(log, "wb") as output:
+        window = subprocess.Popen(command, env=blender.environment, stdout=output, stderr=subprocess.STDOUT)
+        try:
+            code = window.wait(LIMIT)
+        except subprocess.TimeoutExpired:
+            window.kill()
+            window.wait()
+            return f"no end after {LIMIT} s; see {log}"
+    text = log.read_text(encoding="utf-8", errors="replace")
+    if not answer.exists():
+        return f"no answer, exit code {code}:\n{text[-3000:]}"
+    problem = json.loads(answer.read_text(encoding="utf-8"))["problem"]
+    escaped = code == 1 and name == "cancel_with_escape"  # Blender's exit code after Esc was the last key
+    if not problem and code != 0 and not escaped:
+        problem = f"exit code {code}"
+    if not problem and "Traceback" in text:
+        problem = "a traceback was printed"
+    return f"{problem}\n{text[-3000:]}" if problem else ""

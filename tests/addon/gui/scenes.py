@@ -1,0 +1,355 @@
+"""Runs inside Blender's window: plays one scene with a real mouse and keyboard, and asserts on what Blender holds.
+
+A scene is a generator; what it yields is how many seconds Blender's own loop runs before it goes on, or a
+function to wait for.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import threading
+import time
+import traceback
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from scene import addon, analyses, medial_objects, select
+
+NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
+PATIENCE = 90.0
+# (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 draws it at 1280 x 800.
+TAB = (13, 177)
+THETA_LEFT, THETA_RIGHT = (120, 46), (50, 46)
+COMPUTE = (102, 192)
+CANCEL = (102, 214)
+
+
+# --- hands and eyes
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def viewport():
+    return next(area for area in window().screen.areas if area.type == "VIEW_3D")
+
+
+def sidebar():
+    return next(region for region in viewport().regions if region.type == "UI")
+
+
+def at(place):
+    """A place in the sidebar on the screen."""
+    left, down = place
+    region = sidebar()
+    return region.x + region.width - left, window().height - (region.y + region.height) + down
+
+
+def xdotool(*words):
+    subprocess.run(["xdotool", *map(str, words)], check=True, stdout=subprocess.DEVNULL)
+
+
+def point(x, y):
+    xdotool("mousemove", x, y)
+    yield 0.4
+    xdotool("mousemove_relative", 1, 1)
+    yield 0.4
+
+
+def click(x, y):
+    yield from point(x, y)
+    xdotool("click", 1)
+    yield 0.5
+
+
+def drag(start, end):
+    yield from point(*start)
+    xdotool("mousedown", 1)
+    yield 0.2
+    steps = 8
+    for step in range(1, steps + 1):
+        xdotool("mousemove", *(a + (b - a) * step // steps for a, b in zip(start, end)))
+        yield 0.15
+    xdotool("mouseup", 1)
+    yield 0.5
+
+
+def key(name):
+    """Press a key with the mouse over the viewport, left of its middle."""
+    area = viewport()
+    yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
+    xdotool("key", name)
+    yield 0.8
+
+
+def look(name):
+    """Keep a picture of the screen; it must show something."""
+    path = Path(FOLDER) / f"{NAME}-{name}.png"
+    subprocess.run(["import", "-window", "root", str(path)], check=True)
+    colours = subprocess.run(
+        ["identify", "-format", "%k", str(path)], check=True, capture_output=True, text=True
+    ).stdout
+    assert int(colours) > 500, f"{path} shows {colours} colours only"
+
+
+# --- scenes
+
+
+def open_tab():
+    viewport().spaces.active.show_region_ui = True
+    yield 1.0
+    yield from click(*at(TAB))
+    yield 0.5
+
+
+def monkey():
+    """Suzanne under a Subdivision Surface modifier instead of the default cube."""
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    mesh = bpy.data.meshes.new("Suzanne")
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        bpy.ops.mesh.primitive_monkey_add()
+    bpy.data.meshes.remove(mesh)
+    source = bpy.data.objects["Suzanne"]
+    source.modifiers.new("Subdivision", "SUBSURF").levels = 1
+    select(source)
+    bpy.ops.ed.undo_push(message="Scene is set")
+    return source
+
+
+def cloud(count=1_200_000):
+    """Points that keep the computer busy for many seconds."""
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    points = np.random.default_rng(9).normal(size=(count, 3))
+    points *= np.array([1.0, 0.8, 0.6]) / np.linalg.norm(points, axis=1)[:, None]
+    mesh = bpy.data.meshes.new("Cloud")
+    mesh.vertices.add(count)
+    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    mesh.update()
+    source = bpy.data.objects.new("Cloud", mesh)
+    bpy.context.scene.collection.objects.link(source)
+    select(source)
+    bpy.ops.ed.undo_push(message="Scene is set")
+    return source
+
+
+def job():
+    return addon("ui.running").job()
+
+
+def job_runs():
+    return job() is not None and job().fraction > 0.02
+
+
+def no_job():
+    return job() is None
+
+
+def result_exists():
+    return bool(medial_objects()) and job() is None
+
+
+def threads():
+    return [thread for thread in threading.enumerate() if thread.name == "medial axis"]
+
+
+def nothing_is_left():
+    assert medial_objects() == [] and threads() == []
+    assert not [m.name for m in bpy.data.meshes if "Medial" in m.name]
+    assert not [m.name for m in bpy.data.materials if "Medial" in m.name]
+
+
+def facets():
+    return len(bpy.data.objects["Suzanne Medial Axis"].data.polygons)
+
+
+def scene_compute_drag_undo():
+    monkey()
+    yield from open_tab()
+    look("before")
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield 0.5
+    look("computed")
+    assert [thing.name for thing in medial_objects()] == ["Suzanne Medial Axis"]
+    assert bpy.context.window_manager.operators[-1].bl_idname == "OBJECT_OT_medial_axis"
+    first, before = facets(), analyses()
+    yield from click(145, 705)  # Adjust Last Operation, collapsed at the lower left
+    yield 1.0
+    look("adjust")
+
+    yield from drag(at(THETA_LEFT), at(THETA_RIGHT))
+    look("dragged")
+    dragged = facets()
+    theta = bpy.context.scene.medial_axis.theta
+    assert theta > 0.8, f"theta is {theta}: the slider was missed"
+    assert bpy.data.objects["Suzanne Medial Axis"]["ma_theta"] == theta
+    assert dragged != first and analyses() == before
+
+    yield from key("ctrl+z")
+    assert abs(bpy.context.scene.medial_axis.theta - np.pi / 8) < 1e-6
+    assert facets() == first, "undo must bring the facets back, too"
+    yield from key("ctrl+z")
+    assert medial_objects() == [], "one undo must remove the result"
+    look("undone")
+    yield from key("ctrl+shift+z")
+    assert facets() == first, "redo must bring the result back"
+    yield from key("ctrl+shift+z")
+    assert facets() == dragged
+    look("redone")
+    assert analyses() == before
+
+
+def start_long_run():
+    """Click the button; returns when the job runs and the picture was taken."""
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield job_runs
+    assert medial_objects() == []
+
+
+def scene_cancel_with_escape():
+    cloud()
+    yield from start_long_run()
+    gaps, last = [], time.monotonic()
+    for _ in range(20):
+        yield 0.05
+        gaps.append(time.monotonic() - last)
+        last = time.monotonic()
+    assert job() is not None, "the run was too short to be cancelled"
+    assert max(gaps) < 0.5, f"Blender stood still for {max(gaps):.2f} s"
+    look("running")
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        assert not bpy.ops.object.medial_axis.poll(), "a second run must be refused"
+    area = viewport()
+    yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
+    asked = time.monotonic()
+    xdotool("key", "Escape")
+    yield no_job
+    assert time.monotonic() - asked < 1.0
+    yield 0.5
+    look("cancelled")
+    nothing_is_left()
+    assert "cancelled" in bpy.context.scene.medial_axis.note
+
+
+def scene_cancel_with_button():
+    cloud()
+    yield from start_long_run()
+    yield from click(*at(CANCEL))
+    yield 0.5
+    assert no_job(), "the button was missed, or the run does not end"
+    nothing_is_left()
+    yield 0.3
+    assert "cancelled" in bpy.context.scene.medial_axis.note
+
+
+def scene_source_deleted():
+    source = cloud()
+    yield from start_long_run()
+    bpy.data.objects.remove(source)
+    yield no_job
+    yield 0.3
+    nothing_is_left()
+    assert "'Cloud' was deleted" in bpy.context.scene.medial_axis.note
+    look("deleted")
+
+
+def scene_file_loaded():
+    cloud()
+    yield from start_long_run()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.read_homefile(use_factory_startup=True)
+    yield 1.0
+    assert job() is None
+    nothing_is_left()
+    monkey()
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    look("computed after loading")
+
+
+def scene_edit_mode():
+    monkey()
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        bpy.ops.object.mode_set(mode="EDIT")
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield 0.5
+    look("computed")
+    assert bpy.context.mode == "EDIT_MESH" and bpy.context.object.name == "Suzanne"
+    yield from key("ctrl+z")
+    look("undone")
+
+
+def scene_quit_while_running():
+    cloud()
+    yield from start_long_run()
+    assert threads()
+
+
+def scene_missing_module():
+    yield from open_tab()
+    look("message")
+    native = addon("core.native")
+    assert native.expected_abi() in native.problem() and "found none" in native.problem()
+    yield from click(*at((102, 270)))
+    yield 0.5
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        assert not bpy.ops.object.medial_axis.poll()
+    assert medial_objects() == []
+
+
+# --- the stage
+
+
+def play(scene):
+    """A timer that plays a generator step by step and writes its end into the answer file."""
+    waiting = None  # (condition, deadline)
+
+    def step():
+        nonlocal waiting
+        try:
+            if waiting is not None:
+                condition, deadline = waiting
+                if not condition():
+                    assert time.monotonic() < deadline, f"waited in vain for {condition.__name__}"
+                    return 0.1
+                waiting = None
+            wish = next(scene)
+            if callable(wish):
+                waiting = (wish, time.monotonic() + PATIENCE)
+                return 0.05
+            return wish
+        except StopIteration:
+            end("")
+        except BaseException:
+            look("failed")
+            end(traceback.format_exc())
+        return None
+
+    return step
+
+
+def answer(problem):
+    (Path(FOLDER) / f"{NAME}.json").write_text(json.dumps({"problem": problem}), encoding="utf-8")
+
+
+def end(problem):
+    answer(problem)
+    bpy.ops.wm.quit_blender()
+
+
+def start():
+    bpy.context.preferences.view.show_splash = False
+    bpy.ops.preferences.addon_enable(module=os.environ["MEDIAL_AXIS_MODULE"])
+    bpy.app.timers.register(play(globals()[f"scene_{NAME}"]()), first_interval=3.0, persistent=True)
+
+
+start()
