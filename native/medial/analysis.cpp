@@ -90,8 +90,8 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   if (!triangles.empty()) {
     const Surface surface = make_surface(triangles, samples_.sample_of_row, count, quiet);
     closed_ = surface.closed();
-    boundary_edges_ = surface.boundary_edges;
-    sides_ = sides_from_surface(points, surface, triangulation_, voronoi_, incident, run);
+    boundary_edges_ = static_cast<int64_t>(surface.boundary.size());
+    sides_ = sides_from_surface(points, surface, triangulation_, voronoi_, run);
     watch.lap("sides");
   }
   begin_stage(progress, "Order", 0.99, 1);

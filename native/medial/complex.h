@@ -1,12 +1,10 @@
 // The Delaunay edges and their dual Voronoi facets, as rings of cells.
 #pragma once
 
-#include "csr.h"
+#include "boundary.h"
 #include "triangulation.h"
 
 namespace medial {
-
-using Edge = std::array<int32_t, 2>;
 
 // Delaunay edges between samples 0..n-1, each once.
 struct Edges {

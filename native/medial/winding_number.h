@@ -1,49 +1,32 @@
-// Generalized winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung 2013), summed hierarchically with a
-// rigorous bound (Taylor expansion of distant clusters as in Barill et al. 2018, with its remainder).
+// Generalized winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung 2013): the solid angle of all
+// triangles, in full turns.
+//
+// Caps, triangles from every boundary edge to a common apex, close the soup. The winding number of the closed soup is
+// an integer, told by the crossings of any ray; that of the few caps is summed. Their difference is the answer.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
-#include <vector>
 
-#include "vec3.h"
+#include "boundary.h"
+#include "ray_crossings.h"
 
 namespace medial {
 
-using Triangle = std::array<int32_t, 3>;
-
 class WindingNumber {
  public:
-  WindingNumber(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+  // `boundary` as from boundary_edges.
+  WindingNumber(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const Edge> boundary);
 
-  // Within 0.1 of the sum of all solid angles over 4 pi, and on its side of 1/2.
   double operator()(const Vec3& query) const;
+  // Whether that exceeds 1/2; the caps are summed only as far as it takes to tell.
+  bool is_inside(const Vec3& query) const;
 
  private:
-  struct Corners {
-    Vec3 a, b, c;
-  };
-  // A contiguous range of triangles, expanded about its area-weighted centroid.
-  struct Node {
-    int32_t begin = 0, end = 0;
-    int32_t right = -1;          // the left child follows its parent; -1: a leaf
-    double area = 0, spread = 0; // integral of dA, and of |x - centroid|^2 dA
-    double radius = 0;           // of a ball about the centroid that holds the triangles
-    Vec3 centroid, area_vector;  // area_vector: integral of n dA
-    std::array<Vec3, 3> moment;  // moment[k] = integral of (x - centroid)_k n dA
-  };
-  struct Sum {
-    double value = 0, error = 0;  // both times 4 pi
-  };
+  WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps);
+  int closed_winding(const Vec3& query) const;
 
-  int32_t build(int32_t begin, int32_t end);
-  void describe_leaf(Node& node) const;
-  void describe_parent(Node& node, const Node& left, const Node& right) const;
-  Sum evaluate(const Vec3& query, double tolerance) const;
-
-  std::vector<Corners> corners_;
-  std::vector<Node> nodes_;
+  RayCrossings closed_;
+  SolidAngle caps_;
 };
 
 }  // namespace medial

@@ -269,5 +269,5 @@ def winding_number(
     Returns
     -------
     winding : (q,) float64
-        Hierarchical, on the right side of 1/2 always; elsewhere within 0.1 of the sum of the solid angles.
+        Sum of the solid angles over 4 pi, up to rounding.
     """

@@ -31,7 +31,7 @@ constexpr const char* kWindingDoc =
     "Generalized winding number of a triangle soup at each query: 1 inside an outward one.\n\n"
     "Parameters\n----------\n"
     "queries : (q, 3) float64\nvertices : (v, 3) float64\ntriangles : (m, 3) int32\n\nReturns\n-------\n"
-    "winding : (q,) float64\n    On the right side of 1/2 always; elsewhere within 0.1 of the sum of the solid angles.";
+    "winding : (q,) float64\n    Sum of the solid angles over 4 pi, up to rounding.";
 
 Run all_cores() { return {thread_count(0), nullptr}; }
 
@@ -139,7 +139,8 @@ py::array winding_numbers(const py::object& queries, const py::object& vertices,
     const auto face_span = faces.span();
     const py::gil_scoped_release release;
     require_corners(face_span, corners.size());
-    const WindingNumber winding(corners, face_span);
+    const auto fans = rows_containing(face_span, static_cast<int32_t>(corners.size()));
+    const WindingNumber winding(corners, face_span, boundary_edges(face_span, fans, all_cores()));
     parallel_for(static_cast<int64_t>(at.size()), all_cores(), [&](int64_t i) { result[i] = winding(at[i]); });
   }
   return array_of<double>(std::move(result));
