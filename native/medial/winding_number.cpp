@@ -1,5 +1,9 @@
 #include "winding_number.h"
 
+#include <unordered_map>
+
+#include "union_find.h"
+
 namespace medial {
 namespace {
 
@@ -13,13 +17,26 @@ std::vector<Corners> soup(std::span<const Vec3> vertices, std::span<const Triang
   return corners;
 }
 
+// Every connected part of the boundary is closed in itself: each gets an apex of its own, the mean of its edges.
 std::vector<Corners> caps(std::span<const Vec3> vertices, std::span<const Edge> boundary) {
-  Vec3 apex;
+  if (boundary.empty()) return {};
+  struct Apex {
+    Vec3 sum;
+    int edges = 0;
+  };
+  UnionFind parts(vertices.size());
+  for (const auto& [from, to] : boundary) parts.unite(from, to);
+  std::unordered_map<int32_t, Apex> apexes;
   for (const auto& [from, to] : boundary) {
-    apex = apex + (0.5 / static_cast<double>(boundary.size())) * (vertices[from] + vertices[to]);
+    Apex& apex = apexes[parts.find(from)];
+    apex.sum = apex.sum + 0.5 * (vertices[from] + vertices[to]);
+    ++apex.edges;
   }
   std::vector<Corners> corners;
-  for (const auto& [from, to] : boundary) corners.push_back({vertices[to], vertices[from], apex});
+  for (const auto& [from, to] : boundary) {
+    const Apex& apex = apexes[parts.find(from)];
+    corners.push_back({vertices[to], vertices[from], (1.0 / apex.edges) * apex.sum});
+  }
   return corners;
 }
 

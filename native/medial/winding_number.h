@@ -1,7 +1,7 @@
 // Generalized winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung 2013): the solid angle of all
 // triangles, in full turns.
 //
-// Caps, triangles from every boundary edge to a common apex, close the soup. The winding number of the closed soup is
+// Caps, triangles from the edges of each boundary loop to its middle, close the soup. The winding number of the closed soup is
 // an integer, told by the crossings of any ray; that of the few caps is summed. Their difference is the answer.
 #pragma once
 
