@@ -204,7 +204,7 @@ def build_module(blender: Path) -> tuple[Path, Path]:
     """Compile the release module into blender_addon/lib; returns it and Blender's Python."""
     say("Building the native module")
     python, abi = blender_python(blender)
-    build_preset("release", python)
+    build_preset("release", f"-DPython_EXECUTABLE={python}")
     built = sorted((BUILD / "release").rglob(f"_medial.{abi}.so"))
     if len(built) != 1:
         raise Failure(f"Expected one _medial.{abi}.so under build/release, found {len(built)}; run clean first")
@@ -228,8 +228,8 @@ print("imports as _medial", module.__version__)
 """
 
 
-def build_preset(preset: str, python: Path) -> None:
-    run("cmake", "--preset", preset, f"-DPython_EXECUTABLE={python}")
+def build_preset(preset: str, *definitions: str) -> None:
+    run("cmake", "--preset", preset, *definitions)
     run("cmake", "--build", "--preset", preset, "--parallel", parallel_jobs())
 
 
@@ -314,26 +314,24 @@ def demo(arguments: argparse.Namespace) -> None:
     output = Path(arguments.output).resolve()
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="medial_axis_demo_") as folder:
-        models = [(mesh, 0) for mesh in meshes] or demo_models(Path(folder))
+        models = [(mesh, []) for mesh in meshes] or demo_models(Path(folder))
         reports = [show_model(blender, archive, *model, output, Path(folder)) for model in models]
     print_table(reports)
 
 
-def demo_models(folder: Path) -> list[tuple[Path | str, int]]:
-    """Blender's Suzanne, and a knotted tube and a machine part of CGAL's demo data (CC0), each with the
-    level of a Subdivision Surface modifier."""
-    names = {"data/meshes/knot1.off": "knot.off", "data/meshes/fandisk_large.off": "fandisk.off"}
+def demo_models(folder: Path) -> list[tuple[Path | str, list[str]]]:
+    """Blender's Suzanne, and a machine part of CGAL's demo data (CC0), each with options of the demo script."""
+    member = "data/meshes/fandisk_large.off"
     package = Path("/usr/share/doc/libcgal-dev/data.tar.gz")
     if not package.exists():
         raise Failure(f"Expected CGAL's demo data at {package}, found none; name mesh files: demo PATH ...")
-    run("tar", "xzf", package, "-C", folder, *names)
-    for member, name in names.items():
-        (folder / member).rename(folder / name)
-    return [("suzanne", 3), (folder / "knot.off", 1), (folder / "fandisk.off", 0)]
+    run("tar", "xzf", package, "-C", folder, member)
+    fandisk = (folder / member).rename(folder / "fandisk.off")
+    return [("suzanne", ["--subdivide", "3"]), (fandisk, ["--y-up"])]
 
 
 def show_model(
-    blender: Path, archive: Path, model: Path | str, levels: int, output: Path, folder: Path
+    blender: Path, archive: Path, model: Path | str, extra: list[str], output: Path, folder: Path
 ) -> dict:
     """Compute and render one model in a Blender of its own; returns what it reports."""
     say(f"Medial axis of {model if isinstance(model, str) else model.name}")
@@ -341,7 +339,7 @@ def show_model(
     report.unlink(missing_ok=True)
     profile = Profile(folder / "profile")
     script = ROOT / "tests" / "demo" / "blender_demo.py"
-    options = ["--zip", archive, "--model", model, "--subdivide", levels, "--output", output, "--report", report]
+    options = ["--zip", archive, "--model", model, *extra, "--output", output, "--report", report]
     run_rendering(profile.command(blender, "--python", script, "--", *options), profile.environment)
     return json.loads(report.read_text(encoding="utf-8"))
 
@@ -447,19 +445,19 @@ def run_inside(blender: Path, *options: object) -> None:
 
 
 def test_asan(blender: Path) -> None:
-    test_sanitizer("asan", blender)
+    test_sanitizer("asan")
 
 
 def test_tsan(blender: Path) -> None:
-    test_sanitizer("tsan", blender)
+    test_sanitizer("tsan")
 
 
-def test_sanitizer(preset: str, blender: Path) -> None:
+def test_sanitizer(preset: str) -> None:
     """The native tests under a sanitizer; without address randomisation, which older ones cannot live with."""
     library = output_of("g++", f"-print-file-name=lib{preset}.so").strip()
     if not Path(library).is_absolute():
         raise Skip(f"the compiler has no lib{preset}")
-    build_preset(preset, blender_python(blender)[0])
+    build_preset(preset)
     fixed = ["setarch", os.uname().machine, "-R"]
     can_fix = shutil.which("setarch") and subprocess.run([*fixed, "true"], capture_output=True).returncode == 0
     run(*(fixed if can_fix else []), "ctest", "--preset", preset, "--output-on-failure")
@@ -519,8 +517,8 @@ BUILD_HELP = """Compiles with the CMake preset `release` for the Python that Ble
 blender_addon/lib/, checks that it needs no library that Blender brings too, and packs
 dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer."""
 
-DEMO_HELP = """Installs the zip into a private Blender profile, computes the medial axis of Blender's Suzanne and of two
-meshes of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .ply, .ma and a rendered
+DEMO_HELP = """Installs the zip into a private Blender profile, computes the medial axis of Blender's Suzanne and of a
+mesh of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .ply, .ma and a rendered
 .png of each. Works without a display."""
 
 TEST_HELP = f"""Parts, in order: {', '.join(PARTS)}. One failing part fails the whole; a part that cannot run for

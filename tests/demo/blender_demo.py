@@ -7,6 +7,7 @@
 import argparse
 import importlib
 import json
+import math
 import sys
 import time
 from pathlib import Path
@@ -23,7 +24,7 @@ DELAUNAY = "triangulation"  # its stage in `MedialAnalysis.timings`
 def main():
     arguments = parse()
     package = install(arguments.zip)
-    source = load(arguments.model, arguments.subdivide)
+    source = load(arguments.model, arguments.subdivide, arguments.y_up)
     result = compute(source)
     files = write(result, arguments.output, source.name)
     blender_scene.arrange(source, result)
@@ -37,6 +38,7 @@ def parse():
     parser.add_argument("--zip", required=True)
     parser.add_argument("--model", required=True, help="'suzanne', or a .ply, .obj, .stl or .off file")
     parser.add_argument("--subdivide", type=int, default=0, help="levels of a Subdivision Surface modifier")
+    parser.add_argument("--y-up", action="store_true", help="the file's Y axis points up")
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--report", type=Path, required=True)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
@@ -55,8 +57,8 @@ def install(archive):
 # --- models
 
 
-def load(model, levels):
-    """The only object of a new scene, smooth and with the modifier."""
+def load(model, levels, y_up):
+    """The only object of a new scene, smooth, upright and with the modifier."""
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
     path = Path(model)
@@ -69,6 +71,8 @@ def load(model, levels):
         import_file(path)
     source = join_meshes()
     source.data.polygons.foreach_set("use_smooth", np.ones(len(source.data.polygons), bool))
+    if y_up:
+        source.rotation_euler.x += math.pi / 2
     if levels:
         modifier = source.modifiers.new("Subdivision", "SUBSURF")
         modifier.levels = modifier.render_levels = levels

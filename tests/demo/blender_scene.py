@@ -54,12 +54,14 @@ def look_at(center, radius, points):
 
 
 def light():
-    """A soft sun, light from everywhere, and a white background that darkens a little downwards."""
-    sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
-    sun.data.energy = 2.2
-    sun.data.angle = math.radians(8)
-    sun.rotation_euler = SUN.to_track_quat("Z", "Y").to_euler()
-    bpy.context.scene.collection.objects.link(sun)
+    """A soft sun, a fill light without shadows, light from everywhere, and a white background that darkens a little downwards."""
+    for name, direction, energy, shadow in (("Sun", SUN, 1.6, True), ("Fill", VIEW, 1.5, False)):
+        lamp = bpy.data.objects.new(name, bpy.data.lights.new(name, "SUN"))
+        lamp.data.energy = energy
+        lamp.data.angle = math.radians(8)
+        lamp.data.cycles.cast_shadow = shadow
+        lamp.rotation_euler = direction.to_track_quat("Z", "Y").to_euler()
+        bpy.context.scene.collection.objects.link(lamp)
     world = bpy.data.worlds.new("White")
     bpy.context.scene.world = world
     world.use_nodes = True
@@ -96,10 +98,10 @@ def glass():
     tree.nodes.clear()
     new, link = tree.nodes.new, tree.links.new
     clear, tint = new("ShaderNodeBsdfTransparent"), new("ShaderNodeEmission")
-    tint.inputs[0].default_value = (0.23, 0.40, 0.66, 1.0)
+    tint.inputs[0].default_value = (0.30, 0.48, 0.75, 1.0)
     turned = new("ShaderNodeLayerWeight")
-    turned.inputs[0].default_value = 0.3
-    rim = map_range(new, link, turned.outputs[1], 0.05, 0.85)
+    turned.inputs[0].default_value = 0.2
+    rim = map_range(new, link, turned.outputs[1], 0.06, 0.75)
     body = mix(new, link, rim, clear.outputs[0], tint.outputs[0])
     shine = new("ShaderNodeEmission")
     lit = mix(new, link, highlight(new, link), body, shine.outputs[0])
@@ -148,5 +150,6 @@ def use_cycles():
     scene.cycles.use_denoising = False  # Debian's Blender has no denoiser
     scene.cycles.max_bounces = 0
     scene.cycles.transparent_max_bounces = 32
+    scene.cycles.min_transparent_bounces = 32  # else rays end by chance, which shows as grain
     scene.view_settings.view_transform = "Standard"
     scene.render.image_settings.file_format = "PNG"
