@@ -38,6 +38,10 @@ class Shape:
     def axis_points(self, count: int, seed: int = 0) -> Array:
         raise NotImplementedError
 
+    def rim_points(self, count: int) -> Array:
+        """About `count` points of the axis' border, where the medial angle vanishes; none for other axes."""
+        return np.empty((0, 3))
+
     def sample(self, n: int, seed: int = 0) -> Array:
         """About n maximal Poisson-disc samples (within 1 %)."""
         return poisson_disc(self.candidates, self.area, n, seed)
@@ -111,9 +115,13 @@ class Ellipsoid(Shape):
     def axis_points(self, count: int, seed: int = 0) -> Array:
         rng = np.random.default_rng(seed)
         turn, r = rng.random(count) * 2 * np.pi, np.sqrt(rng.random(count))
-        r[: count // 20] = 1.0  # the rim itself, where the medial angle vanishes
         p, q = self.axis_ellipse
         return np.column_stack((p * r * np.cos(turn), q * r * np.sin(turn), np.zeros(count)))
+
+    def rim_points(self, count: int) -> Array:
+        turn = (np.arange(count) + 0.5) * 2 * np.pi / count
+        p, q = self.axis_ellipse
+        return np.column_stack((p * np.cos(turn), q * np.sin(turn), np.zeros(count)))
 
     def axis_radius(self, x: Array) -> Array:
         """Radius of the medial ball at axis points."""
@@ -165,10 +173,13 @@ class Slab(Shape):
     def axis_points(self, count: int, seed: int = 0) -> Array:
         rng = np.random.default_rng(seed)
         flat = (rng.random((count, 2)) * 2 - 1) * (self.width, self.depth)
-        rim = count // 20
-        flat[:rim, 0] = self.width * rng.choice([-1.0, 1.0], rim)
-        flat[rim : 2 * rim, 1] = self.depth * rng.choice([-1.0, 1.0], rim)
         return np.column_stack((flat, np.zeros(count)))
+
+    def rim_points(self, count: int) -> Array:
+        t = (np.arange(count // 4) + 0.5) / (count // 4) * 2 - 1
+        x, y = self.width, self.depth
+        sides = [(x * t, y + 0 * t), (x * t, -y + 0 * t), (x + 0 * t, y * t), (-x + 0 * t, y * t)]
+        return np.concatenate([np.column_stack((u, v, 0 * t)) for u, v in sides])
 
 
 @dataclass(frozen=True)
@@ -468,11 +479,14 @@ class Sphere(Shape):
         return np.zeros((count, 3))
 
 
-def grid_cube(count: int = 8) -> Array:
-    """The surface points of a count^3 grid with integer coordinates, centred: half size (count - 1) / 2."""
-    axis = np.arange(count) - (count - 1) / 2
+def grid_cube(cells: int = 8) -> Array:
+    """The surface points of a cubic grid of cells^3 unit cubes, centred: half size cells / 2.
+
+    Its inner facets are known: on each of the 12 triangles of the cube's axis 1 + 3 + ... + (cells - 1) for even cells.
+    """
+    axis = np.arange(cells + 1) - cells / 2
     points = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), -1).reshape(-1, 3)
-    return points[np.abs(points).max(axis=1) == (count - 1) / 2]
+    return points[np.abs(points).max(axis=1) == cells / 2]
 
 
 SHAPES: dict[str, Shape] = {

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = Path(os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon"))  # or an installed copy
 DATA = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ROOT.parent / "shared" / "data"))
 
 sys.path.insert(0, str(ROOT / "tests"))  # shapes, meshes and distance, shared with tests/benchmarks
@@ -17,9 +18,8 @@ def _register_package() -> None:
     """The add-on's folder under the name it has when it is installed."""
     if "medial_axis" in sys.modules:
         return
-    folder = ROOT / "blender_addon"
     spec = importlib.util.spec_from_file_location(
-        "medial_axis", folder / "__init__.py", submodule_search_locations=[str(folder)]
+        "medial_axis", PACKAGE / "__init__.py", submodule_search_locations=[str(PACKAGE)]
     )
     package = importlib.util.module_from_spec(spec)
     sys.modules["medial_axis"] = package
