@@ -15,7 +15,7 @@ struct AnalysisOptions {
 };
 
 struct Extraction {
-  Thresholds thresholds;
+  Thresholds thresholds = {};
   Side side = Side::both;  // both, inner or outer
   bool limit_set = false;  // Definition 4 for facets selected by the Ratio condition alone
 };

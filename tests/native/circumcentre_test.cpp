@@ -1,0 +1,77 @@
+#include "medial/circumcentre.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "shapes.h"
+
+namespace medial {
+namespace {
+
+double spread(const Vec3& o, const std::vector<Vec3>& corners) {
+  double low = HUGE_VAL, high = 0;
+  for (const Vec3& p : corners) {
+    low = std::min(low, distance(o, p));
+    high = std::max(high, distance(o, p));
+  }
+  return (high - low) / high;
+}
+
+TEST(Circumcentre, IsEquidistantFromRandomCorners) {
+  for (uint32_t seed = 0; seed < 1000; ++seed) {
+    const auto p = test::random_points(4, seed);
+    EXPECT_LT(spread(circumcentre(p[0], p[1], p[2], p[3]).centre, p), 1e-6) << seed;
+  }
+}
+
+TEST(Circumcentre, ErrorBoundHoldsAgainstAnotherOrderOfTheCorners) {
+  for (uint32_t seed = 0; seed < 1000; ++seed) {
+    auto p = test::random_points(4, seed);
+    p[3] = p[0] + 1e-5 * (p[3] - p[0]);  // a needle
+    const Circumcentre one = circumcentre(p[0], p[1], p[2], p[3]), other = circumcentre(p[3], p[1], p[0], p[2]);
+    EXPECT_LE(distance(one.centre, other.centre), one.error + other.error) << seed;
+  }
+}
+
+// Four corners of a rotated square: flat but for the rounding of its coordinates.
+TEST(Circumcentre, SurvivesTetrahedraThatAreFlatUpToRounding) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int finite = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 n = normalized({uniform(random), uniform(random), uniform(random)});
+    const Vec3 u = normalized(cross(n, {0.3, -0.7, 0.2})), v = cross(n, u);
+    const Vec3 a = u, b = v, c = -u, d = -v;
+    const Circumcentre o = circumcentre(a, b, c, d);
+    const double r = length(o.centre);
+    if (!std::isfinite(r)) continue;  // exactly flat: not a Delaunay cell
+    // However far away, it lies on the axis of the square, which is one unit wide.
+    EXPECT_LE(length(cross(o.centre, n)), 2 + 1e-9 * r);
+    ++finite;
+  }
+  EXPECT_GT(finite, 500);
+}
+
+TEST(Circumcentre, ExactPathAgreesWithAKnownSphere) {
+  // Nearly coplanar points of the unit sphere about (3, 4, 5): heights of 2^-40.
+  const double h = 0x1p-40, r = std::sqrt(1 - h * h);
+  const Vec3 centre{3, 4, 5};
+  const Circumcentre o = circumcentre(centre + Vec3{1, 0, 0}, centre + Vec3{0, 1, 0}, centre + Vec3{-1, 0, 0},
+                                      centre + Vec3{0, -r, h});
+  EXPECT_TRUE(std::isfinite(o.centre.z));
+  EXPECT_LT(spread(o.centre, {centre + Vec3{1, 0, 0}, centre + Vec3{0, 1, 0}, centre + Vec3{-1, 0, 0}}), 1e-12);
+}
+
+TEST(UnitNormal, OfANeedleIsExact) {
+  const Vec3 a{0, 0, 0}, b{1, 1, 0}, c{2, 2, 0x1p-60};
+  const Vec3 n = unit_normal(a, b, c).direction;
+  EXPECT_NEAR(std::abs(n.x), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(n.x + n.y, 0, 1e-15);
+  EXPECT_NEAR(n.z, 0, 1e-15);
+  EXPECT_EQ(unit_normal(a, b, b + b).direction, Vec3{});
+}
+
+}  // namespace
+}  // namespace medial

@@ -1,0 +1,70 @@
+// Seeded inputs for the native tests.
+#pragma once
+
+#include <array>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "medial/boundary.h"
+#include "medial/vec3.h"
+
+namespace medial::test {
+
+inline std::vector<Vec3> random_points(int count, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Vec3> points(count);
+  for (Vec3& p : points) p = {uniform(random), uniform(random), uniform(random)};
+  return points;
+}
+
+inline std::vector<Vec3> ellipsoid(int count, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<Vec3> points(count);
+  for (Vec3& p : points) {
+    p = normalized({normal(random), normal(random), normal(random)});
+    p = {p.x, 0.75 * p.y, 0.4 * p.z};
+  }
+  return points;
+}
+
+// The surface points of a cubic grid of `cells` cells per edge.
+inline std::vector<Vec3> grid_cube(int cells) {
+  std::vector<Vec3> points;
+  const auto rim = [&](int i) { return i == 0 || i == cells; };
+  for (int x = 0; x <= cells; ++x) {
+    for (int y = 0; y <= cells; ++y) {
+      for (int z = 0; z <= cells; ++z) {
+        if (rim(x) || rim(y) || rim(z)) points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
+      }
+    }
+  }
+  return points;
+}
+
+struct Mesh {
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+};
+
+// A torus of radii 1 and 0.4, slightly turned out of the axes.
+inline Mesh torus(int major, int minor) {
+  Mesh mesh;
+  const double turn = 2 * std::numbers::pi;
+  for (int i = 0; i < major; ++i) {
+    for (int j = 0; j < minor; ++j) {
+      const double u = turn * (i + 0.5 * (j % 2)) / major, v = turn * j / minor, r = 1 + 0.4 * std::cos(v);
+      const Vec3 p{r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v)};
+      mesh.vertices.push_back({p.x + 0.1 * p.z, p.y - 0.05 * p.x, p.z + 0.03 * p.y});
+      const int a = i * minor + j, b = (i + 1) % major * minor + j;
+      const int c = i * minor + (j + 1) % minor, d = (i + 1) % major * minor + (j + 1) % minor;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace medial::test

@@ -1,0 +1,79 @@
+#include "medial/winding_number.h"
+
+#include <gtest/gtest.h>
+
+#include "shapes.h"
+
+namespace medial {
+namespace {
+
+WindingNumber winding_of(const test::Mesh& mesh) {
+  const auto fans = rows_containing(std::span<const Triangle>(mesh.triangles), static_cast<int32_t>(mesh.vertices.size()));
+  return {mesh.vertices, mesh.triangles, boundary_edges(mesh.triangles, fans, {})};
+}
+
+double brute_force(const test::Mesh& mesh, const Vec3& query) {
+  std::vector<Corners> corners;
+  for (const auto& [i, j, k] : mesh.triangles) corners.push_back({mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]});
+  return solid_angle_sum(corners, query);
+}
+
+void expect_equal(const test::Mesh& mesh, uint32_t seed) {
+  const WindingNumber winding = winding_of(mesh);
+  for (const Vec3& query : test::random_points(500, seed)) {
+    const double expected = brute_force(mesh, query);
+    EXPECT_NEAR(winding(query), expected, 1e-9);
+    if (std::abs(expected - 0.5) > 1e-9) {
+      EXPECT_EQ(winding.is_inside(query), expected > 0.5);
+    }
+  }
+}
+
+TEST(WindingNumber, OfAClosedTorusIsTheSumOfSolidAngles) { expect_equal(test::torus(40, 20), 1); }
+
+TEST(WindingNumber, OfAnOpenSurfaceIsTheSumOfSolidAngles) {
+  auto mesh = test::torus(40, 20);
+  mesh.triangles.resize(mesh.triangles.size() * 2 / 3);
+  expect_equal(mesh, 2);
+}
+
+TEST(WindingNumber, OfAnyTriangleSoupIsTheSumOfSolidAngles) {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    test::Mesh mesh{test::random_points(30, seed), {}};
+    for (int32_t i = 0; i + 2 < 30; ++i) mesh.triangles.push_back({i, (i * 7 + 1) % 30, (i * 11 + 2) % 30});
+    expect_equal(mesh, seed + 100);
+  }
+}
+
+TEST(WindingNumber, OfAFlippedTriangleCountsTwice) {
+  auto mesh = test::torus(24, 12);
+  std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
+  expect_equal(mesh, 3);
+}
+
+TEST(SolidAngle, StaysWithinTheErrorThatItStates) {
+  const auto mesh = test::torus(60, 30);
+  std::vector<Corners> corners;
+  for (size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    corners.push_back({mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]});
+  }
+  const SolidAngle angle(corners);
+  for (const Vec3& query : test::random_points(300, 4)) {
+    for (const double wanted : {0.4, 0.1, 0.01}) {
+      const auto [value, error] = angle.within(wanted, query);
+      EXPECT_LE(error, wanted);
+      EXPECT_LE(std::abs(value - angle.exact(query)), error + 1e-9);
+    }
+  }
+}
+
+TEST(BoundaryEdges, AreTheDirectedEdgesWithoutAPartner) {
+  const std::vector<Triangle> quad{{0, 1, 2}, {0, 2, 3}};
+  const auto fans = rows_containing(std::span<const Triangle>(quad), 4);
+  const auto boundary = boundary_edges(quad, fans, {});
+  EXPECT_EQ(boundary, (std::vector<Edge>{{0, 1}, {3, 0}, {1, 2}, {2, 3}}));
+}
+
+}  // namespace
+}  // namespace medial
