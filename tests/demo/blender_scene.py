@@ -9,7 +9,7 @@ from mathutils import Vector
 VIEW = Vector((0.62, -1.0, 0.42))  # from the shape to the camera
 SUN = Vector((-0.3, -0.8, 1.0))  # from the shape to the light
 PIXELS = (1200, 900)
-SAMPLES = 20
+SAMPLES = 32
 
 
 def arrange(source, result):
