@@ -1,0 +1,31 @@
+"""Lets the benchmarks find the compiled module and the shapes of the tests from a plain checkout."""
+
+import importlib.util
+import os
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = Path(os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon"))
+DATA = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ROOT.parent / "shared" / "data"))
+
+sys.path.insert(0, str(ROOT / "tests"))
+
+
+def load():
+    """The compiled module, through the add-on's own loader."""
+    spec = importlib.util.spec_from_file_location(
+        "medial_axis", PACKAGE / "__init__.py", submodule_search_locations=[str(PACKAGE)]
+    )
+    sys.modules["medial_axis"] = package = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(package)
+    from medial_axis.core import native
+
+    return native.load()
+
+
+def markdown(header: list[str], rows: list[list[str]]) -> str:
+    """A Markdown table with aligned columns."""
+    widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
+    lines = [header, ["-" * width for width in widths], *rows]
+    return "\n".join("| " + " | ".join(x.ljust(w) for x, w in zip(row, widths)) + " |" for row in lines) + "\n"
