@@ -1,4 +1,4 @@
-"""Medial Axis: the medial axis of meshes and point clouds inside Blender, computed by a compiled core.
+"""The medial axis of meshes and point clouds inside Blender, computed by a compiled core.
 
 Importing this package needs no Blender; `bpy` is first touched by `register`.
 """
@@ -9,7 +9,7 @@ bl_info = {
     "version": (0, 1, 0),
     "blender": (3, 4, 0),
     "location": "3D Viewport > Sidebar > Medial Axis, and Object > Compute Medial Axis",
-    "description": "Compute the medial axis of meshes and point clouds, with the radius at every point",
+    "description": "Compute the medial axis of meshes and point clouds, with radii",
     "category": "Object",
 }
 
@@ -30,7 +30,7 @@ def unregister() -> None:
 
 
 def _forget_modules() -> None:
-    """Let the next `register` import the files of an update; only the compiled module cannot be replaced."""
+    """Let the next `register` import an update; only the compiled module cannot be replaced."""
     import sys
 
     compiled = f"{__package__}.lib"

@@ -1,7 +1,7 @@
 """One material for all medial axes: colour by radius.
 
-The range of colours comes from the object's own `ma_radius_min` and `ma_radius_max`, so that every axis shows
-its whole range with the same material.
+The range of colours comes from the object's own `ma_radius_min` and `ma_radius_max`, so that every
+axis shows its whole range with the same material.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ NAME = "Medial Axis Radius"
 RADIUS_MIN = "ma_radius_min"
 RADIUS_MAX = "ma_radius_max"
 
-_COLOURS = (  # position, linear RGB: thin is dark blue, thick is yellow, readable without colour vision
+# Position, linear RGB: thin is dark blue, thick is yellow, and brightness alone tells them apart.
+_COLOURS = (
     (0.0, (0.05, 0.03, 0.25)),
     (0.35, (0.30, 0.03, 0.45)),
     (0.65, (0.85, 0.12, 0.15)),
@@ -42,8 +43,8 @@ def _new_material() -> bpy.types.Material:
     spread = nodes.new("ShaderNodeMapRange")
     spread.location = (-650, 200)
     ramp = _ramp(nodes)
-    # By index: names of sockets differ between versions. Attribute has Color, Vector, Factor, Alpha;
-    # Map Range has Value, From Min, From Max.
+    # By index: names of sockets differ between versions. Attribute has Color, Vector, Factor,
+    # Alpha; Map Range has Value, From Min, From Max.
     for socket, attribute in enumerate((radius, smallest, largest)):
         links.new(attribute.outputs[2], spread.inputs[socket])
     links.new(spread.outputs[0], ramp.inputs[0])

@@ -1,7 +1,8 @@
 """A mesh object as the artist sees it -> points and triangles in its rigid frame.
 
-The medial axis is not affine invariant. So the world matrix L is split into a rigid frame R (rotation and
-translation) and the linear rest A = R^-1 L (scale, shear, mirror), and A is applied to the points.
+The medial axis is not affine invariant. So the world matrix L is split into a rigid frame R
+(rotation and translation) and the linear rest A = R^-1 L (scale, shear, mirror), and A is applied
+to the points.
 """
 
 from __future__ import annotations
@@ -49,8 +50,8 @@ def read_object(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Sha
     """
     if source.type != "MESH":
         raise InvalidInputError(
-            f"Expected a mesh, found an object of type {source.type.capitalize()}; select a mesh, or convert "
-            "the object to one (Object > Convert)"
+            f"Expected a mesh, found an object of type {source.type.capitalize()}; "
+            "select a mesh, or convert the object to one (Object > Convert)"
         )
     if source.mode == "EDIT":
         source.update_from_editmode()
@@ -100,7 +101,7 @@ def split_transform(
 
 
 def _without_rounding(rest: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Exactly even, or exactly one, where `rest` differs from that by what float32 matrix products lose.
+    """Exactly even, or one, where `rest` is so but for what float32 matrix products lose.
 
     It keeps exact symmetries of the points exact, however the object is turned.
     """

@@ -1,6 +1,7 @@
 """Result objects: how they are found, made, placed and updated, and what they remember.
 
-A result remembers its source, the settings and figures in custom properties; nothing is written to the source.
+A result remembers its source, the settings and figures in custom properties; nothing is written to
+the source.
 """
 
 from __future__ import annotations
@@ -130,9 +131,7 @@ def _new_result(source: bpy.types.Object, axis: MedialAxis) -> bpy.types.Object:
     mesh.materials.append(radius_material())
     result = bpy.data.objects.new(source.name + SUFFIX, mesh)
     result.show_in_front = True  # an inner axis lies inside the surface
-    editable = [
-        collection for collection in source.users_collection if collection.library is None
-    ]
+    editable = [collection for collection in source.users_collection if collection.library is None]
     for collection in editable or [bpy.context.scene.collection]:
         collection.objects.link(result)
     return result
@@ -157,9 +156,7 @@ def _place(result: bpy.types.Object, frame: np.ndarray) -> None:
         result.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
 
 
-def _remember(
-    result: bpy.types.Object, source: bpy.types.Object, computation: Computation
-) -> None:
+def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: Computation) -> None:
     result[SOURCE] = source
     result[ANALYSIS] = computation.key
     result[VERSION] = __version__

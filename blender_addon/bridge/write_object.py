@@ -1,4 +1,4 @@
-"""A medial axis -> a Blender mesh with attributes. float64 becomes float32 here and nowhere else."""
+"""A medial axis -> a Blender mesh with attributes. Here alone float64 becomes float32."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def new_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
-    """A mesh of n-gons, flat shaded, with the attributes of the table; no mesh is left when that fails.
+    """A mesh of n-gons, flat shaded, with the attributes of the table, or no mesh at all.
 
     Raises
     ------
@@ -41,14 +41,17 @@ def _positions(axis: MedialAxis) -> np.ndarray:
         positions = np.ascontiguousarray(axis.vertices, np.float32).ravel()
     if not np.isfinite(positions).all():
         raise InvalidInputError(
-            f"Expected coordinates below {np.finfo(np.float32).max:.3g}, which Blender can hold, found larger "
-            "ones on the medial axis; scale the object down, or choose side Inner"
+            f"Expected coordinates below {np.finfo(np.float32).max:.3g}, which Blender can hold, "
+            "found larger ones on the medial axis; scale the object down, or choose side Inner"
         )
     return positions
 
 
 def _check_faces(axis: MedialAxis) -> None:
-    """Blender trusts these arrays; a wrong index would end it. (`mesh.validate` takes longer than all the rest.)"""
+    """Blender trusts these arrays; a wrong index would end it.
+
+    (`mesh.validate` takes longer than all the rest.)
+    """
     corners = np.diff(axis.face_offsets)
     inside = (axis.face_vertices >= 0) & (axis.face_vertices < len(axis.vertices))
     whole = axis.face_offsets[0] == 0 and axis.face_offsets[-1] == len(axis.face_vertices)

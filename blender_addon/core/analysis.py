@@ -1,4 +1,4 @@
-"""From points to a medial axis: a typed wrapper round `_medial.MedialAnalysis`, with a memory of the last ones.
+"""From points to a medial axis: `_medial.MedialAnalysis`, typed, with a memory of the last ones.
 
 Everything costly is kept, so that other thresholds for the same points cost milliseconds.
 """
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class MedialAxis:
-    """The selected facets as convex planar polygons that share their vertices; fields of `_medial.MedialMesh`.
+    """The selected facets as convex planar polygons that share vertices, as `_medial.MedialMesh`.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def compute(
 
 
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
-    """The facets that other thresholds select from a kept analysis; None when it is no longer kept."""
+    """The axis for other thresholds of a kept analysis; None when it is no longer kept."""
     analysis = CACHE.get(key)
     return None if analysis is None else _extract(analysis, settings, None)
 
@@ -140,12 +140,12 @@ def new_progress() -> Any:
 
 
 def resolve_side(settings: Settings, triangles: NDArray[np.int32], gaps: int) -> Settings:
-    """The same settings with AUTOMATIC decided: INNER for a closed surface, BOTH for anything else."""
+    """The settings with AUTOMATIC decided: INNER for a closed surface, BOTH for anything else."""
     has_surface = len(triangles) > 0
     if settings.side in (Side.INNER, Side.OUTER) and not has_surface:
         raise InvalidInputError(
-            f"Expected faces, which tell inside from outside, for side {settings.side.name.capitalize()}, "
-            "found points only; choose side Both or Automatic"
+            "Expected faces, which tell inside from outside, for side "
+            f"{settings.side.name.capitalize()}, found points only; choose side Both or Automatic"
         )
     if settings.side is not Side.AUTOMATIC:
         return settings
@@ -154,7 +154,7 @@ def resolve_side(settings: Settings, triangles: NDArray[np.int32], gaps: int) ->
 
 
 def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
-    """Number of edges that triangles do not use equally often in both directions; equal points count as one."""
+    """Number of edges that are not used equally often in both directions; equal points are one."""
     gaps = _unpaired(triangles, len(points))
     return _unpaired(_first_equal_row(points)[triangles], len(points)) if gaps else 0
 
@@ -191,8 +191,8 @@ def _warnings(
 ) -> Iterator[str]:
     if gaps and settings.side in (Side.INNER, Side.OUTER):
         yield (
-            f"the surface is open at {gaps:,} edges: a place was taken as inside where the winding number "
-            "of the open surface is above one half"
+            f"the surface is open at {gaps:,} edges: inside was taken to be where the winding "
+            "number of the open surface is above one half"
         )
     if axis.facets == 0:
         if settings.side is Side.INNER and gaps == 0 and _volume(points, triangles) < 0:

@@ -12,18 +12,18 @@ class NativeModuleError(MedialAxisError, ImportError):
 
 
 class InvalidInputError(MedialAxisError, ValueError):
-    """An input has the wrong shape, type, range or a value that is not finite; the message says which."""
+    """An input has the wrong shape, type or range, or a value that is not finite."""
 
 
 class DegenerateInputError(MedialAxisError, ValueError):
-    """The points are valid but span no volume: fewer than 4 distinct ones, or all on a line or a plane."""
+    """The points span no volume: fewer than 4 distinct ones, or all on a line or a plane."""
 
 
 class OutOfMemoryError(MedialAxisError, MemoryError):
     """The computer has not enough memory for this many points."""
 
 
-class Cancelled(MedialAxisError):
+class Cancelled(MedialAxisError):  # noqa: N818 - as in _medial
     """The computation was cancelled; nothing was computed."""
 
 

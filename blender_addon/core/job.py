@@ -1,4 +1,4 @@
-"""Medial axes of several shapes, one after the other: at once, or in a thread that can be watched and cancelled."""
+"""Medial axes of several shapes: at once, or in a thread that can be watched and cancelled."""
 
 from __future__ import annotations
 
@@ -47,9 +47,7 @@ def run_task(task: Task, progress: Any | None = None) -> Outcome:
 
 
 class Job:
-    """A thread that runs tasks. It is left with `wait` or when Python ends; until `done` only `cancel` and the
-    progress may be used.
-    """
+    """A thread that runs tasks one after the other; ended by `outcomes`, `stop` or Python's end."""
 
     def __init__(self, tasks: Sequence[Task]) -> None:
         self.names = tuple(task.name for task in tasks)
@@ -61,7 +59,8 @@ class Job:
         self._thread = threading.Thread(
             target=self._run, args=(tuple(tasks),), name="medial axis", daemon=True
         )
-        atexit.register(self.stop)  # a daemon thread inside the module must not outlive the interpreter
+        # A daemon thread inside the compiled module must not outlive the interpreter.
+        atexit.register(self.stop)
         self._thread.start()
 
     @property

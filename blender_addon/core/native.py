@@ -1,4 +1,4 @@
-"""The compiled module `_medial`: found late and once, one file per Python ABI side by side in `lib/`."""
+"""The compiled module `_medial`: found late and once; `lib/` has one file per Python ABI."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def load() -> ModuleType:
 
 
 def problem() -> str:
-    """Why `load` would fail, in one sentence, or an empty string. Loads nothing; cheap enough for a panel."""
+    """Why `load` would fail, in one sentence, or "". Loads nothing; cheap enough for a panel."""
     if _module is not None or _failure:
         return _failure
     if any((LIB / f"{NAME}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES):

@@ -71,8 +71,8 @@ class Switch:
 OPTIONS: dict[str, Number | Choice | Switch] = {
     "theta": Number(
         label="Theta",
-        description="Angle condition: keep a facet when the line between its two samples leaves the surface at "
-        "more than this angle. Larger values keep less",
+        description="Angle condition: keep a facet when the line between its two samples leaves "
+        "the surface at more than this angle. Larger values keep less",
         default=math.pi / 8,
         minimum=0.0,
         maximum=math.pi / 2,
@@ -81,8 +81,8 @@ OPTIONS: dict[str, Number | Choice | Switch] = {
     ),
     "rho": Number(
         label="Rho",
-        description="Ratio condition: keep a facet when its two samples are farther apart than this many times "
-        "the spacing of samples there. Larger values keep less",
+        description="Ratio condition: keep a facet when its two samples are farther apart "
+        "than this many times the spacing of samples there. Larger values keep less",
         default=8.0,
         minimum=0.0,
         maximum=math.inf,
@@ -95,7 +95,10 @@ OPTIONS: dict[str, Number | Choice | Switch] = {
         default=Side.AUTOMATIC,
         items={
             Side.AUTOMATIC: ("Automatic", "Inner for a closed mesh, both sides for anything else"),
-            Side.INNER: ("Inner", "The axis inside the surface, where its winding number is above one half"),
+            Side.INNER: (
+                "Inner",
+                "The axis inside the surface, where its winding number is above one half",
+            ),
             Side.OUTER: ("Outer", "The axis outside the surface, bounded by a sphere around it"),
             Side.BOTH: ("Both", "The whole axis, bounded by a sphere around the shape"),
         },
@@ -106,7 +109,10 @@ OPTIONS: dict[str, Number | Choice | Switch] = {
         default=Rule.EITHER,
         items={
             Rule.EITHER: ("Either", "One of the two samples is enough, as published"),
-            Rule.BOTH: ("Both", "Both samples must pass: fewer islands on noisy samples, a little less rim"),
+            Rule.BOTH: (
+                "Both",
+                "Both samples must pass: fewer islands on noisy samples, a little less rim",
+            ),
         },
     ),
     "criteria": Choice(
@@ -114,15 +120,18 @@ OPTIONS: dict[str, Number | Choice | Switch] = {
         description="Which conditions select facets",
         default=Criteria.ANGLE_OR_RATIO,
         items={
-            Criteria.ANGLE_OR_RATIO: ("Angle or Ratio", "A facet that passes one condition is kept"),
+            Criteria.ANGLE_OR_RATIO: (
+                "Angle or Ratio",
+                "A facet that passes one condition is kept",
+            ),
             Criteria.ANGLE: ("Angle", "Only the angle condition selects"),
             Criteria.RATIO: ("Ratio", "Only the ratio condition selects"),
         },
     ),
     "limit_set": Switch(
         label="Limit Set",
-        description="Drop facets that the ratio condition alone keeps although their samples are too close for "
-        "the size of the shape there: removes fins on tubes",
+        description="Drop facets that the ratio condition alone keeps although their samples "
+        "are too close for the size of the shape there: removes fins on tubes",
         default=False,
     ),
 }

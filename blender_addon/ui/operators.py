@@ -1,4 +1,4 @@
-"""Compute Medial Axis: watched and cancellable from the user interface, to the end in one go from scripts."""
+"""Compute Medial Axis: watched from the user interface, in one go from scripts."""
 
 import time
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from .properties import choice, number, settings_from, switch
 
 @dataclass(frozen=True)
 class Source:
-    """A source that is found again later, by the session's number for it where Blender tells that."""
+    """A source that is found again later; `uid` is Blender's number for it, from 4.1 or so."""
 
     name: str
     uid: int | None
@@ -32,14 +32,18 @@ class Source:
 
 
 def sources(context) -> list:
-    """The selected meshes, and those in edit mode; for a selected result the mesh that it was made of."""
-    chosen = [*(context.selected_objects or ()), *(context.objects_in_mode or ())]
+    """The selected meshes and those in edit mode; instead of a result, the mesh it was made of."""
     found = []
-    for thing in chosen:
+    for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
         source = source_of(thing) if is_result(thing) else thing
         if source is not None and source.type == "MESH" and not is_gone(source):
             found.append(source)
     return list(dict.fromkeys(found))
+
+
+def _of(context, name) -> list:
+    """A list of the context that not every editor has."""
+    return getattr(context, name, None) or []
 
 
 def obstacle(context) -> str:
@@ -48,7 +52,7 @@ def obstacle(context) -> str:
         return reason
     if sources(context):
         return ""
-    chosen = context.selected_objects or ()
+    chosen = _of(context, "selected_objects")
     if not chosen:
         return "Select a mesh object; nothing is selected"
     thing = chosen[0]
@@ -65,7 +69,7 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
 
     bl_idname = "object.medial_axis"
     bl_label = "Compute Medial Axis"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+    bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012
 
     theta: number("theta")
     rho: number("rho")
@@ -132,11 +136,14 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
     def _watch_sources(self):
         for source in self._sources:
             if source.find() is None and not self._gone:
-                self._gone = f"'{source.name}' was deleted while its medial axis was computed; nothing was changed"
+                self._gone = (
+                    f"'{source.name}' was deleted while its medial axis was computed; "
+                    "nothing was changed"
+                )
                 self._job.cancel()
 
     def _tell(self, context, kind, text):
-        """Report, and keep what went wrong in the panel: Blender's own message fades after seconds."""
+        """Report, and keep what went wrong in the panel: Blender's message fades in seconds."""
         self.report({kind}, text)
         if kind != "INFO":
             panel = context.scene.medial_axis
@@ -161,7 +168,7 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
 
     def _write(self, context, found, outcomes):
         results = []
-        for source, outcome in zip(found, outcomes):
+        for source, outcome in zip(found, outcomes, strict=True):
             try:
                 results += self._write_one(context, source, outcome)
             except MedialAxisError as error:
@@ -193,7 +200,7 @@ class OBJECT_OT_medial_axis_cancel(bpy.types.Operator):
 
     bl_idname = "object.medial_axis_cancel"
     bl_label = "Cancel"
-    bl_options = {"INTERNAL"}
+    bl_options = {"INTERNAL"}  # noqa: RUF012
 
     @classmethod
     def poll(cls, _context):

@@ -10,7 +10,7 @@ from . import running
 from .operators import obstacle
 from .properties import copy_settings, shown_result
 
-_CHARACTER = 7  # pixels of an average character at resolution scale 1; only decides where lines break
+_CHARACTER = 7  # pixels of an average character; only decides where lines break
 
 
 class _Tab:
@@ -74,9 +74,9 @@ def _draw_compute(context, layout):
         context.scene.medial_axis,
         row.operator("object.medial_axis", icon="OUTLINER_DATA_MESH"),
     )
-    if reason := obstacle(context):
-        if reason != native.problem():
-            _sentence(context, layout, reason, "INFO")
+    reason = obstacle(context)
+    if reason and reason != native.problem():
+        _sentence(context, layout, reason, "INFO")
 
 
 def _draw_progress(context, layout, job):

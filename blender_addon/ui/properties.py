@@ -72,7 +72,7 @@ def _value(option, value):
 
 
 def _exact(option: Number, value: float) -> float:
-    """Blender keeps float32: what was rounded from a default or a limit means that number itself."""
+    """Blender keeps float32: a rounded default or limit means that number itself."""
     for meant in (option.default, option.minimum, option.maximum):
         if ctypes.c_float(meant).value == value:
             return meant
@@ -80,7 +80,7 @@ def _exact(option: Number, value: float) -> float:
 
 
 def shown_result(context):
-    """The result that the panel speaks of: the active object, or the result of the active object."""
+    """The result that the panel speaks of: the active object, or that of the active object."""
     active = getattr(context, "object", None)
     if active is None or active.type != "MESH":
         return None

@@ -1,4 +1,4 @@
-"""Runs inside Blender before 4.2: installs the zip given after `--`, enables it and saves the preferences."""
+"""Runs inside Blender before 4.2: installs and enables the zip given after `--`, for good."""
 
 import sys
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Installs the add-on's zip into a private Blender profile and runs the tests inside that Blender.
 
-    python3 tests/addon/run.py --zip dist/medial_axis-0.1.0.zip [--blender blender] [pytest arguments]
-    python3 tests/addon/run.py --zip ... --gui [--keep FOLDER]
+    python3 tests/addon/run.py --zip dist/medial_axis-0.1.0.zip [--blender blender] [pytest
+    arguments] python3 tests/addon/run.py --zip ... --gui [--keep FOLDER]
 
-Without --zip the add-on's sources and compiled modules are packed first. --gui drives Blender's window under
-Xvfb with xdotool; its screenshots and logs are written to the folder that --keep names. The exit code is 0
-when every test passed.
+Without --zip the add-on's sources and compiled modules are packed first. --gui drives Blender's
+window under Xvfb with xdotool; its screenshots and logs are written to the folder that --keep
+names. The exit code is 0 when every test passed.
 """
 
 from __future__ import annotations
@@ -57,7 +57,9 @@ class Blender:
     def install(self, archive: Path) -> str:
         """Install and enable the zip; returns the module name that it got."""
         if self.version() >= (4, 2):
-            self.run("--command", "extension", "install-file", "-r", "user_default", "--enable", archive)
+            self.run(
+                "--command", "extension", "install-file", "-r", "user_default", "--enable", archive
+            )
             return f"bl_ext.user_default.{PACKAGE}"
         self.background("--python", HERE / "install.py", "--", archive)
         return PACKAGE
@@ -74,10 +76,14 @@ def pack(folder: Path) -> Path:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("--zip", type=Path, help="the add-on; default: packed from the sources")
     parser.add_argument("--blender", default="blender", help="the Blender to test")
-    parser.add_argument("--gui", action="store_true", help="drive the window instead of background mode")
+    parser.add_argument(
+        "--gui", action="store_true", help="drive the window instead of background mode"
+    )
     parser.add_argument("--keep", type=Path, help="where --gui leaves its screenshots and logs")
     arguments, pytest_arguments = parser.parse_known_args()
     with tempfile.TemporaryDirectory(prefix="medial_axis_test_") as folder:
@@ -91,7 +97,12 @@ def main() -> int:
 
             return drive.run_all(blender, arguments.keep or Path(folder) / "gui", pytest_arguments)
         return blender.background(
-            "--factory-startup", "--python", HERE / "inside.py", "--", *pytest_arguments, check=False
+            "--factory-startup",
+            "--python",
+            HERE / "inside.py",
+            "--",
+            *pytest_arguments,
+            check=False,
         )
 
 

@@ -19,7 +19,9 @@ def addon(path=""):
 def link(name, vertices, faces=(), edges=()):
     """A new mesh object, selected and active."""
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([tuple(map(float, v)) for v in vertices], edges, [tuple(map(int, f)) for f in faces])
+    mesh.from_pydata(
+        [tuple(map(float, v)) for v in vertices], edges, [tuple(map(int, f)) for f in faces]
+    )
     mesh.update()
     thing = bpy.data.objects.new(name, mesh)
     bpy.context.scene.collection.objects.link(thing)

@@ -1,4 +1,4 @@
-"""Bad input through the operator: one clear sentence each; never a crash, a NaN or a half-made object."""
+"""Bad input through the operator: one sentence each; never a crash, a NaN or half an object."""
 
 import bpy
 import numpy as np
@@ -116,7 +116,9 @@ def test_unreferenced_vertices():
     sound(result_of(box))
 
 
-@pytest.mark.parametrize("add", ["primitive_uv_sphere_add", "primitive_ico_sphere_add", "primitive_cube_add"])
+@pytest.mark.parametrize(
+    "add", ["primitive_uv_sphere_add", "primitive_ico_sphere_add", "primitive_cube_add"]
+)
 def test_cospherical_samples(add):
     """Their axis is a point or nearly so: either sound facets, or one warning and no object."""
     getattr(bpy.ops.mesh, add)()
@@ -208,7 +210,11 @@ def test_inward_faces_are_explained(capfd):
     source.data.flip_normals()
     assert bpy.ops.object.medial_axis() == {"CANCELLED"}
     warnings = [text for kind, text in reports(capfd) if kind == "Warning"]
-    assert len(warnings) == 1 and "point inward" in warnings[0] and "Recalculate Outside" in warnings[0]
+    assert (
+        len(warnings) == 1
+        and "point inward" in warnings[0]
+        and "Recalculate Outside" in warnings[0]
+    )
     assert medial_objects() == []
 
 
@@ -238,7 +244,9 @@ def test_hidden_source_of_a_selected_result():
         assert "hidden" in str(error)
 
 
-@pytest.mark.parametrize("kind", ["closed", "open", "split", "two shells", "flipped face", "edge of three"])
+@pytest.mark.parametrize(
+    "kind", ["closed", "open", "split", "two shells", "flipped face", "edge of three"]
+)
 def test_open_edges_are_counted_as_the_compiled_module_counts_them(kind):
     analysis = addon("core.analysis")
     source = ellipsoid(segments=2)
@@ -246,7 +254,10 @@ def test_open_edges_are_counted_as_the_compiled_module_counts_them(kind):
     if kind == "open":
         triangles = triangles[5:]
     elif kind == "split":
-        points, triangles = points[triangles.ravel()], np.arange(triangles.size, dtype=np.int32).reshape(-1, 3)
+        points, triangles = (
+            points[triangles.ravel()],
+            np.arange(triangles.size, dtype=np.int32).reshape(-1, 3),
+        )
     elif kind == "two shells":
         triangles = np.concatenate([triangles, triangles + len(points)])
         points = np.concatenate([points, points + 5.0])
@@ -254,7 +265,10 @@ def test_open_edges_are_counted_as_the_compiled_module_counts_them(kind):
         triangles[3] = triangles[3, ::-1]
     elif kind == "edge of three":
         extra = np.array([[triangles[0, 0], triangles[0, 1], len(points)]], np.int32)
-        triangles, points = np.concatenate([triangles, extra]), np.concatenate([points, [[9.0, 9.0, 9.0]]])
+        triangles, points = (
+            np.concatenate([triangles, extra]),
+            np.concatenate([points, [[9.0, 9.0, 9.0]]]),
+        )
     native = addon("core.native").load().MedialAnalysis(points, triangles)
     gaps = analysis.open_edges(points, triangles)
     assert (gaps == 0) == native.closed == (kind in ("closed", "split", "two shells"))

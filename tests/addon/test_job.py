@@ -14,7 +14,9 @@ def task(count=60_000, name="Cloud"):
     points = np.random.default_rng(9).normal(size=(count, 3))
     points /= np.linalg.norm(points, axis=1)[:, None]
     points *= (1.0, 0.8, 0.6)
-    return addon("core.job").Task(name, points, np.zeros((0, 3), np.int32), addon("core.settings").Settings())
+    return addon("core.job").Task(
+        name, points, np.zeros((0, 3), np.int32), addon("core.settings").Settings()
+    )
 
 
 def threads():
@@ -35,7 +37,7 @@ def test_job_reports_stages_and_a_fraction_that_never_falls():
         seen.append((job.fraction, job.text))
         time.sleep(0.002)
     fractions = [fraction for fraction, _ in seen]
-    assert fractions == sorted(fractions) and 0 <= fractions[0] and fractions[-1] <= 1
+    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
     assert any(text.startswith("One, 1 of 2: Delaunay triangulation, ") for _, text in seen)
     assert any(text.startswith("Two, 2 of 2: ") for _, text in seen)
     assert len({text.split(", ")[1] for _, text in seen}) > 3, seen
@@ -49,7 +51,16 @@ def test_job_gives_what_the_script_way_gives():
     mine = job.outcomes()[0].computation.axis
     addon("core.analysis").CACHE.clear()
     other = addon("core.job").run_task(one).computation.axis
-    for name in ("vertices", "radius", "face_offsets", "face_vertices", "theta", "rho", "side", "generators"):
+    for name in (
+        "vertices",
+        "radius",
+        "face_offsets",
+        "face_vertices",
+        "theta",
+        "rho",
+        "side",
+        "generators",
+    ):
         assert getattr(mine, name).tobytes() == getattr(other, name).tobytes()
 
 
@@ -69,9 +80,13 @@ def test_cancel_ends_the_job_soon_and_keeps_nothing(delay):
 
 
 def test_an_error_belongs_to_its_task():
-    flat = addon("core.job").Task("Flat", np.zeros((9, 3)), np.zeros((0, 3), np.int32), task(9).settings)
+    flat = addon("core.job").Task(
+        "Flat", np.zeros((9, 3)), np.zeros((0, 3), np.int32), task(9).settings
+    )
     bad, good = addon("core.job").Job([flat, task(1000)]).outcomes()
-    assert isinstance(bad.error, addon("core.errors").DegenerateInputError) and bad.computation is None
+    assert (
+        isinstance(bad.error, addon("core.errors").DegenerateInputError) and bad.computation is None
+    )
     assert good.error is None and good.computation.axis.facets > 0
 
 
@@ -139,7 +154,9 @@ def test_messages_of_a_missing_compiled_module(monkeypatch, tmp_path):
     (tmp_path / "_medial.cpython-399-x86_64-linux-gnu.so").write_bytes(b"")
     monkeypatch.setattr(native, "_module", None)
     monkeypatch.setattr(native, "LIB", tmp_path)
-    sentence = f"Expected the compiled module for {expected}, found cpython-399-x86_64-linux-gnu; install"
+    sentence = (
+        f"Expected the compiled module for {expected}, found cpython-399-x86_64-linux-gnu; install"
+    )
     with pytest.raises(addon("core.errors").NativeModuleError, match=sentence):
         native.load()
     select(ellipsoid())
@@ -156,6 +173,8 @@ def test_message_of_a_compiled_module_that_does_not_load(monkeypatch, tmp_path):
     monkeypatch.setattr(native, "NAME", "_absent")
     monkeypatch.setattr(native, "LIB", tmp_path)
     (tmp_path / f"_absent.{native.expected_abi()}.so").write_bytes(b"not a library")
-    with pytest.raises(addon("core.errors").NativeModuleError, match="Expected .* that loads, but the system says"):
+    with pytest.raises(
+        addon("core.errors").NativeModuleError, match=r"Expected .* that loads, but the system says"
+    ):
         native.load()
     assert "that loads" in native.problem(), "the panel must not try again at every draw"

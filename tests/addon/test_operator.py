@@ -1,4 +1,4 @@
-"""Compute Medial Axis on real objects: what is made, where it lies, what it is called, what stays as it was."""
+"""Compute Medial Axis on real objects: what is made, what it is called, what stays as it was."""
 
 import bpy
 import numpy as np
@@ -141,7 +141,9 @@ def test_every_setting_reaches_the_compiled_module(settings):
         others = {key: value for key, value in wanted.items() if key != name or name == "side"}
         others["side"] = module.Side.INNER if name == "side" else others["side"]
         without = direct(points, triangles, sphere, **others)
-        assert len(axis.theta) != len(without.theta), f"{name} changed nothing, so nothing was tested"
+        assert len(axis.theta) != len(without.theta), (
+            f"{name} changed nothing, so nothing was tested"
+        )
     for name, value in settings.items():
         assert result_of(source)[f"ma_{name}"] == pytest.approx(value)
 
@@ -165,7 +167,10 @@ def test_loose_vertices_are_samples_too():
     compute()
     result = result_of(source)
     assert result["ma_points"] == count + 1
-    pairs = attribute(result.data, "ma_generator_b" if "ma_generator_b" in result.data.attributes else "ma_generators")
+    pairs = attribute(
+        result.data,
+        "ma_generator_b" if "ma_generator_b" in result.data.attributes else "ma_generators",
+    )
     assert count in pairs
 
 
@@ -328,7 +333,9 @@ def test_material_renders_the_whole_ramp_from_thin_to_thick(tmp_path):
     colours = pixels_of(result_of(source), tmp_path)
     assert len(colours) > 20
     red_minus_blue = colours[:, 0] - colours[:, 2]
-    assert red_minus_blue.max() - red_minus_blue.min() > 0.2, "one colour: the radius does not reach the shader"
+    assert red_minus_blue.max() - red_minus_blue.min() > 0.2, (
+        "one colour: the radius does not reach the shader"
+    )
 
 
 def test_theta_and_rho_are_filtered_from_the_kept_analysis():
@@ -419,7 +426,9 @@ def test_edit_mode_is_flushed_not_refused():
     points = positions(source.data)
     assert np.abs(points).max() == pytest.approx(2.0, rel=0.01)
     module = addon("core.native").load()
-    assert_holds(result_of(source), direct(points, triangles_of(source.data), side=module.Side.INNER))
+    assert_holds(
+        result_of(source), direct(points, triangles_of(source.data), side=module.Side.INNER)
+    )
 
 
 def test_edit_mode_sees_modifiers():
@@ -428,7 +437,9 @@ def test_edit_mode_sees_modifiers():
     bpy.ops.object.mode_set(mode="EDIT")
     compute()
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert result_of(source)["ma_points"] == len(evaluated_points(source)) > len(source.data.vertices)
+    assert (
+        result_of(source)["ma_points"] == len(evaluated_points(source)) > len(source.data.vertices)
+    )
 
 
 def test_result_in_edit_mode_is_refused():

@@ -1,4 +1,4 @@
-"""The add-on comes and goes without a trace, and every option reaches the user as core.settings states it."""
+"""The add-on comes and goes without a trace; every option is what core.settings says."""
 
 import ast
 import math
@@ -39,7 +39,9 @@ def test_disable_removes_everything_and_enable_brings_it_back():
     for _ in range(2):
         bpy.ops.preferences.addon_disable(module=MODULE)
         assert not any(present().values()), present()
-        assert not [name for name in sys.modules if name.startswith(f"{MODULE}.") and ".lib" not in name]
+        assert not [
+            name for name in sys.modules if name.startswith(f"{MODULE}.") and ".lib" not in name
+        ]
         bpy.ops.preferences.addon_enable(module=MODULE)
         assert all(present().values()), present()
     source = ellipsoid()
@@ -58,7 +60,9 @@ def test_registration_leaves_the_file_alone():
 
 def test_importing_needs_no_blender():
     source = Path(addon().__file__).read_text(encoding="utf-8")
-    top = [node for node in ast.parse(source).body if isinstance(node, (ast.Import, ast.ImportFrom))]
+    top = [
+        node for node in ast.parse(source).body if isinstance(node, (ast.Import, ast.ImportFrom))
+    ]
     assert top == []
 
 
@@ -123,7 +127,11 @@ def test_rounded_limits_and_defaults_mean_the_exact_numbers():
     assert exact(theta, 0.5) == 0.5
 
 
-@pytest.mark.parametrize("values", [{"theta": -0.1}, {"theta": 1.6}, {"rho": -1.0}, {"rho": math.nan}])
+@pytest.mark.parametrize(
+    "values", [{"theta": -0.1}, {"theta": 1.6}, {"rho": -1.0}, {"rho": math.nan}]
+)
 def test_settings_out_of_range_are_refused(values):
-    with pytest.raises(addon("core.errors").InvalidInputError, match="Expected (theta|rho) .*, found"):
+    with pytest.raises(
+        addon("core.errors").InvalidInputError, match=r"Expected (theta|rho) .*, found"
+    ):
         addon("core.settings").Settings(**values)

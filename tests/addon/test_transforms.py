@@ -1,4 +1,4 @@
-"""The axis lies where the artist sees the shape: scale, shear and mirror are applied before computing."""
+"""The axis lies where the artist sees the shape; scale, shear and mirror are applied first."""
 
 import math
 
@@ -25,12 +25,18 @@ PLACES = {
     "all negative": Matrix.Translation((1, 0, 0)) @ scale(-2, -2, -2),
     "two negative": scale(-1, 3, -1) @ ROTATION,
     "sheared": ROTATION @ SHEAR,
-    "everything": Matrix.Translation((10, 20, -5)) @ ROTATION @ scale(-1, 2, 0.7) @ SHEAR @ ROTATION,
+    "everything": Matrix.Translation((10, 20, -5))
+    @ ROTATION
+    @ scale(-1, 2, 0.7)
+    @ SHEAR
+    @ ROTATION,
 }
 
 
 def place(source, world, parents):
-    """Put an object there by itself, or through a chain of parents that leaves only a turn to the object."""
+    """Put an object there by itself, or through a chain of parents that leaves only a turn to the
+    object.
+    """
     if not parents:
         source.matrix_world = world  # shear cannot be an object's own
         return
@@ -69,7 +75,7 @@ def facets(result):
     where = world_positions(result)
     return {
         tuple(pair): where[list(polygon.vertices)].mean(axis=0)
-        for pair, polygon in zip(pairs, mesh.polygons)
+        for pair, polygon in zip(pairs, mesh.polygons, strict=True)
     }
 
 
@@ -90,7 +96,9 @@ def test_result_equals_that_of_a_copy_with_applied_transform(name, parents):
     assert result.matrix_world.determinant() > 0
     mine, theirs = facets(result), facets(expected)
     common = mine.keys() & theirs.keys()
-    assert len(common) > 0.98 * max(len(mine), len(theirs)) > 100  # float32 vertices decide a few edges
+    assert (
+        len(common) > 0.98 * max(len(mine), len(theirs)) > 100
+    )  # float32 vertices decide a few edges
     size = max(source.dimensions)
     away = np.array([np.linalg.norm(mine[key] - theirs[key]) for key in common])
     assert np.quantile(away, 0.99) < 1e-4 * size
@@ -115,7 +123,9 @@ def test_animated_constraint_is_seen():
     bpy.context.scene.collection.objects.link(target)
     source.constraints.new("COPY_LOCATION").target = target
     compute()
-    np.testing.assert_allclose(world_positions(result_of(source)).mean(axis=0), (4, 5, 6), atol=0.05)
+    np.testing.assert_allclose(
+        world_positions(result_of(source)).mean(axis=0), (4, 5, 6), atol=0.05
+    )
 
 
 @pytest.mark.parametrize("name", PLACES)
@@ -144,6 +154,6 @@ def test_rotation_alone_leaves_the_points_exactly_as_they_are():
 def test_flat_object_says_that_its_points_lie_on_a_plane():
     source = ellipsoid()
     source.scale = (1, 1, 0)
-    with pytest.raises(RuntimeError, match="'Ellipsoid': .*plane"):
+    with pytest.raises(RuntimeError, match=r"'Ellipsoid': .*plane"):
         bpy.ops.object.medial_axis()
     assert result_of(source) is None

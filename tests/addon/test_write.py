@@ -31,7 +31,9 @@ def honeycomb(rows, columns):
 
 
 def changed(axis, **fields):
-    return type(axis)(**{**{name: getattr(axis, name) for name in axis.__dataclass_fields__}, **fields})
+    return type(axis)(
+        **{**{name: getattr(axis, name) for name in axis.__dataclass_fields__}, **fields}
+    )
 
 
 def test_arrays_arrive():
@@ -63,7 +65,9 @@ def test_polygons_of_different_sizes():
 
 
 def test_a_million_facets_take_two_seconds_at_most():
-    """In processor time, the best of five; on a machine with more work than cores even that doubles."""
+    """In processor time, the best of five; on a machine with more work than cores even that
+    doubles.
+    """
     axis = honeycomb(500, 500)
     write = addon("bridge.write_object").new_mesh
     seconds = []
@@ -87,7 +91,13 @@ def test_a_million_facets_take_two_seconds_at_most():
         ({"face_offsets": np.array([0, 1, 12], np.int32)}, AssertionError),
         ({"theta": np.zeros(1)}, Exception),
     ],
-    ids=["too large", "index too large", "negative index", "polygon of one corner", "short attribute"],
+    ids=[
+        "too large",
+        "index too large",
+        "negative index",
+        "polygon of one corner",
+        "short attribute",
+    ],
 )
 def test_nothing_is_left_of_a_mesh_that_cannot_be_made(fields, error):
     if isinstance(error, str):

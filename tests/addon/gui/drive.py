@@ -1,13 +1,10 @@
-"""Runs each scene of scenes.py in a Blender window of its own under Xvfb, and tells which passed."""
+"""Runs each scene of scenes.py in a Blender window under Xvfb, and tells which passed."""
 
 from __future__ import annotations
 
 import contextlib
 import json
-import os
 import subprocess
-import time
-import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -50,7 +47,7 @@ def run_all(blender, folder: Path, wanted: list[str]) -> int:
 def display() -> Iterator[str]:
     """An X server without a screen."""
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", "1", "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24", "+extension", "GLX", "-nolisten", "tcp"],
+        f"Xvfb -displayfd 1 -screen 0 {SIZE[0]}x{SIZE[1]}x24 +extension GLX -nolisten tcp".split(),
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
@@ -80,9 +77,12 @@ def run_scene(blender, name: str, folder: Path) -> str:
     answer, log = folder / f"{name}.json", folder / f"{name}.log"
     answer.unlink(missing_ok=True)
     command = [blender.program, "--factory-startup", "--window-geometry", "0", "0", *map(str, SIZE)]
-    command += ["--python-exit-code", "1", "--python", str(HERE / "scenes.py"), "--", name, str(folder)]
+    command += ["--python-exit-code", "1", "--python", str(HERE / "scenes.py")]
+    command += ["--", name, str(folder)]
     with open(log, "wb") as output:
-        window = subprocess.Popen(command, env=blender.environment, stdout=output, stderr=subprocess.STDOUT)
+        window = subprocess.Popen(
+            command, env=blender.environment, stdout=output, stderr=subprocess.STDOUT
+        )
         try:
             code = window.wait(LIMIT)
         except subprocess.TimeoutExpired:
@@ -93,7 +93,8 @@ def run_scene(blender, name: str, folder: Path) -> str:
     if not answer.exists():
         return f"no answer, exit code {code}:\n{text[-3000:]}"
     problem = json.loads(answer.read_text(encoding="utf-8"))["problem"]
-    escaped = code == 1 and name == "cancel_with_escape"  # Blender's exit code after Esc was the last key
+    # Blender's own exit code is 1 after Esc was the last key.
+    escaped = code == 1 and name == "cancel_with_escape"
     if not problem and code != 0 and not escaped:
         problem = f"exit code {code}"
     if not problem and "Traceback" in text:

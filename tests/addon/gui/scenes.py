@@ -1,7 +1,7 @@
-"""Runs inside Blender's window: plays one scene with a real mouse and keyboard, and asserts on what Blender holds.
+"""Runs inside Blender's window: plays one scene with mouse and keyboard, and asserts on the data.
 
-A scene is a generator; what it yields is how many seconds Blender's own loop runs before it goes on, or a
-function to wait for.
+A scene is a generator; what it yields is how many seconds Blender's own loop runs before it goes
+on, or a function to wait for.
 """
 
 import json
@@ -21,7 +21,7 @@ from scene import addon, analyses, medial_objects, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
-# (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 draws it at 1280 x 800.
+# (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 draws it.
 TAB = (13, 177)
 THETA_LEFT, THETA_RIGHT = (120, 46), (50, 46)
 COMPUTE = (102, 192)
@@ -73,7 +73,9 @@ def drag(start, end):
     yield 0.2
     steps = 8
     for step in range(1, steps + 1):
-        xdotool("mousemove", *(a + (b - a) * step // steps for a, b in zip(start, end)))
+        xdotool(
+            "mousemove", *(a + (b - a) * step // steps for a, b in zip(start, end, strict=True))
+        )
         yield 0.15
     xdotool("mouseup", 1)
     yield 0.5
@@ -178,9 +180,15 @@ def scene_compute_drag_undo():
     assert [thing.name for thing in medial_objects()] == ["Suzanne Medial Axis"]
     assert bpy.context.window_manager.operators[-1].bl_idname == "OBJECT_OT_medial_axis"
     first, before = facets(), analyses()
-    yield from click(145, 705)  # Adjust Last Operation, collapsed at the lower left
+    yield from click(145, 705)  # opens Adjust Last Operation at the lower left
     yield 1.0
-    look("adjust")
+    yield from drag((220, 583), (250, 583))  # its theta
+    yield 1.0
+    look("adjusted")
+    adjusted = facets()
+    assert 0 < adjusted < first and len(medial_objects()) == 1
+    assert bpy.data.objects["Suzanne Medial Axis"]["ma_theta"] > 0.5
+    assert analyses() == before
 
     yield from drag(at(THETA_LEFT), at(THETA_RIGHT))
     look("dragged")
@@ -188,16 +196,16 @@ def scene_compute_drag_undo():
     theta = bpy.context.scene.medial_axis.theta
     assert theta > 0.8, f"theta is {theta}: the slider was missed"
     assert bpy.data.objects["Suzanne Medial Axis"]["ma_theta"] == theta
-    assert dragged != first and analyses() == before
+    assert dragged != adjusted and analyses() == before
 
     yield from key("ctrl+z")
     assert abs(bpy.context.scene.medial_axis.theta - np.pi / 8) < 1e-6
-    assert facets() == first, "undo must bring the facets back, too"
+    assert facets() == adjusted, "undo must bring the facets back, too"
     yield from key("ctrl+z")
     assert medial_objects() == [], "one undo must remove the result"
     look("undone")
     yield from key("ctrl+shift+z")
-    assert facets() == first, "redo must bring the result back"
+    assert facets() == adjusted, "redo must bring the result back"
     yield from key("ctrl+shift+z")
     assert facets() == dragged
     look("redone")
