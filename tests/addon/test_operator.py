@@ -463,3 +463,37 @@ def test_object_in_two_collections():
     other.objects.link(source)
     compute()
     assert set(result_of(source).users_collection) == set(source.users_collection)
+
+
+def test_result_survives_saving_and_loading(tmp_path):
+    source = ellipsoid()
+    compute()
+    count = len(result_of(source).data.polygons)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "saved.blend"))
+    source = bpy.data.objects["Ellipsoid"]
+    assert len(result_of(source).data.polygons) == count
+    bpy.context.scene.medial_axis.theta = 1.2
+    assert "Press Compute Medial Axis" in bpy.context.scene.medial_axis.note
+    select(source)
+    compute(theta=1.2)
+    assert len(medial_objects()) == 1 and len(result_of(source).data.polygons) < count
+    assert bpy.context.scene.medial_axis.note == ""
+
+
+def test_copy_of_a_source_gets_a_result_of_its_own():
+    source = ellipsoid()
+    compute()
+    copy = bpy.data.objects.new("Copy", source.data)
+    copy.location = (4, 0, 0)
+    bpy.context.scene.collection.objects.link(copy)
+    select(copy)
+    before = analyses()
+    compute()
+    assert {thing.name for thing in medial_objects()} == {
+        "Ellipsoid Medial Axis",
+        "Copy Medial Axis",
+    }
+    assert analyses() == before, "the same shape elsewhere is the same analysis"
+    bpy.context.view_layer.update()
+    assert tuple(result_of(copy).matrix_world.translation) == (4, 0, 0)

@@ -17,6 +17,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "cancel_with_escape": True,
     "cancel_with_button": True,
     "source_deleted": True,
+    "undo_while_running": True,
     "file_loaded": True,
     "edit_mode": True,
     "quit_while_running": True,

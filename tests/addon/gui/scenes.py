@@ -267,6 +267,19 @@ def scene_source_deleted():
     look("deleted")
 
 
+def scene_undo_while_running():
+    """Undo takes the source away; the run must end by itself and leave the older scene alone."""
+    cloud()
+    yield from start_long_run()
+    yield from key("ctrl+z")
+    yield no_job
+    yield 0.3
+    assert "Cloud" not in bpy.data.objects and "Cube" in bpy.data.objects
+    nothing_is_left()
+    assert "'Cloud' was deleted" in bpy.context.scene.medial_axis.note
+    look("undone")
+
+
 def scene_file_loaded():
     cloud()
     yield from start_long_run()
