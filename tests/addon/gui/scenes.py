@@ -99,6 +99,11 @@ def look(name):
     assert int(colours) > 500, f"{path} shows {colours} colours only"
 
 
+def patience(seconds):
+    """A limit for a machine that is not overloaded, stretched by how much it is."""
+    return seconds * max(1.0, os.getloadavg()[0] / len(os.sched_getaffinity(0)))
+
+
 # --- scenes
 
 
@@ -229,7 +234,7 @@ def scene_cancel_with_escape():
         gaps.append(time.monotonic() - last)
         last = time.monotonic()
     assert job() is not None, "the run was too short to be cancelled"
-    assert max(gaps) < 0.5, f"Blender stood still for {max(gaps):.2f} s"
+    assert max(gaps) < patience(0.5), f"Blender stood still for {max(gaps):.2f} s"
     look("running")
     with bpy.context.temp_override(window=window(), area=viewport()):
         assert not bpy.ops.object.medial_axis.poll(), "a second run must be refused"
@@ -238,7 +243,7 @@ def scene_cancel_with_escape():
     asked = time.monotonic()
     xdotool("key", "Escape")
     yield no_job
-    assert time.monotonic() - asked < 1.0
+    assert time.monotonic() - asked < patience(1.0)
     yield 0.5
     look("cancelled")
     nothing_is_left()
@@ -320,7 +325,7 @@ def scene_missing_module():
     look("message")
     native = addon("core.native")
     assert native.expected_abi() in native.problem() and "found none" in native.problem()
-    yield from click(*at((102, 270)))
+    yield from click(*at((102, 319)))  # the button lies below the message; it is grey
     yield 0.5
     with bpy.context.temp_override(window=window(), area=viewport()):
         assert not bpy.ops.object.medial_axis.poll()
