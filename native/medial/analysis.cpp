@@ -68,6 +68,7 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   samples_ = make_samples(rows, quiet);
   const int32_t count = samples_.count();
   duplicates_ = static_cast<int64_t>(rows.size()) - count;
+  require_volume(samples_.points);
   if (options.bounding_sphere) add_bounding_sphere(samples_);
   const std::vector<Vec3>& points = samples_.points;
   watch.lap("samples");
@@ -76,7 +77,7 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   voronoi_ = voronoi(points, triangulation_, run);
   watch.lap("voronoi");
   begin_stage(progress, "Delaunay edges", 0.66, 0.68);
-  const Csr<int32_t> incident = incident_cells(triangulation_, count);
+  const Csr<int32_t> incident = incident_cells(triangulation_, count, run);
   edges_ = delaunay_edges(triangulation_, incident, run);
   watch.lap("complex");
   {
@@ -88,14 +89,15 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
     watch.lap("significance");
   }
   if (!triangles.empty()) {
-    const Surface surface = make_surface(triangles, samples_.sample_of_row, count, quiet);
+    begin_stage(progress, "Surface", 0.88, 0.9);
+    const Surface surface = make_surface(triangles, samples_.sample_of_row, count, run);
     closed_ = surface.closed();
-    boundary_edges_ = static_cast<int64_t>(surface.boundary.size());
+    boundary_edges_ = surface.open_edges();
     sides_ = sides_from_surface(points, surface, triangulation_, voronoi_, run);
     watch.lap("sides");
   }
-  begin_stage(progress, "Order", 0.99, 1);
-  sort_edges(quiet);
+  begin_stage(progress, "Order of the edges", 0.99, 1);
+  sort_edges(run);
   watch.lap("order");
 }
 

@@ -18,8 +18,8 @@ int slot(const Cell& cell, int32_t id) {
 
 }  // namespace
 
-Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples) {
-  return rows_containing(std::span<const Cell>(t.cells), samples);
+Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples, const Run& run) {
+  return rows_containing(std::span<const Cell>(t.cells), samples, run.progress);
 }
 
 Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident, const Run& run) {

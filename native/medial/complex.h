@@ -15,7 +15,7 @@ struct Edges {
 };
 
 // Cells, finite ones first, at each of the first `samples` points.
-Csr<int32_t> incident_cells(const Triangulation& triangulation, int32_t samples);
+Csr<int32_t> incident_cells(const Triangulation& triangulation, int32_t samples, const Run& run);
 
 // Grouped by their lower end, in ascending order of it.
 Edges delaunay_edges(const Triangulation& triangulation, const Csr<int32_t>& incident, const Run& run);

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "progress.h"
+
 namespace medial {
 
 template <typename T>
@@ -31,12 +33,14 @@ inline void counts_to_offsets(std::vector<int64_t>& counts) {
 
 // Inverts a table: list k holds, ascending, the rows that contain k. Ids outside [0, lists) are passed over.
 template <typename Row>
-Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists) {
+Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists, const Progress* progress = nullptr) {
+  constexpr int32_t kBatch = 1 << 18;
   Csr<int32_t> result;
   result.offsets.assign(static_cast<size_t>(lists) + 2, 0);
   int64_t* const start = result.offsets.data() + 1;  // shifted by one: ends as the offsets themselves
-  for (const Row& row : table) {
-    for (const int32_t k : row) {
+  for (int32_t i = 0; i < static_cast<int32_t>(table.size()); ++i) {
+    if (i % kBatch == 0) throw_if_cancelled(progress);
+    for (const int32_t k : table[static_cast<size_t>(i)]) {
       if (k >= 0 && k < lists) ++start[k];
     }
   }
@@ -48,6 +52,7 @@ Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists) {
   }
   result.items.resize(static_cast<size_t>(sum));
   for (int32_t i = 0; i < static_cast<int32_t>(table.size()); ++i) {
+    if (i % kBatch == 0) throw_if_cancelled(progress);
     for (const int32_t k : table[static_cast<size_t>(i)]) {
       if (k >= 0 && k < lists) result.items[static_cast<size_t>(start[k]++)] = i;
     }

@@ -41,7 +41,7 @@ inline void parallel_chunks(int64_t count, const Run& run,
       for (;;) {
         const int64_t begin = next.fetch_add(grain);
         if (begin >= count || stop.load(std::memory_order_relaxed)) return;
-        if (run.progress && run.progress->cancelled()) throw Cancelled();
+        throw_if_cancelled(run.progress);
         body(begin, std::min(begin + grain, count), worker);
         if (worker == 0) {
           advance(run.progress, static_cast<double>(begin) / static_cast<double>(count));

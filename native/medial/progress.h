@@ -38,6 +38,9 @@ class Progress {
 inline void begin_stage(Progress* progress, const char* name, double from, double to) {
   if (progress) progress->begin_stage(name, from, to);
 }
+inline void throw_if_cancelled(const Progress* progress) {
+  if (progress && progress->cancelled()) throw Cancelled();
+}
 inline void advance(Progress* progress, double share) {
   if (progress) progress->advance(share);
 }

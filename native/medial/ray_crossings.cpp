@@ -40,12 +40,13 @@ std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& di
 
 }  // namespace
 
-RayCrossings::RayCrossings(std::vector<Corners> triangles) : corners_(std::move(triangles)) {
+RayCrossings::RayCrossings(std::vector<Corners> triangles, const Progress* progress) : corners_(std::move(triangles)) {
   nodes_.reserve(corners_.size() + 2);
-  if (!corners_.empty()) build(0, static_cast<int32_t>(corners_.size()));
+  if (!corners_.empty()) build(0, static_cast<int32_t>(corners_.size()), progress);
 }
 
-int32_t RayCrossings::build(int32_t begin, int32_t end) {
+int32_t RayCrossings::build(int32_t begin, int32_t end, const Progress* progress) {
+  if (end - begin > 1 << 14) throw_if_cancelled(progress);
   const auto id = static_cast<int32_t>(nodes_.size());
   Node& node = nodes_.emplace_back();
   node.begin = begin;
@@ -55,8 +56,8 @@ int32_t RayCrossings::build(int32_t begin, int32_t end) {
   }
   if (end - begin <= kLeafTriangles) return id;
   const int32_t middle = split_in_half(corners_, begin, end);
-  build(begin, middle);
-  const int32_t right = build(middle, end);
+  build(begin, middle, progress);
+  const int32_t right = build(middle, end, progress);
   nodes_[id].right = right;
   return id;
 }

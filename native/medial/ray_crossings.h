@@ -3,13 +3,14 @@
 
 #include <optional>
 
+#include "progress.h"
 #include "solid_angle.h"
 
 namespace medial {
 
 class RayCrossings {
  public:
-  explicit RayCrossings(std::vector<Corners> triangles);
+  RayCrossings(std::vector<Corners> triangles, const Progress* progress);
 
   // Nothing when the ray passes so close to an edge that doubles cannot tell on which side.
   std::optional<int> operator()(const Vec3& origin, const Vec3& direction) const;
@@ -22,7 +23,7 @@ class RayCrossings {
     int32_t right = -1;  // the left child follows its parent; -1: a leaf
   };
 
-  int32_t build(int32_t begin, int32_t end);
+  int32_t build(int32_t begin, int32_t end, const Progress* progress);
 
   std::vector<Corners> corners_;
   std::vector<Node> nodes_;

@@ -6,8 +6,8 @@ namespace medial {
 
 CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface, const Triangulation& t,
                              const Voronoi& voronoi, const Run& run) {
-  begin_stage(run.progress, "Inside and outside", 0.88, 0.99);
-  const WindingNumber winding(points, surface.triangles, surface.boundary);
+  begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
+  const WindingNumber winding(points, surface.triangles, surface.boundary, run.progress);
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
   parallel_for(t.finite_cells, run, [&](int64_t c) {
     const bool asked = voronoi.vertex[c] == c;  // one Voronoi vertex, one question, one side

@@ -114,12 +114,11 @@ SolidAngle::Term SolidAngle::term(int32_t id, const Vec3& query) const {
   return {error, value, id};
 }
 
-// Replaces the cluster with the largest bound by its children, or by its triangles, until the bounds add up to little.
-SolidAngle::Estimate SolidAngle::within(double wanted, const Vec3& query) const {
-  if (nodes_.empty()) return {};
+// Replaces the cluster with the largest bound by its children, or by its triangles, until the bounds cannot matter.
+bool SolidAngle::is_below(double bound, const Vec3& query) const {
   const auto smaller = [](const Term& s, const Term& t) { return s.error < t.error; };
-  std::vector<Term> heap{term(0, query)};
-  heap.reserve(128);
+  std::vector<Term> heap;
+  heap.reserve(64);
   int unbounded = 0;  // terms in the heap without a finite bound
   double total = 0, error = 0;
   const auto count = [&](const Term& t, int sign) {
@@ -135,22 +134,22 @@ SolidAngle::Estimate SolidAngle::within(double wanted, const Vec3& query) const 
     std::push_heap(heap.begin(), heap.end(), smaller);
     count(t, 1);
   };
-  count(heap[0], 1);
-  while (unbounded > 0 || error > wanted * kFull) {
+  if (!nodes_.empty()) push(term(0, query));
+  while (!heap.empty() && (unbounded > 0 || std::abs(total - bound * kFull) <= error)) {
     std::pop_heap(heap.begin(), heap.end(), smaller);
     const Term top = heap.back();
     heap.pop_back();
     count(top, -1);
-    if (nodes_[top.node].right < 0) {
-      const Node& leaf = nodes_[top.node];
+    const Node& node = nodes_[top.node];
+    if (node.right < 0) {
       const std::span<const Corners> triangles(corners_);
-      total += kFull * solid_angle_sum(triangles.subspan(leaf.begin, leaf.end - leaf.begin), query);
+      total += kFull * solid_angle_sum(triangles.subspan(node.begin, node.end - node.begin), query);
     } else {
       push(term(top.node + 1, query));
-      push(term(nodes_[top.node].right, query));
+      push(term(node.right, query));
     }
   }
-  return {total / kFull, error / kFull};
+  return total < bound * kFull;
 }
 
 }  // namespace medial

@@ -23,14 +23,11 @@ int32_t split_in_half(std::vector<Corners>& corners, int32_t begin, int32_t end)
 
 class SolidAngle {
  public:
-  struct Estimate {
-    double value = 0, error = 0;  // the exact value is no farther than `error`
-  };
-
   explicit SolidAngle(std::vector<Corners> triangles);
 
   double exact(const Vec3& query) const { return solid_angle_sum(corners_, query); }
-  Estimate within(double error, const Vec3& query) const;
+  // Whether the exact value is below `bound`; clusters are opened only as far as it takes to tell.
+  bool is_below(double bound, const Vec3& query) const;
 
  private:
   // A contiguous range of triangles, expanded about its area-weighted centroid.

@@ -10,9 +10,15 @@ Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_
     const Triangle t{sample_of_row[i], sample_of_row[j], sample_of_row[k]};
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) surface.triangles.push_back(t);
   }
-  const auto fans = rows_containing(std::span<const Triangle>(surface.triangles), samples);
+  const auto fans = rows_containing(std::span<const Triangle>(surface.triangles), samples, run.progress);
   surface.boundary = boundary_edges(surface.triangles, fans, run);
   return surface;
+}
+
+int64_t Surface::open_edges() const {
+  int64_t count = 0;
+  for (size_t i = 0; i < boundary.size(); ++i) count += i == 0 || boundary[i] != boundary[i - 1];
+  return count;
 }
 
 }  // namespace medial

@@ -9,6 +9,8 @@ struct Surface {
   std::vector<Triangle> triangles;  // outward; triangles with a repeated corner are left out
   std::vector<Edge> boundary;       // as from boundary_edges
 
+  // Edges in the boundary, whatever their surplus.
+  int64_t open_edges() const;
   // Then the winding number is an integer everywhere off the surface.
   bool closed() const { return !triangles.empty() && boundary.empty(); }
 };

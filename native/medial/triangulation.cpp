@@ -18,6 +18,8 @@ using Delaunay =
     CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using CellHandle = Delaunay::Cell_handle;
 
+constexpr size_t kBatch = 1 << 17;  // cells between two looks at the cancel flag
+
 struct OrderedCell {
   Cell ids;
   CellHandle handle;
@@ -51,24 +53,16 @@ std::vector<int32_t> insertion_order(int32_t count) {
 }
 
 void insert_all(Delaunay& delaunay, std::span<const Vec3> points, Progress* progress) {
-  constexpr size_t kBatch = 512;
+  constexpr size_t kStep = 512;
   CellHandle hint;
   const auto order = insertion_order(static_cast<int32_t>(points.size()));
   for (size_t i = 0; i < order.size(); ++i) {
-    if (i % kBatch == 0) advance(progress, static_cast<double>(i) / static_cast<double>(order.size()));
+    if (i % kStep == 0) advance(progress, static_cast<double>(i) / static_cast<double>(order.size()));
     const Vec3& p = points[order[i]];
-    const auto vertex = delaunay.insert(Kernel::Point_3(p.x, p.y, p.z), hint);
+    const auto vertex = delaunay.insert({p.x, p.y, p.z}, hint);
     vertex->info() = order[i];
     hint = vertex->cell();
   }
-}
-
-void require_volume(int dimension) {
-  if (dimension == 3) return;
-  const char* const found[] = {"all of them in one place", "all of them on one line",
-                               "all of them in one plane"};
-  throw DegenerateInputError(std::string("Expected points that span a volume, found ") +
-                             found[std::clamp(dimension, 0, 2)] + "; add points off it.");
 }
 
 // Sorted but for the last two, which keep the orientation positive.
@@ -106,15 +100,18 @@ std::vector<OrderedCell> ordered_cells(const Delaunay& delaunay, int32_t points,
     }
     ids = canonical(ids);
     ++start[bucket(ids) + 1];
+    if (found.size() % kBatch == 0) advance(run.progress, 0.3 * static_cast<double>(found.size()) / static_cast<double>(count));
     found.push_back({ids, cell});
   }
-  advance(run.progress, 0.3);
   for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
   std::vector<OrderedCell> ordered(count);
   auto next = start;
-  for (const auto& cell : found) ordered[next[bucket(cell.ids)]++] = cell;
-  advance(run.progress, 0.5);
-  parallel_for(static_cast<int64_t>(start.size()) - 1, {run.threads, nullptr}, [&](int64_t b) {
+  for (size_t i = 0; i < count; ++i) {
+    if (i % kBatch == 0) advance(run.progress, 0.3 + 0.2 * static_cast<double>(i) / static_cast<double>(count));
+    ordered[next[bucket(found[i].ids)]++] = found[i];
+  }
+  begin_stage(run.progress, "Delaunay cells", 0.54, 0.56);
+  parallel_for(static_cast<int64_t>(start.size()) - 1, run, [&](int64_t b) {
     std::sort(ordered.begin() + start[b], ordered.begin() + start[b + 1], lexicographically_before);
   });
   return ordered;
@@ -126,11 +123,12 @@ Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run
   Triangulation result;
   result.cells.resize(ordered.size());
   result.neighbors.resize(ordered.size());
-  parallel_for(static_cast<int64_t>(ordered.size()), {run.threads, nullptr}, [&](int64_t c) {
+  parallel_for(static_cast<int64_t>(ordered.size()), run, [&](int64_t c) {
     result.cells[c] = ordered[c].ids;
     ordered[c].handle->info() = static_cast<int32_t>(c);
   });
-  parallel_for(static_cast<int64_t>(ordered.size()), {run.threads, nullptr}, [&](int64_t c) {
+  begin_stage(run.progress, "Delaunay cells", 0.56, 0.58);
+  parallel_for(static_cast<int64_t>(ordered.size()), run, [&](int64_t c) {
     const CellHandle cell = ordered[c].handle;
     for (int j = 0; j < 4; ++j) {
       const auto vertex = cell->vertex(j);
@@ -145,14 +143,38 @@ Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run
   return result;
 }
 
+Kernel::Point_3 point(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+// 0: one place, 1: one line, 2: one plane, 3: a volume.
+int affine_dimension(std::span<const Vec3> points) {
+  const auto first = points.begin(), end = points.end();
+  const auto second = std::find_if(first, end, [&](const Vec3& p) { return p != *first; });
+  if (second == end) return 0;
+  const auto third = std::find_if(second, end, [&](const Vec3& p) {
+    return !CGAL::collinear(point(*first), point(*second), point(p));
+  });
+  if (third == end) return 1;
+  const auto fourth = std::find_if(third, end, [&](const Vec3& p) {
+    return !CGAL::coplanar(point(*first), point(*second), point(*third), point(p));
+  });
+  return fourth == end ? 2 : 3;
+}
+
 }  // namespace
+
+void require_volume(std::span<const Vec3> points) {
+  const char* const found[] = {"in one place", "on one line", "in one plane"};
+  const int dimension = points.empty() ? 0 : affine_dimension(points);
+  if (dimension == 3) return;
+  throw DegenerateInputError("Expected points that span a volume, found all " + std::to_string(points.size()) + " " +
+                             found[dimension] + "; add points off it.");
+}
 
 Triangulation triangulate(std::span<const Vec3> points, const Run& run) {
   begin_stage(run.progress, "Delaunay triangulation", 0.02, 0.5);
   try {
     Delaunay delaunay;
     insert_all(delaunay, points, run.progress);
-    require_volume(delaunay.dimension());
     return as_arrays(delaunay, static_cast<int32_t>(points.size()), run);
   } catch (const CGAL::Failure_exception& failure) {
     throw DegenerateInputError(std::string("Expected points that CGAL can triangulate, found: ") +

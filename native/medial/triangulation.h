@@ -27,8 +27,11 @@ struct Triangulation {
   bool is_infinite(int32_t cell) const { return cell >= finite_cells; }
 };
 
-// `points` must be distinct and should be in spatial order. Cospherical points are triangulated by CGAL's symbolic
-// perturbation, which depends on coordinates alone. Throws DegenerateInputError when the points span no volume.
+// Exact. Throws DegenerateInputError when all points lie in one place, on one line or in one plane.
+void require_volume(std::span<const Vec3> points);
+
+// `points` must be distinct, span a volume and should be in spatial order. Cospherical points are triangulated by CGAL's symbolic
+// perturbation, which depends on coordinates alone.
 Triangulation triangulate(std::span<const Vec3> points, const Run& run);
 
 }  // namespace medial

@@ -52,11 +52,11 @@ constexpr Vec3 kDirections[] = {{0.4267, 0.3181, 0.8466}, {-0.5721, 0.7411, 0.35
 }  // namespace
 
 WindingNumber::WindingNumber(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                             std::span<const Edge> boundary)
-    : WindingNumber(soup(vertices, triangles), caps(vertices, boundary)) {}
+                             std::span<const Edge> boundary, const Progress* progress)
+    : WindingNumber(soup(vertices, triangles), caps(vertices, boundary), progress) {}
 
-WindingNumber::WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps)
-    : closed_(joined(std::move(soup), caps)), caps_(std::move(caps)) {}
+WindingNumber::WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps, const Progress* progress)
+    : closed_(joined(std::move(soup), caps), progress), caps_(std::move(caps)) {}
 
 int WindingNumber::closed_winding(const Vec3& query) const {
   for (const Vec3& direction : kDirections) {
@@ -68,10 +68,7 @@ int WindingNumber::closed_winding(const Vec3& query) const {
 double WindingNumber::operator()(const Vec3& query) const { return closed_winding(query) - caps_.exact(query); }
 
 bool WindingNumber::is_inside(const Vec3& query) const {
-  const int winding = closed_winding(query);
-  const auto [value, error] = caps_.within(0.1, query);
-  if (std::abs(winding - value - 0.5) > error) return winding - value > 0.5;
-  return winding - caps_.exact(query) > 0.5;
+  return caps_.is_below(closed_winding(query) - 0.5, query);
 }
 
 }  // namespace medial

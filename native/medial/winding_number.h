@@ -15,14 +15,15 @@ namespace medial {
 class WindingNumber {
  public:
   // `boundary` as from boundary_edges.
-  WindingNumber(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const Edge> boundary);
+  WindingNumber(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::span<const Edge> boundary,
+                const Progress* progress);
 
   double operator()(const Vec3& query) const;
   // Whether that exceeds 1/2; the caps are summed only as far as it takes to tell.
   bool is_inside(const Vec3& query) const;
 
  private:
-  WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps);
+  WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps, const Progress* progress);
   int closed_winding(const Vec3& query) const;
 
   RayCrossings closed_;

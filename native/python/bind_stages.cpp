@@ -35,13 +35,18 @@ constexpr const char* kWindingDoc =
 
 Run all_cores() { return {thread_count(0), nullptr}; }
 
+std::span<const Vec3> with_volume(std::span<const Vec3> points) {
+  require_volume(points);
+  return points;
+}
+
 // The pipeline up to the umbrellas.
 struct Stages {
   explicit Stages(std::span<const Vec3> rows)
       : samples(make_samples(rows, all_cores())),
-        triangulation(triangulate(samples.points, all_cores())),
+        triangulation(triangulate(with_volume(samples.points), all_cores())),
         voronoi(medial::voronoi(samples.points, triangulation, all_cores())),
-        incident(incident_cells(triangulation, samples.count())) {}
+        incident(incident_cells(triangulation, samples.count(), all_cores())) {}
 
   // Samples in ascending order of their rows.
   std::vector<int32_t> by_row() const {
@@ -140,7 +145,7 @@ py::array winding_numbers(const py::object& queries, const py::object& vertices,
     const py::gil_scoped_release release;
     require_corners(face_span, corners.size());
     const auto fans = rows_containing(face_span, static_cast<int32_t>(corners.size()));
-    const WindingNumber winding(corners, face_span, boundary_edges(face_span, fans, all_cores()));
+    const WindingNumber winding(corners, face_span, boundary_edges(face_span, fans, all_cores()), nullptr);
     parallel_for(static_cast<int64_t>(at.size()), all_cores(), [&](int64_t i) { result[i] = winding(at[i]); });
   }
   return array_of<double>(std::move(result));

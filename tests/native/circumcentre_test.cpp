@@ -43,12 +43,13 @@ TEST(Circumcentre, SurvivesTetrahedraThatAreFlatUpToRounding) {
   for (int i = 0; i < 1000; ++i) {
     const Vec3 n = normalized({uniform(random), uniform(random), uniform(random)});
     const Vec3 u = normalized(cross(n, {0.3, -0.7, 0.2})), v = cross(n, u);
-    const Vec3 a = u, b = v, c = -u, d = -v;
+    const Vec3 middle{0.1, 0.2, 0.3};
+    const Vec3 a = middle + u, b = middle + v, c = middle - u, d = middle - v;
     const Circumcentre o = circumcentre(a, b, c, d);
     const double r = length(o.centre);
     if (!std::isfinite(r)) continue;  // exactly flat: not a Delaunay cell
     // However far away, it lies on the axis of the square, which is one unit wide.
-    EXPECT_LE(length(cross(o.centre, n)), 2 + 1e-9 * r);
+    EXPECT_LE(length(cross(o.centre - middle, n)), 2 + 1e-9 * r);
     ++finite;
   }
   EXPECT_GT(finite, 500);
