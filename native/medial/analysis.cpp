@@ -99,6 +99,7 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   begin_stage(progress, "Order of the edges", 0.99, 1);
   sort_edges(run);
   watch.lap("order");
+  advance(progress, 1);
 }
 
 // From the order of the samples to that of the input rows: a counting sort by the lower row, then by the higher.
@@ -124,6 +125,7 @@ void MedialAnalysis::sort_edges(const Run& run) {
   for (auto* values : {&significance_.theta, &significance_.rho, &significance_.theta_both, &significance_.rho_both}) {
     reorder(*values, order, run);
   }
+  reorder(significance_.untried, order, run);
 }
 
 // Definition 4: |pq| >= eps^(1/4) mu, with mu the smallest ball radius at the facet's vertices and eps = R / mu, where
@@ -135,8 +137,7 @@ bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds, st
     if (!triangulation_.is_infinite(cell)) mu = std::min(mu, distance(p, voronoi_.centre[cell]));
   }
   const double size = distance(p, samples_.points[edges_.ends[edge][1]]);
-  const auto& rho = thresholds.rule == Rule::either ? significance_.rho : significance_.rho_both;
-  const double epsilon = size / (rho[edge] * mu);
+  const double epsilon = size / (tried_rho(significance_, edge, thresholds.rule) * mu);
   return size >= std::pow(epsilon, 0.25) * mu;
 }
 
@@ -185,6 +186,7 @@ MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) cons
       }
     });
   }
+  advance(progress, 1);
   return std::move(mesh);
 }
 

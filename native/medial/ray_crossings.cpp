@@ -10,8 +10,8 @@ constexpr int32_t kLeafTriangles = 4;
 Vec3 inverse(const Vec3& v) { return {1 / v.x, 1 / v.y, 1 / v.z}; }
 
 // Slabs; the far end is stretched by more than the rounding of both (Ize 2013), so that no hit is lost.
-bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction) {
-  double near = 0, far = HUGE_VAL;
+bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, double reach) {
+  double near = 0, far = reach;
   const auto clip = [&](double low, double high, double o, double i) {
     const double t0 = (low - o) * i, t1 = (high - o) * i;
     near = std::max(near, std::min(t0, t1));
@@ -24,7 +24,7 @@ bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction) {
 }
 
 // +1: the ray leaves through the triangle, -1: it enters, 0: it misses; nothing: too close to an edge to tell.
-std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& direction) {
+std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& direction, double reach) {
   const Vec3 a = t.a - origin, b = t.b - origin, c = t.c - origin;
   // Volumes of the ray with each edge; rounding errors stay below 16 epsilon |b||c| for a unit direction.
   const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)), w = dot(direction, cross(a, b));
@@ -32,10 +32,17 @@ std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& di
   const double eu = tiny * lb * lc, ev = tiny * lc * la, ew = tiny * la * lb;
   const bool may_leave = u > -eu && v > -ev && w > -ew, may_enter = u < eu && v < ev && w < ew;
   if (!may_leave && !may_enter) return 0;
-  const bool ahead = dot(a, cross(b, c)) > 0;  // as seen against the triangle's normal
-  if (u > eu && v > ev && w > ew) return ahead ? 1 : 0;
-  if (u < -eu && v < -ev && w < -ew) return ahead ? 0 : -1;
-  return std::nullopt;
+  const bool leaves = u > eu && v > ev && w > ew, enters = u < -eu && v < -ev && w < -ew;
+  if (!leaves && !enters) return std::nullopt;
+  // The ray meets the plane at volume / flux.
+  const double volume = dot(a, cross(b, c)), flux = u + v + w;
+  if (reach < HUGE_VAL) {
+    const double end = volume - reach * flux, error = tiny * la * lb * lc + reach * (eu + ev + ew);
+    if (std::abs(end) <= error || std::abs(volume) <= error) return std::nullopt;
+    if ((end > 0) == leaves) return 0;
+  }
+  if ((volume > 0) != leaves) return 0;
+  return leaves ? 1 : -1;
 }
 
 }  // namespace
@@ -62,7 +69,7 @@ int32_t RayCrossings::build(int32_t begin, int32_t end, const Progress* progress
   return id;
 }
 
-std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& direction) const {
+std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& direction, double reach) const {
   const Vec3 inverse_direction = inverse(direction);
   std::array<int32_t, 64> stack;  // halved at every level, the tree is less than 32 deep
   int top = 0, sum = 0;
@@ -70,14 +77,14 @@ std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& dire
   while (top > 0) {
     const int32_t id = stack[--top];
     const Node& node = nodes_[id];
-    if (!meets(node.box, origin, inverse_direction)) continue;
+    if (!meets(node.box, origin, inverse_direction, reach)) continue;
     if (node.right >= 0) {
       stack[top++] = node.right;
       stack[top++] = id + 1;
       continue;
     }
     for (int32_t i = node.begin; i < node.end; ++i) {
-      const auto found = crossing(corners_[i], origin, direction);
+      const auto found = crossing(corners_[i], origin, direction, reach);
       if (!found) return std::nullopt;
       sum += *found;
     }

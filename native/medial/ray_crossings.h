@@ -1,4 +1,5 @@
-// How often a ray leaves a triangle soup, minus how often it enters: for a closed soup its winding number at the origin.
+// How often a ray, or a segment, leaves a triangle soup minus how often it enters. For a closed soup that is the winding
+// number at the origin of the ray, or the drop of the winding number along the segment.
 #pragma once
 
 #include <optional>
@@ -12,8 +13,8 @@ class RayCrossings {
  public:
   RayCrossings(std::vector<Corners> triangles, const Progress* progress);
 
-  // Nothing when the ray passes so close to an edge that doubles cannot tell on which side.
-  std::optional<int> operator()(const Vec3& origin, const Vec3& direction) const;
+  // `direction` is a unit vector. Nothing when an edge, or the end of the segment, is so close that doubles cannot tell.
+  std::optional<int> operator()(const Vec3& origin, const Vec3& direction, double reach = HUGE_VAL) const;
   std::span<const Corners> triangles() const { return corners_; }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 namespace medial {
@@ -16,20 +17,17 @@ struct Keyed {
 };
 
 std::string text(const Vec3& p) {
-  return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
+  std::ostringstream out;
+  out << "(" << p.x << ", " << p.y << ", " << p.z << ")";
+  return out.str();
 }
 
+bool in_range(double x) { return std::abs(x) <= kLargestCoordinate; }  // false for NaN
+
 Box checked_box(std::span<const Vec3> rows) {
+  require_finite(rows, "point");
   Box box;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const Vec3& p = rows[i];
-    if (!(max_abs(p) <= kLargestCoordinate) || std::isnan(p.x) || std::isnan(p.y) ||
-        std::isnan(p.z)) {
-      throw InvalidInputError("Expected finite coordinates below 1e50, found " + text(p) +
-                              " in row " + std::to_string(i) + "; repair or remove this point.");
-    }
-    box.add(p);
-  }
+  for (const Vec3& p : rows) box.add(p);
   const double extent = max_abs(box.extent());
   if (rows.size() >= 4 && extent > 0 && extent < kSmallestExtent) {
     throw InvalidInputError(
@@ -90,6 +88,15 @@ std::vector<Keyed> along_hilbert_curve(std::span<const Vec3> rows, const Box& bo
 }
 
 }  // namespace
+
+void require_finite(std::span<const Vec3> rows, const char* what) {
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const Vec3& p = rows[i];
+    if (in_range(p.x) && in_range(p.y) && in_range(p.z)) continue;
+    throw InvalidInputError("Expected finite coordinates below 1e50, found " + text(p) + " in row " + std::to_string(i) +
+                            "; repair or remove this " + what + ".");
+  }
+}
 
 Samples make_samples(std::span<const Vec3> rows, const Run& run) {
   const Box box = checked_box(rows);

@@ -18,6 +18,9 @@ struct Samples {
   int32_t count() const { return static_cast<int32_t>(row.size()); }
 };
 
+// Throws InvalidInputError naming the first row with a coordinate that is not finite, or too large to be squared often.
+void require_finite(std::span<const Vec3> rows, const char* what);
+
 // The order depends on the coordinates alone, so that permuted rows give the same samples.
 // Throws InvalidInputError for a coordinate that is not finite, DegenerateInputError for fewer than 4 distinct rows.
 Samples make_samples(std::span<const Vec3> rows, const Run& run);

@@ -17,14 +17,28 @@ struct Thresholds {
   Criteria criteria = Criteria::angle_or_ratio;
 };
 
+// A value over the ends that are tried, given that over both; nothing is above 0 where none is.
+inline double tried(double larger, double smaller, bool try_larger, bool try_smaller, Rule rule) {
+  if (rule == Rule::both) return try_larger && try_smaller ? smaller : 0;
+  return try_larger ? larger : try_smaller ? smaller : 0;
+}
+
+inline double tried_theta(const Significance& s, int64_t edge, Rule rule) {
+  const uint8_t untried = s.untried[edge];
+  return tried(s.theta[edge], s.theta_both[edge], !(untried & larger_theta), !(untried & smaller_theta), rule);
+}
+
+inline double tried_rho(const Significance& s, int64_t edge, Rule rule) {
+  const uint8_t untried = s.untried[edge];
+  return tried(s.rho[edge], s.rho_both[edge], !(untried & larger_rho), !(untried & smaller_rho), rule);
+}
+
 inline bool satisfies_angle(const Significance& s, int64_t edge, const Thresholds& t) {
-  if (t.criteria == Criteria::ratio) return false;
-  return (t.rule == Rule::either ? s.theta : s.theta_both)[edge] > t.theta;
+  return t.criteria != Criteria::ratio && tried_theta(s, edge, t.rule) > t.theta;
 }
 
 inline bool satisfies_ratio(const Significance& s, int64_t edge, const Thresholds& t) {
-  if (t.criteria == Criteria::angle) return false;
-  return (t.rule == Rule::either ? s.rho : s.rho_both)[edge] > t.rho;
+  return t.criteria != Criteria::angle && tried_rho(s, edge, t.rule) > t.rho;
 }
 
 // Ascending ids of the edges that satisfy Angle[theta] or Ratio[rho].

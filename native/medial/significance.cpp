@@ -31,16 +31,34 @@ Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Ru
   return result;
 }
 
-// sin(theta_p): the smallest |n_t . direction| over the umbrella of p; 0 for an empty umbrella.
-double sine(int32_t p, const Vec3& direction, const Umbrellas& umbrellas, const Shapes& shapes) {
-  double least = 1;
-  for (int64_t i = umbrellas.offsets[p]; i < umbrellas.offsets[p + 1]; ++i) {
-    least = std::min(least, std::abs(dot(shapes.normal[i], direction)));
+// One end of an edge.
+struct End {
+  double sine = 0;       // sin(theta_p): the smallest |n_t . direction| over the umbrella of p; 0 for an empty one
+  double ratio = 0;      // rho_p
+  bool umbrella = false; // pq is in U_p
+};
+
+End end_at(int32_t p, int32_t q, const Vec3& direction, double size, const Umbrellas& umbrellas, const Shapes& shapes) {
+  End end;
+  const int64_t begin = umbrellas.offsets[p], stop = umbrellas.offsets[p + 1];
+  if (begin == stop) return end;
+  end.sine = 1;
+  for (int64_t i = begin; i < stop; ++i) {
+    end.sine = std::min(end.sine, std::abs(dot(shapes.normal[i], direction)));
+    const auto& [a, b] = umbrellas.items[i];
+    end.umbrella |= a == q || b == q;
   }
-  return umbrellas.offsets[p] == umbrellas.offsets[p + 1] ? 0 : least;
+  end.ratio = size / shapes.radius[p];
+  return end;
 }
 
-double ratio(double edge_length, double radius) { return radius > 0 ? edge_length / radius : 0; }
+uint8_t untried(const End& p, const End& q) {
+  const bool p_theta = p.sine >= q.sine, p_rho = p.ratio >= q.ratio;
+  int bits = 0;
+  if (p.umbrella) bits |= (p_theta ? larger_theta : smaller_theta) | (p_rho ? larger_rho : smaller_rho);
+  if (q.umbrella) bits |= (p_theta ? smaller_theta : larger_theta) | (p_rho ? smaller_rho : larger_rho);
+  return static_cast<uint8_t>(bits);
+}
 
 }  // namespace
 
@@ -49,19 +67,20 @@ Significance significance(std::span<const Vec3> points, const Edges& edges, cons
   begin_stage(run.progress, "Angles and ratios", 0.8, 0.88);
   const Shapes s = shapes(points, umbrellas, {run.threads, nullptr});
   const auto count = static_cast<size_t>(edges.count());
-  Significance result{std::vector<double>(count), std::vector<double>(count),
-                      std::vector<double>(count), std::vector<double>(count)};
+  Significance result;
+  for (auto* values : {&result.theta, &result.rho, &result.theta_both, &result.rho_both}) values->resize(count);
+  result.untried.resize(count);
   parallel_for(edges.count(), run, [&](int64_t e) {
     const auto& [p, q] = edges.ends[e];
     const Vec3 pq = points[q] - points[p];
     const double size = length(pq);
     const Vec3 direction = (1 / size) * pq;
-    const double sine_p = sine(p, direction, umbrellas, s), sine_q = sine(q, direction, umbrellas, s);
-    result.theta[e] = std::asin(std::max(sine_p, sine_q));
-    result.theta_both[e] = std::asin(std::min(sine_p, sine_q));
-    const double ratio_p = ratio(size, s.radius[p]), ratio_q = ratio(size, s.radius[q]);
-    result.rho[e] = std::max(ratio_p, ratio_q);
-    result.rho_both[e] = std::min(ratio_p, ratio_q);
+    const End at_p = end_at(p, q, direction, size, umbrellas, s), at_q = end_at(q, p, direction, size, umbrellas, s);
+    result.theta[e] = std::asin(std::max(at_p.sine, at_q.sine));
+    result.theta_both[e] = std::asin(std::min(at_p.sine, at_q.sine));
+    result.rho[e] = std::max(at_p.ratio, at_q.ratio);
+    result.rho_both[e] = std::min(at_p.ratio, at_q.ratio);
+    result.untried[e] = untried(at_p, at_q);
   });
   return result;
 }

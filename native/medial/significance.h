@@ -13,7 +13,12 @@ namespace medial {
 struct Significance {
   std::vector<double> theta, rho;
   std::vector<double> theta_both, rho_both;
+  std::vector<uint8_t> untried;  // bits of Untried
 };
+
+// Step 5 of MEDIAL tries pq from p only when pq is not in U_p: which end that rules out, as seen from the values. It
+// matters below rho0 = 2 and, by rounding, at theta0 = 0; elsewhere such an end fails anyway.
+enum Untried : uint8_t { larger_theta = 1, smaller_theta = 2, larger_rho = 4, smaller_rho = 8 };
 
 Significance significance(std::span<const Vec3> points, const Edges& edges, const Umbrellas& umbrellas,
                           const Run& run);

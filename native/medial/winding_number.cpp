@@ -56,19 +56,27 @@ WindingNumber::WindingNumber(std::span<const Vec3> vertices, std::span<const Tri
     : WindingNumber(soup(vertices, triangles), caps(vertices, boundary), progress) {}
 
 WindingNumber::WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps, const Progress* progress)
-    : closed_(joined(std::move(soup), caps), progress), caps_(std::move(caps)) {}
+    : crossings_(joined(std::move(soup), caps), progress), caps_(std::move(caps)) {}
 
-int WindingNumber::closed_winding(const Vec3& query) const {
+int WindingNumber::closed(const Vec3& query) const {
   for (const Vec3& direction : kDirections) {
-    if (const auto crossings = closed_(query, normalized(direction))) return *crossings;
+    if (const auto drop = crossings_(query, normalized(direction))) return *drop;
   }
-  return static_cast<int>(std::lround(solid_angle_sum(closed_.triangles(), query)));
+  return static_cast<int>(std::lround(solid_angle_sum(crossings_.triangles(), query)));
 }
 
-double WindingNumber::operator()(const Vec3& query) const { return closed_winding(query) - caps_.exact(query); }
+int WindingNumber::closed_from(const Vec3& known, int closed_there, const Vec3& query) const {
+  const Vec3 way = query - known;
+  const double reach = length(way);
+  if (!(reach > 0 && reach < HUGE_VAL)) return closed(query);
+  const auto drop = crossings_(known, (1 / reach) * way, reach);
+  return drop ? closed_there - *drop : closed(query);
+}
 
-bool WindingNumber::is_inside(const Vec3& query) const {
-  return caps_.is_below(closed_winding(query) - 0.5, query);
+double WindingNumber::operator()(const Vec3& query) const { return closed(query) - caps_.exact(query); }
+
+bool WindingNumber::is_inside(const Vec3& query, int closed_here) const {
+  return caps_.is_below(closed_here - 0.5, query);
 }
 
 }  // namespace medial

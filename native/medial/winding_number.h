@@ -19,14 +19,18 @@ class WindingNumber {
                 const Progress* progress);
 
   double operator()(const Vec3& query) const;
-  // Whether that exceeds 1/2; the caps are summed only as far as it takes to tell.
-  bool is_inside(const Vec3& query) const;
+
+  // Winding number of the soup with its caps.
+  int closed(const Vec3& query) const;
+  // The same, told by what lies between `query` and a point where it is known.
+  int closed_from(const Vec3& known, int closed_there, const Vec3& query) const;
+  // Whether the winding number of the soup itself exceeds 1/2; the caps are summed only as far as it takes to tell.
+  bool is_inside(const Vec3& query, int closed_here) const;
 
  private:
   WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps, const Progress* progress);
-  int closed_winding(const Vec3& query) const;
 
-  RayCrossings closed_;
+  RayCrossings crossings_;  // of the soup with its caps
   SolidAngle caps_;
 };
 

@@ -181,7 +181,8 @@ class MedialAnalysis:
         limit_set: bool = False,
     ) -> NDArray[np.int32]:
         """Ids (rows of `edges`), ascending, of the edges that satisfy Angle[theta] or Ratio[rho]: the set F of
-        MEDIAL, unbounded and zero-area facets included. Parameters as in `extract`."""
+        MEDIAL, unbounded and zero-area facets included. An edge of U_p is not tried from p (step 5 of MEDIAL), which
+        matters only for rho < 2 and theta = 0. Parameters as in `extract`."""
     def extract(
         self,
         theta: float = ...,

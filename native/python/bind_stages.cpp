@@ -140,7 +140,9 @@ py::array winding_numbers(const py::object& queries, const py::object& vertices,
   const auto at = query_rows.span();
   std::vector<double> result(at.size());
   {
+    require_finite(at, "query");
     const auto corners = vertex_rows.span();
+    require_finite(corners, "vertex");
     const auto face_span = faces.span();
     const py::gil_scoped_release release;
     require_corners(face_span, corners.size());

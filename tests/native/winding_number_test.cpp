@@ -20,12 +20,14 @@ double brute_force(const test::Mesh& mesh, const Vec3& query) {
 
 void expect_equal(const test::Mesh& mesh, uint32_t seed) {
   const WindingNumber winding = winding_of(mesh);
+  const Vec3 known{0.1, -0.2, 0.3};
   for (const Vec3& query : test::random_points(500, seed)) {
     const double expected = brute_force(mesh, query);
     EXPECT_NEAR(winding(query), expected, 1e-9);
     if (std::abs(expected - 0.5) > 1e-9) {
-      EXPECT_EQ(winding.is_inside(query), expected > 0.5);
+      EXPECT_EQ(winding.is_inside(query, winding.closed(query)), expected > 0.5);
     }
+    EXPECT_EQ(winding.closed_from(known, winding.closed(known), query), winding.closed(query));
   }
 }
 
