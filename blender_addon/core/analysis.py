@@ -110,7 +110,7 @@ def compute(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     start = time.perf_counter()
-    gaps = open_edges(points, triangles)
+    gaps = _open_edges(points, triangles)
     chosen = resolve_side(settings, triangles, gaps)
     key, analysis = _analyse(points, triangles, chosen.side is not Side.INNER, progress)
     axis = _extract(analysis, chosen, progress)
@@ -151,35 +151,6 @@ def resolve_side(settings: Settings, triangles: NDArray[np.int32], gaps: int) ->
         return settings
     side = Side.INNER if has_surface and gaps == 0 else Side.BOTH
     return Settings(**{**vars(settings), "side": side})
-
-
-def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
-    """Number of edges that are not used equally often in both directions; equal points are one."""
-    gaps = _unpaired(triangles, len(points))
-    return _unpaired(_first_equal_row(points)[triangles], len(points)) if gaps else 0
-
-
-def _unpaired(triangles: NDArray[np.integer], point_count: int) -> int:
-    start = triangles.astype(np.int64).ravel()
-    end = np.roll(triangles, -1, axis=1).astype(np.int64).ravel()
-    forward = np.sort((start * point_count + end)[start < end])
-    backward = np.sort((end * point_count + start)[start > end])
-    if np.array_equal(forward, backward):
-        return 0
-    edges, inverse = np.unique(np.concatenate([forward, backward]), return_inverse=True)
-    balance = np.bincount(inverse[: len(forward)], minlength=len(edges))
-    balance -= np.bincount(inverse[len(forward) :], minlength=len(edges))
-    return int(np.count_nonzero(balance))
-
-
-def _first_equal_row(points: NDArray[np.float64]) -> NDArray[np.intp]:
-    """(n,) for each row the first row with the same coordinates."""
-    order = np.lexsort(points.T)  # stable: of equal rows the first comes first
-    ranked = points[order]
-    new = np.concatenate([[True], (ranked[1:] != ranked[:-1]).any(axis=1)])
-    first = np.empty(len(points), np.intp)
-    first[order] = order[new][np.cumsum(new) - 1]
-    return first
 
 
 def _warnings(
@@ -228,6 +199,12 @@ def _analyse(
             )
         CACHE.put(key, analysis, len(points))
     return key, analysis
+
+
+def _open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
+    module = native.load()
+    with _own_errors(module):
+        return module.open_edges(points, triangles) if len(triangles) else 0
 
 
 def _extract(analysis: Any, settings: Settings, progress: Any | None) -> MedialAxis:

@@ -27,17 +27,6 @@ void reorder(std::vector<T>& values, std::span<const int32_t> order, const Run& 
   values = std::move(sorted);
 }
 
-void check_triangles(std::span<const Triangle> triangles, size_t rows) {
-  for (size_t i = 0; i < triangles.size(); ++i) {
-    for (const int32_t corner : triangles[i]) {
-      if (corner >= 0 && static_cast<size_t>(corner) < rows) continue;
-      throw InvalidInputError("Expected triangle corners from 0 to " + std::to_string(rows - 1) + ", found " +
-                              std::to_string(corner) + " in triangle " + std::to_string(i) +
-                              "; rebuild the faces.");
-    }
-  }
-}
-
 void check(const Extraction& x, bool sides_known) {
   if (!(x.thresholds.theta >= 0 && x.thresholds.theta <= std::numbers::pi / 2)) {
     throw InvalidInputError("Expected theta from 0 to pi/2 radians, found " +
@@ -64,7 +53,7 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   const Run run{threads_, progress}, quiet{threads_, nullptr};
   Stopwatch watch(timings_);
   begin_stage(progress, "Samples", 0, 0.02);
-  check_triangles(triangles, rows.size());
+  require_corners(triangles, rows.size());
   samples_ = make_samples(rows, quiet);
   const int32_t count = samples_.count();
   duplicates_ = static_cast<int64_t>(rows.size()) - count;

@@ -1,6 +1,18 @@
 #include "surface.h"
 
+#include <string>
+
 namespace medial {
+
+void require_corners(std::span<const Triangle> triangles, size_t rows) {
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    for (const int32_t corner : triangles[i]) {
+      if (corner >= 0 && static_cast<size_t>(corner) < rows) continue;
+      throw InvalidInputError("Expected triangle corners below " + std::to_string(rows) + ", found " +
+                              std::to_string(corner) + " in triangle " + std::to_string(i) + "; rebuild the faces.");
+    }
+  }
+}
 
 Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> sample_of_row, int32_t samples,
                      const Run& run) {

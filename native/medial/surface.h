@@ -15,6 +15,9 @@ struct Surface {
   bool closed() const { return !triangles.empty() && boundary.empty(); }
 };
 
+// Throws InvalidInputError for a corner outside [0, rows).
+void require_corners(std::span<const Triangle> triangles, size_t rows);
+
 // `triangles` holds input rows. Rows with the same coordinates are one sample, so seams close.
 Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> sample_of_row, int32_t samples,
                      const Run& run);

@@ -256,6 +256,16 @@ def umbrellas(points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[n
         Rows (p, a, b), a < b, sorted; U_p of the i-th sample is `triangles[offsets[i] : offsets[i + 1]]`.
     """
 
+def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
+    """`MedialAnalysis.boundary_edges` without the analysis: edges of the triangles that are not used equally often in
+    both directions, rows with the same coordinates being one. 0: the surface is closed, or there is none.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+    """
+
 def winding_number(
     queries: NDArray[np.float64], vertices: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> NDArray[np.float64]:

@@ -2,6 +2,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "medial/samples.h"
+#include "medial/surface.h"
 #include "medial/umbrellas.h"
 #include "medial/winding_number.h"
 
@@ -26,6 +27,11 @@ constexpr const char* kUmbrellasDoc =
     "offsets : (k + 1,) int64\n"
     "triangles : (t, 3) int32\n    Rows (p, a, b), a < b, sorted; U_p of the i-th sample is\n"
     "    triangles[offsets[i] : offsets[i + 1]].";
+
+constexpr const char* kOpenEdgesDoc =
+    "MedialAnalysis.boundary_edges without the analysis: edges of the triangles that are not used equally often in\n"
+    "both directions, rows with the same coordinates being one. 0: the surface is closed, or there is none.\n\n"
+    "Parameters\n----------\npoints : (n, 3) float64\ntriangles : (m, 3) int32";
 
 constexpr const char* kWindingDoc =
     "Generalized winding number of a triangle soup at each query: 1 inside an outward one.\n\n"
@@ -124,14 +130,15 @@ py::tuple umbrella_triangles(const py::object& points) {
   return py::make_tuple(array_of<int64_t>(std::move(offsets)), array_of<int32_t>(std::move(triangles)));
 }
 
-void require_corners(std::span<const Triangle> triangles, size_t vertices) {
-  for (const Triangle& t : triangles) {
-    for (const int32_t corner : t) {
-      if (corner >= 0 && static_cast<size_t>(corner) < vertices) continue;
-      throw InvalidInputError("Expected triangle corners from 0 to " + std::to_string(static_cast<long long>(vertices) - 1) +
-                              ", found " + std::to_string(corner) + "; rebuild the faces.");
-    }
-  }
+int64_t open_edges(const py::object& points, const py::object& triangles) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  const auto row_span = rows.span();
+  const auto face_span = faces.span();
+  const py::gil_scoped_release release;
+  require_corners(face_span, row_span.size());
+  const Samples samples = make_samples(row_span, all_cores());
+  return make_surface(face_span, samples.sample_of_row, samples.count(), all_cores()).open_edges();
 }
 
 py::array winding_numbers(const py::object& queries, const py::object& vertices, const py::object& triangles) {
@@ -159,6 +166,7 @@ void bind_stages(py::module_& m) {
   m.def("delaunay", &delaunay, kDelaunayDoc, py::arg("points"));
   m.def("poles", &pole_vectors, kPolesDoc, py::arg("points"));
   m.def("umbrellas", &umbrella_triangles, kUmbrellasDoc, py::arg("points"));
+  m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
   m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"), py::arg("triangles"));
 }
 
