@@ -23,7 +23,8 @@ class Stopwatch {
 template <typename T>
 void reorder(std::vector<T>& values, std::span<const int32_t> order, const Run& run) {
   std::vector<T> sorted(values.size());
-  parallel_for(static_cast<int64_t>(order.size()), run, [&](int64_t i) { sorted[i] = values[order[i]]; });
+  parallel_for(static_cast<int64_t>(order.size()), run,
+               [&](int64_t i) { sorted[i] = values[order[i]]; });
   values = std::move(sorted);
 }
 
@@ -37,11 +38,13 @@ void check(const Extraction& x, bool sides_known) {
                             "; the paper uses 8.");
   }
   if (x.side == Side::crossing) {
-    throw InvalidInputError("Expected side INNER, OUTER or BOTH, found CROSSING; choose one of them.");
+    throw InvalidInputError(
+        "Expected side INNER, OUTER or BOTH, found CROSSING; choose one of them.");
   }
   if (x.side != Side::both && !sides_known) {
     throw InvalidInputError(
-        "Expected triangles to tell inside from outside, found none; pass the faces or choose side BOTH.");
+        "Expected triangles to tell inside from outside, found none; pass the faces or choose side "
+        "BOTH.");
   }
 }
 
@@ -91,7 +94,8 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   advance(progress, 1);
 }
 
-// From the order of the samples to that of the input rows: a counting sort by the lower row, then by the higher.
+// From the order of the samples to that of the input rows: a counting sort by the lower row, then
+// by the higher.
 void MedialAnalysis::sort_edges(const Run& run) {
   const std::vector<int32_t>& row = samples_.row;
   parallel_for(edges_.count(), run, [&](int64_t e) {
@@ -103,7 +107,8 @@ void MedialAnalysis::sort_edges(const Run& run) {
   counts_to_offsets(start);
   std::vector<int32_t> order(edges_.ends.size());
   auto next = start;
-  for (int32_t e = 0; e < static_cast<int32_t>(order.size()); ++e) order[next[row[edges_.ends[e][0]]]++] = e;
+  for (int32_t e = 0; e < static_cast<int32_t>(order.size()); ++e)
+    order[next[row[edges_.ends[e][0]]]++] = e;
   parallel_for(static_cast<int64_t>(start.size()) - 1, run, [&](int64_t r) {
     std::sort(order.begin() + start[r], order.begin() + start[r + 1], [&](int32_t a, int32_t b) {
       return row[edges_.ends[a][1]] < row[edges_.ends[b][1]];
@@ -111,15 +116,17 @@ void MedialAnalysis::sort_edges(const Run& run) {
   });
   reorder(edges_.ends, order, run);
   reorder(edges_.cell, order, run);
-  for (auto* values : {&significance_.theta, &significance_.rho, &significance_.theta_both, &significance_.rho_both}) {
+  for (auto* values : {&significance_.theta, &significance_.rho, &significance_.theta_both,
+                       &significance_.rho_both}) {
     reorder(*values, order, run);
   }
   reorder(significance_.untried, order, run);
 }
 
-// Definition 4: |pq| >= eps^(1/4) mu, with mu the smallest ball radius at the facet's vertices and eps = R / mu, where
-// R = |pq| / rho is the umbrella radius that the Ratio condition compared.
-bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds, std::span<const int32_t> ring) const {
+// Definition 4: |pq| >= eps^(1/4) mu, with mu the smallest ball radius at the facet's vertices and
+// eps = R / mu, where R = |pq| / rho is the umbrella radius that the Ratio condition compared.
+bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds,
+                                  std::span<const int32_t> ring) const {
   const Vec3& p = samples_.points[edges_.ends[edge][0]];
   double mu = HUGE_VAL;
   for (const int32_t cell : ring) {
@@ -168,12 +175,14 @@ MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) cons
   });
   if (x.side == Side::both && !sides_.empty()) {
     std::vector<std::vector<int32_t>> rings(threads_);
-    parallel_chunks(faces, run, [&, &mesh = mesh, &kept = kept](int64_t begin, int64_t end, int worker) {
-      for (int64_t f = begin; f < end; ++f) {
-        ring_of_cells(triangulation_, edges_.ends[kept[f]], edges_.cell[kept[f]], rings[worker]);
-        mesh.side[f] = facet_side(rings[worker], sides_);
-      }
-    });
+    parallel_chunks(faces, run,
+                    [&, &mesh = mesh, &kept = kept](int64_t begin, int64_t end, int worker) {
+                      for (int64_t f = begin; f < end; ++f) {
+                        ring_of_cells(triangulation_, edges_.ends[kept[f]], edges_.cell[kept[f]],
+                                      rings[worker]);
+                        mesh.side[f] = facet_side(rings[worker], sides_);
+                      }
+                    });
   }
   advance(progress, 1);
   return std::move(mesh);
@@ -203,7 +212,8 @@ std::vector<Side> MedialAnalysis::edge_sides() const {
 
 std::vector<uint8_t> MedialAnalysis::edges_bounded() const {
   std::vector<uint8_t> bounded(edges_.ends.size());
-  for (size_t e = 0; e < bounded.size(); ++e) bounded[e] = !triangulation_.is_infinite(edges_.cell[e]);
+  for (size_t e = 0; e < bounded.size(); ++e)
+    bounded[e] = !triangulation_.is_infinite(edges_.cell[e]);
   return bounded;
 }
 

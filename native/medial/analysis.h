@@ -1,4 +1,5 @@
-// MEDIAL(P): everything that does not depend on the thresholds, computed once; the axis, extracted as often as one likes.
+// MEDIAL(P): everything that does not depend on the thresholds, computed once; the axis, extracted
+// as often as one likes.
 #pragma once
 
 #include <string>
@@ -22,8 +23,8 @@ struct Extraction {
 
 class MedialAnalysis {
  public:
-  // `rows` are the samples, `triangles` the outward faces of the surface as ids of rows (none: inside is not known).
-  // Throws InvalidInputError, DegenerateInputError, Cancelled.
+  // `rows` are the samples, `triangles` the outward faces of the surface as ids of rows (none:
+  // inside is not known). Throws InvalidInputError, DegenerateInputError, Cancelled.
   MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
                  const AnalysisOptions& options, Progress* progress);
 
@@ -32,7 +33,8 @@ class MedialAnalysis {
   // The closure of F.
   MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
 
-  // All Delaunay edges as input rows p < q in lexicographic order; significance and side in the same order.
+  // All Delaunay edges as input rows p < q in lexicographic order; significance and side in the
+  // same order.
   std::vector<Edge> edge_rows() const;
   const Significance& significance() const { return significance_; }
   std::vector<Side> edge_sides() const;
@@ -47,7 +49,8 @@ class MedialAnalysis {
 
  private:
   void sort_edges(const Run& run);
-  bool in_limit_set(int32_t edge, const Thresholds& thresholds, std::span<const int32_t> ring) const;
+  bool in_limit_set(int32_t edge, const Thresholds& thresholds,
+                    std::span<const int32_t> ring) const;
 
   Samples samples_;
   Triangulation triangulation_;

@@ -62,7 +62,8 @@ Scaled scaled(const Integer& value) {
 
 double quotient(const Integer& numerator, const Integer& denominator, int exponent) {
   const Scaled n = scaled(numerator), d = scaled(denominator);
-  return n.mantissa == 0 ? 0 : std::ldexp(n.mantissa / d.mantissa, n.exponent - d.exponent + exponent);
+  return n.mantissa == 0 ? 0
+                         : std::ldexp(n.mantissa / d.mantissa, n.exponent - d.exponent + exponent);
 }
 
 // Centre relative to d.
@@ -95,8 +96,8 @@ Vec3 exact_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return normalized(Vec3{part(parts[0]), part(parts[1]), part(parts[2])});
 }
 
-// Rounding of the formulas below, in units of DBL_EPSILON: three differences, two products of three factors, sums of up
-// to nine terms; 16 covers them with room to spare.
+// Rounding of the formulas below, in units of DBL_EPSILON: three differences, two products of three
+// factors, sums of up to nine terms; 16 covers them with room to spare.
 constexpr double kOperations = 16;
 
 }  // namespace
@@ -106,8 +107,7 @@ Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   const Vec3 vw = cross(v, w);
   const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
   const double determinant = dot(u, vw);
-  const Vec3 relative =
-      (0.5 / determinant) * (uu * vw + vv * cross(w, u) + ww * cross(u, v));
+  const Vec3 relative = (0.5 / determinant) * (uu * vw + vv * cross(w, u) + ww * cross(u, v));
   // |error of the centre| <= 4 * kOperations * epsilon * |u||v||w| / |determinant| * radius.
   const double share =
       4 * kOperations * DBL_EPSILON * std::sqrt(uu * vv * ww) / std::abs(determinant);

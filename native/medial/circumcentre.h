@@ -1,12 +1,13 @@
-// Circumcentres and triangle normals that stay right for nearly flat simplices: doubles with an error bound, and exact
-// integer arithmetic where the bound is too large.
+// Circumcentres and triangle normals that stay right for nearly flat simplices: doubles with an
+// error bound, and exact integer arithmetic where the bound is too large.
 #pragma once
 
 #include "vec3.h"
 
 namespace medial {
 
-// Coarsest relative error that is let through: that of a float, the precision in which meshes are stored.
+// Coarsest relative error that is let through: that of a float, the precision in which meshes are
+// stored.
 inline constexpr double kCoarsestError = 0x1p-24;
 
 struct Circumcentre {
@@ -14,8 +15,8 @@ struct Circumcentre {
   double error;  // the exact centre is no farther than this
 };
 
-// Centre of the sphere through four points that are not coplanar; error <= kCoarsestError * radius, plus the rounding
-// of absolute coordinates.
+// Centre of the sphere through four points that are not coplanar; error <= kCoarsestError * radius,
+// plus the rounding of absolute coordinates.
 Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 struct UnitNormal {

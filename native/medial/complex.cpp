@@ -51,7 +51,8 @@ Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident, const
   return edges;
 }
 
-void ring_of_cells(const Triangulation& t, const Edge& ends, int32_t cell, std::vector<int32_t>& ring) {
+void ring_of_cells(const Triangulation& t, const Edge& ends, int32_t cell,
+                   std::vector<int32_t>& ring) {
   ring.clear();
   const int i = slot(t.cells[cell], ends[0]), j = slot(t.cells[cell], ends[1]);
   int leave = kNext[i][j];

@@ -8,8 +8,9 @@ namespace medial {
 
 // Delaunay edges between samples 0..n-1, each once.
 struct Edges {
-  std::vector<Edge> ends;     // sample ids
-  std::vector<int32_t> cell;  // a cell of the ring; infinite exactly when the dual facet is unbounded
+  std::vector<Edge> ends;  // sample ids
+  std::vector<int32_t>
+      cell;  // a cell of the ring; infinite exactly when the dual facet is unbounded
 
   int64_t count() const { return static_cast<int64_t>(ends.size()); }
 };
@@ -18,10 +19,11 @@ struct Edges {
 Csr<int32_t> incident_cells(const Triangulation& triangulation, int32_t samples, const Run& run);
 
 // Grouped by their lower end, in ascending order of it.
-Edges delaunay_edges(const Triangulation& triangulation, const Csr<int32_t>& incident, const Run& run);
+Edges delaunay_edges(const Triangulation& triangulation, const Csr<int32_t>& incident,
+                     const Run& run);
 
-// The cells round an edge, counter-clockwise about the direction from ends[0] to ends[1], starting at `cell`: the
-// Voronoi facet's vertices. Appends to `ring` after clearing it.
+// The cells round an edge, counter-clockwise about the direction from ends[0] to ends[1], starting
+// at `cell`: the Voronoi facet's vertices. Appends to `ring` after clearing it.
 void ring_of_cells(const Triangulation& triangulation, const Edge& ends, int32_t cell,
                    std::vector<int32_t>& ring);
 

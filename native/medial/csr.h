@@ -21,7 +21,8 @@ struct Csr {
   }
 };
 
-// Turns counts[i], the length of list i, into offsets; counts has one extra last entry, whatever its value.
+// Turns counts[i], the length of list i, into offsets; counts has one extra last entry, whatever
+// its value.
 inline void counts_to_offsets(std::vector<int64_t>& counts) {
   int64_t sum = 0;
   for (auto& count : counts) {
@@ -31,13 +32,16 @@ inline void counts_to_offsets(std::vector<int64_t>& counts) {
   }
 }
 
-// Inverts a table: list k holds, ascending, the rows that contain k. Ids outside [0, lists) are passed over.
+// Inverts a table: list k holds, ascending, the rows that contain k. Ids outside [0, lists) are
+// passed over.
 template <typename Row>
-Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists, const Progress* progress = nullptr) {
+Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists,
+                             const Progress* progress = nullptr) {
   constexpr int32_t kBatch = 1 << 18;
   Csr<int32_t> result;
   result.offsets.assign(static_cast<size_t>(lists) + 2, 0);
-  int64_t* const start = result.offsets.data() + 1;  // shifted by one: ends as the offsets themselves
+  int64_t* const start =
+      result.offsets.data() + 1;  // shifted by one: ends as the offsets themselves
   for (int32_t i = 0; i < static_cast<int32_t>(table.size()); ++i) {
     if (i % kBatch == 0) throw_if_cancelled(progress);
     for (const int32_t k : table[static_cast<size_t>(i)]) {

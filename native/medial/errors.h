@@ -1,4 +1,5 @@
-// The three ways in which a computation ends without a result. Messages are one sentence: expected, found, what to do.
+// The three ways in which a computation ends without a result. Messages are one sentence: expected,
+// found, what to do.
 #pragma once
 
 #include <stdexcept>

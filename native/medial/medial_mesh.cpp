@@ -11,9 +11,11 @@ struct Polygons {
   int64_t unbounded = 0, zero_area = 0;
 };
 
-// The distinct Voronoi vertices of a ring. All edges between equal ones have length zero, also where the equal ones are
-// not consecutive: the polygon is convex, so everything on one side between them coincides too.
-void distinct_vertices(const std::vector<int32_t>& ring, const Voronoi& voronoi, std::vector<int32_t>& polygon) {
+// The distinct Voronoi vertices of a ring. All edges between equal ones have length zero, also
+// where the equal ones are not consecutive: the polygon is convex, so everything on one side
+// between them coincides too.
+void distinct_vertices(const std::vector<int32_t>& ring, const Voronoi& voronoi,
+                       std::vector<int32_t>& polygon) {
   polygon.clear();
   for (const int32_t cell : ring) {
     const int32_t v = voronoi.vertex[cell];
@@ -59,8 +61,8 @@ void concatenate(std::vector<Polygons>& parts, Facets& facets) {
     faces += part.sizes.size();
   }
   if (corners > INT_MAX) {
-    throw InvalidInputError("Expected fewer than 2^31 facet corners, found " + std::to_string(corners) +
-                            "; raise the thresholds or thin the points.");
+    throw InvalidInputError("Expected fewer than 2^31 facet corners, found " +
+                            std::to_string(corners) + "; raise the thresholds or thin the points.");
   }
   mesh.face_vertices.reserve(corners);
   mesh.face_offsets.reserve(faces + 1);
@@ -69,7 +71,8 @@ void concatenate(std::vector<Polygons>& parts, Facets& facets) {
   for (Polygons& part : parts) {
     mesh.face_vertices.insert(mesh.face_vertices.end(), part.corners.begin(), part.corners.end());
     facets.edges.insert(facets.edges.end(), part.edges.begin(), part.edges.end());
-    for (const int32_t size : part.sizes) mesh.face_offsets.push_back(mesh.face_offsets.back() + size);
+    for (const int32_t size : part.sizes)
+      mesh.face_offsets.push_back(mesh.face_offsets.back() + size);
     mesh.unbounded += part.unbounded;
     mesh.zero_area += part.zero_area;
     part = {};
@@ -100,7 +103,8 @@ void start_at_lowest(MedialMesh& mesh, const Run& run) {
 }  // namespace
 
 Facets voronoi_facets(std::span<const int32_t> edge_ids, std::span<const Vec3> points,
-                      const Triangulation& t, const Voronoi& voronoi, const Edges& edges, const Run& run) {
+                      const Triangulation& t, const Voronoi& voronoi, const Edges& edges,
+                      const Run& run) {
   Facets facets;
   auto parts = polygons(edge_ids, t, voronoi, edges, run);
   concatenate(parts, facets);

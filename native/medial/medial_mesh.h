@@ -8,9 +8,9 @@
 namespace medial {
 
 struct MedialMesh {
-  std::vector<Vec3> vertices;          // (v) Voronoi vertices in order of first use; no two coincide
-  std::vector<double> radius;          // (v) of the empty ball
-  std::vector<int32_t> face_offsets;   // (f + 1)
+  std::vector<Vec3> vertices;         // (v) Voronoi vertices in order of first use; no two coincide
+  std::vector<double> radius;         // (v) of the empty ball
+  std::vector<int32_t> face_offsets;  // (f + 1)
   std::vector<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
   std::vector<double> theta, rho;      // (f) as the rule takes them
   std::vector<Side> side;              // (f)
@@ -19,14 +19,14 @@ struct MedialMesh {
   int64_t zero_area = 0;               // facets that are a point or a segment: not emitted
 };
 
-// Polygons of the dual facets of `edge_ids`, with vertices and radii; the attributes are the caller's.
-// `kept` receives the ids of the edges whose facets were emitted, in order.
+// Polygons of the dual facets of `edge_ids`, with vertices and radii; the attributes are the
+// caller's. `kept` receives the ids of the edges whose facets were emitted, in order.
 struct Facets {
   MedialMesh mesh;
   std::vector<int32_t> edges;
 };
 Facets voronoi_facets(std::span<const int32_t> edge_ids, std::span<const Vec3> points,
-                      const Triangulation& triangulation, const Voronoi& voronoi, const Edges& edges,
-                      const Run& run);
+                      const Triangulation& triangulation, const Voronoi& voronoi,
+                      const Edges& edges, const Run& run);
 
 }  // namespace medial

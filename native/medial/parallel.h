@@ -1,4 +1,5 @@
-// Loops over ids on all cores. A loop body writes only slots of its own ids, so results never depend on the threads.
+// Loops over ids on all cores. A loop body writes only slots of its own ids, so results never
+// depend on the threads.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +28,9 @@ inline int thread_count(int wanted) {
 
 inline constexpr int64_t kGrain = 2048;
 
-// Calls body(begin, end, worker) for chunks of at most `grain` ids that cover [0, count); worker < run.threads.
-// Chunks start at multiples of `grain`, whatever the number of threads. The first exception is rethrown.
+// Calls body(begin, end, worker) for chunks of at most `grain` ids that cover [0, count); worker <
+// run.threads. Chunks start at multiples of `grain`, whatever the number of threads. The first
+// exception is rethrown.
 inline void parallel_chunks(int64_t count, const Run& run,
                             const std::function<void(int64_t, int64_t, int)>& body,
                             int64_t grain = kGrain) {
@@ -74,7 +76,8 @@ void parallel_for(int64_t count, const Run& run, const Body& body, int64_t grain
       grain);
 }
 
-// Concatenates, in order of the ids, what body(id, out) appends to `out` for every id in [0, count).
+// Concatenates, in order of the ids, what body(id, out) appends to `out` for every id in [0,
+// count).
 template <typename T, typename Body>
 std::vector<T> parallel_append(int64_t count, const Run& run, const Body& body,
                                int64_t grain = kGrain) {

@@ -4,7 +4,8 @@ namespace medial {
 namespace {
 
 // Of equally far vertices the one of the lowest cell.
-Vec3 to_farthest_vertex(const Vec3& p, std::span<const int32_t> finite_cells, const Voronoi& voronoi) {
+Vec3 to_farthest_vertex(const Vec3& p, std::span<const int32_t> finite_cells,
+                        const Voronoi& voronoi) {
   Vec3 farthest;
   for (const int32_t cell : finite_cells) {
     const Vec3 v = voronoi.centre[cell] - p;
@@ -39,7 +40,8 @@ Poles poles(std::span<const Vec3> points, const Triangulation& t, const Voronoi&
     result.unbounded[p] = finite < cells.size();
     Vec3 pole;
     if (result.unbounded[p]) pole = mean_direction(cells.subspan(finite), voronoi);
-    // Directions that cancel out leave no mean: then the farthest vertex speaks, as in a bounded cell.
+    // Directions that cancel out leave no mean: then the farthest vertex speaks, as in a bounded
+    // cell.
     if (pole == Vec3{}) pole = to_farthest_vertex(points[p], cells.first(finite), voronoi);
     result.vector[p] = pole;
   });

@@ -7,12 +7,13 @@
 namespace medial {
 
 struct Poles {
-  std::vector<Vec3> vector;        // v_p = p+ - p; for an unbounded cell the mean direction of its infinite edges
+  std::vector<Vec3>
+      vector;  // v_p = p+ - p; for an unbounded cell the mean direction of its infinite edges
   std::vector<uint8_t> unbounded;  // the pole is at infinity
 };
 
 // `incident` as from incident_cells.
-Poles poles(std::span<const Vec3> points, const Triangulation& triangulation, const Voronoi& voronoi,
-            const Csr<int32_t>& incident, const Run& run);
+Poles poles(std::span<const Vec3> points, const Triangulation& triangulation,
+            const Voronoi& voronoi, const Csr<int32_t>& incident, const Run& run);
 
 }  // namespace medial

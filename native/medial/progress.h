@@ -1,4 +1,5 @@
-// Progress of one job, shared by the thread that computes and the one that watches, and its cancel flag.
+// Progress of one job, shared by the thread that computes and the one that watches, and its cancel
+// flag.
 #pragma once
 
 #include <atomic>

@@ -9,7 +9,8 @@ constexpr int32_t kLeafTriangles = 4;
 
 Vec3 inverse(const Vec3& v) { return {1 / v.x, 1 / v.y, 1 / v.z}; }
 
-// Slabs; the far end is stretched by more than the rounding of both (Ize 2013), so that no hit is lost.
+// Slabs; the far end is stretched by more than the rounding of both (Ize 2013), so that no hit is
+// lost.
 bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, double reach) {
   double near = 0, far = reach;
   const auto clip = [&](double low, double high, double o, double i) {
@@ -23,11 +24,15 @@ bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, do
   return near <= far * (1 + 8 * DBL_EPSILON);
 }
 
-// +1: the ray leaves through the triangle, -1: it enters, 0: it misses; nothing: too close to an edge to tell.
-std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& direction, double reach) {
+// +1: the ray leaves through the triangle, -1: it enters, 0: it misses; nothing: too close to an
+// edge to tell.
+std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& direction,
+                            double reach) {
   const Vec3 a = t.a - origin, b = t.b - origin, c = t.c - origin;
-  // Volumes of the ray with each edge; rounding errors stay below 16 epsilon |b||c| for a unit direction.
-  const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)), w = dot(direction, cross(a, b));
+  // Volumes of the ray with each edge; rounding errors stay below 16 epsilon |b||c| for a unit
+  // direction.
+  const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)),
+               w = dot(direction, cross(a, b));
   const double la = length(a), lb = length(b), lc = length(c), tiny = 16 * DBL_EPSILON;
   const double eu = tiny * lb * lc, ev = tiny * lc * la, ew = tiny * la * lb;
   const bool may_leave = u > -eu && v > -ev && w > -ew, may_enter = u < eu && v < ev && w < ew;
@@ -47,7 +52,8 @@ std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& di
 
 }  // namespace
 
-RayCrossings::RayCrossings(std::vector<Corners> triangles, const Progress* progress) : corners_(std::move(triangles)) {
+RayCrossings::RayCrossings(std::vector<Corners> triangles, const Progress* progress)
+    : corners_(std::move(triangles)) {
   nodes_.reserve(corners_.size() + 2);
   if (!corners_.empty()) build(0, static_cast<int32_t>(corners_.size()), progress);
 }
@@ -69,7 +75,8 @@ int32_t RayCrossings::build(int32_t begin, int32_t end, const Progress* progress
   return id;
 }
 
-std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& direction, double reach) const {
+std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& direction,
+                                            double reach) const {
   const Vec3 inverse_direction = inverse(direction);
   std::array<int32_t, 64> stack;  // halved at every level, the tree is less than 32 deep
   int top = 0, sum = 0;

@@ -1,5 +1,6 @@
-// How often a ray, or a segment, leaves a triangle soup minus how often it enters. For a closed soup that is the winding
-// number at the origin of the ray, or the drop of the winding number along the segment.
+// How often a ray, or a segment, leaves a triangle soup minus how often it enters. For a closed
+// soup that is the winding number at the origin of the ray, or the drop of the winding number along
+// the segment.
 #pragma once
 
 #include <optional>
@@ -13,8 +14,10 @@ class RayCrossings {
  public:
   RayCrossings(std::vector<Corners> triangles, const Progress* progress);
 
-  // `direction` is a unit vector. Nothing when an edge, or the end of the segment, is so close that doubles cannot tell.
-  std::optional<int> operator()(const Vec3& origin, const Vec3& direction, double reach = HUGE_VAL) const;
+  // `direction` is a unit vector. Nothing when an edge, or the end of the segment, is so close that
+  // doubles cannot tell.
+  std::optional<int> operator()(const Vec3& origin, const Vec3& direction,
+                                double reach = HUGE_VAL) const;
   std::span<const Corners> triangles() const { return corners_; }
 
  private:

@@ -36,7 +36,8 @@ Box checked_box(std::span<const Vec3> rows) {
   return box;
 }
 
-// Index along a 3D Hilbert curve of 2^21 steps per axis (J. Skilling, Programming the Hilbert curve, 2004).
+// Index along a 3D Hilbert curve of 2^21 steps per axis (J. Skilling, Programming the Hilbert
+// curve, 2004).
 uint64_t hilbert_key(std::array<uint32_t, 3> x) {
   constexpr int kBits = 21;
   for (uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
@@ -93,8 +94,9 @@ void require_finite(std::span<const Vec3> rows, const char* what) {
   for (size_t i = 0; i < rows.size(); ++i) {
     const Vec3& p = rows[i];
     if (in_range(p.x) && in_range(p.y) && in_range(p.z)) continue;
-    throw InvalidInputError("Expected finite coordinates below 1e50, found " + text(p) + " in row " + std::to_string(i) +
-                            "; repair or remove this " + what + ".");
+    throw InvalidInputError("Expected finite coordinates below 1e50, found " + text(p) +
+                            " in row " + std::to_string(i) + "; repair or remove this " + what +
+                            ".");
   }
 }
 

@@ -1,4 +1,5 @@
-// The input rows made fit for a Delaunay triangulation: finite, distinct, and in an order with spatial coherence.
+// The input rows made fit for a Delaunay triangulation: finite, distinct, and in an order with
+// spatial coherence.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +12,25 @@
 namespace medial {
 
 struct Samples {
-  std::vector<Vec3> points;            // (n) distinct samples along a Hilbert curve, then any auxiliary points
-  std::vector<int32_t> row;            // (n) input row of each sample: the first with its coordinates
+  std::vector<Vec3>
+      points;  // (n) distinct samples along a Hilbert curve, then any auxiliary points
+  std::vector<int32_t> row;  // (n) input row of each sample: the first with its coordinates
   std::vector<int32_t> sample_of_row;  // (rows) sample of each input row
 
   int32_t count() const { return static_cast<int32_t>(row.size()); }
 };
 
-// Throws InvalidInputError naming the first row with a coordinate that is not finite, or too large to be squared often.
+// Throws InvalidInputError naming the first row with a coordinate that is not finite, or too large
+// to be squared often.
 void require_finite(std::span<const Vec3> rows, const char* what);
 
 // The order depends on the coordinates alone, so that permuted rows give the same samples.
-// Throws InvalidInputError for a coordinate that is not finite, DegenerateInputError for fewer than 4 distinct rows.
+// Throws InvalidInputError for a coordinate that is not finite, DegenerateInputError for fewer than
+// 4 distinct rows.
 Samples make_samples(std::span<const Vec3> rows, const Run& run);
 
-// The bounding sphere of sect. 4.2: appends 200 points, evenly spread over a sphere of twice the radius of the
-// samples about the centre of their box.
+// The bounding sphere of sect. 4.2: appends 200 points, evenly spread over a sphere of twice the
+// radius of the samples about the centre of their box.
 void add_bounding_sphere(Samples& samples);
 
 }  // namespace medial

@@ -25,12 +25,14 @@ inline double tried(double larger, double smaller, bool try_larger, bool try_sma
 
 inline double tried_theta(const Significance& s, int64_t edge, Rule rule) {
   const uint8_t untried = s.untried[edge];
-  return tried(s.theta[edge], s.theta_both[edge], !(untried & larger_theta), !(untried & smaller_theta), rule);
+  return tried(s.theta[edge], s.theta_both[edge], !(untried & larger_theta),
+               !(untried & smaller_theta), rule);
 }
 
 inline double tried_rho(const Significance& s, int64_t edge, Rule rule) {
   const uint8_t untried = s.untried[edge];
-  return tried(s.rho[edge], s.rho_both[edge], !(untried & larger_rho), !(untried & smaller_rho), rule);
+  return tried(s.rho[edge], s.rho_both[edge], !(untried & larger_rho), !(untried & smaller_rho),
+               rule);
 }
 
 inline bool satisfies_angle(const Significance& s, int64_t edge, const Thresholds& t) {
@@ -42,6 +44,7 @@ inline bool satisfies_ratio(const Significance& s, int64_t edge, const Threshold
 }
 
 // Ascending ids of the edges that satisfy Angle[theta] or Ratio[rho].
-std::vector<int32_t> select(const Significance& significance, const Thresholds& thresholds, const Run& run);
+std::vector<int32_t> select(const Significance& significance, const Thresholds& thresholds,
+                            const Run& run);
 
 }  // namespace medial

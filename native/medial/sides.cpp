@@ -6,7 +6,8 @@ namespace medial {
 namespace {
 
 // The decided neighbour, of a cell from `begin` on, whose Voronoi vertex is nearest; -1: none.
-int32_t nearest_decided(int32_t cell, int64_t begin, const Triangulation& t, const Voronoi& voronoi) {
+int32_t nearest_decided(int32_t cell, int64_t begin, const Triangulation& t,
+                        const Voronoi& voronoi) {
   int32_t nearest = -1;
   double least = HUGE_VAL;
   for (const int32_t n : t.neighbors[cell]) {
@@ -22,19 +23,21 @@ int32_t nearest_decided(int32_t cell, int64_t begin, const Triangulation& t, con
 
 }  // namespace
 
-CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface, const Triangulation& t,
-                             const Voronoi& voronoi, const Run& run) {
+CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface,
+                             const Triangulation& t, const Voronoi& voronoi, const Run& run) {
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
   const WindingNumber winding(points, surface.triangles, surface.boundary, run.progress);
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
-  // Along a Voronoi edge there is little to cross: most vertices are told from a neighbour of the same chunk.
+  // Along a Voronoi edge there is little to cross: most vertices are told from a neighbour of the
+  // same chunk.
   parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
     std::vector<int> closed;
     for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
       const Vec3& here = voronoi.centre[c];
       const int32_t known = nearest_decided(c, begin, t, voronoi);
-      closed.push_back(known < 0 ? winding.closed(here)
-                                 : winding.closed_from(voronoi.centre[known], closed[known - begin], here));
+      closed.push_back(
+          known < 0 ? winding.closed(here)
+                    : winding.closed_from(voronoi.centre[known], closed[known - begin], here));
       if (winding.is_inside(here, closed.back())) sides[c] = static_cast<uint8_t>(Side::inner);
     }
   });

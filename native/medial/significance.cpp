@@ -33,12 +33,14 @@ Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Ru
 
 // One end of an edge.
 struct End {
-  double sine = 0;       // sin(theta_p): the smallest |n_t . direction| over the umbrella of p; 0 for an empty one
-  double ratio = 0;      // rho_p
-  bool umbrella = false; // pq is in U_p
+  double sine =
+      0;  // sin(theta_p): the smallest |n_t . direction| over the umbrella of p; 0 for an empty one
+  double ratio = 0;       // rho_p
+  bool umbrella = false;  // pq is in U_p
 };
 
-End end_at(int32_t p, int32_t q, const Vec3& direction, double size, const Umbrellas& umbrellas, const Shapes& shapes) {
+End end_at(int32_t p, int32_t q, const Vec3& direction, double size, const Umbrellas& umbrellas,
+           const Shapes& shapes) {
   End end;
   const int64_t begin = umbrellas.offsets[p], stop = umbrellas.offsets[p + 1];
   if (begin == stop) return end;
@@ -55,27 +57,31 @@ End end_at(int32_t p, int32_t q, const Vec3& direction, double size, const Umbre
 uint8_t untried(const End& p, const End& q) {
   const bool p_theta = p.sine >= q.sine, p_rho = p.ratio >= q.ratio;
   int bits = 0;
-  if (p.umbrella) bits |= (p_theta ? larger_theta : smaller_theta) | (p_rho ? larger_rho : smaller_rho);
-  if (q.umbrella) bits |= (p_theta ? smaller_theta : larger_theta) | (p_rho ? smaller_rho : larger_rho);
+  if (p.umbrella)
+    bits |= (p_theta ? larger_theta : smaller_theta) | (p_rho ? larger_rho : smaller_rho);
+  if (q.umbrella)
+    bits |= (p_theta ? smaller_theta : larger_theta) | (p_rho ? smaller_rho : larger_rho);
   return static_cast<uint8_t>(bits);
 }
 
 }  // namespace
 
-Significance significance(std::span<const Vec3> points, const Edges& edges, const Umbrellas& umbrellas,
-                          const Run& run) {
+Significance significance(std::span<const Vec3> points, const Edges& edges,
+                          const Umbrellas& umbrellas, const Run& run) {
   begin_stage(run.progress, "Angles and ratios", 0.8, 0.88);
   const Shapes s = shapes(points, umbrellas, {run.threads, nullptr});
   const auto count = static_cast<size_t>(edges.count());
   Significance result;
-  for (auto* values : {&result.theta, &result.rho, &result.theta_both, &result.rho_both}) values->resize(count);
+  for (auto* values : {&result.theta, &result.rho, &result.theta_both, &result.rho_both})
+    values->resize(count);
   result.untried.resize(count);
   parallel_for(edges.count(), run, [&](int64_t e) {
     const auto& [p, q] = edges.ends[e];
     const Vec3 pq = points[q] - points[p];
     const double size = length(pq);
     const Vec3 direction = (1 / size) * pq;
-    const End at_p = end_at(p, q, direction, size, umbrellas, s), at_q = end_at(q, p, direction, size, umbrellas, s);
+    const End at_p = end_at(p, q, direction, size, umbrellas, s),
+              at_q = end_at(q, p, direction, size, umbrellas, s);
     result.theta[e] = std::asin(std::max(at_p.sine, at_q.sine));
     result.theta_both[e] = std::asin(std::min(at_p.sine, at_q.sine));
     result.rho[e] = std::max(at_p.ratio, at_q.ratio);

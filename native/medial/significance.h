@@ -1,6 +1,6 @@
-// How strongly each Delaunay edge pq satisfies the two conditions (Dey & Zhao, sect. 3.1 and 3.2), for all thresholds
-// at once: the Angle condition [theta0] holds at p exactly when theta_p > theta0, the Ratio condition [rho0] exactly
-// when rho_p > rho0, where
+// How strongly each Delaunay edge pq satisfies the two conditions (Dey & Zhao, sect. 3.1 and 3.2),
+// for all thresholds at once: the Angle condition [theta0] holds at p exactly when theta_p >
+// theta0, the Ratio condition [rho0] exactly when rho_p > rho0, where
 //   theta_p = pi/2 - max over t in U_p of angle(n_t, pq) = asin(min |n_t . pq| / |pq|)
 //   rho_p   = |pq| / max over t in U_p of R_t
 #pragma once
@@ -16,11 +16,12 @@ struct Significance {
   std::vector<uint8_t> untried;  // bits of Untried
 };
 
-// Step 5 of MEDIAL tries pq from p only when pq is not in U_p: which end that rules out, as seen from the values. It
-// matters below rho0 = 2 and, by rounding, at theta0 = 0; elsewhere such an end fails anyway.
+// Step 5 of MEDIAL tries pq from p only when pq is not in U_p: which end that rules out, as seen
+// from the values. It matters below rho0 = 2 and, by rounding, at theta0 = 0; elsewhere such an end
+// fails anyway.
 enum Untried : uint8_t { larger_theta = 1, smaller_theta = 2, larger_rho = 4, smaller_rho = 8 };
 
-Significance significance(std::span<const Vec3> points, const Edges& edges, const Umbrellas& umbrellas,
-                          const Run& run);
+Significance significance(std::span<const Vec3> points, const Edges& edges,
+                          const Umbrellas& umbrellas, const Run& run);
 
 }  // namespace medial

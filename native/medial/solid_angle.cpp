@@ -76,7 +76,8 @@ void SolidAngle::describe_leaf(Node& node) const {
     weighted = weighted + (area / 3) * sum;
     plain = plain + (1.0 / 3) * sum;
   }
-  node.centroid = node.area > 0 ? (1 / node.area) * weighted : (1.0 / (node.end - node.begin)) * plain;
+  node.centroid =
+      node.area > 0 ? (1 / node.area) * weighted : (1.0 / (node.end - node.begin)) * plain;
   for (int32_t i = node.begin; i < node.end; ++i) {
     const Vec3 a = corners_[i].a - node.centroid, b = corners_[i].b - node.centroid,
                c = corners_[i].c - node.centroid;
@@ -114,7 +115,8 @@ SolidAngle::Term SolidAngle::term(int32_t id, const Vec3& query) const {
   return {error, value, id};
 }
 
-// Replaces the cluster with the largest bound by its children, or by its triangles, until the bounds cannot matter.
+// Replaces the cluster with the largest bound by its children, or by its triangles, until the
+// bounds cannot matter.
 bool SolidAngle::is_below(double bound, const Vec3& query) const {
   const auto smaller = [](const Term& s, const Term& t) { return s.error < t.error; };
   std::vector<Term> heap;

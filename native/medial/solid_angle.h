@@ -1,5 +1,6 @@
-// Solid angle of a triangle soup seen from a point, in full turns (over 4 pi): summed exactly, or hierarchically with
-// Taylor's remainder as a rigorous bound for the expansion of distant clusters (Barill et al. 2018).
+// Solid angle of a triangle soup seen from a point, in full turns (over 4 pi): summed exactly, or
+// hierarchically with Taylor's remainder as a rigorous bound for the expansion of distant clusters
+// (Barill et al. 2018).
 #pragma once
 
 #include <array>
@@ -18,7 +19,8 @@ struct Corners {
 // Sum over all triangles, in full turns.
 double solid_angle_sum(std::span<const Corners> triangles, const Vec3& query);
 
-// Reorders a range along the longest axis of its box, so that the lower half lies before the upper one; its middle.
+// Reorders a range along the longest axis of its box, so that the lower half lies before the upper
+// one; its middle.
 int32_t split_in_half(std::vector<Corners>& corners, int32_t begin, int32_t end);
 
 class SolidAngle {
@@ -39,7 +41,8 @@ class SolidAngle {
     Vec3 centroid, area_vector;   // area_vector: integral of n dA
     std::array<Vec3, 3> moment;   // moment[k] = integral of (x - centroid)_k n dA
   };
-  // What a node adds to the sum and the bound of its error, times 4 pi; an infinite bound where it cannot be expanded.
+  // What a node adds to the sum and the bound of its error, times 4 pi; an infinite bound where it
+  // cannot be expanded.
   struct Term {
     double error, value;
     int32_t node;

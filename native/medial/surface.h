@@ -19,7 +19,7 @@ struct Surface {
 void require_corners(std::span<const Triangle> triangles, size_t rows);
 
 // `triangles` holds input rows. Rows with the same coordinates are one sample, so seams close.
-Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> sample_of_row, int32_t samples,
-                     const Run& run);
+Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> sample_of_row,
+                     int32_t samples, const Run& run);
 
 }  // namespace medial

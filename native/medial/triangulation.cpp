@@ -12,10 +12,12 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int32_t, Kernel>;
-using CellBase = CGAL::Triangulation_cell_base_with_info_3<int32_t, Kernel,
-                                                           CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using CellBase =
+    CGAL::Triangulation_cell_base_with_info_3<int32_t, Kernel,
+                                              CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
 using Delaunay =
-    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+    CGAL::Delaunay_triangulation_3<Kernel,
+                                   CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using CellHandle = Delaunay::Cell_handle;
 
 constexpr size_t kBatch = 1 << 17;  // cells between two looks at the cancel flag
@@ -32,13 +34,14 @@ uint64_t scrambled(uint64_t x) {  // SplitMix64 (Steele, Lea, Flood 2014)
   return x ^ (x >> 31);
 }
 
-// Biased randomized insertion order (Amenta, Choi, Rote 2003): each round is an eighth of the next, and keeps the
-// spatial order of the ids.
+// Biased randomized insertion order (Amenta, Choi, Rote 2003): each round is an eighth of the next,
+// and keeps the spatial order of the ids.
 std::vector<int32_t> insertion_order(int32_t count) {
   std::vector<std::vector<int32_t>> rounds(1);
   for (int32_t id = 0; id < count; ++id) {
     size_t level = 0;
-    for (uint64_t bits = scrambled(static_cast<uint64_t>(id)); bits % 8 == 0 && level < 20; bits /= 8) {
+    for (uint64_t bits = scrambled(static_cast<uint64_t>(id)); bits % 8 == 0 && level < 20;
+         bits /= 8) {
       ++level;
     }
     if (level >= rounds.size()) rounds.resize(level + 1);
@@ -57,7 +60,8 @@ void insert_all(Delaunay& delaunay, std::span<const Vec3> points, Progress* prog
   CellHandle hint;
   const auto order = insertion_order(static_cast<int32_t>(points.size()));
   for (size_t i = 0; i < order.size(); ++i) {
-    if (i % kStep == 0) advance(progress, static_cast<double>(i) / static_cast<double>(order.size()));
+    if (i % kStep == 0)
+      advance(progress, static_cast<double>(i) / static_cast<double>(order.size()));
     const Vec3& p = points[order[i]];
     const auto vertex = delaunay.insert({p.x, p.y, p.z}, hint);
     vertex->info() = order[i];
@@ -86,9 +90,12 @@ bool lexicographically_before(const OrderedCell& a, const OrderedCell& b) {
   return sorted(a.ids) < sorted(b.ids);
 }
 
-// A counting sort by lowest finite id, infinite cells after the finite ones, then small sorts within the buckets.
+// A counting sort by lowest finite id, infinite cells after the finite ones, then small sorts
+// within the buckets.
 std::vector<OrderedCell> ordered_cells(const Delaunay& delaunay, int32_t points, const Run& run) {
-  const auto bucket = [&](const Cell& ids) { return ids[0] == kInfinite ? points + ids[1] : ids[0]; };
+  const auto bucket = [&](const Cell& ids) {
+    return ids[0] == kInfinite ? points + ids[1] : ids[0];
+  };
   const size_t count = delaunay.tds().number_of_cells();
   std::vector<OrderedCell> found;
   found.reserve(count);
@@ -100,14 +107,16 @@ std::vector<OrderedCell> ordered_cells(const Delaunay& delaunay, int32_t points,
     }
     ids = canonical(ids);
     ++start[bucket(ids) + 1];
-    if (found.size() % kBatch == 0) advance(run.progress, 0.3 * static_cast<double>(found.size()) / static_cast<double>(count));
+    if (found.size() % kBatch == 0)
+      advance(run.progress, 0.3 * static_cast<double>(found.size()) / static_cast<double>(count));
     found.push_back({ids, cell});
   }
   for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
   std::vector<OrderedCell> ordered(count);
   auto next = start;
   for (size_t i = 0; i < count; ++i) {
-    if (i % kBatch == 0) advance(run.progress, 0.3 + 0.2 * static_cast<double>(i) / static_cast<double>(count));
+    if (i % kBatch == 0)
+      advance(run.progress, 0.3 + 0.2 * static_cast<double>(i) / static_cast<double>(count));
     ordered[next[bucket(found[i].ids)]++] = found[i];
   }
   begin_stage(run.progress, "Delaunay cells", 0.54, 0.56);
@@ -134,7 +143,8 @@ Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run
       const auto vertex = cell->vertex(j);
       const int32_t id = delaunay.is_infinite(vertex) ? kInfinite : vertex->info();
       const auto slot = std::find(result.cells[c].begin(), result.cells[c].end(), id);
-      result.neighbors[c][static_cast<size_t>(slot - result.cells[c].begin())] = cell->neighbor(j)->info();
+      result.neighbors[c][static_cast<size_t>(slot - result.cells[c].begin())] =
+          cell->neighbor(j)->info();
     }
   });
   const auto infinite = std::partition_point(result.cells.begin(), result.cells.end(),
@@ -166,8 +176,9 @@ void require_volume(std::span<const Vec3> points) {
   const char* const found[] = {"in one place", "on one line", "in one plane"};
   const int dimension = points.empty() ? 0 : affine_dimension(points);
   if (dimension == 3) return;
-  throw DegenerateInputError("Expected points that span a volume, found all " + std::to_string(points.size()) + " " +
-                             found[dimension] + "; add points off it.");
+  throw DegenerateInputError("Expected points that span a volume, found all " +
+                             std::to_string(points.size()) + " " + found[dimension] +
+                             "; add points off it.");
 }
 
 Triangulation triangulate(std::span<const Vec3> points, const Run& run) {

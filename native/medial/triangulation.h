@@ -15,12 +15,13 @@ inline constexpr int32_t kInfinite = -1;
 
 using Cell = std::array<int32_t, 4>;
 
-// Cells are positively oriented (an infinite cell as if the infinite vertex lay outside the hull) and start with
-// their lowest id. Finite cells come first; each part is in lexicographic order of the sorted ids, so the arrays are the
-// same however the triangulation was built.
+// Cells are positively oriented (an infinite cell as if the infinite vertex lay outside the hull)
+// and start with their lowest id. Finite cells come first; each part is in lexicographic order of
+// the sorted ids, so the arrays are the same however the triangulation was built.
 struct Triangulation {
-  std::vector<Cell> cells;      // point ids, kInfinite for the infinite vertex
-  std::vector<Cell> neighbors;  // neighbors[c][i]: the cell across the facet opposite to cells[c][i]
+  std::vector<Cell> cells;  // point ids, kInfinite for the infinite vertex
+  std::vector<Cell>
+      neighbors;  // neighbors[c][i]: the cell across the facet opposite to cells[c][i]
   int32_t finite_cells = 0;
 
   int32_t cell_count() const { return static_cast<int32_t>(cells.size()); }
@@ -30,8 +31,8 @@ struct Triangulation {
 // Exact. Throws DegenerateInputError when all points lie in one place, on one line or in one plane.
 void require_volume(std::span<const Vec3> points);
 
-// `points` must be distinct, span a volume and should be in spatial order. Cospherical points are triangulated by CGAL's symbolic
-// perturbation, which depends on coordinates alone.
+// `points` must be distinct, span a volume and should be in spatial order. Cospherical points are
+// triangulated by CGAL's symbolic perturbation, which depends on coordinates alone.
 Triangulation triangulate(std::span<const Vec3> points, const Run& run);
 
 }  // namespace medial

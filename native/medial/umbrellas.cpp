@@ -5,9 +5,11 @@ namespace {
 
 enum class Height { below, above, level };
 
-// On which side of the tangent plane a Voronoi vertex lies; a vertex in the plane counts as above, so that of the edges
-// that meet there those from below cross it, and the umbrella stays a disc. For an infinite cell: where its ray leads.
-Height height(const Vec3& p, const Vec3& pole, int32_t cell, const Triangulation& t, const Voronoi& voronoi) {
+// On which side of the tangent plane a Voronoi vertex lies; a vertex in the plane counts as above,
+// so that of the edges that meet there those from below cross it, and the umbrella stays a disc.
+// For an infinite cell: where its ray leads.
+Height height(const Vec3& p, const Vec3& pole, int32_t cell, const Triangulation& t,
+              const Voronoi& voronoi) {
   if (t.is_infinite(cell)) {
     const double h = dot(voronoi.centre[cell], pole);
     return h > 0 ? Height::above : h < 0 ? Height::below : Height::level;
@@ -46,10 +48,11 @@ Umbrellas umbrellas(std::span<const Vec3> points, const Triangulation& t, const 
   begin_stage(run.progress, "Umbrellas", 0.72, 0.8);
   Umbrellas result;
   result.offsets.assign(static_cast<size_t>(incident.size()) + 1, 0);
-  result.items = parallel_append<std::array<int32_t, 2>>(
-      incident.size(), run, [&](int64_t p, auto& out, int) {
+  result.items =
+      parallel_append<std::array<int32_t, 2>>(incident.size(), run, [&](int64_t p, auto& out, int) {
         const size_t before = out.size();
-        append_umbrella(points[p], static_cast<int32_t>(p), poles.vector[p], incident[p], t, voronoi, out);
+        append_umbrella(points[p], static_cast<int32_t>(p), poles.vector[p], incident[p], t,
+                        voronoi, out);
         result.offsets[p] = static_cast<int64_t>(out.size() - before);
       });
   counts_to_offsets(result.offsets);

@@ -5,8 +5,8 @@
 
 namespace medial {
 
-// U_p: the triangles (p, a, b) of list p, as the pairs (a, b). They are the triangles whose dual Voronoi edge, segment
-// or ray, crosses the plane through p normal to the pole vector.
+// U_p: the triangles (p, a, b) of list p, as the pairs (a, b). They are the triangles whose dual
+// Voronoi edge, segment or ray, crosses the plane through p normal to the pole vector.
 using Umbrellas = Csr<std::array<int32_t, 2>>;
 
 Umbrellas umbrellas(std::span<const Vec3> points, const Triangulation& triangulation,

@@ -10,7 +10,9 @@ namespace medial {
 
 class UnionFind {
  public:
-  explicit UnionFind(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit UnionFind(size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
 
   int32_t find(int32_t id) {
     while (parent_[id] != id) id = parent_[id] = parent_[parent_[id]];
@@ -22,7 +24,8 @@ class UnionFind {
     if (a < b) std::swap(a, b);
     parent_[a] = b;
   }
-  // Representative of every id. A parent is never above its child, so one ascending pass ends at the roots.
+  // Representative of every id. A parent is never above its child, so one ascending pass ends at
+  // the roots.
   std::vector<int32_t> representatives() && {
     for (auto& p : parent_) p = parent_[p];
     return std::move(parent_);

@@ -20,7 +20,8 @@ Centres centres(std::span<const Vec3> points, const Triangulation& t, const Run&
   parallel_for(t.cell_count(), run, [&](int64_t c) {
     const auto& [i, j, k, l] = t.cells[c];
     if (i == kInfinite) {
-      // Positive orientation with the infinite vertex outside: the outward normal turns the other way.
+      // Positive orientation with the infinite vertex outside: the outward normal turns the other
+      // way.
       const UnitNormal n = unit_normal(points[j], points[l], points[k]);
       result.centre[c] = n.direction;
       result.error[c] = rounded_up(n.error);
@@ -43,7 +44,8 @@ bool indistinguishable(const Centres& centres, int32_t a, int32_t b) {
   return squared_length(d) <= error * error;
 }
 
-std::vector<CellPair> same_vertex_pairs(const Triangulation& t, const Centres& centres, const Run& run) {
+std::vector<CellPair> same_vertex_pairs(const Triangulation& t, const Centres& centres,
+                                        const Run& run) {
   return parallel_append<CellPair>(t.finite_cells, run, [&](int64_t c, auto& pairs, int) {
     for (const int32_t n : t.neighbors[c]) {
       const auto cell = static_cast<int32_t>(c);

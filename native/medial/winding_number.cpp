@@ -17,7 +17,8 @@ std::vector<Corners> soup(std::span<const Vec3> vertices, std::span<const Triang
   return corners;
 }
 
-// Every connected part of the boundary is closed in itself: each gets an apex of its own, the mean of its edges.
+// Every connected part of the boundary is closed in itself: each gets an apex of its own, the mean
+// of its edges.
 std::vector<Corners> caps(std::span<const Vec3> vertices, std::span<const Edge> boundary) {
   if (boundary.empty()) return {};
   struct Apex {
@@ -46,8 +47,9 @@ std::vector<Corners> joined(std::vector<Corners> a, const std::vector<Corners>& 
 }
 
 // In general position with respect to axes and diagonals, where the edges of many models lie.
-constexpr Vec3 kDirections[] = {{0.4267, 0.3181, 0.8466}, {-0.5721, 0.7411, 0.3513}, {0.8123, -0.4877, -0.3199},
-                                {-0.2591, -0.6737, 0.6921}, {0.1373, 0.9137, -0.3825}, {-0.9311, 0.0719, -0.3577}};
+constexpr Vec3 kDirections[] = {{0.4267, 0.3181, 0.8466},   {-0.5721, 0.7411, 0.3513},
+                                {0.8123, -0.4877, -0.3199}, {-0.2591, -0.6737, 0.6921},
+                                {0.1373, 0.9137, -0.3825},  {-0.9311, 0.0719, -0.3577}};
 
 }  // namespace
 
@@ -55,7 +57,8 @@ WindingNumber::WindingNumber(std::span<const Vec3> vertices, std::span<const Tri
                              std::span<const Edge> boundary, const Progress* progress)
     : WindingNumber(soup(vertices, triangles), caps(vertices, boundary), progress) {}
 
-WindingNumber::WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps, const Progress* progress)
+WindingNumber::WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps,
+                             const Progress* progress)
     : crossings_(joined(std::move(soup), caps), progress), caps_(std::move(caps)) {}
 
 int WindingNumber::closed(const Vec3& query) const {
@@ -73,7 +76,9 @@ int WindingNumber::closed_from(const Vec3& known, int closed_there, const Vec3& 
   return drop ? closed_there - *drop : closed(query);
 }
 
-double WindingNumber::operator()(const Vec3& query) const { return closed(query) - caps_.exact(query); }
+double WindingNumber::operator()(const Vec3& query) const {
+  return closed(query) - caps_.exact(query);
+}
 
 bool WindingNumber::is_inside(const Vec3& query, int closed_here) const {
   return caps_.is_below(closed_here - 0.5, query);

@@ -1,4 +1,5 @@
-// NumPy arrays in and out: checked views of the caller's memory, read-only arrays that keep their owner alive.
+// NumPy arrays in and out: checked views of the caller's memory, read-only arrays that keep their
+// owner alive.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -18,22 +19,25 @@ namespace medial::python {
 namespace py = pybind11;
 
 inline std::string describe(const py::handle& object) {
-  if (!py::isinstance<py::array>(object)) return "an object of type " + std::string(py::str(object.get_type()));
-  return "shape " + std::string(py::str(object.attr("shape"))) + " of " + std::string(py::str(object.attr("dtype")));
+  if (!py::isinstance<py::array>(object))
+    return "an object of type " + std::string(py::str(object.get_type()));
+  return "shape " + std::string(py::str(object.attr("shape"))) + " of " +
+         std::string(py::str(object.attr("dtype")));
 }
 
 // `columns` columns, one of the dtype kinds ('f' float, 'i' int, 'u' unsigned).
-inline py::array checked_rows(const py::handle& object, const char* name, int columns, const std::string& kinds,
-                              const char* expected) {
+inline py::array checked_rows(const py::handle& object, const char* name, int columns,
+                              const std::string& kinds, const char* expected) {
   const bool array = py::isinstance<py::array>(object);
   const auto view = array ? py::reinterpret_borrow<py::array>(object) : py::array();
-  if (!array || view.ndim() != 2 || view.shape(1) != columns || kinds.find(view.dtype().kind()) == std::string::npos) {
-    throw InvalidInputError("Expected " + std::string(name) + " as " + expected + ", found " + describe(object) +
-                            "; convert it.");
+  if (!array || view.ndim() != 2 || view.shape(1) != columns ||
+      kinds.find(view.dtype().kind()) == std::string::npos) {
+    throw InvalidInputError("Expected " + std::string(name) + " as " + expected + ", found " +
+                            describe(object) + "; convert it.");
   }
   if (view.shape(0) > INT_MAX / 8) {
-    throw InvalidInputError("Expected at most " + std::to_string(INT_MAX / 8) + " " + name + ", found " +
-                            std::to_string(view.shape(0)) + "; thin them.");
+    throw InvalidInputError("Expected at most " + std::to_string(INT_MAX / 8) + " " + name +
+                            ", found " + std::to_string(view.shape(0)) + "; thin them.");
   }
   return view;
 }
@@ -60,10 +64,12 @@ class Triangles {
     if (object.is_none()) return;
     const py::array view = checked_rows(object, "triangles", 3, "iu", "an (m, 3) int32 array");
     if (view.size() > 0 && !py::isinstance<py::array_t<int32_t>>(view)) {
-      const auto low = view.attr("min")().cast<long long>(), high = view.attr("max")().cast<long long>();
+      const auto low = view.attr("min")().cast<long long>(),
+                 high = view.attr("max")().cast<long long>();
       if (low < INT_MIN || high > INT_MAX) {
         throw InvalidInputError("Expected triangle corners that fit an int32, found " +
-                                std::to_string(low < INT_MIN ? low : high) + "; rebuild the faces.");
+                                std::to_string(low < INT_MIN ? low : high) +
+                                "; rebuild the faces.");
       }
     }
     rows_ = py::array_t<int32_t, py::array::c_style | py::array::forcecast>::ensure(view);
@@ -71,14 +77,16 @@ class Triangles {
 
   std::span<const std::array<int32_t, 3>> span() const {
     if (rows_.ndim() != 2) return {};
-    return {reinterpret_cast<const std::array<int32_t, 3>*>(rows_.data()), static_cast<size_t>(rows_.shape(0))};
+    return {reinterpret_cast<const std::array<int32_t, 3>*>(rows_.data()),
+            static_cast<size_t>(rows_.shape(0))};
   }
 
  private:
   py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
 };
 
-// Rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis for one).
+// Rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis for
+// one).
 template <typename Scalar, typename T>
 py::array view_of(const std::vector<T>& rows, const py::handle& owner) {
   constexpr auto columns = static_cast<py::ssize_t>(sizeof(T) / sizeof(Scalar));

@@ -11,20 +11,27 @@ namespace medial::python {
 namespace {
 
 constexpr const char* kProgressDoc =
-    "Shared by the thread that computes and the one that watches; every member is safe to use at any time.";
+    "Shared by the thread that computes and the one that watches; every member is safe to use at "
+    "any time.";
 
 constexpr const char* kMeshDoc =
     "The selected Voronoi facets as convex, planar polygons that share their vertices.\n\n"
-    "Facets are ordered by their generators (p < q); each polygon turns counter-clockwise about the direction\n"
-    "from p to q and starts at its lowest vertex id. No facet has zero area, no two vertices coincide.";
+    "Facets are ordered by their generators (p < q); each polygon turns counter-clockwise about "
+    "the direction\n"
+    "from p to q and starts at its lowest vertex id. No facet has zero area, no two vertices "
+    "coincide.";
 
 constexpr const char* kAnalysisDoc =
-    "Everything about a point set that does not depend on the thresholds; computed once, extracted often.\n\n"
+    "Everything about a point set that does not depend on the thresholds; computed once, extracted "
+    "often.\n\n"
     "Parameters\n----------\n"
-    "points : (n, 3) float64\n    Samples of the surface, finite. Float32 is converted; other types are refused.\n"
-    "triangles : (m, 3) int32, optional\n    Outward-facing triangles of the surface as rows of `points`: they tell\n"
+    "points : (n, 3) float64\n    Samples of the surface, finite. Float32 is converted; other "
+    "types are refused.\n"
+    "triangles : (m, 3) int32, optional\n    Outward-facing triangles of the surface as rows of "
+    "`points`: they tell\n"
     "    inside from outside. Rows that no triangle uses are samples all the same.\n"
-    "bounding_sphere : bool\n    Add 200 points at twice the radius (Dey & Zhao, sect. 4.2); only edges between true\n"
+    "bounding_sphere : bool\n    Add 200 points at twice the radius (Dey & Zhao, sect. 4.2); only "
+    "edges between true\n"
     "    samples are analysed and selected.\n"
     "progress : Progress, optional\n"
     "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
@@ -38,13 +45,16 @@ constexpr const char* kExtractDoc =
     "side : Side\n    BOTH (default), INNER or OUTER; INNER and OUTER need triangles.\n"
     "rule : Rule\n    EITHER (default) or BOTH ends of a Delaunay edge must pass.\n"
     "criteria : Criteria\n    ANGLE_OR_RATIO (default), ANGLE or RATIO.\n"
-    "limit_set : bool\n    Keep a facet selected by the Ratio condition alone only if |pq| >= eps^(1/4) mu\n"
-    "    (Definition 4), mu: smallest ball radius at its vertices, eps = |pq| / (rho mu). Default off.\n"
+    "limit_set : bool\n    Keep a facet selected by the Ratio condition alone only if |pq| >= "
+    "eps^(1/4) mu\n"
+    "    (Definition 4), mu: smallest ball radius at its vertices, eps = |pq| / (rho mu). Default "
+    "off.\n"
     "progress : Progress, optional\n\n"
     "Raises\n------\nInvalidInputError, Cancelled";
 
 constexpr const char* kSelectDoc =
-    "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and zero-area\n"
+    "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and "
+    "zero-area\n"
     "facets included. Parameters as in `extract`.\n\nReturns\n-------\nids : (s,) int32";
 
 int thread_argument(int threads) {
@@ -55,8 +65,8 @@ int thread_argument(int threads) {
   return threads;
 }
 
-std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles, bool bounding_sphere,
-                                        Progress* progress, int threads) {
+std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles,
+                                        bool bounding_sphere, Progress* progress, int threads) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
   const AnalysisOptions options{bounding_sphere, thread_argument(threads)};
@@ -66,17 +76,20 @@ std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::obje
   return std::make_unique<MedialAnalysis>(row_span, face_span, options, progress);
 }
 
-Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria criteria, bool limit_set) {
+Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria criteria,
+                      bool limit_set) {
   return {{theta, rho, rule, criteria}, side, limit_set};
 }
 
 void bind_enums(py::module_& m) {
   py::enum_<Side>(m, "Side", "Which axis a facet belongs to; also the values of MedialMesh.side.")
-      .value("BOTH", Side::both, "As an argument every facet, as a value not known: there was no surface.")
+      .value("BOTH", Side::both,
+             "As an argument every facet, as a value not known: there was no surface.")
       .value("INNER", Side::inner, "Every Voronoi vertex of the facet has winding number > 1/2.")
       .value("OUTER", Side::outer, "No Voronoi vertex has.")
       .value("CROSSING", Side::crossing, "Some have; only as a value.");
-  py::enum_<Rule>(m, "Rule", "Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3).")
+  py::enum_<Rule>(m, "Rule",
+                  "Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3).")
       .value("EITHER", Rule::either, "p or q, the paper's text.")
       .value("BOTH", Rule::both, "p and q, per criterion.");
   py::enum_<Criteria>(m, "Criteria", "Which conditions select (Dey & Zhao, sect. 3.1 and 3.2).")
@@ -88,39 +101,49 @@ void bind_enums(py::module_& m) {
 void bind_progress(py::module_& m) {
   py::class_<Progress>(m, "Progress", kProgressDoc, py::is_final())
       .def(py::init<>())
-      .def_property_readonly("fraction", &Progress::fraction, "Share of the whole job that is done, 0 to 1, never falling.")
+      .def_property_readonly("fraction", &Progress::fraction,
+                             "Share of the whole job that is done, 0 to 1, never falling.")
       .def_property_readonly("stage", &Progress::stage, "Name of the running stage, for people.")
       .def_property_readonly("cancelled", &Progress::cancelled, "Whether `cancel` was called.")
-      .def("cancel", &Progress::cancel, "Ask the computation to stop; it raises `Cancelled` within 0.3 s.");
+      .def("cancel", &Progress::cancel,
+           "Ask the computation to stop; it raises `Cancelled` within 0.3 s.");
 }
 
 // A property that is a view of a vector inside the object.
 template <typename Scalar, typename Owner, typename T>
 auto view_property(std::vector<T> Owner::*member) {
-  return [member](const py::object& self) { return view_of<Scalar>(self.cast<const Owner&>().*member, self); };
+  return [member](const py::object& self) {
+    return view_of<Scalar>(self.cast<const Owner&>().*member, self);
+  };
 }
 
 void bind_mesh(py::module_& m) {
   py::class_<MedialMesh>(m, "MedialMesh", kMeshDoc, py::is_final())
-      .def_property_readonly("vertices", view_property<double>(&MedialMesh::vertices),
-                             "(v, 3) float64: Voronoi vertices, the centres of empty balls, in order of first use.")
+      .def_property_readonly(
+          "vertices", view_property<double>(&MedialMesh::vertices),
+          "(v, 3) float64: Voronoi vertices, the centres of empty balls, in order of first use.")
       .def_property_readonly("radius", view_property<double>(&MedialMesh::radius),
                              "(v,) float64: radius of each vertex' empty ball.")
       .def_property_readonly("face_offsets", view_property<int32_t>(&MedialMesh::face_offsets),
-                             "(f + 1,) int32: facet i has the corners face_vertices[face_offsets[i] : face_offsets[i + 1]].")
+                             "(f + 1,) int32: facet i has the corners "
+                             "face_vertices[face_offsets[i] : face_offsets[i + 1]].")
       .def_property_readonly("face_vertices", view_property<int32_t>(&MedialMesh::face_vertices),
                              "(c,) int32: vertex ids, facet after facet.")
       .def_property_readonly("theta", view_property<double>(&MedialMesh::theta),
-                             "(f,) float64, radians in [0, pi/2]: the Angle condition holds for every theta0 below it.")
+                             "(f,) float64, radians in [0, pi/2]: the Angle condition holds for "
+                             "every theta0 below it.")
       .def_property_readonly("rho", view_property<double>(&MedialMesh::rho),
                              "(f,) float64: the Ratio condition holds for every rho0 below it.")
-      .def_property_readonly("side", view_property<int32_t>(&MedialMesh::side), "(f,) int32: values of `Side`.")
-      .def_property_readonly("generators", view_property<int32_t>(&MedialMesh::generators),
-                             "(f, 2) int32: rows p < q of the two samples whose cells meet in the facet.")
+      .def_property_readonly("side", view_property<int32_t>(&MedialMesh::side),
+                             "(f,) int32: values of `Side`.")
+      .def_property_readonly(
+          "generators", view_property<int32_t>(&MedialMesh::generators),
+          "(f, 2) int32: rows p < q of the two samples whose cells meet in the facet.")
       .def_readonly("unbounded", &MedialMesh::unbounded,
                     "Selected facets that reach infinity; they are counted, never emitted.")
       .def_readonly("zero_area", &MedialMesh::zero_area,
-                    "Selected facets that are a point or a segment (cospherical samples); they are not emitted.");
+                    "Selected facets that are a point or a segment (cospherical samples); they are "
+                    "not emitted.");
 }
 
 // A property that is a view of one of the significance arrays.
@@ -130,7 +153,9 @@ auto significance_property(std::vector<double> Significance::*member) {
   };
 }
 
-py::array bounded(const MedialAnalysis& a) { return array_of<uint8_t>(a.edges_bounded()).attr("view")("bool"); }
+py::array bounded(const MedialAnalysis& a) {
+  return array_of<uint8_t>(a.edges_bounded()).attr("view")("bool");
+}
 
 py::dict timings(const MedialAnalysis& a) {
   py::dict seconds;
@@ -147,7 +172,8 @@ void bind_analysis(py::module_& m) {
   const Thresholds paper;
   py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final())
       .def(py::init(&analyse), py::arg("points"), py::arg("triangles") = py::none(), py::kw_only(),
-           py::arg("bounding_sphere") = false, py::arg("progress") = nullptr, py::arg("threads") = 0)
+           py::arg("bounding_sphere") = false, py::arg("progress") = nullptr,
+           py::arg("threads") = 0)
       .def_property_readonly(
           "samples", [](const MedialAnalysis& a) { return array_of<int32_t>(a.sample_rows()); },
           "(k,) int32: rows of the distinct points, ascending.")
@@ -157,26 +183,34 @@ void bind_analysis(py::module_& m) {
           "edges", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_rows()); },
           "(e, 2) int32: all Delaunay edges between samples, p < q, in lexicographic order.")
       .def_property_readonly("theta", significance_property(&Significance::theta),
-                             "(e,) float64: max over both ends of pi/2 - max over t in U_p of angle(n_t, pq) (sect. 3.1).")
-      .def_property_readonly("rho", significance_property(&Significance::rho),
-                             "(e,) float64: max over both ends of |pq| / max over t in U_p of R_t (sect. 3.2).")
-      .def_property_readonly("theta_both", significance_property(&Significance::theta_both),
-                             "(e,) float64: as `theta` with the minimum of the two ends (Rule.BOTH).")
+                             "(e,) float64: max over both ends of pi/2 - max over t in U_p of "
+                             "angle(n_t, pq) (sect. 3.1).")
+      .def_property_readonly(
+          "rho", significance_property(&Significance::rho),
+          "(e,) float64: max over both ends of |pq| / max over t in U_p of R_t (sect. 3.2).")
+      .def_property_readonly(
+          "theta_both", significance_property(&Significance::theta_both),
+          "(e,) float64: as `theta` with the minimum of the two ends (Rule.BOTH).")
       .def_property_readonly("rho_both", significance_property(&Significance::rho_both),
                              "(e,) float64: as `rho` with the minimum of the two ends (Rule.BOTH).")
       .def_property_readonly(
           "side", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_sides()); },
-          "(e,) int32: values of `Side` for the facet dual to each edge; all BOTH without triangles.")
-      .def_property_readonly("bounded", &bounded, "(e,) bool: the dual facet does not reach infinity.")
+          "(e,) int32: values of `Side` for the facet dual to each edge; all BOTH without "
+          "triangles.")
+      .def_property_readonly("bounded", &bounded,
+                             "(e,) bool: the dual facet does not reach infinity.")
       .def_property_readonly("closed", &MedialAnalysis::closed,
-                             "Every edge of the triangles is used equally often in both directions, and there are triangles.")
+                             "Every edge of the triangles is used equally often in both "
+                             "directions, and there are triangles.")
       .def_property_readonly("boundary_edges", &MedialAnalysis::boundary_edges,
                              "Edges of the triangles that break this.")
-      .def_property_readonly("cells", &MedialAnalysis::finite_cells, "Number of finite Delaunay cells.")
+      .def_property_readonly("cells", &MedialAnalysis::finite_cells,
+                             "Number of finite Delaunay cells.")
       .def_property_readonly("timings", &timings, "Seconds of each stage, in order.")
       .def(
           "select",
-          [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule, Criteria criteria, bool limit_set) {
+          [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,
+             Criteria criteria, bool limit_set) {
             std::vector<int32_t> ids;
             {
               const py::gil_scoped_release release;
@@ -184,17 +218,19 @@ void bind_analysis(py::module_& m) {
             }
             return array_of<int32_t>(std::move(ids));
           },
-          kSelectDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho, py::arg("side") = Side::both,
-          py::arg("rule") = paper.rule, py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false)
+          kSelectDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho,
+          py::arg("side") = Side::both, py::arg("rule") = paper.rule,
+          py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false)
       .def(
           "extract",
-          [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule, Criteria criteria, bool limit_set,
-             Progress* progress) {
+          [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,
+             Criteria criteria, bool limit_set, Progress* progress) {
             const py::gil_scoped_release release;
             return a.extract(extraction(theta, rho, side, rule, criteria, limit_set), progress);
           },
-          kExtractDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho, py::arg("side") = Side::both,
-          py::arg("rule") = paper.rule, py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false,
+          kExtractDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho,
+          py::arg("side") = Side::both, py::arg("rule") = paper.rule,
+          py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false,
           py::arg("progress") = nullptr);
 }
 

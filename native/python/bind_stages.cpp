@@ -1,4 +1,5 @@
-// The stages by themselves, for study and tests: each starts from the points and ends with ids of input rows.
+// The stages by themselves, for study and tests: each starts from the points and ends with ids of
+// input rows.
 #include "arrays.h"
 #include "bindings.h"
 #include "medial/samples.h"
@@ -11,14 +12,17 @@ namespace {
 
 constexpr const char* kDelaunayDoc =
     "Delaunay triangulation of the distinct rows.\n\nReturns\n-------\n"
-    "cells : (c, 4) int32\n    Rows of the corners, positively oriented; -1 is the infinite vertex.\n"
+    "cells : (c, 4) int32\n    Rows of the corners, positively oriented; -1 is the infinite "
+    "vertex.\n"
     "neighbors : (c, 4) int32\n    Cell across the facet opposite to each corner.\n"
-    "circumcentres : (c, 3) float64\n    Voronoi vertex of a finite cell; of an infinite cell the outward unit normal of\n"
+    "circumcentres : (c, 3) float64\n    Voronoi vertex of a finite cell; of an infinite cell the "
+    "outward unit normal of\n"
     "    its hull triangle: the direction of its Voronoi ray.";
 
 constexpr const char* kPolesDoc =
     "Pole vectors (Definition 1) of the distinct rows in ascending order.\n\nReturns\n-------\n"
-    "vectors : (k, 3) float64\n    v_p = p+ - p; for an unbounded cell the mean of the unit directions of its distinct\n"
+    "vectors : (k, 3) float64\n    v_p = p+ - p; for an unbounded cell the mean of the unit "
+    "directions of its distinct\n"
     "    infinite edges.\n"
     "unbounded : (k,) bool\n    The pole is at infinity.";
 
@@ -29,14 +33,17 @@ constexpr const char* kUmbrellasDoc =
     "    triangles[offsets[i] : offsets[i + 1]].";
 
 constexpr const char* kOpenEdgesDoc =
-    "MedialAnalysis.boundary_edges without the analysis: edges of the triangles that are not used equally often in\n"
-    "both directions, rows with the same coordinates being one. 0: the surface is closed, or there is none.\n\n"
+    "MedialAnalysis.boundary_edges without the analysis: edges of the triangles that are not used "
+    "equally often in\n"
+    "both directions, rows with the same coordinates being one. 0: the surface is closed, or there "
+    "is none.\n\n"
     "Parameters\n----------\npoints : (n, 3) float64\ntriangles : (m, 3) int32";
 
 constexpr const char* kWindingDoc =
     "Generalized winding number of a triangle soup at each query: 1 inside an outward one.\n\n"
     "Parameters\n----------\n"
-    "queries : (q, 3) float64\nvertices : (v, 3) float64\ntriangles : (m, 3) int32\n\nReturns\n-------\n"
+    "queries : (q, 3) float64\nvertices : (v, 3) float64\ntriangles : (m, 3) "
+    "int32\n\nReturns\n-------\n"
     "winding : (q,) float64\n    Sum of the solid angles over 4 pi, up to rounding.";
 
 Run all_cores() { return {thread_count(0), nullptr}; }
@@ -58,10 +65,13 @@ struct Stages {
   std::vector<int32_t> by_row() const {
     std::vector<int32_t> order(samples.row.size());
     for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int32_t>(i);
-    std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return samples.row[a] < samples.row[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](int32_t a, int32_t b) { return samples.row[a] < samples.row[b]; });
     return order;
   }
-  Poles poles() const { return medial::poles(samples.points, triangulation, voronoi, incident, all_cores()); }
+  Poles poles() const {
+    return medial::poles(samples.points, triangulation, voronoi, incident, all_cores());
+  }
 
   Samples samples;
   Triangulation triangulation;
@@ -83,7 +93,8 @@ py::tuple delaunay(const py::object& points) {
     const py::gil_scoped_release release;
     return Stages(span);
   }();
-  return py::make_tuple(array_of<int32_t>(cell_rows(stages)), array_of<int32_t>(std::move(stages.triangulation.neighbors)),
+  return py::make_tuple(array_of<int32_t>(cell_rows(stages)),
+                        array_of<int32_t>(std::move(stages.triangulation.neighbors)),
                         array_of<double>(std::move(stages.voronoi.centre)));
 }
 
@@ -101,10 +112,12 @@ py::tuple pole_vectors(const py::object& points) {
       unbounded.push_back(poles.unbounded[p]);
     }
   }
-  return py::make_tuple(array_of<double>(std::move(vectors)), array_of<uint8_t>(std::move(unbounded)).attr("view")("bool"));
+  return py::make_tuple(array_of<double>(std::move(vectors)),
+                        array_of<uint8_t>(std::move(unbounded)).attr("view")("bool"));
 }
 
-void append_rows(int32_t p, const Umbrellas& umbrellas, const Samples& samples, std::vector<std::array<int32_t, 3>>& out) {
+void append_rows(int32_t p, const Umbrellas& umbrellas, const Samples& samples,
+                 std::vector<std::array<int32_t, 3>>& out) {
   const auto begin = static_cast<std::ptrdiff_t>(out.size());
   for (const auto& [a, b] : umbrellas[p]) {
     const auto [low, high] = std::minmax(samples.row[a], samples.row[b]);
@@ -121,13 +134,15 @@ py::tuple umbrella_triangles(const py::object& points) {
     const auto span = rows.span();
     const py::gil_scoped_release release;
     const Stages s(span);
-    const Umbrellas found = umbrellas(s.samples.points, s.triangulation, s.voronoi, s.incident, s.poles(), all_cores());
+    const Umbrellas found =
+        umbrellas(s.samples.points, s.triangulation, s.voronoi, s.incident, s.poles(), all_cores());
     for (const int32_t p : s.by_row()) {
       append_rows(p, found, s.samples, triangles);
       offsets.push_back(static_cast<int64_t>(triangles.size()));
     }
   }
-  return py::make_tuple(array_of<int64_t>(std::move(offsets)), array_of<int32_t>(std::move(triangles)));
+  return py::make_tuple(array_of<int64_t>(std::move(offsets)),
+                        array_of<int32_t>(std::move(triangles)));
 }
 
 int64_t open_edges(const py::object& points, const py::object& triangles) {
@@ -141,7 +156,8 @@ int64_t open_edges(const py::object& points, const py::object& triangles) {
   return make_surface(face_span, samples.sample_of_row, samples.count(), all_cores()).open_edges();
 }
 
-py::array winding_numbers(const py::object& queries, const py::object& vertices, const py::object& triangles) {
+py::array winding_numbers(const py::object& queries, const py::object& vertices,
+                          const py::object& triangles) {
   const Points query_rows(queries, "queries"), vertex_rows(vertices, "vertices");
   const Triangles faces(triangles);
   const auto at = query_rows.span();
@@ -154,8 +170,10 @@ py::array winding_numbers(const py::object& queries, const py::object& vertices,
     const py::gil_scoped_release release;
     require_corners(face_span, corners.size());
     const auto fans = rows_containing(face_span, static_cast<int32_t>(corners.size()));
-    const WindingNumber winding(corners, face_span, boundary_edges(face_span, fans, all_cores()), nullptr);
-    parallel_for(static_cast<int64_t>(at.size()), all_cores(), [&](int64_t i) { result[i] = winding(at[i]); });
+    const WindingNumber winding(corners, face_span, boundary_edges(face_span, fans, all_cores()),
+                                nullptr);
+    parallel_for(static_cast<int64_t>(at.size()), all_cores(),
+                 [&](int64_t i) { result[i] = winding(at[i]); });
   }
   return array_of<double>(std::move(result));
 }
@@ -167,7 +185,8 @@ void bind_stages(py::module_& m) {
   m.def("poles", &pole_vectors, kPolesDoc, py::arg("points"));
   m.def("umbrellas", &umbrella_triangles, kUmbrellasDoc, py::arg("points"));
   m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
-  m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"), py::arg("triangles"));
+  m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"),
+        py::arg("triangles"));
 }
 
 }  // namespace medial::python

@@ -16,7 +16,8 @@ MedialMesh axis(std::span<const Vec3> points, int threads) {
 TEST(MedialAnalysis, GivesTheSameBytesForEveryThreadCount) {
   const auto mesh = test::torus(120, 60);
   const auto extracted = [&](int threads) {
-    return MedialAnalysis(mesh.vertices, mesh.triangles, {.threads = threads}, nullptr).extract({.side = Side::inner});
+    return MedialAnalysis(mesh.vertices, mesh.triangles, {.threads = threads}, nullptr)
+        .extract({.side = Side::inner});
   };
   const MedialMesh one = extracted(1), four = extracted(4);
   EXPECT_GT(one.generators.size(), 1000u);
@@ -73,7 +74,8 @@ TEST(MedialAnalysis, CancelsInEveryStage) {
 }
 
 TEST(MedialAnalysis, ReportsWhatIsWrong) {
-  const auto message = [](std::span<const Vec3> rows, std::span<const Triangle> triangles = {}) -> std::string {
+  const auto message = [](std::span<const Vec3> rows,
+                          std::span<const Triangle> triangles = {}) -> std::string {
     try {
       MedialAnalysis(rows, triangles, {}, nullptr);
     } catch (const std::exception& error) {
@@ -87,8 +89,11 @@ TEST(MedialAnalysis, ReportsWhatIsWrong) {
   nan[2].y = NAN;
   EXPECT_NE(message(nan).find("row 2"), std::string::npos);
   EXPECT_NE(message(std::vector<Vec3>(9, four[1])).find("at least 4 distinct"), std::string::npos);
-  EXPECT_NE(message(std::vector<Vec3>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}).find("one line"), std::string::npos);
-  EXPECT_NE(message(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 4, 0}}).find("one plane"), std::string::npos);
+  EXPECT_NE(message(std::vector<Vec3>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}).find("one line"),
+            std::string::npos);
+  EXPECT_NE(
+      message(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 4, 0}}).find("one plane"),
+      std::string::npos);
   const std::vector<Triangle> bad{{0, 1, 9}};
   EXPECT_NE(message(four, bad).find("found 9 in triangle 0"), std::string::npos);
 }

@@ -30,7 +30,8 @@ TEST(Circumcentre, ErrorBoundHoldsAgainstAnotherOrderOfTheCorners) {
   for (uint32_t seed = 0; seed < 1000; ++seed) {
     auto p = test::random_points(4, seed);
     p[3] = p[0] + 1e-5 * (p[3] - p[0]);  // a needle
-    const Circumcentre one = circumcentre(p[0], p[1], p[2], p[3]), other = circumcentre(p[3], p[1], p[0], p[2]);
+    const Circumcentre one = circumcentre(p[0], p[1], p[2], p[3]),
+                       other = circumcentre(p[3], p[1], p[0], p[2]);
     EXPECT_LE(distance(one.centre, other.centre), one.error + other.error) << seed;
   }
 }
@@ -59,10 +60,12 @@ TEST(Circumcentre, ExactPathAgreesWithAKnownSphere) {
   // Nearly coplanar points of the unit sphere about (3, 4, 5): heights of 2^-40.
   const double h = 0x1p-40, r = std::sqrt(1 - h * h);
   const Vec3 centre{3, 4, 5};
-  const Circumcentre o = circumcentre(centre + Vec3{1, 0, 0}, centre + Vec3{0, 1, 0}, centre + Vec3{-1, 0, 0},
-                                      centre + Vec3{0, -r, h});
+  const Circumcentre o = circumcentre(centre + Vec3{1, 0, 0}, centre + Vec3{0, 1, 0},
+                                      centre + Vec3{-1, 0, 0}, centre + Vec3{0, -r, h});
   EXPECT_TRUE(std::isfinite(o.centre.z));
-  EXPECT_LT(spread(o.centre, {centre + Vec3{1, 0, 0}, centre + Vec3{0, 1, 0}, centre + Vec3{-1, 0, 0}}), 1e-12);
+  EXPECT_LT(
+      spread(o.centre, {centre + Vec3{1, 0, 0}, centre + Vec3{0, 1, 0}, centre + Vec3{-1, 0, 0}}),
+      1e-12);
 }
 
 TEST(UnitNormal, OfANeedleIsExact) {

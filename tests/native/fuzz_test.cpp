@@ -18,12 +18,23 @@ std::vector<Vec3> some_points(std::mt19937& random) {
     const Vec3 real{uniform(random), uniform(random), uniform(random)};
     const Vec3 grid{1.0 * below(size), 1.0 * below(size), 1.0 * below(size)};
     switch (kind) {
-      case 0: p = real; break;
-      case 1: p = grid; break;
-      case 2: p = {real.x, real.y, 1.0 * below(2)}; break;                  // two layers
-      case 3: p = normalized(grid - Vec3{0.5, 0.5, 0.5}); break;            // cospherical
-      case 4: p = 1e6 * Vec3{1, 1, 1} + 1e-3 * grid; break;                 // far from the origin
-      default: p = static_cast<float>(uniform(random)) * normalized(grid);  // rays
+      case 0:
+        p = real;
+        break;
+      case 1:
+        p = grid;
+        break;
+      case 2:
+        p = {real.x, real.y, 1.0 * below(2)};
+        break;  // two layers
+      case 3:
+        p = normalized(grid - Vec3{0.5, 0.5, 0.5});
+        break;  // cospherical
+      case 4:
+        p = 1e6 * Vec3{1, 1, 1} + 1e-3 * grid;
+        break;  // far from the origin
+      default:
+        p = static_cast<float>(uniform(random)) * normalized(grid);  // rays
     }
   }
   for (int i = below(4); i > 0; --i) points.push_back(points[below(count)]);
@@ -33,7 +44,8 @@ std::vector<Vec3> some_points(std::mt19937& random) {
 void expect_sound(const MedialMesh& mesh, std::span<const Vec3> points, int input) {
   ASSERT_EQ(mesh.face_offsets.size(), mesh.generators.size() + 1) << input;
   for (size_t f = 0; f < mesh.generators.size(); ++f) {
-    const auto begin = mesh.face_vertices.begin() + mesh.face_offsets[f], end = mesh.face_vertices.begin() + mesh.face_offsets[f + 1];
+    const auto begin = mesh.face_vertices.begin() + mesh.face_offsets[f],
+               end = mesh.face_vertices.begin() + mesh.face_offsets[f + 1];
     ASSERT_GE(end - begin, 3) << input;
     ASSERT_EQ(std::set<int32_t>(begin, end).size(), static_cast<size_t>(end - begin)) << input;
     ASSERT_EQ(std::min_element(begin, end), begin) << input;
@@ -50,7 +62,8 @@ void expect_sound(const MedialMesh& mesh, std::span<const Vec3> points, int inpu
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     ASSERT_TRUE(std::isfinite(mesh.radius[v]) && std::isfinite(max_abs(mesh.vertices[v]))) << input;
     for (const Vec3& p : points) {
-      ASSERT_GE(distance(mesh.vertices[v], p), mesh.radius[v] * (1 - 1e-6) - 1e-9 * max_abs(p)) << input;
+      ASSERT_GE(distance(mesh.vertices[v], p), mesh.radius[v] * (1 - 1e-6) - 1e-9 * max_abs(p))
+          << input;
     }
   }
 }
@@ -61,9 +74,12 @@ TEST(Fuzz, TenThousandSmallInputs) {
   for (int input = 0; input < 10000; ++input) {
     const auto points = some_points(random);
     std::vector<Triangle> triangles;
-    for (int32_t i = 0; i + 2 < static_cast<int32_t>(points.size()) && input % 3 == 0; ++i) triangles.push_back({i, i + 1, i + 2});
+    for (int32_t i = 0; i + 2 < static_cast<int32_t>(points.size()) && input % 3 == 0; ++i)
+      triangles.push_back({i, i + 1, i + 2});
     try {
-      const MedialAnalysis analysis(points, triangles, {.bounding_sphere = input % 7 == 0, .threads = 1 + input % 2}, nullptr);
+      const MedialAnalysis analysis(points, triangles,
+                                    {.bounding_sphere = input % 7 == 0, .threads = 1 + input % 2},
+                                    nullptr);
       expect_sound(analysis.extract({.thresholds = {.theta = 0, .rho = 0}}), points, input);
       expect_sound(analysis.extract({.limit_set = true}), points, input);
       analysis.edge_sides();

@@ -55,7 +55,8 @@ inline Mesh torus(int major, int minor) {
   const double turn = 2 * std::numbers::pi;
   for (int i = 0; i < major; ++i) {
     for (int j = 0; j < minor; ++j) {
-      const double u = turn * (i + 0.5 * (j % 2)) / major, v = turn * j / minor, r = 1 + 0.4 * std::cos(v);
+      const double u = turn * (i + 0.5 * (j % 2)) / major, v = turn * j / minor,
+                   r = 1 + 0.4 * std::cos(v);
       const Vec3 p{r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v)};
       mesh.vertices.push_back({p.x + 0.1 * p.z, p.y - 0.05 * p.x, p.z + 0.03 * p.y});
       const int a = i * minor + j, b = (i + 1) % major * minor + j;

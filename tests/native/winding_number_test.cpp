@@ -8,13 +8,15 @@ namespace medial {
 namespace {
 
 WindingNumber winding_of(const test::Mesh& mesh) {
-  const auto fans = rows_containing(std::span<const Triangle>(mesh.triangles), static_cast<int32_t>(mesh.vertices.size()));
+  const auto fans = rows_containing(std::span<const Triangle>(mesh.triangles),
+                                    static_cast<int32_t>(mesh.vertices.size()));
   return {mesh.vertices, mesh.triangles, boundary_edges(mesh.triangles, fans, {}), nullptr};
 }
 
 double brute_force(const test::Mesh& mesh, const Vec3& query) {
   std::vector<Corners> corners;
-  for (const auto& [i, j, k] : mesh.triangles) corners.push_back({mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]});
+  for (const auto& [i, j, k] : mesh.triangles)
+    corners.push_back({mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]});
   return solid_angle_sum(corners, query);
 }
 
@@ -42,7 +44,8 @@ TEST(WindingNumber, OfAnOpenSurfaceIsTheSumOfSolidAngles) {
 TEST(WindingNumber, OfAnyTriangleSoupIsTheSumOfSolidAngles) {
   for (uint32_t seed = 0; seed < 20; ++seed) {
     test::Mesh mesh{test::random_points(30, seed), {}};
-    for (int32_t i = 0; i + 2 < 30; ++i) mesh.triangles.push_back({i, (i * 7 + 1) % 30, (i * 11 + 2) % 30});
+    for (int32_t i = 0; i + 2 < 30; ++i)
+      mesh.triangles.push_back({i, (i * 7 + 1) % 30, (i * 11 + 2) % 30});
     expect_equal(mesh, seed + 100);
   }
 }
