@@ -1,10 +1,11 @@
 """A facet is inner exactly when all its Voronoi vertices have generalized winding number > 1/2: against brute force.
 
-Facets with a vertex on the surface itself (winding number undefined) are left out, and are few.
+Only a facet with a vertex on the surface itself, where the winding number jumps, may differ.
 """
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 import distance
 import meshes
@@ -90,33 +91,40 @@ def circumcentres(medial, points):
 
 
 def expected_sides(medial, points, triangles, analysis):
-    """(e,) side by brute force and (e,) whether every vertex is off the surface."""
+    """(e,) side by brute force, (6 c, 2) pairs of an edge and a cell of its ring, (c, 3) circumcentres."""
     cells, centres = circumcentres(medial, points)
     near = np.linalg.norm(centres - points.mean(axis=0), axis=1) < 1e3 * np.ptp(points)
-    inside, settled = np.zeros(len(cells), dtype=bool), np.ones(len(cells), dtype=bool)
-    winding = reference.winding_number(centres[near], points, triangles)
-    inside[near] = winding > 0.5
-    radius = np.linalg.norm(centres - points[cells[:, 0]], axis=1)
-    on_surface = distance.to_triangles(centres[near], points[triangles]) < 1e-6 * np.minimum(radius[near], np.ptp(points))
-    settled[near] = ~on_surface & (np.abs(winding - 0.5) > 1e-9)
+    inside = np.zeros(len(cells), dtype=bool)
+    inside[near] = reference.winding_number(centres[near], points, triangles) > 0.5
     row = {tuple(edge): i for i, edge in enumerate(analysis.edges.tolist())}
-    count, inner, unsettled = (np.zeros(len(row), dtype=int) for _ in range(3))
+    count, inner = np.zeros(len(row), dtype=int), np.zeros(len(row), dtype=int)
+    incident = []
     for i, j in ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)):
         edge = np.array([row[tuple(pair)] for pair in np.sort(cells[:, [i, j]], axis=1).tolist()])
         np.add.at(count, edge, 1)
         np.add.at(inner, edge, inside)
-        np.add.at(unsettled, edge, ~settled)
+        incident.append(np.column_stack((edge, np.arange(len(cells)))))
     side = np.where(inner == 0, 2, np.where((inner == count) & analysis.bounded, 1, 3))
-    return side, unsettled == 0
+    return side, np.concatenate(incident), centres
 
 
 @pytest.mark.parametrize("name", ALL)
 def test_sides_equal_brute_force(medial, name):
+    """Where they differ, a Voronoi vertex of the facet lies on the surface, up to rounding."""
     points, triangles = ALL[name]
     analysis = medial.MedialAnalysis(points, triangles)
-    wanted, settled = expected_sides(medial, points, triangles, analysis)
-    assert np.array_equal(analysis.side[settled], wanted[settled])
-    assert settled.mean() > (0.5 if "box" in name or "cube" in name or "exact" in name else 0.98)
+    wanted, incident, centres = expected_sides(medial, points, triangles, analysis)
+    wrong = np.flatnonzero(analysis.side != wanted)
+    if len(wrong) == 0:
+        return
+    rows = incident[np.isin(incident[:, 0], wrong)]
+    cells, where = np.unique(rows[:, 1], return_inverse=True)
+    radius = cKDTree(points).query(centres[cells])[0]
+    reach = 1e-6 * np.minimum(radius, np.ptp(points))
+    on_surface = distance.to_triangles(centres[cells], points[triangles]) < reach
+    excused = np.unique(rows[on_surface[where], 0])
+    assert np.array_equal(excused, wrong)
+    assert len(wrong) < 0.5 * len(wanted)
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -192,7 +200,7 @@ def test_winding_number_of_no_triangles_is_zero(medial):
 
 
 def test_winding_number_of_many_queries_and_triangles(medial):
-    mesh = noisy(meshes.nested_shell(5), 1e-4)
+    mesh = noisy(meshes.nested_shell(4), 1e-4)
     queries = np.random.default_rng(0).uniform(-1.2, 1.2, (300, 3))
     wanted = reference.winding_number(queries, *mesh)
     assert np.array_equal(medial.winding_number(queries, *mesh) > 0.5, wanted > 0.5)
