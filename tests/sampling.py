@@ -27,10 +27,19 @@ def poisson_disc(candidates: Candidates, area: float, n: int, seed: int, toleran
     return points
 
 
-def saturate(candidates: Candidates, n: int, radius: float, rng: np.random.Generator) -> Array:
-    """60 n darts: then a hole, if any is left, is too small to matter (covering radius about 1.06 x radius)."""
+def saturate(
+    candidates: Candidates,
+    n: int,
+    radius: float,
+    rng: np.random.Generator,
+    shares: tuple[int, ...] = (4, 8, 16, 30),
+) -> Array:
+    """60 n darts: then a hole, if any is left, is too small to matter (covering radius about 1.1 x radius at most).
+
+    `shares` are the rounds of darts after the first 2 n, in n each.
+    """
     points = thin(candidates(2 * n, rng), radius)
-    for share in (4, 8, 16, 30):
+    for share in shares:
         batch = candidates(share * n, rng)
         gap, _ = cKDTree(points).query(batch, distance_upper_bound=radius)
         points = np.concatenate((points, thin(batch[np.isinf(gap)], radius)))

@@ -43,11 +43,18 @@ HEADER = ["object", "points", "paper Delaunay s", "paper filter s", "input here"
 
 
 def ellipsoid(count: int) -> np.ndarray:
-    """Exactly `count` blue-noise samples: a slightly larger sample without its last rows."""
+    """Exactly `count` blue-noise samples: a slightly larger sample without its last rows. Above 200,000 points
+    with fewer darts, which takes a minute instead of ten and leaves a few wider gaps."""
+    from sampling import saturate
     from shapes import SHAPES
 
-    points = SHAPES["ellipsoid"].sample(int(count * 1.015) + 5, 0)
-    return np.random.default_rng(0).permutation(points)[:count]
+    shape, rng = SHAPES["ellipsoid"], np.random.default_rng(0)
+    if count <= 200_000:
+        points = shape.sample(int(count * 1.015) + 5, 0)
+    else:
+        points = saturate(shape.candidates, count, np.sqrt(0.51 * shape.area / count), rng, shares=(4,))
+    assert len(points) >= count
+    return rng.permutation(points)[:count]
 
 
 def run_one(file: str, threads: int) -> dict:
