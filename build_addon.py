@@ -423,7 +423,7 @@ def test_native(blender: Path) -> None:
 
 def test_python(blender: Path) -> None:
     python, _ = blender_python(blender)
-    run(python, "-m", "pytest", "-q", "tests/python", env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+    run(python, "-m", "pytest", "-q", "--slow", "tests/python", env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
 
 
 def test_addon(blender: Path) -> None:

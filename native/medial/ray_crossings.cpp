@@ -2,6 +2,8 @@
 
 #include <cfloat>
 
+#include "circumcentre.h"
+
 namespace medial {
 namespace {
 
@@ -37,13 +39,18 @@ std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& di
   const double eu = tiny * lb * lc, ev = tiny * lc * la, ew = tiny * la * lb;
   const bool may_leave = u > -eu && v > -ev && w > -ew, may_enter = u < eu && v < ev && w < ew;
   if (!may_leave && !may_enter) return 0;
+  // The line meets the plane at volume / flux.
+  const double volume = dot(a, cross(b, c)), flux = u + v + w, error = tiny * la * lb * lc;
+  const bool in_plane = std::abs(volume) <= error;
+  // A ray from a point of the triangle, or of its edge, starts beyond it.
+  const double farthest = std::max({la, lb, lc});
+  const bool at_once = in_plane && error <= kCoarsestError * std::abs(flux) * farthest;
+  if (at_once && reach == HUGE_VAL) return 0;
   const bool leaves = u > eu && v > ev && w > ew, enters = u < -eu && v < -ev && w < -ew;
   if (!leaves && !enters) return std::nullopt;
-  // The ray meets the plane at volume / flux.
-  const double volume = dot(a, cross(b, c)), flux = u + v + w;
   if (reach < HUGE_VAL) {
-    const double end = volume - reach * flux, error = tiny * la * lb * lc + reach * (eu + ev + ew);
-    if (std::abs(end) <= error || std::abs(volume) <= error) return std::nullopt;
+    const double end = volume - reach * flux;
+    if (in_plane || std::abs(end) <= error + reach * (eu + ev + ew)) return std::nullopt;
     if ((end > 0) == leaves) return 0;
   }
   if ((volume > 0) != leaves) return 0;

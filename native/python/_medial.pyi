@@ -106,7 +106,8 @@ class MedialAnalysis:
     Parameters
     ----------
     points : (n, 3) float64
-        Samples of the surface, finite. Float32 is accepted and converted; other types are refused.
+        Samples of the surface: finite, below 1e50, spread over more than 1e-50. Float32 is accepted and converted;
+        other types are refused.
     triangles : (m, 3) int32, optional
         Outward-facing triangles of the surface as rows of `points`: they tell inside from outside.
         Rows that no triangle uses are samples all the same.

@@ -56,6 +56,26 @@ TEST(WindingNumber, OfAFlippedTriangleCountsTwice) {
   expect_equal(mesh, 3);
 }
 
+TEST(RayCrossings, AreToldFromPointsOnTheSurface) {
+  const auto mesh = test::torus(40, 20);
+  std::vector<Corners> corners;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    corners.push_back({mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]});
+  }
+  const RayCrossings crossings(corners, nullptr);
+  const Vec3 direction = normalized({0.4267, 0.3181, 0.8466});
+  int told = 0, queries = 0;
+  for (const auto& [a, b, c] : corners) {
+    for (const Vec3& query : {0.5 * (a + b), 0.25 * (a + b) + 0.5 * c, (1.0 / 3) * (a + b + c)}) {
+      const auto drop = crossings(query, direction);
+      told += drop.has_value();
+      ++queries;
+      EXPECT_TRUE(!drop || *drop == 0 || *drop == 1);
+    }
+  }
+  EXPECT_GT(told, 0.99 * queries);
+}
+
 TEST(SolidAngle, IsComparedAsTheExactSumIs) {
   const auto mesh = test::torus(60, 30);
   std::vector<Corners> corners;
