@@ -80,7 +80,9 @@ class Failure(Exception):
 
 
 def say(text: str) -> None:
-    print(f"\n== {text}" if sys.stdout.isatty() is False else f"\n\033[1m== {text}\033[0m", flush=True)
+    print(
+        f"\n== {text}" if sys.stdout.isatty() is False else f"\n\033[1m== {text}\033[0m", flush=True
+    )
 
 
 def run(*command: object, **options) -> None:
@@ -89,7 +91,9 @@ def run(*command: object, **options) -> None:
     print("$ " + " ".join(map(shlex.quote, words)), flush=True)
     code = subprocess.run(words, cwd=options.pop("cwd", ROOT), **options).returncode
     if code != 0:
-        raise Failure(f"'{' '.join(words[:3])} ...' ended with exit code {code}; its output is above")
+        raise Failure(
+            f"'{' '.join(words[:3])} ...' ended with exit code {code}; its output is above"
+        )
 
 
 def output_of(*command: object, **options) -> str:
@@ -97,7 +101,9 @@ def output_of(*command: object, **options) -> str:
     words = [str(word) for word in command]
     done = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, **options)
     if done.returncode != 0:
-        raise Failure(f"'{' '.join(words[:3])} ...' ended with exit code {done.returncode}: {done.stderr.strip()}")
+        raise Failure(
+            f"'{' '.join(words[:3])} ...' ended with exit code {done.returncode}: {done.stderr.strip()}"
+        )
     return done.stdout
 
 
@@ -126,7 +132,9 @@ def is_installed(package: str) -> bool:
 def require(needs: dict[str, str]) -> None:
     """Install the missing packages, or say how and stop with exit code 2."""
     if shutil.which("dpkg-query") is None:
-        print("This is no Debian system: nothing is installed; needed are " + ", ".join(needs) + ".")
+        print(
+            "This is no Debian system: nothing is installed; needed are " + ", ".join(needs) + "."
+        )
         return
     missing = {name: package for name, package in needs.items() if not is_installed(package)}
     if not missing:
@@ -136,7 +144,9 @@ def require(needs: dict[str, str]) -> None:
     advice = "run  sudo apt-get update && sudo " + " ".join(install) + "  and start again"
     rights = administrator_prefix()
     if rights is None:
-        raise Failure("Debian packages are missing and this user may not install them: " + advice, 2)
+        raise Failure(
+            "Debian packages are missing and this user may not install them: " + advice, 2
+        )
     try:
         run(*rights, "apt-get", "update", "-q")
         run(*rights, "env", "DEBIAN_FRONTEND=noninteractive", *install)
@@ -148,7 +158,10 @@ def administrator_prefix() -> list[str] | None:
     """The words before a command that only root may run; None when this user may not."""
     if os.geteuid() == 0:
         return []
-    if shutil.which("sudo") and subprocess.run(["sudo", "-n", "true"], capture_output=True).returncode == 0:
+    if (
+        shutil.which("sudo")
+        and subprocess.run(["sudo", "-n", "true"], capture_output=True).returncode == 0
+    ):
         return ["sudo", "-n"]
     return None
 
@@ -159,7 +172,9 @@ def administrator_prefix() -> list[str] | None:
 def find_blender(name: str) -> Path:
     path = shutil.which(name)
     if path is None:
-        raise Failure(f"Expected Blender as '{name}', found none; install it or pass --blender PATH", 2)
+        raise Failure(
+            f"Expected Blender as '{name}', found none; install it or pass --blender PATH", 2
+        )
     return Path(path)
 
 
@@ -185,13 +200,16 @@ def blender_python(blender: Path) -> tuple[Path, str]:
     with tempfile.TemporaryDirectory() as folder:
         profile = Profile(Path(folder))
         text = output_of(*profile.command(blender, "--python-expr", tell), env=profile.environment)
-    version, python_version, abi = re.search(r"^ABI (\S+) (\S+) (\S+)$", text, re.MULTILINE).groups()
+    version, python_version, abi = re.search(
+        r"^ABI (\S+) (\S+) (\S+)$", text, re.MULTILINE
+    ).groups()
     python = Path(f"/usr/bin/python{python_version}")
     ask = "import sysconfig; print(sysconfig.get_config_var('SOABI'))"
     found = output_of(python, "-c", ask).strip() if python.exists() else "none"
     if found != abi:
         raise Failure(
-            f"Blender {version} uses Python {abi}, but {python} is {found}; install python{python_version}-dev", 2
+            f"Blender {version} uses Python {abi}, but {python} is {found}; install python{python_version}-dev",
+            2,
         )
     print(f"Blender {version} ({blender}) uses {python}, ABI {abi}")
     return python, abi
@@ -207,10 +225,14 @@ def build_module(blender: Path) -> tuple[Path, Path]:
     build_preset("release", f"-DPython_EXECUTABLE={python}")
     built = sorted((BUILD / "release").rglob(f"_medial.{abi}.so"))
     if len(built) != 1:
-        raise Failure(f"Expected one _medial.{abi}.so under build/release, found {len(built)}; run clean first")
+        raise Failure(
+            f"Expected one _medial.{abi}.so under build/release, found {len(built)}; run clean first"
+        )
     LIBRARY.mkdir(exist_ok=True)
     module = LIBRARY / built[0].name
-    fresh = module.with_suffix(".new")  # renamed at the end: a running Blender keeps the file that it has open
+    fresh = module.with_suffix(
+        ".new"
+    )  # renamed at the end: a running Blender keeps the file that it has open
     shutil.copy2(built[0], fresh)
     run("strip", "--strip-unneeded", fresh)
     os.replace(fresh, module)
@@ -238,28 +260,42 @@ def check_module(module: Path) -> None:
     libraries = re.findall(r"\(NEEDED\).*\[(.+)\]", output_of("readelf", "-d", module))
     unwanted = [library for library in libraries if FORBIDDEN_LIBRARIES.match(library)]
     if unwanted:
-        raise Failure(f"{module.name} must not need {', '.join(unwanted)}; link it statically or leave it out")
-    exported = [line.split()[-1] for line in output_of("nm", "-D", "--defined-only", module).splitlines()]
+        raise Failure(
+            f"{module.name} must not need {', '.join(unwanted)}; link it statically or leave it out"
+        )
+    exported = [
+        line.split()[-1] for line in output_of("nm", "-D", "--defined-only", module).splitlines()
+    ]
     if exported != ["PyInit__medial"]:
-        raise Failure(f"{module.name} must export PyInit__medial only, found {len(exported)}: {exported[:5]}")
+        raise Failure(
+            f"{module.name} must export PyInit__medial only, found {len(exported)}: {exported[:5]}"
+        )
     versions = output_of("objdump", "-T", module)
     floors = [f"{name} {newest(name, versions)}" for name in ("GLIBC", "GLIBCXX", "CXXABI")]
-    print(f"{module.relative_to(ROOT)}: {module.stat().st_size / 1e6:.1f} MB, needs {', '.join(libraries)}")
+    print(
+        f"{module.relative_to(ROOT)}: {module.stat().st_size / 1e6:.1f} MB, needs {', '.join(libraries)}"
+    )
     print(f"exports PyInit__medial only; newest versions needed: {', '.join(floors)}")
 
 
 def newest(name: str, text: str) -> str:
     found = re.findall(rf"\b{name}_([0-9.]+)", text)
-    return max(found, key=lambda version: [int(part) for part in version.split(".")], default="none")
+    return max(
+        found, key=lambda version: [int(part) for part in version.split(".")], default="none"
+    )
 
 
 def version() -> str:
     """The one version number, from the manifest; `bl_info` must agree."""
     manifest = (ADDON / "blender_manifest.toml").read_text(encoding="utf-8")
     stated = re.search(r'^version = "(.+)"', manifest, re.MULTILINE).group(1)
-    info = re.search(r'"version": \((.+?)\)', (ADDON / "__init__.py").read_text(encoding="utf-8")).group(1)
+    info = re.search(
+        r'"version": \((.+?)\)', (ADDON / "__init__.py").read_text(encoding="utf-8")
+    ).group(1)
     if stated.split("-")[0] != ".".join(part.strip() for part in info.split(",")):
-        raise Failure(f"blender_manifest.toml says version {stated}, bl_info says ({info}); make them equal")
+        raise Failure(
+            f"blender_manifest.toml says version {stated}, bl_info says ({info}); make them equal"
+        )
     return stated
 
 
@@ -296,7 +332,9 @@ def packed_files() -> list[Path]:
 def build(arguments: argparse.Namespace) -> None:
     require(BUILD_NEEDS)
     build_module(find_blender(arguments.blender))
-    print(f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {pack().relative_to(ROOT)}")
+    print(
+        f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {pack().relative_to(ROOT)}"
+    )
 
 
 # --- demo
@@ -324,7 +362,9 @@ def demo_models(folder: Path) -> list[tuple[Path | str, list[str]]]:
     member = "data/meshes/fandisk_large.off"
     package = Path("/usr/share/doc/libcgal-dev/data.tar.gz")
     if not package.exists():
-        raise Failure(f"Expected CGAL's demo data at {package}, found none; name mesh files: demo PATH ...")
+        raise Failure(
+            f"Expected CGAL's demo data at {package}, found none; name mesh files: demo PATH ..."
+        )
     run("tar", "xzf", package, "-C", folder, member)
     fandisk = (folder / member).rename(folder / "fandisk.off")
     return [("suzanne", ["--subdivide", "3"]), (fandisk, ["--y-up"])]
@@ -347,7 +387,9 @@ def show_model(
 def run_rendering(command: list[str], environment: dict[str, str]) -> None:
     """As `run`, with Blender's many lines about a rendering as one line about every tenth part of it."""
     print("$ " + " ".join(map(shlex.quote, command)), flush=True)
-    with subprocess.Popen(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, text=True) as blender:
+    with subprocess.Popen(
+        command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, text=True
+    ) as blender:
         told = ""
         for line in blender.stdout:
             samples = re.search(r"Sample (\d+)/(\d+)", line)
@@ -378,7 +420,9 @@ def test(arguments: argparse.Namespace) -> None:
     blender = find_blender(arguments.blender)
     unknown = set(arguments.only) - set(PARTS)
     if unknown:
-        raise Failure(f"Expected parts out of {', '.join(PARTS)}, found {', '.join(sorted(unknown))}")
+        raise Failure(
+            f"Expected parts out of {', '.join(PARTS)}, found {', '.join(sorted(unknown))}"
+        )
     results = {}
     started = time.monotonic()
     for name, part in PARTS.items():
@@ -423,7 +467,15 @@ def test_native(blender: Path) -> None:
 
 def test_python(blender: Path) -> None:
     python, _ = blender_python(blender)
-    run(python, "-m", "pytest", "-q", "--slow", "tests/python", env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+    run(
+        python,
+        "-m",
+        "pytest",
+        "-q",
+        "--slow",
+        "tests/python",
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
+    )
 
 
 def test_addon(blender: Path) -> None:
@@ -459,7 +511,10 @@ def test_sanitizer(preset: str) -> None:
         raise Skip(f"the compiler has no lib{preset}")
     build_preset(preset)
     fixed = ["setarch", os.uname().machine, "-R"]
-    can_fix = shutil.which("setarch") and subprocess.run([*fixed, "true"], capture_output=True).returncode == 0
+    can_fix = (
+        shutil.which("setarch")
+        and subprocess.run([*fixed, "true"], capture_output=True).returncode == 0
+    )
     run(*(fixed if can_fix else []), "ctest", "--preset", preset, "--output-on-failure")
 
 
@@ -479,7 +534,14 @@ PARTS = {
 
 def clean(arguments: argparse.Namespace) -> None:
     """Remove what the other commands made; the results of the demo only with --all."""
-    made = [BUILD, DIST, LIBRARY, *ROOT.rglob("__pycache__"), ROOT / ".pytest_cache", ROOT / ".ruff_cache"]
+    made = [
+        BUILD,
+        DIST,
+        LIBRARY,
+        *ROOT.rglob("__pycache__"),
+        ROOT / ".pytest_cache",
+        ROOT / ".ruff_cache",
+    ]
     if arguments.all:
         made.append(ROOT / "demo_output")
     for path in filter(Path.exists, made):
@@ -496,18 +558,28 @@ def parse(words: list[str]) -> argparse.Namespace:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     def add(name: str, action, text: str, more: str = "") -> argparse.ArgumentParser:
-        command = commands.add_parser(name, help=text, description=f"{text}.\n\n{more}", formatter_class=formatter)
+        command = commands.add_parser(
+            name, help=text, description=f"{text}.\n\n{more}", formatter_class=formatter
+        )
         command.set_defaults(action=action)
         return command
 
     add_build = add("build", build, "compile the native module and pack the add-on", BUILD_HELP)
     add_demo = add("demo", demo, "build, then compute and render real models in Blender", DEMO_HELP)
-    add_demo.add_argument("meshes", nargs="*", metavar="MESH", help="a .ply, .obj, .stl or .off file")
-    add_demo.add_argument("--output", default="demo_output", metavar="FOLDER", help="default: ./demo_output")
+    add_demo.add_argument(
+        "meshes", nargs="*", metavar="MESH", help="a .ply, .obj, .stl or .off file"
+    )
+    add_demo.add_argument(
+        "--output", default="demo_output", metavar="FOLDER", help="default: ./demo_output"
+    )
     add_test = add("test", test, "build and run every test", TEST_HELP)
-    add_test.add_argument("--only", nargs="+", default=[], metavar="PART", help=f"out of: {', '.join(PARTS)}")
+    add_test.add_argument(
+        "--only", nargs="+", default=[], metavar="PART", help=f"out of: {', '.join(PARTS)}"
+    )
     for command in (add_build, add_demo, add_test):
-        command.add_argument("--blender", default="blender", metavar="PATH", help="the Blender to build for")
+        command.add_argument(
+            "--blender", default="blender", metavar="PATH", help="the Blender to build for"
+        )
     add_clean = add("clean", clean, "remove what the other commands made")
     add_clean.add_argument("--all", action="store_true", help="the results of the demo as well")
     return parser.parse_args(words)
@@ -521,7 +593,7 @@ DEMO_HELP = """Installs the zip into a private Blender profile, computes the med
 mesh of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .ply, .ma and a rendered
 .png of each. Works without a display."""
 
-TEST_HELP = f"""Parts, in order: {', '.join(PARTS)}. One failing part fails the whole; a part that cannot run for
+TEST_HELP = f"""Parts, in order: {", ".join(PARTS)}. One failing part fails the whole; a part that cannot run for
 lack of a tool is skipped by name. The parts after `build` use what `build` made."""
 
 

@@ -38,7 +38,9 @@ def to_segment(points: Array, a: Array, b: Array) -> Array:
     return np.linalg.norm(points - a - t[..., None] * direction, axis=-1)
 
 
-def to_curve(points: Array, curve: Callable, tangent: Callable, period: float, steps: int = 20000) -> Array:
+def to_curve(
+    points: Array, curve: Callable, tangent: Callable, period: float, steps: int = 20000
+) -> Array:
     """Distance of (n, 3) points to a smooth closed curve t -> curve(t) of the given period."""
     grid = np.linspace(0.0, period, steps, endpoint=False)
     _, nearest = cKDTree(curve(grid)).query(points)
@@ -63,7 +65,9 @@ def to_triangle(points: Array, triangle: Array) -> Array:
     for start, end in ((a, b), (b, c), (c, a)):
         over &= np.einsum("ij,ij->i", np.cross(unit, end - start), points - start) >= 0.0
     plane = np.abs(np.einsum("ij,ij->i", unit, points - a))
-    edge = np.minimum(to_segment(points, a, b), np.minimum(to_segment(points, b, c), to_segment(points, c, a)))
+    edge = np.minimum(
+        to_segment(points, a, b), np.minimum(to_segment(points, b, c), to_segment(points, c, a))
+    )
     return np.where(over, plane, edge)
 
 
@@ -106,7 +110,9 @@ def _best_of_lists(points: Array, triangles: Array, lists: NDArray) -> Array:
 
 def points_on_triangles(triangles: Array, count: int, rng: np.random.Generator) -> Array:
     """(count, 3) area-uniform random points of (m, 3, 3) triangles."""
-    area = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
+    area = np.linalg.norm(
+        np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1
+    )
     pick = rng.choice(len(triangles), size=count, p=area / area.sum())
     u, v = rng.random((2, count))
     flip = u + v > 1.0

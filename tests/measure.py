@@ -2,10 +2,9 @@
 
 from dataclasses import dataclass
 
+import distance
 import numpy as np
 from numpy.typing import NDArray
-
-import distance
 from shapes import Shape
 
 Array = NDArray[np.float64]
@@ -39,7 +38,9 @@ def inner_facets(mesh, shape: Shape) -> NDArray[np.bool_]:
 def keep(mesh, facets: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
     """face_offsets and face_vertices of some facets."""
     sizes = np.diff(mesh.face_offsets)
-    return np.concatenate(([0], np.cumsum(sizes[facets]))), mesh.face_vertices[np.repeat(facets, sizes)]
+    return np.concatenate(([0], np.cumsum(sizes[facets]))), mesh.face_vertices[
+        np.repeat(facets, sizes)
+    ]
 
 
 def fan_triangles(vertices: Array, offsets: NDArray, corners: NDArray) -> Array:
@@ -47,10 +48,14 @@ def fan_triangles(vertices: Array, offsets: NDArray, corners: NDArray) -> Array:
     sizes = np.diff(offsets)
     first = np.repeat(offsets[:-1], sizes - 2)
     step = np.arange(len(first)) - np.repeat(np.cumsum(sizes - 2) - (sizes - 2), sizes - 2)
-    return vertices[np.column_stack((corners[first], corners[first + step + 1], corners[first + step + 2]))]
+    return vertices[
+        np.column_stack((corners[first], corners[first + step + 1], corners[first + step + 2]))
+    ]
 
 
-def errors(mesh, shape: Shape, points: int = 20000, axis_points: int = 4000, seed: int = 0) -> Errors:
+def errors(
+    mesh, shape: Shape, points: int = 20000, axis_points: int = 4000, seed: int = 0
+) -> Errors:
     """Two-sided distances of the inner facets."""
     offsets, corners = keep(mesh, inner_facets(mesh, shape))
     triangles = fan_triangles(mesh.vertices, offsets, corners)
@@ -59,7 +64,9 @@ def errors(mesh, shape: Shape, points: int = 20000, axis_points: int = 4000, see
     truth, rim = shape.axis_points(axis_points, seed), shape.rim_points(axis_points // 4)
     to_output = distance.to_triangles(np.concatenate((truth, rim)), triangles)
     quantile = np.quantile(to_truth, 0.99)
-    return Errors(to_truth.mean(), quantile, to_truth.max(), to_output[: len(truth)].mean(), to_output.max())
+    return Errors(
+        to_truth.mean(), quantile, to_truth.max(), to_output[: len(truth)].mean(), to_output.max()
+    )
 
 
 def spacing(medial, points: Array) -> float:
@@ -68,4 +75,6 @@ def spacing(medial, points: Array) -> float:
     p, a, b = (points[triangles[:, i]] for i in range(3))
     area = np.linalg.norm(np.cross(a - p, b - p), axis=1)
     sides = [np.linalg.norm(x, axis=1) for x in (a - p, b - p, a - b)]
-    return float(np.median(np.maximum.reduceat(sides[0] * sides[1] * sides[2] / (2 * area), offsets[:-1])))
+    return float(
+        np.median(np.maximum.reduceat(sides[0] * sides[1] * sides[2] / (2 * area), offsets[:-1]))
+    )

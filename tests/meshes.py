@@ -13,8 +13,26 @@ def icosphere(subdivisions: int = 2, radius: float = 1.0, centre: tuple = (0.0, 
     phi = (1 + np.sqrt(5)) / 2
     corners = [(-1, phi, 0), (1, phi, 0), (-1, -phi, 0), (1, -phi, 0), (0, -1, phi), (0, 1, phi)]
     corners += [(0, -1, -phi), (0, 1, -phi), (phi, 0, -1), (phi, 0, 1), (-phi, 0, -1), (-phi, 0, 1)]
-    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2)]
-    faces += [(10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5)]
+    faces = [
+        (0, 11, 5),
+        (0, 5, 1),
+        (0, 1, 7),
+        (0, 7, 10),
+        (0, 10, 11),
+        (1, 5, 9),
+        (5, 11, 4),
+        (11, 10, 2),
+    ]
+    faces += [
+        (10, 7, 6),
+        (7, 1, 8),
+        (3, 9, 4),
+        (3, 4, 2),
+        (3, 2, 6),
+        (3, 6, 8),
+        (3, 8, 9),
+        (4, 9, 5),
+    ]
     faces += [(2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
     mesh = np.array(corners) / np.hypot(1, phi), np.array(faces, dtype=np.int32)
     for _ in range(subdivisions):
@@ -26,13 +44,17 @@ def icosphere(subdivisions: int = 2, radius: float = 1.0, centre: tuple = (0.0, 
 def split(mesh: Mesh) -> Mesh:
     """Each triangle into four, at the edge midpoints."""
     vertices, triangles = mesh
-    pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    pairs = np.sort(
+        np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1
+    )
     unique, inverse = np.unique(pairs, axis=0, return_inverse=True)
     ab, bc, ca = (inverse.reshape(3, -1) + len(vertices)).astype(np.int32)
     a, b, c = triangles.T
     quarters = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
     midpoints = vertices[unique].mean(axis=1)
-    return np.concatenate((vertices, midpoints)), np.concatenate([np.column_stack(q) for q in quarters])
+    return np.concatenate((vertices, midpoints)), np.concatenate(
+        [np.column_stack(q) for q in quarters]
+    )
 
 
 def uv_sphere(segments: int = 32, rings: int = 16, radius: float = 1.0) -> Mesh:
@@ -40,31 +62,49 @@ def uv_sphere(segments: int = 32, rings: int = 16, radius: float = 1.0) -> Mesh:
     polar = np.arange(1, rings) * np.pi / rings
     turn = np.arange(segments) * 2 * np.pi / segments
     rows = np.stack(
-        [np.outer(np.sin(polar), np.cos(turn)), np.outer(np.sin(polar), np.sin(turn)),
-         np.outer(np.cos(polar), np.ones(segments))], axis=-1)
+        [
+            np.outer(np.sin(polar), np.cos(turn)),
+            np.outer(np.sin(polar), np.sin(turn)),
+            np.outer(np.cos(polar), np.ones(segments)),
+        ],
+        axis=-1,
+    )
     vertices = np.concatenate([[[0, 0, 1.0]], rows.reshape(-1, 3), [[0, 0, -1.0]]]) * radius
     i = np.arange(segments)
     j, last = (i + 1) % segments, len(vertices) - 1
     triangles = [np.column_stack((np.zeros_like(i), 1 + i, 1 + j))]
     for row in range(rings - 2):
         a, b = 1 + row * segments, 1 + (row + 1) * segments
-        triangles += [np.column_stack((a + i, b + i, b + j)), np.column_stack((a + i, b + j, a + j))]
+        triangles += [
+            np.column_stack((a + i, b + i, b + j)),
+            np.column_stack((a + i, b + j, a + j)),
+        ]
     end = 1 + (rings - 2) * segments
     triangles.append(np.column_stack((np.full_like(i, last), end + j, end + i)))
     return vertices, np.concatenate(triangles).astype(np.int32)
 
 
 def torus(big: float = 1.0, small: float = 0.4, around: int = 48, across: int = 20) -> Mesh:
-    u, v = np.meshgrid(np.arange(around) * 2 * np.pi / around, np.arange(across) * 2 * np.pi / across, indexing="ij")
+    u, v = np.meshgrid(
+        np.arange(around) * 2 * np.pi / around,
+        np.arange(across) * 2 * np.pi / across,
+        indexing="ij",
+    )
     ring = big + small * np.cos(v)
     vertices = np.stack((ring * np.cos(u), ring * np.sin(u), small * np.sin(v)), -1).reshape(-1, 3)
     i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
     k, l = (i + 1) % around, (j + 1) % across
-    a, b, c, d = (x.ravel() for x in (i * across + j, k * across + j, k * across + l, i * across + l))
-    return vertices, np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d)))).astype(np.int32)
+    a, b, c, d = (
+        x.ravel() for x in (i * across + j, k * across + j, k * across + l, i * across + l)
+    )
+    return vertices, np.concatenate(
+        (np.column_stack((a, b, c)), np.column_stack((a, c, d)))
+    ).astype(np.int32)
 
 
-def box(counts: tuple[int, int, int] = (8, 6, 4), half: tuple[float, float, float] = (1.0, 0.7, 0.4)) -> Mesh:
+def box(
+    counts: tuple[int, int, int] = (8, 6, 4), half: tuple[float, float, float] = (1.0, 0.7, 0.4)
+) -> Mesh:
     """A box with a grid of counts edges along x, y, z; (1, 1, 1) is the plain cube of 8 vertices."""
     index: dict[tuple[int, int, int], int] = {}
     triangles = []
@@ -73,7 +113,10 @@ def box(counts: tuple[int, int, int] = (8, 6, 4), half: tuple[float, float, floa
         for end in (0, counts[axis]):
             for i in range(counts[u]):
                 for j in range(counts[v]):
-                    quad = [_grid_id(index, axis, end, u, i + x, v, j + y) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                    quad = [
+                        _grid_id(index, axis, end, u, i + x, v, j + y)
+                        for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))
+                    ]
                     quad = quad if end else quad[::-1]
                     triangles += [(quad[0], quad[1], quad[2]), (quad[0], quad[2], quad[3])]
     grid = np.array(list(index))
@@ -90,7 +133,9 @@ def join(*meshes: Mesh) -> Mesh:
     """Several meshes as one, without joining vertices."""
     start = np.cumsum([0] + [len(vertices) for vertices, _ in meshes])
     triangles = [triangles + offset for (_, triangles), offset in zip(meshes, start)]
-    return np.concatenate([vertices for vertices, _ in meshes]), np.concatenate(triangles).astype(np.int32)
+    return np.concatenate([vertices for vertices, _ in meshes]), np.concatenate(triangles).astype(
+        np.int32
+    )
 
 
 def flip(mesh: Mesh) -> Mesh:
@@ -104,7 +149,9 @@ def warp(mesh: Mesh, function: Callable) -> Mesh:
 def jitter(mesh: Mesh, amount: float, seed: int = 0) -> Mesh:
     """General position: every vertex moved by up to `amount` along each axis."""
     vertices, triangles = mesh
-    return vertices + np.random.default_rng(seed).uniform(-amount, amount, vertices.shape), triangles
+    return vertices + np.random.default_rng(seed).uniform(
+        -amount, amount, vertices.shape
+    ), triangles
 
 
 def nested_shell(subdivisions: int = 2) -> Mesh:
@@ -148,9 +195,24 @@ def read_ply(path: Path) -> Mesh:
     return _read_ply_binary(content, end, elements)
 
 
-PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
-             "float": "<f4", "double": "<f8", "int8": "i1", "uint8": "u1", "int16": "<i2", "uint16": "<u2",
-             "int32": "<i4", "uint32": "<u4", "float32": "<f4", "float64": "<f8"}
+PLY_TYPES = {
+    "char": "i1",
+    "uchar": "u1",
+    "short": "<i2",
+    "ushort": "<u2",
+    "int": "<i4",
+    "uint": "<u4",
+    "float": "<f4",
+    "double": "<f8",
+    "int8": "i1",
+    "uint8": "u1",
+    "int16": "<i2",
+    "uint16": "<u2",
+    "int32": "<i4",
+    "uint32": "<u4",
+    "float32": "<f4",
+    "float64": "<f8",
+}
 
 
 def _ply_elements(header: list[str]) -> list[tuple[str, int, list[list[str]]]]:
@@ -171,7 +233,9 @@ def _read_ply_text(text: str, elements: list) -> Mesh:
         table = [next(rows).split() for _ in range(count)]
         if name == "vertex":
             names = [prop[-1] for prop in properties]
-            vertices = np.array([[row[names.index(x)] for x in "xyz"] for row in table], dtype=float)
+            vertices = np.array(
+                [[row[names.index(x)] for x in "xyz"] for row in table], dtype=float
+            )
         elif name == "face":
             triangles = np.array([row[1:4] for row in table], dtype=np.int32)
     return vertices, triangles
@@ -183,7 +247,10 @@ def _read_ply_binary(content: bytes, start: int, elements: list) -> Mesh:
         fields = []
         for prop in properties:
             if prop[0] == "list":  # triangles only
-                fields += [(prop[-1] + "_count", PLY_TYPES[prop[1]]), (prop[-1], PLY_TYPES[prop[2]], 3)]
+                fields += [
+                    (prop[-1] + "_count", PLY_TYPES[prop[1]]),
+                    (prop[-1], PLY_TYPES[prop[2]], 3),
+                ]
             else:
                 fields.append((prop[-1], PLY_TYPES[prop[0]]))
         table = np.frombuffer(content, dtype=np.dtype(fields), count=count, offset=start)

@@ -13,10 +13,14 @@ from scipy.spatial import cKDTree
 Array = NDArray[np.float64]
 Candidates = Callable[[int, np.random.Generator], Array]
 
-JAMMED = 0.68  # samples x radius^2 / area after 60 darts per sample (a saturated packing has 0.6965)
+JAMMED = (
+    0.68  # samples x radius^2 / area after 60 darts per sample (a saturated packing has 0.6965)
+)
 
 
-def poisson_disc(candidates: Candidates, area: float, n: int, seed: int, tolerance: float = 0.01) -> Array:
+def poisson_disc(
+    candidates: Candidates, area: float, n: int, seed: int, tolerance: float = 0.01
+) -> Array:
     """About `n` samples (within `tolerance`) of the surface whose area-uniform points `candidates` throws."""
     radius = np.sqrt(JAMMED * area / n)
     for attempt in range(8):

@@ -10,10 +10,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
+import distance
 import numpy as np
 from numpy.typing import NDArray
-
-import distance
 from sampling import poisson_disc
 
 Array = NDArray[np.float64]
@@ -92,8 +91,17 @@ class Ellipsoid(Shape):
         z, weight = np.polynomial.legendre.leggauss(200)
         turn = (np.arange(400) + 0.5) * np.pi / 200.0
         ring = np.sqrt(1.0 - z**2)
-        grid = np.stack(np.broadcast_arrays(ring[:, None] * np.cos(turn), ring[:, None] * np.sin(turn), z[:, None]), -1)
-        return float((self._stretch(grid.reshape(-1, 3)).reshape(200, 400).mean(axis=1) * weight).sum() * 2 * np.pi)
+        grid = np.stack(
+            np.broadcast_arrays(
+                ring[:, None] * np.cos(turn), ring[:, None] * np.sin(turn), z[:, None]
+            ),
+            -1,
+        )
+        return float(
+            (self._stretch(grid.reshape(-1, 3)).reshape(200, 400).mean(axis=1) * weight).sum()
+            * 2
+            * np.pi
+        )
 
     def candidates(self, count: int, rng: Rng) -> Array:
         bound = np.prod(self.semi_axes) / self.c
@@ -126,7 +134,9 @@ class Ellipsoid(Shape):
     def axis_radius(self, x: Array) -> Array:
         """Radius of the medial ball at axis points."""
         squares = self.semi_axes**2
-        return self.c * np.sqrt(np.maximum(0.0, 1.0 - np.sum(x[:, :2] ** 2 / (squares[:2] - squares[2]), axis=1)))
+        return self.c * np.sqrt(
+            np.maximum(0.0, 1.0 - np.sum(x[:, :2] ** 2 / (squares[:2] - squares[2]), axis=1))
+        )
 
 
 @dataclass(frozen=True)
@@ -141,7 +151,12 @@ class Slab(Shape):
     @property
     def _areas(self) -> list[float]:
         flat = 8.0 * self.width * self.depth
-        return [flat, 4 * np.pi * self.radius * self.width, 4 * np.pi * self.radius * self.depth, 4 * np.pi * self.radius**2]
+        return [
+            flat,
+            4 * np.pi * self.radius * self.width,
+            4 * np.pi * self.radius * self.depth,
+            4 * np.pi * self.radius**2,
+        ]
 
     @cached_property
     def area(self) -> float:
@@ -155,8 +170,12 @@ class Slab(Shape):
         normal[:flat] = [0.0, 0.0, 1.0]
         normal[:flat, 2] = rng.choice([-1.0, 1.0], flat)
         turn = rng.random(count) * 2 * np.pi
-        normal[flat : start[1]] = np.column_stack((np.zeros(count), np.cos(turn), np.sin(turn)))[:along_x]
-        normal[start[1] : start[2]] = np.column_stack((np.cos(turn), np.zeros(count), np.sin(turn)))[:along_y]
+        normal[flat : start[1]] = np.column_stack((np.zeros(count), np.cos(turn), np.sin(turn)))[
+            :along_x
+        ]
+        normal[start[1] : start[2]] = np.column_stack(
+            (np.cos(turn), np.zeros(count), np.sin(turn))
+        )[:along_y]
         core[start[1] :, 0] = self.width * np.sign(normal[start[1] :, 0])
         core[flat : start[1], 1] = self.depth * np.sign(normal[flat : start[1], 1])
         core[start[2] :, 1] = self.depth * np.sign(normal[start[2] :, 1])
@@ -217,7 +236,12 @@ class Shell(Shape):
         z, weight = np.polynomial.legendre.leggauss(200)
         turn = (np.arange(400) + 0.5) * np.pi / 200.0
         ring = np.sqrt(1.0 - z**2)
-        grid = np.stack(np.broadcast_arrays(ring[:, None] * np.cos(turn), ring[:, None] * np.sin(turn), z[:, None]), -1)
+        grid = np.stack(
+            np.broadcast_arrays(
+                ring[:, None] * np.cos(turn), ring[:, None] * np.sin(turn), z[:, None]
+            ),
+            -1,
+        )
         grid = grid.reshape(-1, 3)
         element = m._stretch(grid) * self._stretch(grid * e, offset)
         return float((element.reshape(200, 400).mean(axis=1) * weight).sum() * 2 * np.pi)
@@ -237,9 +261,13 @@ class Shell(Shape):
         return rng.permutation(np.concatenate(sheets))
 
     def _sheet(self, count: int, offset: float, rng: Rng) -> Array:
-        sharpest = self.a / self.c**2  # the largest principal curvature, at the ends of the longest axis
+        sharpest = (
+            self.a / self.c**2
+        )  # the largest principal curvature, at the ends of the longest axis
         bound = (1.0 + max(offset, 0.0) * sharpest) ** 2
-        points = _reject(self.middle.candidates, lambda x: self._stretch(x, offset), bound, count, rng)
+        points = _reject(
+            self.middle.candidates, lambda x: self._stretch(x, offset), bound, count, rng
+        )
         return points + offset * self._normals(points)
 
     def axis_distance(self, x: Array) -> Array:
@@ -291,7 +319,9 @@ class Box(Shape):
         return np.min([distance.to_triangle(x, t) for t in self.axis_triangles()], axis=0)
 
     def axis_points(self, count: int, seed: int = 0) -> Array:
-        return distance.points_on_triangles(self.axis_triangles(), count, np.random.default_rng(seed))
+        return distance.points_on_triangles(
+            self.axis_triangles(), count, np.random.default_rng(seed)
+        )
 
 
 def _bisector(n: Array, d: float, m: Array, e: float, others: list) -> Array:
@@ -323,7 +353,9 @@ def _clip(polygon: list, normal: Array, offset: float) -> list:
 
 def _fan(polygon: Array) -> list:
     """Triangles of a convex polygon, without those of no area."""
-    triangles = [np.array([polygon[0], polygon[i], polygon[i + 1]]) for i in range(1, len(polygon) - 1)]
+    triangles = [
+        np.array([polygon[0], polygon[i], polygon[i + 1]]) for i in range(1, len(polygon) - 1)
+    ]
     return [t for t in triangles if np.linalg.norm(np.cross(t[1] - t[0], t[2] - t[0])) > 1e-12]
 
 
@@ -407,13 +439,19 @@ class Knot(Shape):
     betti = (1, 1, 0)
 
     def curve(self, t: Array) -> Array:
-        return self.scale * np.stack((np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)), -1)
+        return self.scale * np.stack(
+            (np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)), -1
+        )
 
     def tangent(self, t: Array) -> Array:
-        return self.scale * np.stack((np.cos(t) + 4 * np.cos(2 * t), -np.sin(t) + 4 * np.sin(2 * t), -3 * np.cos(3 * t)), -1)
+        return self.scale * np.stack(
+            (np.cos(t) + 4 * np.cos(2 * t), -np.sin(t) + 4 * np.sin(2 * t), -3 * np.cos(3 * t)), -1
+        )
 
     def bend(self, t: Array) -> Array:
-        return self.scale * np.stack((-np.sin(t) - 8 * np.sin(2 * t), -np.cos(t) + 8 * np.cos(2 * t), 9 * np.sin(3 * t)), -1)
+        return self.scale * np.stack(
+            (-np.sin(t) - 8 * np.sin(2 * t), -np.cos(t) + 8 * np.cos(2 * t), 9 * np.sin(3 * t)), -1
+        )
 
     @property
     def length(self) -> float:
@@ -441,7 +479,9 @@ class Knot(Shape):
         curvature = np.linalg.norm(binormal, axis=1) / speed**3
         binormal /= np.linalg.norm(binormal, axis=1)[:, None]
         normal = np.cross(binormal, first / speed[:, None])
-        points = self.curve(t) + self.radius * (np.cos(turn)[:, None] * normal + np.sin(turn)[:, None] * binormal)
+        points = self.curve(t) + self.radius * (
+            np.cos(turn)[:, None] * normal + np.sin(turn)[:, None] * binormal
+        )
         return points, speed * (1.0 - self.radius * curvature * np.cos(turn))
 
     def axis_distance(self, x: Array) -> Array:

@@ -44,7 +44,9 @@ class Format:
     write: Callable[[Any, BinaryIO], None]
 
 
-def export_axis(axis: MedialAxis, path: str | os.PathLike, transform: NDArray | None = None) -> Path:
+def export_axis(
+    axis: MedialAxis, path: str | os.PathLike, transform: NDArray | None = None
+) -> Path:
     """Write a medial axis; the extension of `path` chooses the format.
 
     Parameters
@@ -123,7 +125,9 @@ def _place(axis: MedialAxis, transform: NDArray[np.float64]) -> SimpleNamespace:
 def _even_scale(linear: NDArray[np.float64]) -> float:
     """The factor by which `linear` scales all lengths; exactly 1 for a rigid frame in float32."""
     stretches = np.linalg.svd(linear, compute_uv=False)
-    rounding = 16 * np.finfo(np.float32).eps  # world matrices are products of a few float32 matrices
+    rounding = (
+        16 * np.finfo(np.float32).eps
+    )  # world matrices are products of a few float32 matrices
     if stretches[0] == 0.0 or stretches[0] - stretches[2] > rounding * stretches[0]:
         raise ExportError(
             "Expected a medial axis that is scaled evenly, found scales from "
@@ -153,7 +157,10 @@ def _write_rows(stream: BinaryIO, row: str, *columns: NDArray) -> None:
 
 
 def _write_polygons(
-    stream: BinaryIO, row_of: Callable[[int], str], counts: NDArray[np.int32], tokens: NDArray[np.int32]
+    stream: BinaryIO,
+    row_of: Callable[[int], str],
+    counts: NDArray[np.int32],
+    tokens: NDArray[np.int32],
 ) -> None:
     """Write one line per polygon; `row_of(count)` is the %-format of a polygon of so many corners."""
     rows = {int(count): row_of(int(count)) for count in np.unique(counts)}
@@ -241,7 +248,9 @@ def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> 
         for count in np.unique(chunk):
             local = np.flatnonzero(chunk == count)
             ids = start + local
-            rows = np.empty(len(ids), [("count", count_type), ("corners", "<i4", (int(count),)), *fixed])
+            rows = np.empty(
+                len(ids), [("count", count_type), ("corners", "<i4", (int(count),)), *fixed]
+            )
             rows["count"] = count
             rows["corners"] = axis.face_vertices[axis.face_offsets[ids][:, None] + np.arange(count)]
             for name, *_ in fixed:
@@ -256,7 +265,9 @@ def _write_npz(axis: MedialAxis, stream: BinaryIO) -> None:
     with zipfile.ZipFile(stream, "w") as archive:
         for name in _FIELDS:
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
-                np.lib.format.write_array(entry, np.asarray(getattr(axis, name)), allow_pickle=False)
+                np.lib.format.write_array(
+                    entry, np.asarray(getattr(axis, name)), allow_pickle=False
+                )
 
 
 FORMATS: dict[str, Format] = {

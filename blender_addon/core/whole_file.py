@@ -32,7 +32,9 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], None]) -> P
     """
     target = Path(os.path.realpath(path))
     if target.exists() and not target.is_file():
-        raise ExportError(f"Expected the name of a file, found '{path}', which is not one; choose another name")
+        raise ExportError(
+            f"Expected the name of a file, found '{path}', which is not one; choose another name"
+        )
     temporary = target.parent / f".medial_axis_{secrets.token_hex(8)}.tmp"
     try:
         try:

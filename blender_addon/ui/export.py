@@ -17,7 +17,9 @@ _EXTENSIONS = {suffix[1:].upper(): suffix for suffix in FORMATS}
 class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
     bl_idname = "export_scene.medial_axis"
     bl_label = "Export Medial Axis"
-    bl_description = "Write the medial axis of the active object, with its radii, in world coordinates"
+    bl_description = (
+        "Write the medial axis of the active object, with its radii, in world coordinates"
+    )
     bl_options = {"PRESET"}
 
     filter_glob: StringProperty(

@@ -69,7 +69,7 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
 
     bl_idname = "object.medial_axis"
     bl_label = "Compute Medial Axis"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
 
     theta: number("theta")
     rho: number("rho")
@@ -200,7 +200,7 @@ class OBJECT_OT_medial_axis_cancel(bpy.types.Operator):
 
     bl_idname = "object.medial_axis_cancel"
     bl_label = "Cancel"
-    bl_options = {"INTERNAL"}  # noqa: RUF012
+    bl_options = {"INTERNAL"}
 
     @classmethod
     def poll(cls, _context):

@@ -58,7 +58,9 @@ def read_ma(path):
     lines = Path(path).read_text(encoding="ascii").splitlines()
     counts = [int(word) for word in lines[0].split()]
     assert len(lines) == 1 + sum(counts)
-    rows = {letter: [line.split()[1:] for line in lines[1:] if line[0] == letter] for letter in "vef"}
+    rows = {
+        letter: [line.split()[1:] for line in lines[1:] if line[0] == letter] for letter in "vef"
+    }
     assert [len(rows[letter]) for letter in "vef"] == counts
     return np.array(rows["v"], float), np.array(rows["e"], int), np.array(rows["f"], int)
 
@@ -104,12 +106,16 @@ def test_npz_holds_all_attributes(result, tmp_path):
     export(tmp_path / "axis.npz")
     arrays, mesh = np.load(tmp_path / "axis.npz"), result.data
     for name in ("theta", "rho", "side"):
-        assert np.array_equal(arrays[name], attribute(mesh, f"ma_{name}").astype(arrays[name].dtype))
+        assert np.array_equal(
+            arrays[name], attribute(mesh, f"ma_{name}").astype(arrays[name].dtype)
+        )
     assert np.array_equal(np.diff(arrays["face_offsets"]), corner_counts(mesh))
     assert np.array_equal(arrays["face_vertices"], np.concatenate(polygons(mesh)))
     assert arrays["generators"].shape == (len(mesh.polygons), 2)
     source = addon("bridge.results").source_of(result)
-    samples = world_positions(source)[arrays["generators"]]  # the axis lies halfway between its generators
+    samples = world_positions(source)[
+        arrays["generators"]
+    ]  # the axis lies halfway between its generators
     first = arrays["vertices"][arrays["face_vertices"][arrays["face_offsets"][:-1]]]
     near, far = (np.linalg.norm(first - samples[:, end], axis=1) for end in (0, 1))
     np.testing.assert_allclose(near, far, rtol=1e-4)
@@ -171,7 +177,9 @@ def test_edited_result_is_exported_as_it_is(result, tmp_path):
 
 def test_missing_attribute_is_named(result, tmp_path):
     result.data.attributes.remove(result.data.attributes["ma_radius"])
-    with pytest.raises(RuntimeError, match="'ma_radius' on 'Torus Medial Axis'.*compute the medial axis again"):
+    with pytest.raises(
+        RuntimeError, match="'ma_radius' on 'Torus Medial Axis'.*compute the medial axis again"
+    ):
         export(tmp_path / "axis.ma")
     assert list(tmp_path.iterdir()) == []
 
@@ -184,7 +192,9 @@ def test_nothing_to_export_says_so(tmp_path):
 
 
 def test_unknown_extension_raises(result, tmp_path):
-    with pytest.raises(RuntimeError, match=r"\.ma, \.ply, \.obj, \.off or \.npz, found 'axis\.stl'"):
+    with pytest.raises(
+        RuntimeError, match=r"\.ma, \.ply, \.obj, \.off or \.npz, found 'axis\.stl'"
+    ):
         export(tmp_path / "axis.stl")
     assert list(tmp_path.iterdir()) == []
 
@@ -214,10 +224,18 @@ def test_path_beside_the_blend_file(result, tmp_path):
 
 
 def test_export_does_not_change_the_result(result, tmp_path):
-    before = (positions(result.data).tobytes(), [a.name for a in result.data.attributes], dict(result.items()))
+    before = (
+        positions(result.data).tobytes(),
+        [a.name for a in result.data.attributes],
+        dict(result.items()),
+    )
     for extension in EXTENSIONS:
         export(tmp_path / f"axis{extension}")
-    after = (positions(result.data).tobytes(), [a.name for a in result.data.attributes], dict(result.items()))
+    after = (
+        positions(result.data).tobytes(),
+        [a.name for a in result.data.attributes],
+        dict(result.items()),
+    )
     assert after == before
 
 
@@ -311,10 +329,16 @@ def write_and_read(name, path):
         return imported(bpy.ops.wm.obj_import, filepath=path)
     if name == "fbx":
         bpy.ops.export_scene.fbx(filepath=path, use_selection=True)
-        importer = bpy.ops.wm.fbx_import if hasattr(bpy.types, "WM_OT_fbx_import") else bpy.ops.import_scene.fbx
+        importer = (
+            bpy.ops.wm.fbx_import
+            if hasattr(bpy.types, "WM_OT_fbx_import")
+            else bpy.ops.import_scene.fbx
+        )
         return imported(importer, filepath=path)
     bpy.ops.export_scene.gltf(filepath=path, use_selection=True)
-    flat = {"import_shading": "FLAT"}  # other shading stumbles over np.bool in Blender 3.4 with NumPy 1.24
+    flat = {
+        "import_shading": "FLAT"
+    }  # other shading stumbles over np.bool in Blender 3.4 with NumPy 1.24
     return imported(bpy.ops.import_scene.gltf, filepath=path, **flat)
 
 

@@ -28,4 +28,9 @@ def markdown(header: list[str], rows: list[list[str]]) -> str:
     """A Markdown table with aligned columns."""
     widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
     lines = [header, ["-" * width for width in widths], *rows]
-    return "\n".join("| " + " | ".join(x.ljust(w) for x, w in zip(row, widths)) + " |" for row in lines) + "\n"
+    return (
+        "\n".join(
+            "| " + " | ".join(x.ljust(w) for x, w in zip(row, widths)) + " |" for row in lines
+        )
+        + "\n"
+    )

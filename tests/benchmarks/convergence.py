@@ -10,9 +10,8 @@ import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
-
 import _module
+import numpy as np
 
 medial = _module.load()
 
@@ -23,7 +22,9 @@ SIZES = (1000, 2000, 4000, 8000, 16000, 32000, 64000)
 HEADER = ["shape", "limit set", "n", "h", "facets", "o->t mean", "p99", "max", "t->o mean", "max"]
 
 
-def measured(name: str, sizes: list[int], seed: int) -> list[tuple[bool, int, float, int, list[float]]]:
+def measured(
+    name: str, sizes: list[int], seed: int
+) -> list[tuple[bool, int, float, int, list[float]]]:
     """limit_set, n, h, inner facets and the five distances of every run of one shape."""
     runs = []
     for size in sizes:
@@ -33,7 +34,9 @@ def measured(name: str, sizes: list[int], seed: int) -> list[tuple[bool, int, fl
             mesh = analysis.extract(limit_set=limit_set)
             facets = int(measure.inner_facets(mesh, SHAPES[name]).sum())
             distances = measure.errors(mesh, SHAPES[name]).row()
-            runs.append((limit_set, len(points), measure.spacing(medial, points), facets, distances))
+            runs.append(
+                (limit_set, len(points), measure.spacing(medial, points), facets, distances)
+            )
             print(name, runs[-1], file=sys.stderr, flush=True)
     return runs
 
@@ -52,14 +55,27 @@ def table(names: list[str], sizes: list[int], seed: int) -> str:
             chosen = [run for run in runs if run[0] == limit_set]
             option = "on" if limit_set else "off"
             for _, n, h, facets, distances in chosen:
-                rows.append([name, option, str(n), f"{h:.4f}", str(facets), *(f"{d:.1e}" for d in distances)])
+                rows.append(
+                    [
+                        name,
+                        option,
+                        str(n),
+                        f"{h:.4f}",
+                        str(facets),
+                        *(f"{d:.1e}" for d in distances),
+                    ]
+                )
             if len(chosen) > 1:
-                rows.append([name, option, "order in h", "", "", *(f"**{o:.2f}**" for o in orders(chosen))])
+                rows.append(
+                    [name, option, "order in h", "", "", *(f"**{o:.2f}**" for o in orders(chosen))]
+                )
     return _module.markdown(HEADER, rows)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--output", type=Path, help="also write the table to this file")
     parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
     parser.add_argument("--shapes", nargs="+", default=list(SHAPES), choices=list(SHAPES))

@@ -17,9 +17,8 @@ import tempfile
 import time
 from pathlib import Path
 
-import numpy as np
-
 import _module
+import numpy as np
 
 # object, points, Delaunay s, filter s (933 MHz PC, CGAL 2.3), stand-in mesh
 PAPER = [
@@ -37,9 +36,23 @@ PAPER = [
     ("ROCKER", 40177, 74.54, 8.25, "rocker-arm.off"),
     ("FEMALE", 121723, 292.85, 24.95, "igea.ply"),
 ]
-HEADER = ["object", "points", "paper Delaunay s", "paper filter s", "input here", "points here", "Delaunay s", "filter s",
-          "sides s",
-          "extract s", "facets", "filter / Delaunay", "extract / Delaunay", "peak MB", "bytes / point"]
+HEADER = [
+    "object",
+    "points",
+    "paper Delaunay s",
+    "paper filter s",
+    "input here",
+    "points here",
+    "Delaunay s",
+    "filter s",
+    "sides s",
+    "extract s",
+    "facets",
+    "filter / Delaunay",
+    "extract / Delaunay",
+    "peak MB",
+    "bytes / point",
+]
 
 
 def ellipsoid(count: int) -> np.ndarray:
@@ -52,7 +65,9 @@ def ellipsoid(count: int) -> np.ndarray:
     if count <= 200_000:
         points = shape.sample(int(count * 1.015) + 5, 0)
     else:
-        points = saturate(shape.candidates, count, np.sqrt(0.51 * shape.area / count), rng, shares=(4,))
+        points = saturate(
+            shape.candidates, count, np.sqrt(0.51 * shape.area / count), rng, shares=(4,)
+        )
     assert len(points) >= count
     return rng.permutation(points)[:count]
 
@@ -69,9 +84,16 @@ def run_one(file: str, threads: int) -> dict:
     mesh = analysis.extract(side=medial.Side.INNER if len(triangles) else medial.Side.BOTH)
     end = time.perf_counter()
     delaunay, sides = analysis.timings["triangulation"], analysis.timings.get("sides", 0.0)
-    return {"points": len(points), "delaunay": delaunay, "filter": middle - start - delaunay - sides, "sides": sides,
-            "extract": end - middle, "facets": len(mesh.generators), "peak": memory("VmHWM"),
-            "added": memory("VmHWM") - before}
+    return {
+        "points": len(points),
+        "delaunay": delaunay,
+        "filter": middle - start - delaunay - sides,
+        "sides": sides,
+        "extract": end - middle,
+        "facets": len(mesh.generators),
+        "peak": memory("VmHWM"),
+        "added": memory("VmHWM") - before,
+    }
 
 
 def memory(line: str) -> int:
@@ -85,15 +107,29 @@ def in_child(points: np.ndarray, triangles: np.ndarray, threads: int) -> dict:
         file = os.path.join(folder, "input.npz")
         np.savez(file, points=points, triangles=triangles)
         command = [sys.executable, __file__, "--child", file, "--threads", str(threads)]
-        return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+        return json.loads(
+            subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        )
 
 
-def row(label: list[str], name: str, points: np.ndarray, triangles: np.ndarray, threads: int) -> list[str]:
+def row(
+    label: list[str], name: str, points: np.ndarray, triangles: np.ndarray, threads: int
+) -> list[str]:
     r = in_child(points, triangles, threads)
-    cells = [*label, name, f"{r['points']}", f"{r['delaunay']:.3f}", f"{r['filter']:.3f}",
-             f"{r['sides']:.3f}" if len(triangles) else "", f"{r['extract']:.3f}",
-             f"{r['facets']}", f"{r['filter'] / r['delaunay']:.2f}", f"{r['extract'] / r['delaunay']:.2f}",
-             f"{r['peak'] / 1e6:.0f}", f"{r['added'] / r['points']:.0f}"]
+    cells = [
+        *label,
+        name,
+        f"{r['points']}",
+        f"{r['delaunay']:.3f}",
+        f"{r['filter']:.3f}",
+        f"{r['sides']:.3f}" if len(triangles) else "",
+        f"{r['extract']:.3f}",
+        f"{r['facets']}",
+        f"{r['filter'] / r['delaunay']:.2f}",
+        f"{r['extract'] / r['delaunay']:.2f}",
+        f"{r['peak'] / 1e6:.0f}",
+        f"{r['added'] / r['points']:.0f}",
+    ]
     print(" | ".join(cells), file=sys.stderr, flush=True)
     return cells
 
@@ -114,10 +150,14 @@ def rows(threads: int, largest: int) -> list[list[str]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--output", type=Path, help="also write the table to this file")
     parser.add_argument("--threads", type=int, default=0, help="0: all")
-    parser.add_argument("--largest", type=int, default=1_000_000, help="leave larger ellipsoids out")
+    parser.add_argument(
+        "--largest", type=int, default=1_000_000, help="leave larger ellipsoids out"
+    )
     parser.add_argument("--child", help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.child:

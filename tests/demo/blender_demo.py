@@ -36,8 +36,12 @@ def main():
 def parse():
     parser = argparse.ArgumentParser()
     parser.add_argument("--zip", required=True)
-    parser.add_argument("--model", required=True, help="'suzanne', or a .ply, .obj, .stl or .off file")
-    parser.add_argument("--subdivide", type=int, default=0, help="levels of a Subdivision Surface modifier")
+    parser.add_argument(
+        "--model", required=True, help="'suzanne', or a .ply, .obj, .stl or .off file"
+    )
+    parser.add_argument(
+        "--subdivide", type=int, default=0, help="levels of a Subdivision Surface modifier"
+    )
     parser.add_argument("--y-up", action="store_true", help="the file's Y axis points up")
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--report", type=Path, required=True)
@@ -50,7 +54,9 @@ def install(archive):
         bpy.ops.preferences.addon_install(filepath=archive, overwrite=True)
         bpy.ops.preferences.addon_enable(module="medial_axis")
         return "medial_axis"
-    bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
+    bpy.ops.extensions.package_install_files(
+        filepath=archive, repo="user_default", enable_on_install=True
+    )
     return "bl_ext.user_default.medial_axis"
 
 
@@ -89,7 +95,9 @@ def import_file(path):
         ".obj": bpy.ops.wm.obj_import,
     }
     if kind not in importers:
-        raise SystemExit(f"Expected a .ply, .obj, .stl or .off file, found '{path.name}'; convert it first")
+        raise SystemExit(
+            f"Expected a .ply, .obj, .stl or .off file, found '{path.name}'; convert it first"
+        )
     importers[kind](filepath=str(path))
 
 
@@ -122,7 +130,8 @@ def read_off(path):
     vertex_count, face_count = int(counts[0]), int(counts[1])
     vertices = [tuple(map(float, row[:3])) for row in rows[:vertex_count]]
     faces = [
-        tuple(map(int, row[1 : 1 + int(row[0])])) for row in rows[vertex_count : vertex_count + face_count]
+        tuple(map(int, row[1 : 1 + int(row[0])]))
+        for row in rows[vertex_count : vertex_count + face_count]
     ]
     return vertices, faces
 
@@ -135,7 +144,9 @@ def compute(source):
     start = time.perf_counter()
     bpy.ops.object.medial_axis(side=side)
     result = bpy.context.view_layer.objects.active
-    print(f"{result.name}: {len(result.data.polygons):,} facets after {time.perf_counter() - start:.2f} s")
+    print(
+        f"{result.name}: {len(result.data.polygons):,} facets after {time.perf_counter() - start:.2f} s"
+    )
     return result
 
 

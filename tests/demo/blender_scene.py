@@ -54,7 +54,7 @@ def look_at(center, radius, points):
 
 
 def light():
-    """A soft sun, a fill light without shadows, light from everywhere, and a white background that darkens a little downwards."""
+    """A soft sun, a fill light without shadows, light from everywhere, and a white background darker below."""
     for name, direction, energy, shadow in (("Sun", SUN, 1.6, True), ("Fill", VIEW, 1.5, False)):
         lamp = bpy.data.objects.new(name, bpy.data.lights.new(name, "SUN"))
         lamp.data.energy = energy
@@ -105,7 +105,9 @@ def glass():
     body = mix(new, link, rim, clear.outputs[0], tint.outputs[0])
     shine = new("ShaderNodeEmission")
     lit = mix(new, link, highlight(new, link), body, shine.outputs[0])
-    front = mix(new, link, new("ShaderNodeNewGeometry").outputs["Backfacing"], lit, clear.outputs[0])
+    front = mix(
+        new, link, new("ShaderNodeNewGeometry").outputs["Backfacing"], lit, clear.outputs[0]
+    )
     link(front, new("ShaderNodeOutputMaterial").inputs[0])
     return material
 

@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PACKAGE = Path(os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon"))  # or an installed copy
+PACKAGE = Path(
+    os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon")
+)  # or an installed copy
 DATA = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ROOT.parent / "shared" / "data"))
 
 sys.path.insert(0, str(ROOT / "tests"))  # shapes, meshes and distance, shared with tests/benchmarks

@@ -2,11 +2,10 @@
 
 import itertools
 
-import numpy as np
-from numpy.typing import NDArray
-
 import meshes
+import numpy as np
 import shapes
+from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
@@ -30,16 +29,33 @@ def generic(kind: str, n: int, seed: int) -> Array:
         return rng.normal(size=(n, 3)) * 0.02 + rng.random((4, 3))[rng.integers(0, 4, n)]
     if kind == "graded":
         direction = rng.normal(size=(n, 3))
-        return direction / np.linalg.norm(direction, axis=1)[:, None] * 10.0 ** rng.uniform(-3, 0, (n, 1))
+        return (
+            direction
+            / np.linalg.norm(direction, axis=1)[:, None]
+            * 10.0 ** rng.uniform(-3, 0, (n, 1))
+        )
     if kind == "sheets":
-        return np.column_stack((rng.random((n, 2)), rng.integers(0, 2, n) * 0.3 + rng.normal(size=n) * 1e-3))
+        return np.column_stack(
+            (rng.random((n, 2)), rng.integers(0, 2, n) * 0.3 + rng.normal(size=n) * 1e-3)
+        )
     if kind == "helix":
         t = np.sort(rng.random(n)) * 12
         return np.column_stack((np.cos(t), np.sin(t), 0.2 * t)) + rng.normal(size=(n, 3)) * 0.01
     return shapes.SHAPES[kind].random_sample(n, seed) @ rotation(seed).T
 
 
-KINDS = ("cube", "gauss", "clusters", "graded", "sheets", "helix", "ellipsoid", "shell", "torus", "knot")
+KINDS = (
+    "cube",
+    "gauss",
+    "clusters",
+    "graded",
+    "sheets",
+    "helix",
+    "ellipsoid",
+    "shell",
+    "torus",
+    "knot",
+)
 SIZES = (4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 18, 20, 24, 28, 32, 40, 50)
 
 
@@ -53,7 +69,9 @@ def generic_cases() -> list[tuple[str, int, int]]:
 
 
 def grid(counts: tuple[int, int, int]) -> Array:
-    return np.stack(np.meshgrid(*(np.arange(float(c)) for c in counts), indexing="ij"), -1).reshape(-1, 3)
+    return np.stack(np.meshgrid(*(np.arange(float(c)) for c in counts), indexing="ij"), -1).reshape(
+        -1, 3
+    )
 
 
 def hollow(counts: tuple[int, int, int]) -> Array:
@@ -66,7 +84,9 @@ def prism(sides: int, layers: int) -> Array:
     """Regular polygons above each other: cocircular, and cospherical in pairs of layers up to rounding."""
     turn = np.arange(sides) * 2 * np.pi / sides
     ring = np.column_stack((np.cos(turn), np.sin(turn)))
-    return np.concatenate([np.column_stack((ring, np.full(sides, 0.3 * layer))) for layer in range(layers)])
+    return np.concatenate(
+        [np.column_stack((ring, np.full(sides, 0.3 * layer))) for layer in range(layers)]
+    )
 
 
 def structured_cases() -> dict[str, Array]:

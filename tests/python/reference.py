@@ -8,7 +8,7 @@ vertex on the tangent plane) the sample is reported in `ambiguous`, and tests co
 from collections import defaultdict
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import gcd
 
 import numpy as np
@@ -28,7 +28,9 @@ def to_integers(points: Array) -> tuple[NDArray, int]:
     """Points times a power of two, as an object array of Python integers, and that power."""
     ratios = [[float(x).as_integer_ratio() for x in row] for row in points]
     scale = max((ratio[1] for row in ratios for ratio in row), default=1)
-    return np.array([[a * (scale // b) for a, b in row] for row in ratios], dtype=object).reshape(-1, 3), scale
+    return np.array([[a * (scale // b) for a, b in row] for row in ratios], dtype=object).reshape(
+        -1, 3
+    ), scale
 
 
 def cross(a: NDArray, b: NDArray) -> NDArray:
@@ -63,10 +65,16 @@ def orientation(grid: NDArray, cells: Ints) -> NDArray:
 
 def in_sphere(grid: NDArray, cells: Ints, queries: Ints) -> NDArray:
     """Exact sign of each query against the sphere of its cell: > 0 strictly inside, 0 on it. Any cell orientation."""
-    a, b, c, e = (grid[ids] - grid[cells[:, 0]] for ids in (cells[:, 1], cells[:, 2], cells[:, 3], queries))
+    a, b, c, e = (
+        grid[ids] - grid[cells[:, 0]] for ids in (cells[:, 1], cells[:, 2], cells[:, 3], queries)
+    )
     lift = lambda v: dot(v, v)
     volume = dot(a, cross(b, c))
-    lifted = lift(a) * dot(e, cross(b, c)) + lift(b) * dot(e, cross(c, a)) + lift(c) * dot(e, cross(a, b))
+    lifted = (
+        lift(a) * dot(e, cross(b, c))
+        + lift(b) * dot(e, cross(c, a))
+        + lift(c) * dot(e, cross(a, b))
+    )
     value = (lifted - lift(e) * volume) * np.where(volume > 0, 1, -1)
     return np.sign(value).astype(int)
 
@@ -118,10 +126,14 @@ def assert_delaunay(points: Array, cells: Ints) -> None:
         assert len(sides) <= 2, "three cells share a triangle"
         if len(sides) == 2:
             (first, apex), (_, other) = sides
-            assert in_sphere(grid, cells[[first]], np.array([other]))[0] <= 0, "a sphere is not empty"
+            assert in_sphere(grid, cells[[first]], np.array([other]))[0] <= 0, (
+                "a sphere is not empty"
+            )
             assert _beyond(grid, corners, apex, np.array([other]))[0] > 0, "two cells overlap"
         else:
-            assert np.all(_beyond(grid, corners, sides[0][1], np.arange(len(points))) <= 0), "the hull is not convex"
+            assert np.all(_beyond(grid, corners, sides[0][1], np.arange(len(points))) <= 0), (
+                "the hull is not convex"
+            )
 
 
 def triangles_of(cells: Ints) -> dict[tuple[int, int, int], list[tuple[int, int]]]:
@@ -169,7 +181,9 @@ class Medial:
         offset = dot(a, a)[:, None] * bc + dot(b, b)[:, None] * ca + dot(c, c)[:, None] * ab
         ratios = []
         for numerator, denominator in zip(volume[:, None] * p + offset, volume):
-            divisor = gcd(*(int(x) for x in numerator), int(denominator)) * (1 if denominator > 0 else -1)
+            divisor = gcd(*(int(x) for x in numerator), int(denominator)) * (
+                1 if denominator > 0 else -1
+            )
             ratios.append(tuple(int(x) // divisor for x in (*numerator, denominator)))
         return ratios
 
@@ -177,12 +191,19 @@ class Medial:
     def centres(self) -> Array:
         """(c, 3) Voronoi vertices, rounded once."""
         scale = self._integers[1]
-        return np.array([[x / (d * scale), y / (d * scale), z / (d * scale)] for x, y, z, d in self.centre_ratios])
+        return np.array(
+            [
+                [x / (d * scale), y / (d * scale), z / (d * scale)]
+                for x, y, z, d in self.centre_ratios
+            ]
+        )
 
     @cached_property
     def radius(self) -> Array:
         """(c,) distance of each Voronoi vertex to its samples."""
-        return np.array([self._length(self._arm(cell, corners[0])) for cell, corners in enumerate(self.cells)])
+        return np.array(
+            [self._length(self._arm(cell, corners[0])) for cell, corners in enumerate(self.cells)]
+        )
 
     def _arm(self, cell: int, sample: int) -> tuple[NDArray, int]:
         """Vector from a sample to a Voronoi vertex: integer numerator and positive denominator."""
@@ -236,7 +257,9 @@ class Medial:
             if corners in self.rays:
                 cell = self.triangles[corners][0][0]
                 key = self.centre_ratios[cell], primitive(self.rays[corners])
-                rays[key] = np.concatenate((unit(self.rays[corners]), self.centres[cell] / self.radius[cell]))
+                rays[key] = np.concatenate(
+                    (unit(self.rays[corners]), self.centres[cell] / self.radius[cell])
+                )
         rows = np.array(list(rays.values())).reshape(-1, 6)
         gap = np.abs(rows[:, None] - rows[None]).max(axis=2)[np.triu_indices(len(rows), 1)]
         return rows[:, :3], bool((gap < NEAR).any())
@@ -246,7 +269,9 @@ class Medial:
         vectors, unbounded, exact, ambiguous = [], [], [], []
         for sample in range(len(self.points)):
             directions, close = self.infinite_directions(sample)
-            vector, integer, tie = self._infinite_pole(directions) if len(directions) else self._farthest(sample)
+            vector, integer, tie = (
+                self._infinite_pole(directions) if len(directions) else self._farthest(sample)
+            )
             vectors.append(vector)
             unbounded.append(len(directions) > 0)
             exact.append(integer)
@@ -258,7 +283,10 @@ class Medial:
         return mean, to_integers(mean[None])[0][0], bool(np.linalg.norm(mean) < NEAR)
 
     def _farthest(self, sample: int) -> tuple[Array, NDArray, bool]:
-        arms = {self.centre_ratios[cell]: self._arm(cell, sample) for cell in self.incident_cells[sample]}
+        arms = {
+            self.centre_ratios[cell]: self._arm(cell, sample)
+            for cell in self.incident_cells[sample]
+        }
         arms = sorted(arms.values(), key=self._length)
         vector, denominator = arms[-1]
         scale = denominator * self._integers[1]
@@ -279,7 +307,10 @@ class Medial:
         chosen, touching = [], self._poles[3].copy()
         for sample in range(len(self.points)):
             pole = self._poles[2][sample]
-            height = {cell: self._height(self._arm(cell, sample)[0], pole) for cell in self.incident_cells[sample]}
+            height = {
+                cell: self._height(self._arm(cell, sample)[0], pole)
+                for cell in self.incident_cells[sample]
+            }
             touching[sample] |= any(abs(value) < NEAR for value in height.values())
             crossing = []
             for corners in self.incident_triangles[sample]:
@@ -315,7 +346,9 @@ class Medial:
     @cached_property
     def edges(self) -> Ints:
         """(e, 2) Delaunay edges p < q in lexicographic order."""
-        pairs = {pair for corners in self.cells.tolist() for pair in combinations(sorted(corners), 2)}
+        pairs = {
+            pair for corners in self.cells.tolist() for pair in combinations(sorted(corners), 2)
+        }
         return np.array(sorted(pairs), dtype=np.int64)
 
     @cached_property
@@ -399,7 +432,9 @@ class Medial:
         distinct = {self.centre_ratios[cell]: cell for cell in self.rings[edge]}
         return self.centres[sorted(distinct.values())]
 
-    def selected(self, theta0: float, rho0: float, rule: str, criteria: str, limit_set: bool) -> NDArray[np.bool_]:
+    def selected(
+        self, theta0: float, rho0: float, rule: str, criteria: str, limit_set: bool
+    ) -> NDArray[np.bool_]:
         """(e,) Angle[theta0] or Ratio[rho0], by one end or by both; from p only edges that are not in U_p."""
         either = np.max if rule == "EITHER" else np.min
         theta, rho = (either(np.where(self.in_umbrella, 0.0, x), axis=1) for x in self._directed)
@@ -444,7 +479,7 @@ def boundary_edges(triangles: Ints) -> int:
 
 def betti_numbers(offsets: Ints, corners: Ints) -> tuple[int, int, int]:
     """(b0, b1, b2) over GF(2) of the cell complex of polygons, by collapses and then column reduction."""
-    faces = [corners[a:b].tolist() for a, b in zip(offsets[:-1], offsets[1:])]
+    faces = [corners[a:b].tolist() for a, b in pairwise(offsets)]
     edge_row, boundary = {}, []
     for face in faces:
         pairs = [(min(a, b), max(a, b)) for a, b in zip(face, face[1:] + face[:1])]

@@ -1,14 +1,13 @@
-"""Every error of the module's contract: the right class, one sentence, and nothing half-made; extreme input that is valid."""
+"""Every error of the module's contract: the right class, one sentence, nothing half-made; valid extreme input."""
 
 import re
 import threading
 import time
 
-import numpy as np
-import pytest
-
 import inputs
 import meshes
+import numpy as np
+import pytest
 import shapes
 
 CLOUD = np.random.default_rng(0).random((50, 3))
@@ -34,9 +33,32 @@ def with_value(row, value):
 @pytest.mark.parametrize("stage", STAGES)
 @pytest.mark.parametrize(
     "points",
-    [CLOUD[:, :2], CLOUD.ravel(), CLOUD[None], np.zeros((5, 4)), np.zeros((3, 0)), CLOUD.astype(int), CLOUD > 0.5,
-     CLOUD.astype(complex), CLOUD.astype(str), CLOUD.astype(object), np.float64(1.0)],
-    ids=["two columns", "flat", "three axes", "four columns", "no columns", "int", "bool", "complex", "str", "object", "scalar"],
+    [
+        CLOUD[:, :2],
+        CLOUD.ravel(),
+        CLOUD[None],
+        np.zeros((5, 4)),
+        np.zeros((3, 0)),
+        CLOUD.astype(int),
+        CLOUD > 0.5,
+        CLOUD.astype(complex),
+        CLOUD.astype(str),
+        CLOUD.astype(object),
+        np.float64(1.0),
+    ],
+    ids=[
+        "two columns",
+        "flat",
+        "three axes",
+        "four columns",
+        "no columns",
+        "int",
+        "bool",
+        "complex",
+        "str",
+        "object",
+        "scalar",
+    ],
 )
 def test_points_of_a_wrong_shape_or_type(medial, stage, points):
     with pytest.raises(medial.InvalidInputError) as error:
@@ -63,13 +85,38 @@ def test_the_first_row_that_is_not_finite_is_named(medial):
 @pytest.mark.parametrize("stage", STAGES)
 @pytest.mark.parametrize(
     "points",
-    [CLOUD[:0], CLOUD[:1], CLOUD[:2], CLOUD[:3], np.ones((20, 3)), np.repeat(CLOUD[:3], 10, axis=0),
-     np.outer(np.arange(20.0), [1, 2, 4]), np.column_stack((CLOUD[:, :2], np.zeros(50))),
-     np.column_stack((CLOUD[:, :2], np.full(50, 7.25))), CLOUD @ np.diag([1, 1, 0]) + 3, np.zeros((4, 3)),
-     np.column_stack((np.round(CLOUD[:, :2] * 64) / 64, np.round(CLOUD[:, 0] * 64) / 64)),
-     inputs.grid((5, 5, 1)), inputs.grid((9, 1, 1))],
-    ids=["none", "one", "two", "three", "identical", "three distinct", "line", "plane z = 0", "plane z = 7.25", "flattened",
-         "origin", "slanted plane", "flat grid", "grid line"],
+    [
+        CLOUD[:0],
+        CLOUD[:1],
+        CLOUD[:2],
+        CLOUD[:3],
+        np.ones((20, 3)),
+        np.repeat(CLOUD[:3], 10, axis=0),
+        np.outer(np.arange(20.0), [1, 2, 4]),
+        np.column_stack((CLOUD[:, :2], np.zeros(50))),
+        np.column_stack((CLOUD[:, :2], np.full(50, 7.25))),
+        CLOUD @ np.diag([1, 1, 0]) + 3,
+        np.zeros((4, 3)),
+        np.column_stack((np.round(CLOUD[:, :2] * 64) / 64, np.round(CLOUD[:, 0] * 64) / 64)),
+        inputs.grid((5, 5, 1)),
+        inputs.grid((9, 1, 1)),
+    ],
+    ids=[
+        "none",
+        "one",
+        "two",
+        "three",
+        "identical",
+        "three distinct",
+        "line",
+        "plane z = 0",
+        "plane z = 7.25",
+        "flattened",
+        "origin",
+        "slanted plane",
+        "flat grid",
+        "grid line",
+    ],
 )
 def test_points_without_volume(medial, stage, points):
     with pytest.raises(medial.DegenerateInputError) as error:
@@ -79,7 +126,13 @@ def test_points_without_volume(medial, stage, points):
 
 @pytest.mark.parametrize(
     "triangles",
-    [BALL[1].astype(float), BALL[1][:, :2], BALL[1].ravel(), np.zeros((2, 4), np.int32), BALL[1] > 3],
+    [
+        BALL[1].astype(float),
+        BALL[1][:, :2],
+        BALL[1].ravel(),
+        np.zeros((2, 4), np.int32),
+        BALL[1] > 3,
+    ],
     ids=["float", "two columns", "flat", "quads", "bool"],
 )
 def test_triangles_of_a_wrong_shape_or_type(medial, triangles):
@@ -94,8 +147,10 @@ def test_triangles_that_name_no_point(medial, index, row):
     triangles = BALL[1].copy()
     triangles[row, 2] = index
     assert len(BALL[0]) == 42
-    for call in (lambda: medial.MedialAnalysis(BALL[0], triangles),
-                 lambda: medial.winding_number(CLOUD, BALL[0], triangles)):
+    for call in (
+        lambda: medial.MedialAnalysis(BALL[0], triangles),
+        lambda: medial.winding_number(CLOUD, BALL[0], triangles),
+    ):
         with pytest.raises(medial.InvalidInputError) as error:
             call()
         assert re.search(rf"\b{row}\b|{index}", one_sentence(error))
@@ -150,7 +205,9 @@ def test_crossing_is_no_argument(medial):
 
 def test_an_open_mesh_may_be_asked_for_its_inner_axis(medial):
     vertices, triangles = meshes.jitter(meshes.icosphere(3), 1e-3)
-    analysis = medial.MedialAnalysis(vertices * (1.0, 0.7, 0.4), triangles[vertices[triangles].mean(axis=1)[:, 2] < 0.8])
+    analysis = medial.MedialAnalysis(
+        vertices * (1.0, 0.7, 0.4), triangles[vertices[triangles].mean(axis=1)[:, 2] < 0.8]
+    )
     assert not analysis.closed and len(analysis.extract(side=medial.Side.INNER).generators) > 100
 
 
@@ -166,11 +223,15 @@ def test_arguments_of_a_wrong_type(medial, argument):
 
 
 def test_errors_are_value_errors(medial):
-    assert issubclass(medial.InvalidInputError, ValueError) and issubclass(medial.DegenerateInputError, ValueError)
+    assert issubclass(medial.InvalidInputError, ValueError) and issubclass(
+        medial.DegenerateInputError, ValueError
+    )
     assert issubclass(medial.Cancelled, Exception) and not issubclass(medial.Cancelled, ValueError)
 
 
-@pytest.mark.parametrize("queries", [CLOUD[:, :2], CLOUD.astype(int), with_value(3, np.nan)], ids=["2d", "int", "nan"])
+@pytest.mark.parametrize(
+    "queries", [CLOUD[:, :2], CLOUD.astype(int), with_value(3, np.nan)], ids=["2d", "int", "nan"]
+)
 def test_winding_number_checks_its_queries(medial, queries):
     with pytest.raises(medial.InvalidInputError) as error:
         medial.winding_number(queries, *BALL)
@@ -225,7 +286,7 @@ def test_progress_rises_to_one_and_names_its_stages(medial):
         seen.append((progress.fraction, progress.stage))
         time.sleep(0.002)
     fractions = [fraction for fraction, _ in seen]
-    assert fractions == sorted(fractions) and 0 <= fractions[0] and progress.fraction == 1.0
+    assert fractions == sorted(fractions) and fractions[0] >= 0 and progress.fraction == 1.0
     assert len(set(fractions)) > 5 and "Delaunay triangulation" in {stage for _, stage in seen}
 
 
@@ -235,7 +296,10 @@ def test_progress_rises_to_one_and_names_its_stages(medial):
 @pytest.mark.parametrize("size", [1e-9, 1e9, 1e-30, 1e30])
 def test_coordinates_of_any_size(medial, size):
     points = shapes.SHAPES["ellipsoid"].sample(1000, 0)
-    plain, scaled = medial.MedialAnalysis(points).extract(), medial.MedialAnalysis(points * size).extract()
+    plain, scaled = (
+        medial.MedialAnalysis(points).extract(),
+        medial.MedialAnalysis(points * size).extract(),
+    )
     assert np.array_equal(plain.generators, scaled.generators)
     assert np.allclose(plain.vertices, scaled.vertices / size, rtol=0, atol=1e-6)
 
@@ -256,7 +320,10 @@ def test_sizes_whose_squares_leave_the_doubles(medial, size):
 def test_a_cloud_shifted_by_a_million(medial):
     """The grid of doubles there is 1e-10: the same facets but for the smallest."""
     points = shapes.SHAPES["ellipsoid"].sample(2000, 0)
-    plain, shifted = medial.MedialAnalysis(points).extract(), medial.MedialAnalysis(points + 1e6).extract()
+    plain, shifted = (
+        medial.MedialAnalysis(points).extract(),
+        medial.MedialAnalysis(points + 1e6).extract(),
+    )
     a, b = ({tuple(g) for g in mesh.generators.tolist()} for mesh in (plain, shifted))
     assert len(a ^ b) <= 0.002 * len(a)
     assert shapes.SHAPES["ellipsoid"].axis_distance(shifted.vertices - 1e6).max() < 0.05
@@ -269,7 +336,9 @@ def test_a_rotated_box_keeps_its_inner_axis(medial, dtype, seed):
     vertices, triangles = meshes.box((20, 14, 8))
     turn = inputs.rotation(seed)
     straight = medial.MedialAnalysis(vertices, triangles).extract(side=medial.Side.INNER)
-    turned = medial.MedialAnalysis((vertices @ turn.T).astype(dtype), triangles).extract(side=medial.Side.INNER)
+    turned = medial.MedialAnalysis((vertices @ turn.T).astype(dtype), triangles).extract(
+        side=medial.Side.INNER
+    )
     areas = [total_area(mesh) for mesh in (straight, turned)]
     assert areas[1] == pytest.approx(areas[0], rel=0.02)
     back = turned.vertices @ turn
@@ -281,7 +350,9 @@ def total_area(mesh):
     area = 0.0
     for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:]):
         ring = mesh.vertices[mesh.face_vertices[a:b]]
-        area += 0.5 * np.linalg.norm(np.cross(ring - ring[0], np.roll(ring, -1, axis=0) - ring[0]).sum(axis=0))
+        area += 0.5 * np.linalg.norm(
+            np.cross(ring - ring[0], np.roll(ring, -1, axis=0) - ring[0]).sum(axis=0)
+        )
     return area
 
 
@@ -291,18 +362,36 @@ def test_a_rotated_box_of_random_samples_in_float64(medial):
     points = box.sample(1500, 0) @ inputs.rotation(2).T
     mesh = medial.MedialAnalysis(points).extract()
     inside = box.inside(mesh.vertices @ inputs.rotation(2))
-    facet = np.array([inside[mesh.face_vertices[a:b]].all() for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:])])
+    facet = np.array(
+        [
+            inside[mesh.face_vertices[a:b]].all()
+            for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:])
+        ]
+    )
     plain = medial.MedialAnalysis(box.sample(1500, 0)).extract()
     inner = box.inside(plain.vertices)
-    wanted = {tuple(g) for g, a, b in zip(plain.generators.tolist(), plain.face_offsets[:-1], plain.face_offsets[1:])
-              if inner[plain.face_vertices[a:b]].all()}
+    wanted = {
+        tuple(g)
+        for g, a, b in zip(
+            plain.generators.tolist(), plain.face_offsets[:-1], plain.face_offsets[1:]
+        )
+        if inner[plain.face_vertices[a:b]].all()
+    }
     found = {tuple(g) for g in mesh.generators[facet].tolist()}
     assert len(wanted ^ found) <= 0.005 * len(wanted)
 
 
-@pytest.mark.parametrize("points", [meshes.uv_sphere(64, 32)[0], meshes.icosphere(4)[0], inputs.grid((12, 12, 12)),
-                                    inputs.prism(64, 8), np.concatenate((np.eye(3), -np.eye(3)))],
-                         ids=["uv sphere", "icosphere", "grid", "prism", "octahedron"])
+@pytest.mark.parametrize(
+    "points",
+    [
+        meshes.uv_sphere(64, 32)[0],
+        meshes.icosphere(4)[0],
+        inputs.grid((12, 12, 12)),
+        inputs.prism(64, 8),
+        np.concatenate((np.eye(3), -np.eye(3))),
+    ],
+    ids=["uv sphere", "icosphere", "grid", "prism", "octahedron"],
+)
 def test_exactly_cospherical_samples(medial, points):
     mesh = medial.MedialAnalysis(points).extract(0.1, 2.0)
     assert np.isfinite(mesh.vertices).all()
@@ -312,4 +401,8 @@ def test_exactly_cospherical_samples(medial, points):
 def test_a_plain_cube_of_eight_vertices(medial):
     vertices, triangles = meshes.box((1, 1, 1))
     mesh = medial.MedialAnalysis(vertices, triangles).extract(0.0, 0.0)
-    assert len(mesh.generators) == 0 and len(mesh.vertices) == 0 and np.array_equal(mesh.face_offsets, [0])
+    assert (
+        len(mesh.generators) == 0
+        and len(mesh.vertices) == 0
+        and np.array_equal(mesh.face_offsets, [0])
+    )

@@ -26,7 +26,12 @@ def script(monkeypatch):
 def sources(script, tmp_path, monkeypatch):
     """A tiny add-on in place of the real one."""
     addon = tmp_path / "blender_addon"
-    for name in ("__init__.py", "core/a.py", "lib/_medial.cpython-311-x86_64-linux-gnu.so", "blender_manifest.toml"):
+    for name in (
+        "__init__.py",
+        "core/a.py",
+        "lib/_medial.cpython-311-x86_64-linux-gnu.so",
+        "blender_manifest.toml",
+    ):
         (addon / name).parent.mkdir(parents=True, exist_ok=True)
         (addon / name).write_text(f"content of {name}", encoding="utf-8")
     (addon / "__init__.py").write_text('bl_info = {"version": (1, 2, 3)}\n', encoding="utf-8")
@@ -46,10 +51,14 @@ def test_help_is_there(command):
 
 def test_missing_packages_without_rights_name_the_command_and_exit_2(script, monkeypatch, capsys):
     monkeypatch.setattr(script.shutil, "which", lambda name: f"/usr/bin/{name}")
-    monkeypatch.setattr(script, "is_installed", lambda package: package not in ("cmake", "libcgal-dev"))
+    monkeypatch.setattr(
+        script, "is_installed", lambda package: package not in ("cmake", "libcgal-dev")
+    )
     monkeypatch.setattr(script, "administrator_prefix", lambda: None)
     assert script.main(["build"]) == 2
-    advice = "sudo apt-get update && sudo apt-get install -y --no-install-recommends cmake libcgal-dev"
+    advice = (
+        "sudo apt-get update && sudo apt-get install -y --no-install-recommends cmake libcgal-dev"
+    )
     assert advice in capsys.readouterr().err
 
 
@@ -78,7 +87,13 @@ def test_missing_blender_exits_2(script, monkeypatch):
 
 
 def test_zip_holds_what_is_needed_and_nothing_else(script, sources):
-    for extra in ("core/__pycache__/a.cpython-311.pyc", ".hidden/b.py", "core/.c.py", "core/notes.txt", "lib/_medial.new"):
+    for extra in (
+        "core/__pycache__/a.cpython-311.pyc",
+        ".hidden/b.py",
+        "core/.c.py",
+        "core/notes.txt",
+        "lib/_medial.new",
+    ):
         (sources / extra).parent.mkdir(parents=True, exist_ok=True)
         (sources / extra).write_text("not wanted", encoding="utf-8")
     target = script.pack()
@@ -113,7 +128,9 @@ def compile_library(folder, source, *options):
     """A shared library of one C++ source."""
     target = folder / "_medial.so"
     (folder / "a.cpp").write_text(source, encoding="utf-8")
-    subprocess.run(["g++", "-shared", "-fPIC", "-o", target, folder / "a.cpp", *options], check=True)
+    subprocess.run(
+        ["g++", "-shared", "-fPIC", "-o", target, folder / "a.cpp", *options], check=True
+    )
     return target
 
 
@@ -129,15 +146,20 @@ def test_module_that_exports_one_symbol_passes(script, tmp_path, monkeypatch, ca
 def test_module_that_exports_more_is_refused(script, tmp_path, monkeypatch):
     monkeypatch.setattr(script, "ROOT", tmp_path)
     with pytest.raises(script.Failure, match="PyInit__medial only, found 2"):
-        script.check_module(compile_library(tmp_path, GOOD + 'extern "C" int other() { return 1; }\n'))
+        script.check_module(
+            compile_library(tmp_path, GOOD + 'extern "C" int other() { return 1; }\n')
+        )
 
 
-@pytest.mark.parametrize("name", ["libtbb.so.12", "libgmp.so.10", "libmpfr.so.6", "libpython3.11.so.1.0"])
+@pytest.mark.parametrize(
+    "name", ["libtbb.so.12", "libgmp.so.10", "libmpfr.so.6", "libpython3.11.so.1.0"]
+)
 def test_module_that_needs_blenders_libraries_is_refused(script, tmp_path, monkeypatch, name):
     monkeypatch.setattr(script, "ROOT", tmp_path)
     needed = tmp_path / name
     subprocess.run(
-        ["g++", "-shared", "-fPIC", "-o", needed, f"-Wl,-soname,{name}", "-x", "c++", "/dev/null"], check=True
+        ["g++", "-shared", "-fPIC", "-o", needed, f"-Wl,-soname,{name}", "-x", "c++", "/dev/null"],
+        check=True,
     )
     with pytest.raises(script.Failure, match=f"must not need {name}"):
         script.check_module(compile_library(tmp_path, GOOD, "-Wl,--no-as-needed", needed))
@@ -168,10 +190,22 @@ def test_one_failing_part_fails_the_whole(script, monkeypatch, capsys):
 
 
 def test_clean_removes_what_was_made(script, tmp_path, monkeypatch):
-    for name in ("build/release/x", "dist/a.zip", "blender_addon/lib/m.so", "core/__pycache__/a.pyc", "demo_output/a.png", "keep.py"):
+    for name in (
+        "build/release/x",
+        "dist/a.zip",
+        "blender_addon/lib/m.so",
+        "core/__pycache__/a.pyc",
+        "demo_output/a.png",
+        "keep.py",
+    ):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("x", encoding="utf-8")
-    for name, path in {"ROOT": "", "BUILD": "build", "DIST": "dist", "LIBRARY": "blender_addon/lib"}.items():
+    for name, path in {
+        "ROOT": "",
+        "BUILD": "build",
+        "DIST": "dist",
+        "LIBRARY": "blender_addon/lib",
+    }.items():
         monkeypatch.setattr(script, name, tmp_path / path)
     assert script.main(["clean"]) == 0
     assert sorted(p.name for p in tmp_path.rglob("*") if p.is_file()) == ["a.png", "keep.py"]

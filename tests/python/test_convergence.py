@@ -4,27 +4,57 @@ The bars are the worst of 5 seeds times 1.5, measured with an independent exact 
 runs use 1 seed by default, all 5 with --slow.
 """
 
-import numpy as np
-import pytest
-
 import measure
 import meshes
+import numpy as np
+import pytest
 import reference
 import shapes
 from shapes import SHAPES
 
 # shape -> n -> o->t mean, p99, max; t->o mean, max
 BARS = {
-    "ellipsoid": {2000: (4.6e-4, 1.8e-3, 4.1e-3, 1.6e-3, 5.4e-2), 8000: (1.2e-4, 4.5e-4, 1.6e-3, 5.2e-4, 3.1e-2)},
-    "oblate": {2000: (4.7e-4, 1.8e-3, 5.2e-3, 1.8e-3, 6.2e-2), 8000: (1.2e-4, 4.6e-4, 1.5e-3, 5.3e-4, 3.5e-2)},
-    "slab": {2000: (1.5e-3, 5.2e-3, 5.2e-2, 1.4e-3, 7.8e-3), 8000: (3.5e-4, 1.3e-3, 1.4e-2, 3.6e-4, 5.4e-3)},
-    "shell": {2000: (9.0e-3, 3.1e-2, 6.4e-2, 7.7e-3, 3.7e-2), 8000: (2.3e-3, 7.8e-3, 1.7e-2, 2.2e-3, 1.2e-2)},
-    "box": {2000: (2.6e-3, 1.6e-2, 5.5e-2, 1.2e-2, 1.8e-1), 8000: (8.2e-4, 6.0e-3, 2.9e-2, 3.2e-3, 9.9e-2)},
-    "torus": {2000: (4.5e-3, 3.3e-2, 6.7e-2, 3.8e-5, 5.9e-4), 8000: (2.1e-3, 1.4e-2, 3.1e-2, 6.8e-6, 2.3e-4)},
-    "capsule": {2000: (1.6e-3, 7.0e-3, 1.3e-2, 1.1e-5, 1.8e-4), 8000: (1.5e-3, 7.8e-3, 2.4e-2, 2.5e-6, 8.7e-5)},
-    "knot": {2000: (1.5e-2, 1.3e-1, 2.5e-1, 1.7e-4, 2.3e-3), 8000: (2.2e-3, 1.3e-2, 3.6e-2, 2.3e-5, 4.9e-4)},
+    "ellipsoid": {
+        2000: (4.6e-4, 1.8e-3, 4.1e-3, 1.6e-3, 5.4e-2),
+        8000: (1.2e-4, 4.5e-4, 1.6e-3, 5.2e-4, 3.1e-2),
+    },
+    "oblate": {
+        2000: (4.7e-4, 1.8e-3, 5.2e-3, 1.8e-3, 6.2e-2),
+        8000: (1.2e-4, 4.6e-4, 1.5e-3, 5.3e-4, 3.5e-2),
+    },
+    "slab": {
+        2000: (1.5e-3, 5.2e-3, 5.2e-2, 1.4e-3, 7.8e-3),
+        8000: (3.5e-4, 1.3e-3, 1.4e-2, 3.6e-4, 5.4e-3),
+    },
+    "shell": {
+        2000: (9.0e-3, 3.1e-2, 6.4e-2, 7.7e-3, 3.7e-2),
+        8000: (2.3e-3, 7.8e-3, 1.7e-2, 2.2e-3, 1.2e-2),
+    },
+    "box": {
+        2000: (2.6e-3, 1.6e-2, 5.5e-2, 1.2e-2, 1.8e-1),
+        8000: (8.2e-4, 6.0e-3, 2.9e-2, 3.2e-3, 9.9e-2),
+    },
+    "torus": {
+        2000: (4.5e-3, 3.3e-2, 6.7e-2, 3.8e-5, 5.9e-4),
+        8000: (2.1e-3, 1.4e-2, 3.1e-2, 6.8e-6, 2.3e-4),
+    },
+    "capsule": {
+        2000: (1.6e-3, 7.0e-3, 1.3e-2, 1.1e-5, 1.8e-4),
+        8000: (1.5e-3, 7.8e-3, 2.4e-2, 2.5e-6, 8.7e-5),
+    },
+    "knot": {
+        2000: (1.5e-2, 1.3e-1, 2.5e-1, 1.7e-4, 2.3e-3),
+        8000: (2.2e-3, 1.3e-2, 3.6e-2, 2.3e-5, 4.9e-4),
+    },
 }
-BETTI = {"ellipsoid": (1, 0, 0), "oblate": (1, 0, 0), "slab": (1, 0, 0), "shell": (1, 0, 1), "torus": (1, 1, 0), "knot": (1, 1, 0)}
+BETTI = {
+    "ellipsoid": (1, 0, 0),
+    "oblate": (1, 0, 0),
+    "slab": (1, 0, 0),
+    "shell": (1, 0, 1),
+    "torus": (1, 1, 0),
+    "knot": (1, 1, 0),
+}
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +72,9 @@ def extracted(medial):
 
 def assert_within_bars(mesh, name, n):
     found = measure.errors(mesh, SHAPES[name]).row()
-    assert all(a <= b for a, b in zip(found, BARS[name][n])), [f"{a:.2g} of {b:.2g}" for a, b in zip(found, BARS[name][n])]
+    assert all(a <= b for a, b in zip(found, BARS[name][n])), [
+        f"{a:.2g} of {b:.2g}" for a, b in zip(found, BARS[name][n])
+    ]
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -51,7 +83,9 @@ def test_distances_at_2000_samples(extracted, name, seed):
     assert_within_bars(extracted(name, 2000, seed), name, 2000)
 
 
-@pytest.mark.parametrize("seed", [0] + [pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 5)])
+@pytest.mark.parametrize(
+    "seed", [0] + [pytest.param(seed, marks=pytest.mark.slow) for seed in range(1, 5)]
+)
 @pytest.mark.parametrize("name", BARS)
 def test_distances_at_8000_samples(extracted, name, seed):
     assert_within_bars(extracted(name, 8000, seed), name, 8000)
@@ -72,7 +106,9 @@ def test_topology_at_2000_samples(extracted, name):
     found = []
     for seed in range(5):
         mesh = extracted(name, 2000, seed)
-        found.append(reference.betti_numbers(*measure.keep(mesh, measure.inner_facets(mesh, SHAPES[name]))))
+        found.append(
+            reference.betti_numbers(*measure.keep(mesh, measure.inner_facets(mesh, SHAPES[name])))
+        )
     assert found.count(BETTI[name]) >= 3, found
 
 
@@ -90,8 +126,12 @@ def test_grid_cube_has_192_facets_on_the_true_axis(medial):
     assert inner.sum() == 192
     offsets, corners = measure.keep(mesh, inner)
     triangles = measure.fan_triangles(mesh.vertices, offsets, corners)
-    area = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
-    assert (np.add.reduceat(area, np.concatenate(([0], np.cumsum(np.diff(offsets) - 2)[:-1]))) > 0.01).all()
+    area = np.linalg.norm(
+        np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1
+    )
+    assert (
+        np.add.reduceat(area, np.concatenate(([0], np.cumsum(np.diff(offsets) - 2)[:-1]))) > 0.01
+    ).all()
     assert cube.axis_distance(mesh.vertices[np.unique(corners)]).max() <= 1e-12
 
 

@@ -1,19 +1,29 @@
 """The triangulation against Qhull, which shares no code with it, up to 20,000 points; cells equal as sets."""
 
+import inputs
 import numpy as np
 import pytest
-from scipy.spatial import Delaunay
-
-import inputs
 import reference
 import shapes
+from scipy.spatial import Delaunay
 
 
-@pytest.mark.parametrize("kind, n", [("cube", 1000), ("gauss", 3000), ("cube", 20000), ("ellipsoid", 5000),
-                                     ("shell", 10000), ("torus", 20000), ("knot", 20000), ("graded", 2000)])
+@pytest.mark.parametrize(
+    "kind, n",
+    [
+        ("cube", 1000),
+        ("gauss", 3000),
+        ("cube", 20000),
+        ("ellipsoid", 5000),
+        ("shell", 10000),
+        ("torus", 20000),
+        ("knot", 20000),
+        ("graded", 2000),
+    ],
+)
 def test_cells_equal_qhull(medial, kind, n):
     points = inputs.generic(kind, n, 1)
-    cells, neighbors, _ = medial.delaunay(points)
+    cells, _neighbors, _ = medial.delaunay(points)
     finite = (cells >= 0).all(axis=1)
     wanted = reference.sort_cells(Delaunay(points, qhull_options="Qbb Qc Qz Q12").simplices)
     assert np.array_equal(reference.sort_cells(cells[finite]), wanted)
@@ -30,7 +40,10 @@ def test_neighbors_share_three_corners_and_know_each_other(medial):
 
 def test_cells_fill_the_convex_hull(medial):
     """The volumes add up: no overlap, no gap, also for exactly cospherical and coplanar samples."""
-    for points, volume in ((inputs.grid((5, 6, 7)), 4.0 * 5 * 6), (inputs.hollow((8, 8, 8)), 7.0**3)):
+    for points, volume in (
+        (inputs.grid((5, 6, 7)), 4.0 * 5 * 6),
+        (inputs.hollow((8, 8, 8)), 7.0**3),
+    ):
         cells = medial.delaunay(points)[0]
         cells = cells[(cells >= 0).all(axis=1)].astype(np.int64)
         grid, _ = reference.to_integers(points)

@@ -5,20 +5,23 @@ exact proof that they are a Delaunay triangulation. Samples that the definitions
 """
 
 from functools import cache
-from itertools import product
-
-import numpy as np
-import pytest
+from itertools import pairwise, product
 
 import inputs
 import meshes
+import numpy as np
+import pytest
 import reference
 
 GENERIC = inputs.generic_cases()
 STRUCTURED = inputs.structured_cases()
 CASES = [*GENERIC, *STRUCTURED]
 THETAS_AND_RHOS = [(np.pi / 8, 8.0), (0.2, 4.0), (1.0, 3.0), (np.pi / 2, 8.0), (np.pi / 8, 1e9)]
-LOW = [(0.0, 2.0), (0.3, 1.0), (0.0, 0.0)]  # here edges of U_p would pass if step 5 did not leave them out
+LOW = [
+    (0.0, 2.0),
+    (0.3, 1.0),
+    (0.0, 0.0),
+]  # here edges of U_p would pass if step 5 did not leave them out
 
 
 def name_of(case):
@@ -56,7 +59,7 @@ def settled_edges(expected):
 
 def test_cells_are_the_delaunay_triangulation(medial, case):
     expected = reference_of(medial, case)
-    cells, neighbors, centres = medial.delaunay(points_of(case))
+    cells, neighbors, _centres = medial.delaunay(points_of(case))
     finite = (cells >= 0).all(axis=1)
     assert np.array_equal(reference.sort_cells(cells[finite]), expected.cells)
     assert (cells < 0).sum() == (~finite).sum() == len(expected.rays)
@@ -98,7 +101,7 @@ def test_poles(medial, case):
 def test_umbrellas(medial, case):
     expected = reference_of(medial, case)
     offsets, triangles = medial.umbrellas(points_of(case))
-    found = [triangles[a:b] for a, b in zip(offsets[:-1], offsets[1:])]
+    found = [triangles[a:b] for a, b in pairwise(offsets)]
     assert len(found) == len(expected.points)
     for sample in np.flatnonzero(~expected.ambiguous):
         assert found[sample].tolist() == [list(t) for t in expected.umbrellas[sample]]
@@ -107,7 +110,9 @@ def test_umbrellas(medial, case):
 def test_few_samples_are_left_out(medial):
     shares = [reference_of(medial, case).ambiguous.mean() for case in GENERIC]
     assert max(shares) <= 0.2 and np.mean(shares) < 0.002
-    turned = [reference_of(medial, case).ambiguous.mean() for case in STRUCTURED if "turned" in case]
+    turned = [
+        reference_of(medial, case).ambiguous.mean() for case in STRUCTURED if "turned" in case
+    ]
     assert np.mean(turned) < 0.7
 
 
@@ -137,7 +142,9 @@ def test_rho(medial, case, rule):
 
 
 def near_threshold(expected, theta, rho):
-    close = (np.abs(expected._directed[0] - theta) < 1e-9) | (np.abs(expected._directed[1] / max(rho, 1e-300) - 1) < 1e-9)
+    close = (np.abs(expected._directed[0] - theta) < 1e-9) | (
+        np.abs(expected._directed[1] / max(rho, 1e-300) - 1) < 1e-9
+    )
     return (close & ~expected.in_umbrella).any(axis=1)
 
 
@@ -159,7 +166,10 @@ def assert_same_selection(medial, case, theta, rho, limit_set):
     compared = settled_edges(expected) & ~near_threshold(expected, theta, rho)
     for rule, criteria in product(("EITHER", "BOTH"), ("ANGLE_OR_RATIO", "ANGLE", "RATIO")):
         found = np.zeros(len(expected.edges), dtype=bool)
-        options = {"rule": getattr(medial.Rule, rule), "criteria": getattr(medial.Criteria, criteria)}
+        options = {
+            "rule": getattr(medial.Rule, rule),
+            "criteria": getattr(medial.Criteria, criteria),
+        }
         found[analysis.select(theta, rho, **options, limit_set=limit_set)] = True
         wanted = expected.selected(theta, rho, rule, criteria, limit_set)
         assert np.array_equal(found[compared], wanted[compared]), (theta, rho, rule, criteria)
@@ -169,7 +179,9 @@ def test_defaults_are_the_papers(medial, case):
     analysis = analysis_of(medial, case)
     assert np.array_equal(
         analysis.select(),
-        analysis.select(np.pi / 8, 8.0, medial.Side.BOTH, medial.Rule.EITHER, medial.Criteria.ANGLE_OR_RATIO),
+        analysis.select(
+            np.pi / 8, 8.0, medial.Side.BOTH, medial.Rule.EITHER, medial.Criteria.ANGLE_OR_RATIO
+        ),
     )
 
 
@@ -185,7 +197,10 @@ def test_polygons(medial, case):
     }
     without_area = 0
     for edge in chosen[expected.bounded[chosen]]:
-        wanted, found = expected.facet(edge), polygons.pop(tuple(expected.edges[edge].tolist()), None)
+        wanted, found = (
+            expected.facet(edge),
+            polygons.pop(tuple(expected.edges[edge].tolist()), None),
+        )
         without_area += found is None
         assert_same_polygon(wanted, found, expected.radius[expected.rings[edge]].max())
     assert not polygons
@@ -204,7 +219,9 @@ def assert_same_polygon(wanted, found, radius):
 
 def width(points):
     """Second largest extent of planar points."""
-    return 0.0 if len(points) < 3 else np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[1]
+    return (
+        0.0 if len(points) < 3 else np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[1]
+    )
 
 
 def test_radius_and_attributes_of_facets(medial, case):
@@ -213,7 +230,9 @@ def test_radius_and_attributes_of_facets(medial, case):
     row = {tuple(edge): i for i, edge in enumerate(analysis.edges.tolist())}
     rows = np.array([row[tuple(g)] for g in mesh.generators.tolist()], dtype=int)
     assert (np.diff(rows) > 0).all()
-    assert np.array_equal(mesh.theta, analysis.theta[rows]) and np.array_equal(mesh.rho, analysis.rho[rows])
+    assert np.array_equal(mesh.theta, analysis.theta[rows]) and np.array_equal(
+        mesh.rho, analysis.rho[rows]
+    )
     assert (mesh.side == 0).all() and (analysis.side == 0).all()
     corner_row = np.repeat(rows, np.diff(mesh.face_offsets))
     samples = points_of(case)[analysis.edges[corner_row, 0]]
@@ -225,7 +244,11 @@ def test_radius_and_attributes_of_facets(medial, case):
 def test_cells_equal_exact_brute_force(medial, seed):
     """All subsets of four points, exact empty spheres: no library in common at all."""
     n = 5 + seed % 16
-    points = inputs.generic("cube", n, seed) if seed % 2 else np.random.default_rng(seed).integers(0, 5, (n, 3)) * 1.0
+    points = (
+        inputs.generic("cube", n, seed)
+        if seed % 2
+        else np.random.default_rng(seed).integers(0, 5, (n, 3)) * 1.0
+    )
     points = points[reference.distinct_rows(points)]
     if np.linalg.matrix_rank(points - points[0]) < 3:
         pytest.skip("no volume")
@@ -233,7 +256,9 @@ def test_cells_equal_exact_brute_force(medial, seed):
     cells = medial.delaunay(points)[0]
     cells = cells[(cells >= 0).all(axis=1)]
     reference.assert_delaunay(points, cells.astype(np.int64))
-    owner = [[i for i, ball in enumerate(balls) if set(cell) <= set(ball)] for cell in cells.tolist()]
+    owner = [
+        [i for i, ball in enumerate(balls) if set(cell) <= set(ball)] for cell in cells.tolist()
+    ]
     assert all(len(found) == 1 for found in owner), "a cell's sphere is not empty"
     assert {found[0] for found in owner} == set(range(len(balls))), "a Voronoi vertex is missing"
 
@@ -241,8 +266,14 @@ def test_cells_equal_exact_brute_force(medial, seed):
 def test_reference_knows_betti_numbers():
     """The routine that judges topology, on surfaces whose numbers are known."""
     sphere = meshes.icosphere(1)
-    for mesh, betti in ((sphere, (1, 0, 1)), (meshes.torus(around=8, across=6), (1, 2, 1)),
-                        (meshes.join(sphere, meshes.box((2, 2, 2))), (2, 0, 2)),
-                        ((sphere[0], sphere[1][1:]), (1, 0, 0)), ((sphere[0], sphere[1][[0, 40, 41]]), (2, 0, 0))):
+    for mesh, betti in (
+        (sphere, (1, 0, 1)),
+        (meshes.torus(around=8, across=6), (1, 2, 1)),
+        (meshes.join(sphere, meshes.box((2, 2, 2))), (2, 0, 2)),
+        ((sphere[0], sphere[1][1:]), (1, 0, 0)),
+        ((sphere[0], sphere[1][[0, 40, 41]]), (2, 0, 0)),
+    ):
         triangles = mesh[1]
-        assert reference.betti_numbers(np.arange(0, triangles.size + 1, 3), triangles.ravel()) == betti
+        assert (
+            reference.betti_numbers(np.arange(0, triangles.size + 1, 3), triangles.ravel()) == betti
+        )

@@ -10,7 +10,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
 from medial_axis.core import export as export_module
 from medial_axis.core.errors import ExportError
 from medial_axis.core.export import FORMATS, export_axis
@@ -80,13 +79,17 @@ def read_ma(path):
         rows = [rest[at : at + width + 1] for at in range(0, count * (width + 1), width + 1)]
         rest = rest[count * (width + 1) :]
         assert all(row[0] == letter for row in rows)
-        sections.append(np.array([[kind(x) for x in row[1:]] for row in rows], kind).reshape(count, width))
+        sections.append(
+            np.array([[kind(x) for x in row[1:]] for row in rows], kind).reshape(count, width)
+        )
     assert rest == []
     return sections
 
 
 def polygons_of(axis):
-    return np.split(axis.face_vertices, axis.face_offsets[1:-1]) if len(axis.face_offsets) > 1 else []
+    return (
+        np.split(axis.face_vertices, axis.face_offsets[1:-1]) if len(axis.face_offsets) > 1 else []
+    )
 
 
 def read_ply(path):
@@ -95,7 +98,9 @@ def read_ply(path):
     head, body = data.split(b"end_header\n", 1)
     lines = head.decode("ascii").splitlines()
     assert lines[:2] == ["ply", "format binary_little_endian 1.0"]
-    vertex_count, face_count = (int(line.split()[2]) for line in lines if line.startswith("element"))
+    vertex_count, face_count = (
+        int(line.split()[2]) for line in lines if line.startswith("element")
+    )
     width = {"uchar": "u1", "int": "<i4"}[next(line for line in lines if "list" in line).split()[2]]
     vertices = np.frombuffer(body, "<f8", vertex_count * 4).reshape(-1, 4)
     at, faces = vertex_count * 32, []
@@ -143,7 +148,9 @@ def test_ma_triangles_cover_each_polygon(axis, tmp_path):
         assert set(faces[own].ravel()) == set(polygon)
         fan = np.column_stack([np.full(len(polygon) - 2, polygon[0]), polygon[1:-1], polygon[2:]])
         whole = area_vectors(vertices[:, :3], fan).sum(axis=0)
-        assert np.allclose(areas[own].sum(axis=0), whole, rtol=1e-9, atol=1e-9 * np.linalg.norm(whole))
+        assert np.allclose(
+            areas[own].sum(axis=0), whole, rtol=1e-9, atol=1e-9 * np.linalg.norm(whole)
+        )
         assert (areas[own] @ whole > 0).all()  # all turn as the polygon does, none is empty
         start = own.stop
 
@@ -157,9 +164,15 @@ def test_ma_is_plain_ascii_with_lf_and_no_comments(tmp_path):
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
 def test_triangles_of_polygons_with_straight_corners_have_area(tmp_path, scale):
     """Corners on straight sides: a fan from the first corner would give triangles without area."""
-    triangle = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [2, 1, 0], [1, 2, 0], [0, 3, 0], [0, 1, 0]])
+    triangle = np.array(
+        [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [2, 1, 0], [1, 2, 0], [0, 3, 0], [0, 1, 0]]
+    )
     base_only = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [1, 4, 0]])
-    turns = [np.roll(shape, turn, axis=0) for shape in (triangle, base_only) for turn in range(len(shape))]
+    turns = [
+        np.roll(shape, turn, axis=0)
+        for shape in (triangle, base_only)
+        for turn in range(len(shape))
+    ]
     vertices, polygons = np.concatenate(turns), []
     for turn in turns:
         first = sum(len(p) for p in polygons)
@@ -183,7 +196,9 @@ def test_ply_holds_polygons_and_all_attributes(axis, tmp_path):
 
 def test_ply_of_a_face_with_more_than_255_corners(tmp_path):
     angles = np.linspace(0, 2 * np.pi, 300, endpoint=False)
-    wheel = axis_of(np.column_stack([np.cos(angles), np.sin(angles), 0 * angles]), [range(300), range(3)])
+    wheel = axis_of(
+        np.column_stack([np.cos(angles), np.sin(angles), 0 * angles]), [range(300), range(3)]
+    )
     _, faces = read_ply(export_axis(wheel, tmp_path / "a.ply"))
     assert [len(face[0]) for face in faces] == [300, 3]
     _, _, triangles = read_ma(export_axis(wheel, tmp_path / "a.ma"))

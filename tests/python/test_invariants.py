@@ -1,12 +1,11 @@
 """What must hold for every output: empty balls, planar convex polygons, order, welded vertices, types."""
 
-import numpy as np
-import pytest
-from scipy.spatial import cKDTree
-
 import inputs
 import meshes
+import numpy as np
+import pytest
 import shapes
+from scipy.spatial import cKDTree
 
 MESHES = {
     "torus": meshes.jitter(meshes.torus(around=60, across=24), 1e-3),
@@ -57,7 +56,9 @@ def assert_balls(points, mesh):
     assert (np.abs(nearest - mesh.radius) <= slack).all()
     face = np.repeat(np.arange(len(mesh.generators)), np.diff(mesh.face_offsets))
     for end in (0, 1):
-        arm = np.linalg.norm(mesh.vertices[mesh.face_vertices] - points[mesh.generators[face, end]], axis=1)
+        arm = np.linalg.norm(
+            mesh.vertices[mesh.face_vertices] - points[mesh.generators[face, end]], axis=1
+        )
         assert (np.abs(arm - mesh.radius[mesh.face_vertices]) <= slack[mesh.face_vertices]).all()
 
 
@@ -66,7 +67,9 @@ def assert_polygons(points, mesh):
     for corners, (p, q) in zip(polygons(mesh), mesh.generators):
         ring = mesh.vertices[corners]
         axis = (points[q] - points[p]) / np.linalg.norm(points[q] - points[p])
-        slack = 2.0**-21 * mesh.radius[corners].max() + 8 * np.spacing(np.abs(ring).max() + np.abs(points).max())
+        slack = 2.0**-21 * mesh.radius[corners].max() + 8 * np.spacing(
+            np.abs(ring).max() + np.abs(points).max()
+        )
         middle = 0.5 * (points[p] + points[q])
         stretch = mesh.radius[corners].max() / np.linalg.norm(points[q] - points[p])
         assert (np.abs((ring - middle) @ axis) <= slack * (1 + stretch)).all(), "not planar"
@@ -120,18 +123,35 @@ def test_facets_of_positive_area_leave_no_counted_facet_out(result):
 
 def test_types_and_shapes(result):
     points, analysis, mesh = result
-    v, f, c, e = len(mesh.vertices), len(mesh.generators), len(mesh.face_vertices), len(analysis.edges)
+    v, f, c, e = (
+        len(mesh.vertices),
+        len(mesh.generators),
+        len(mesh.face_vertices),
+        len(analysis.edges),
+    )
     expected = [
-        (mesh, "vertices", (v, 3), "f8"), (mesh, "radius", (v,), "f8"), (mesh, "face_offsets", (f + 1,), "i4"),
-        (mesh, "face_vertices", (c,), "i4"), (mesh, "theta", (f,), "f8"), (mesh, "rho", (f,), "f8"),
-        (mesh, "side", (f,), "i4"), (mesh, "generators", (f, 2), "i4"),
-        (analysis, "edges", (e, 2), "i4"), (analysis, "theta", (e,), "f8"), (analysis, "rho", (e,), "f8"),
-        (analysis, "theta_both", (e,), "f8"), (analysis, "rho_both", (e,), "f8"), (analysis, "side", (e,), "i4"),
-        (analysis, "bounded", (e,), "?"), (analysis, "samples", (len(points) - analysis.duplicates,), "i4"),
+        (mesh, "vertices", (v, 3), "f8"),
+        (mesh, "radius", (v,), "f8"),
+        (mesh, "face_offsets", (f + 1,), "i4"),
+        (mesh, "face_vertices", (c,), "i4"),
+        (mesh, "theta", (f,), "f8"),
+        (mesh, "rho", (f,), "f8"),
+        (mesh, "side", (f,), "i4"),
+        (mesh, "generators", (f, 2), "i4"),
+        (analysis, "edges", (e, 2), "i4"),
+        (analysis, "theta", (e,), "f8"),
+        (analysis, "rho", (e,), "f8"),
+        (analysis, "theta_both", (e,), "f8"),
+        (analysis, "rho_both", (e,), "f8"),
+        (analysis, "side", (e,), "i4"),
+        (analysis, "bounded", (e,), "?"),
+        (analysis, "samples", (len(points) - analysis.duplicates,), "i4"),
     ]
     for owner, name, shape, dtype in expected:
         array = getattr(owner, name)
-        assert array.shape == shape and array.dtype == np.dtype(dtype) and array.flags.c_contiguous, name
+        assert (
+            array.shape == shape and array.dtype == np.dtype(dtype) and array.flags.c_contiguous
+        ), name
         assert not array.flags.writeable, name
         if array.size:
             with pytest.raises(ValueError):
@@ -139,7 +159,11 @@ def test_types_and_shapes(result):
             with pytest.raises(ValueError):
                 array[...] = 0
     assert isinstance(mesh.unbounded, int) and isinstance(mesh.zero_area, int)
-    assert isinstance(analysis.duplicates, int) and isinstance(analysis.cells, int) and isinstance(analysis.closed, bool)
+    assert (
+        isinstance(analysis.duplicates, int)
+        and isinstance(analysis.cells, int)
+        and isinstance(analysis.closed, bool)
+    )
 
 
 def test_stage_arrays_have_the_documented_types(medial):
@@ -148,8 +172,16 @@ def test_stage_arrays_have_the_documented_types(medial):
     vectors, unbounded = medial.poles(points)
     offsets, triangles = medial.umbrellas(points)
     winding = medial.winding_number(points, *meshes.icosphere(1))
-    for array, dtype in ((cells, "i4"), (neighbors, "i4"), (centres, "f8"), (vectors, "f8"), (unbounded, "?"),
-                         (offsets, "i8"), (triangles, "i4"), (winding, "f8")):
+    for array, dtype in (
+        (cells, "i4"),
+        (neighbors, "i4"),
+        (centres, "f8"),
+        (vectors, "f8"),
+        (unbounded, "?"),
+        (offsets, "i8"),
+        (triangles, "i4"),
+        (winding, "f8"),
+    ):
         assert array.dtype == np.dtype(dtype) and not array.flags.writeable
 
 
@@ -170,7 +202,9 @@ def test_the_input_is_not_changed(medial):
 
 def test_timings_name_the_stages(result):
     timings = result[1].timings
-    assert list(timings)[0] and all(isinstance(name, str) and seconds >= 0 for name, seconds in timings.items())
+    assert next(iter(timings)) and all(
+        isinstance(name, str) and seconds >= 0 for name, seconds in timings.items()
+    )
     assert any("triangulation" in name for name in timings)
 
 
@@ -191,8 +225,18 @@ def umbrella_is_disc(triangles):
     return count == len(links)
 
 
-@pytest.mark.parametrize("name, chi", [("ellipsoid", 2), ("oblate", 2), ("slab", 2), ("torus", 0), ("capsule", 2),
-                                       ("knot", 0), ("shell", 4)])
+@pytest.mark.parametrize(
+    "name, chi",
+    [
+        ("ellipsoid", 2),
+        ("oblate", 2),
+        ("slab", 2),
+        ("torus", 0),
+        ("capsule", 2),
+        ("knot", 0),
+        ("shell", 4),
+    ],
+)
 def test_umbrellas_of_dense_closed_samples_are_discs(medial, name, chi):
     """And they make a closed surface: sum |U_p| / n = 6 (1 - chi / n)."""
     points = shapes.SHAPES[name].sample(4000, 1)
@@ -219,7 +263,11 @@ def test_umbrella_edges_have_angle_zero_and_ratio_below_two(medial):
 
 
 def test_a_cosphere_gives_a_point_and_does_not_crash(medial):
-    for points in (meshes.uv_sphere()[0], meshes.icosphere(3)[0], meshes.uv_sphere()[0].astype(np.float32)):
+    for points in (
+        meshes.uv_sphere()[0],
+        meshes.icosphere(3)[0],
+        meshes.uv_sphere()[0].astype(np.float32),
+    ):
         mesh = medial.MedialAnalysis(points).extract()
         assert (np.linalg.norm(mesh.vertices, axis=1) < 1e-5).all()
 
@@ -228,7 +276,10 @@ def test_bounding_sphere_bounds_the_outer_axis(medial):
     """Dey & Zhao, sect. 4.2: nothing selected reaches infinity, ids stay those of the input, the inner axis stays."""
     points = shapes.SHAPES["slab"].sample(2000, 0)
     slab = shapes.SHAPES["slab"]
-    plain, bounded = medial.MedialAnalysis(points), medial.MedialAnalysis(points, bounding_sphere=True)
+    plain, bounded = (
+        medial.MedialAnalysis(points),
+        medial.MedialAnalysis(points, bounding_sphere=True),
+    )
     assert bounded.edges.max() < len(points) and bounded.bounded.all()
     far = [np.linalg.norm(a.extract().vertices, axis=1).max() for a in (plain, bounded)]
     assert plain.extract().unbounded > 0 and bounded.extract().unbounded == 0
@@ -237,14 +288,18 @@ def test_bounding_sphere_bounds_the_outer_axis(medial):
     for analysis in (plain, bounded):
         mesh = analysis.extract()
         inside = slab.inside(mesh.vertices)
-        inner.append({tuple(g) for g, c in zip(mesh.generators.tolist(), polygons(mesh)) if inside[c].all()})
+        inner.append(
+            {tuple(g) for g, c in zip(mesh.generators.tolist(), polygons(mesh)) if inside[c].all()}
+        )
     assert len(inner[0] ^ inner[1]) <= 0.01 * len(inner[0])
 
 
 def test_bounding_sphere_of_a_torus_keeps_its_outer_axis(medial):
     torus = shapes.SHAPES["torus"]
     vertices, triangles = meshes.jitter(meshes.torus(around=96, across=40), 1e-4)
-    mesh = medial.MedialAnalysis(vertices, triangles, bounding_sphere=True).extract(side=medial.Side.OUTER)
+    mesh = medial.MedialAnalysis(vertices, triangles, bounding_sphere=True).extract(
+        side=medial.Side.OUTER
+    )
     near = np.linalg.norm(mesh.vertices, axis=1) < 1.0
     assert mesh.unbounded == 0 and near.sum() > 100
     assert torus.outer_axis_distance(mesh.vertices[near]).max() < 0.08

@@ -71,7 +71,9 @@ def test_python_looks_down_only(python_file):
 
 def test_package_imports_are_relative(python_file):
     _, (outside, _) = python_file
-    assert not {name for name in outside if name.split(".")[0] in {"medial_axis", "blender_addon", "bl_ext"}}
+    assert not {
+        name for name in outside if name.split(".")[0] in {"medial_axis", "blender_addon", "bl_ext"}
+    }
 
 
 def test_core_imports_no_blender(python_file):
@@ -89,7 +91,11 @@ def test_ui_imports_no_numpy(python_file):
 @pytest.mark.parametrize("path", sorted(ADDON.glob("*.py")), ids=lambda path: path.name)
 def test_front_doors_import_without_blender(path):
     """The package and its command line load where there is no bpy: it is only imported inside functions."""
-    top = [node for node in ast.parse(path.read_text(encoding="utf-8")).body if "Import" in type(node).__name__]
+    top = [
+        node
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if "Import" in type(node).__name__
+    ]
     outside, _ = imports_of("\n".join(ast.unparse(node) for node in top), dotted(path))
     assert not {module for module in outside if module.split(".")[0] in BLENDER_MODULES}
 
@@ -98,7 +104,9 @@ def test_front_doors_import_without_blender(path):
 
 
 def includes_of(path):
-    return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE)
+    return re.findall(
+        r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(encoding="utf-8"), re.MULTILINE
+    )
 
 
 def native_files(folder):
@@ -110,7 +118,11 @@ NATIVE_FILES = native_files("medial") + native_files("python")
 
 def users_of(*prefixes):
     """Native files that include a header whose name starts with one of the prefixes."""
-    return [path for path in NATIVE_FILES if any(name.startswith(prefixes) for name in includes_of(path))]
+    return [
+        path
+        for path in NATIVE_FILES
+        if any(name.startswith(prefixes) for name in includes_of(path))
+    ]
 
 
 def test_cgal_has_one_home():
@@ -131,21 +143,27 @@ def test_tbb_and_openmp_have_no_home():
 
 
 # A unit with a .cpp is a stage; native/CMakeLists.txt lists the stages in pipeline order. Headers alone are vocabulary.
-STAGES = re.findall(r"^\s*medial/(\w+)\.cpp", (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
+STAGES = re.findall(
+    r"^\s*medial/(\w+)\.cpp", (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE
+)
 VOCABULARY = {path.stem for path in native_files("medial")} - set(STAGES)
 
 
 @pytest.mark.parametrize("path", native_files("medial"), ids=lambda path: path.name)
 def test_native_looks_down_only(path):
     """A stage includes itself, earlier stages, the vocabulary and the standard library; the vocabulary only itself."""
-    own = {name for name in includes_of(path) if name.endswith(".h") and not name.startswith("CGAL/")}
+    own = {
+        name for name in includes_of(path) if name.endswith(".h") and not name.startswith("CGAL/")
+    }
     below = STAGES[: STAGES.index(path.stem) + 1] if path.stem in STAGES else []
     assert {name.removesuffix(".h") for name in own} <= {*below, *VOCABULARY}
 
 
 def test_stages_are_listed():
     """Every .cpp is built; the pipeline begins with the samples and ends with the whole analysis."""
-    assert sorted(STAGES) == sorted(path.stem for path in native_files("medial") if path.suffix == ".cpp")
+    assert sorted(STAGES) == sorted(
+        path.stem for path in native_files("medial") if path.suffix == ".cpp"
+    )
     assert (STAGES[0], STAGES[-1]) == ("samples", "analysis")
     assert {"vec3", "csr", "parallel", "progress", "errors"} <= VOCABULARY
 
@@ -154,7 +172,10 @@ def test_stages_are_listed():
 
 
 def test_import_reader_resolves_relative_imports():
-    source = "import bpy.types\nfrom numpy import array\nfrom . import x\nfrom ..core.export import y\nfrom .. import bl_info"
+    source = (
+        "import bpy.types\nfrom numpy import array\nfrom . import x\n"
+        "from ..core.export import y\nfrom .. import bl_info"
+    )
     outside, inside = imports_of(source, "ui.export")
     assert outside == {"bpy.types", "numpy"}
     assert inside == {"ui.x", "core.export.y", "bl_info"}

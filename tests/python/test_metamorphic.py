@@ -1,10 +1,11 @@
 """Changes of the input or the thresholds whose effect on the output is known exactly."""
 
-import numpy as np
-import pytest
+import itertools
 
 import inputs
 import meshes
+import numpy as np
+import pytest
 import shapes
 
 INPUTS = {
@@ -19,7 +20,16 @@ DEGENERATE = {
     "uv sphere": meshes.uv_sphere()[0] * (1.0, 0.8, 0.6),
 }
 ANALYSIS_ARRAYS = ("samples", "edges", "theta", "rho", "theta_both", "rho_both", "side", "bounded")
-MESH_ARRAYS = ("vertices", "radius", "face_offsets", "face_vertices", "theta", "rho", "side", "generators")
+MESH_ARRAYS = (
+    "vertices",
+    "radius",
+    "face_offsets",
+    "face_vertices",
+    "theta",
+    "rho",
+    "side",
+    "generators",
+)
 
 
 @pytest.fixture(params=INPUTS)
@@ -39,7 +49,9 @@ def everything(analysis, scale=1.0, **thresholds):
     arrays |= {f"mesh.{name}": getattr(mesh, name) for name in MESH_ARRAYS}
     arrays["mesh.vertices"] = mesh.vertices / scale
     arrays["mesh.radius"] = mesh.radius / scale
-    return arrays | {"counts": np.array([mesh.unbounded, mesh.zero_area, analysis.cells, analysis.duplicates])}
+    return arrays | {
+        "counts": np.array([mesh.unbounded, mesh.zero_area, analysis.cells, analysis.duplicates])
+    }
 
 
 def assert_same_bytes(a, b):
@@ -53,7 +65,9 @@ def facets(mesh):
 
 
 def test_the_same_input_gives_the_same_bytes(medial, any_points):
-    assert_same_bytes(everything(medial.MedialAnalysis(any_points)), everything(medial.MedialAnalysis(any_points)))
+    assert_same_bytes(
+        everything(medial.MedialAnalysis(any_points)), everything(medial.MedialAnalysis(any_points))
+    )
 
 
 @pytest.mark.parametrize("threads", [2, 3, 7, 0])
@@ -64,7 +78,9 @@ def test_thread_count_changes_no_byte(medial, any_points, threads):
 
 def test_thread_count_changes_no_byte_of_sides(medial):
     mesh = meshes.jitter(meshes.nested_shell(3), 1e-3)
-    one, two = (everything(medial.MedialAnalysis(*mesh, threads=n, bounding_sphere=True)) for n in (1, 2))
+    one, two = (
+        everything(medial.MedialAnalysis(*mesh, threads=n, bounding_sphere=True)) for n in (1, 2)
+    )
     assert_same_bytes(one, two)
 
 
@@ -104,12 +120,19 @@ def assert_equal_up_to_rounding(plain, moved, scale, turn=np.eye(3), shift=0.0, 
     assert np.array_equal(plain.edges, moved.edges) and np.array_equal(plain.bounded, moved.bounded)
     for name in ("theta", "rho", "theta_both", "rho_both"):
         a, b = getattr(plain, name), getattr(moved, name)
-        assert np.allclose(np.minimum(a, 1.5), np.minimum(b, 1.5), rtol=digits, atol=digits) and np.allclose(a, b, rtol=digits, atol=1e-6)
+        assert np.allclose(
+            np.minimum(a, 1.5), np.minimum(b, 1.5), rtol=digits, atol=digits
+        ) and np.allclose(a, b, rtol=digits, atol=1e-6)
     before, after = plain.extract(), moved.extract()
     assert np.array_equal(before.generators, after.generators)
     assert np.array_equal(before.face_offsets, after.face_offsets)
     assert (before.unbounded, before.zero_area) == (after.unbounded, after.zero_area)
-    corner = np.linalg.norm(before.vertices[before.face_vertices] @ turn.T * scale + shift - after.vertices[after.face_vertices], axis=1)
+    corner = np.linalg.norm(
+        before.vertices[before.face_vertices] @ turn.T * scale
+        + shift
+        - after.vertices[after.face_vertices],
+        axis=1,
+    )
     # The polygons may start at another corner: compare each corner with the nearest of its facet.
     face = np.repeat(np.arange(len(before.generators)), np.diff(before.face_offsets))
     for row in np.unique(face[corner > digits * scale * before.radius[before.face_vertices]]):
@@ -130,12 +153,22 @@ def test_permutation_permutes_ids(medial, points, seed):
     for name in ("theta", "rho", "theta_both", "rho_both"):
         assert np.allclose(getattr(mixed, name)[row], getattr(plain, name), rtol=1e-9, atol=1e-9)
     assert np.array_equal(mixed.bounded[row], plain.bounded)
-    named = {tuple(sorted(order[list(g)].tolist())): count for g, count in facets(mixed.extract()).items()}
+    named = {
+        tuple(sorted(order[list(g)].tolist())): count
+        for g, count in facets(mixed.extract()).items()
+    }
     assert named == facets(plain.extract())
 
 
-SYMMETRIES = [np.array(m, float) for m in ([[0, 1, 0], [0, 0, 1], [1, 0, 0]], [[0, 1, 0], [-1, 0, 0], [0, 0, 1]],
-                                           [[-1, 0, 0], [0, -1, 0], [0, 0, 1]], [[-1, 0, 0], [0, 1, 0], [0, 0, 1]])]
+SYMMETRIES = [
+    np.array(m, float)
+    for m in (
+        [[0, 1, 0], [0, 0, 1], [1, 0, 0]],
+        [[0, 1, 0], [-1, 0, 0], [0, 0, 1]],
+        [[-1, 0, 0], [0, -1, 0], [0, 0, 1]],
+        [[-1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    )
+]
 
 
 @pytest.mark.parametrize("turn", range(4))
@@ -148,7 +181,10 @@ def test_facets_of_a_grid_do_not_depend_on_how_it_is_triangulated(medial, name, 
     after = medial.MedialAnalysis(turned).extract()
     image = [(p @ SYMMETRIES[turn].T) for p in cube]
     row = {tuple(x): i for i, x in enumerate(turned.tolist())}
-    moved = {tuple(sorted((row[tuple(image[p])], row[tuple(image[q])]))): n for (p, q), n in facets(before).items()}
+    moved = {
+        tuple(sorted((row[tuple(image[p])], row[tuple(image[q])]))): n
+        for (p, q), n in facets(before).items()
+    }
     assert moved == facets(after)
 
 
@@ -168,17 +204,23 @@ def inner_area(mesh, reach=2.0):
     for a, b in zip(mesh.face_offsets[:-1], mesh.face_offsets[1:]):
         ring = mesh.vertices[mesh.face_vertices[a:b]]
         if np.linalg.norm(ring, axis=1).max() < reach:
-            total += 0.5 * np.linalg.norm(np.cross(ring - ring[0], np.roll(ring, -1, axis=0) - ring[0]).sum(axis=0))
+            total += 0.5 * np.linalg.norm(
+                np.cross(ring - ring[0], np.roll(ring, -1, axis=0) - ring[0]).sum(axis=0)
+            )
     return total
 
 
 def test_selection_falls_with_theta_and_rho(medial, points):
     analysis = medial.MedialAnalysis(points)
     for rule in (medial.Rule.EITHER, medial.Rule.BOTH):
-        by_theta = [set(analysis.select(t, 8.0, rule=rule).tolist()) for t in np.linspace(0, np.pi / 2, 9)]
-        by_rho = [set(analysis.select(0.4, r, rule=rule).tolist()) for r in (0, 1, 2, 4, 8, 16, 64, 1e9)]
+        by_theta = [
+            set(analysis.select(t, 8.0, rule=rule).tolist()) for t in np.linspace(0, np.pi / 2, 9)
+        ]
+        by_rho = [
+            set(analysis.select(0.4, r, rule=rule).tolist()) for r in (0, 1, 2, 4, 8, 16, 64, 1e9)
+        ]
         for sets in (by_theta, by_rho):
-            assert all(a >= b for a, b in zip(sets, sets[1:])) and len(sets[0]) > len(sets[-1])
+            assert all(a >= b for a, b in itertools.pairwise(sets)) and len(sets[0]) > len(sets[-1])
 
 
 def test_facets_are_those_of_select(medial, any_points):
@@ -194,7 +236,11 @@ def test_union_of_angle_and_ratio(medial, any_points, rule):
     analysis = medial.MedialAnalysis(any_points)
     angle, ratio, union = (
         analysis.select(rule=getattr(medial.Rule, rule), criteria=criteria)
-        for criteria in (medial.Criteria.ANGLE, medial.Criteria.RATIO, medial.Criteria.ANGLE_OR_RATIO)
+        for criteria in (
+            medial.Criteria.ANGLE,
+            medial.Criteria.RATIO,
+            medial.Criteria.ANGLE_OR_RATIO,
+        )
     )
     assert np.array_equal(np.union1d(angle, ratio), union)
 
@@ -202,9 +248,14 @@ def test_union_of_angle_and_ratio(medial, any_points, rule):
 def test_both_ends_select_a_subset_of_either_end(medial, any_points):
     analysis = medial.MedialAnalysis(any_points)
     for criteria in (medial.Criteria.ANGLE, medial.Criteria.RATIO, medial.Criteria.ANGLE_OR_RATIO):
-        both, either = (analysis.select(rule=r, criteria=criteria) for r in (medial.Rule.BOTH, medial.Rule.EITHER))
+        both, either = (
+            analysis.select(rule=r, criteria=criteria)
+            for r in (medial.Rule.BOTH, medial.Rule.EITHER)
+        )
         assert set(both.tolist()) <= set(either.tolist())
-    assert (analysis.theta_both <= analysis.theta).all() and (analysis.rho_both <= analysis.rho).all()
+    assert (analysis.theta_both <= analysis.theta).all() and (
+        analysis.rho_both <= analysis.rho
+    ).all()
 
 
 def test_limit_set_drops_only_facets_of_the_ratio_condition(medial, points):
@@ -219,7 +270,9 @@ def test_limit_set_removes_fins_of_a_tube(medial):
     analysis = medial.MedialAnalysis(capsule.sample(16000, 0))
     plain, limited = (analysis.select(limit_set=x) for x in (False, True))
     assert len(limited) < 0.95 * len(plain)
-    middle = [np.linalg.norm(analysis.extract(limit_set=x).vertices[:, 1:], axis=1) for x in (False, True)]
+    middle = [
+        np.linalg.norm(analysis.extract(limit_set=x).vertices[:, 1:], axis=1) for x in (False, True)
+    ]
     assert np.mean(middle[1]) < np.mean(middle[0])
 
 
@@ -230,7 +283,9 @@ def test_duplicates_are_merged_and_counted(medial, points):
     plain, merged = medial.MedialAnalysis(points), medial.MedialAnalysis(repeated)
     assert merged.duplicates == 200 and plain.duplicates == 0
     assert np.array_equal(merged.samples, np.arange(len(points)))
-    assert_same_bytes(everything(plain) | {"counts": np.zeros(1)}, everything(merged) | {"counts": np.zeros(1)})
+    assert_same_bytes(
+        everything(plain) | {"counts": np.zeros(1)}, everything(merged) | {"counts": np.zeros(1)}
+    )
 
 
 def test_the_first_of_equal_rows_is_the_sample(medial, points):

@@ -3,14 +3,12 @@
 Only a facet with a vertex on the surface itself, where the winding number jumps, may differ.
 """
 
-import numpy as np
-import pytest
-from scipy.spatial import cKDTree
-
 import distance
 import meshes
+import numpy as np
+import pytest
 import reference
-
+from scipy.spatial import cKDTree
 
 
 def without_triangles(mesh, share, seed=0):
@@ -61,13 +59,26 @@ CLOSED = {
     "plate": noisy(squashed(meshes.icosphere(2), 1.0, 1.0, 0.01), 1e-4),
     "nested shell": noisy(meshes.nested_shell(3)),
     "coarse nested shell": noisy(meshes.nested_shell(1)),
-    "ball in a cavity": noisy(meshes.join(meshes.nested_shell(2), meshes.icosphere(2, 0.3, (0.1, 0.0, 0.0)))),
+    "ball in a cavity": noisy(
+        meshes.join(meshes.nested_shell(2), meshes.icosphere(2, 0.3, (0.1, 0.0, 0.0)))
+    ),
     "two balls": noisy(meshes.join(meshes.icosphere(2), meshes.icosphere(2, 0.5, (2.0, 0.1, 0.0)))),
-    "overlapping balls": noisy(meshes.join(meshes.icosphere(3), meshes.icosphere(3, 0.8, (0.9, 0.1, 0.05)))),
-    "overlapping coarse balls": noisy(meshes.join(meshes.icosphere(1), meshes.icosphere(1, 0.8, (0.9, 0.1, 0.05)))),
-    "linked tori": noisy(meshes.join(meshes.torus(small=0.25), (meshes.torus(small=0.25)[0][:, [0, 2, 1]] + (1.0, 0, 0), meshes.torus()[1][:, ::-1]))),
+    "overlapping balls": noisy(
+        meshes.join(meshes.icosphere(3), meshes.icosphere(3, 0.8, (0.9, 0.1, 0.05)))
+    ),
+    "overlapping coarse balls": noisy(
+        meshes.join(meshes.icosphere(1), meshes.icosphere(1, 0.8, (0.9, 0.1, 0.05)))
+    ),
+    "linked tori": noisy(
+        meshes.join(
+            meshes.torus(small=0.25),
+            (meshes.torus(small=0.25)[0][:, [0, 2, 1]] + (1.0, 0, 0), meshes.torus()[1][:, ::-1]),
+        )
+    ),
     "inside out": noisy(meshes.flip(meshes.icosphere(2))),
-    "doubled ball": noisy(meshes.join(meshes.icosphere(2), meshes.icosphere(2, 0.999, (1e-3, 0, 0)))),
+    "doubled ball": noisy(
+        meshes.join(meshes.icosphere(2), meshes.icosphere(2, 0.999, (1e-3, 0, 0)))
+    ),
     "loose points": with_loose_points(noisy(meshes.icosphere(2))),
 }
 OPEN = {
@@ -75,10 +86,23 @@ OPEN = {
     "one flipped face": with_flips(noisy(meshes.torus()), 0.001, 3),
     "missing faces": without_triangles(noisy(meshes.icosphere(3)), 0.03),
     "half missing": without_triangles(noisy(meshes.torus()), 0.5),
-    "bowl": (noisy(meshes.icosphere(3))[0], meshes.icosphere(3)[1][meshes.icosphere(3)[0][meshes.icosphere(3)[1]].mean(axis=1)[:, 2] < 0.3]),
-    "box without lid": (meshes.box((8, 6, 4))[0], meshes.box((8, 6, 4))[1][meshes.box((8, 6, 4))[0][meshes.box((8, 6, 4))[1]][:, :, 2].min(axis=1) < 0.39]),
+    "bowl": (
+        noisy(meshes.icosphere(3))[0],
+        meshes.icosphere(3)[1][
+            meshes.icosphere(3)[0][meshes.icosphere(3)[1]].mean(axis=1)[:, 2] < 0.3
+        ],
+    ),
+    "box without lid": (
+        meshes.box((8, 6, 4))[0],
+        meshes.box((8, 6, 4))[1][
+            meshes.box((8, 6, 4))[0][meshes.box((8, 6, 4))[1]][:, :, 2].min(axis=1) < 0.39
+        ],
+    ),
     "one triangle": (noisy(meshes.icosphere(1))[0], meshes.icosphere(1)[1][:1]),
-    "repeated face": (noisy(meshes.icosphere(2))[0], np.concatenate((meshes.icosphere(2)[1], meshes.icosphere(2)[1][:1]))),
+    "repeated face": (
+        noisy(meshes.icosphere(2))[0],
+        np.concatenate((meshes.icosphere(2)[1], meshes.icosphere(2)[1][:1])),
+    ),
 }
 ALL = CLOSED | OPEN
 
@@ -186,7 +210,9 @@ def test_winding_number_is_on_the_right_side_of_one_half(medial, name):
     points, triangles = ALL[name]
     rng = np.random.default_rng(3)
     near = points[rng.integers(0, len(points), 500)] * (1 + rng.normal(size=(500, 1)) * 0.02)
-    queries = np.concatenate((rng.uniform(-1.5, 1.5, (1000, 3)), near, rng.normal(size=(100, 3)) * 1e3))
+    queries = np.concatenate(
+        (rng.uniform(-1.5, 1.5, (1000, 3)), near, rng.normal(size=(100, 3)) * 1e3)
+    )
     wanted = reference.winding_number(queries, points, triangles)
     found = medial.winding_number(queries, points, triangles)
     doubtful = ((found > 0.5) != (wanted > 0.5)) | (np.abs(found - wanted) > 0.1)
@@ -206,14 +232,24 @@ def test_winding_number_of_many_queries_and_triangles(medial):
     assert np.array_equal(medial.winding_number(queries, *mesh) > 0.5, wanted > 0.5)
 
 
-@pytest.mark.parametrize("file, closed", [("spot_low.obj", True), ("3holes.off", True), ("elephant-with-holes.off", False),
-                                          ("openscad-nonmanifold-crash.obj", None), ("knot1.off", True)])
+@pytest.mark.parametrize(
+    "file, closed",
+    [
+        ("spot_low.obj", True),
+        ("3holes.off", True),
+        ("elephant-with-holes.off", False),
+        ("openscad-nonmanifold-crash.obj", None),
+        ("knot1.off", True),
+    ],
+)
 def test_sides_of_real_meshes(medial, data_file, file, closed):
     points, triangles = meshes.read(data_file(file))
     analysis = medial.MedialAnalysis(points, triangles)
     if closed is not None:
         assert analysis.closed is closed
     mesh = analysis.extract(side=medial.Side.INNER)
-    picked = np.random.default_rng(0).choice(len(mesh.vertices), min(1500, len(mesh.vertices)), replace=False)
+    picked = np.random.default_rng(0).choice(
+        len(mesh.vertices), min(1500, len(mesh.vertices)), replace=False
+    )
     assert len(picked) > 50
     assert_inside(mesh.vertices[picked], mesh.radius[picked], points, triangles)

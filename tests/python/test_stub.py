@@ -30,11 +30,24 @@ def members(node):
     return found
 
 
-METHODS = [(c, name) for c, node in CLASSES.items() for name, item in members(node).items()
-           if isinstance(item, ast.FunctionDef) and not is_property(item)]
-PROPERTIES = [(c, name) for c, node in CLASSES.items() for name, item in members(node).items()
-              if isinstance(item, ast.FunctionDef) and is_property(item)]
-VALUES = [(c, name) for c, node in CLASSES.items() for name, item in members(node).items() if isinstance(item, ast.AnnAssign)]
+METHODS = [
+    (c, name)
+    for c, node in CLASSES.items()
+    for name, item in members(node).items()
+    if isinstance(item, ast.FunctionDef) and not is_property(item)
+]
+PROPERTIES = [
+    (c, name)
+    for c, node in CLASSES.items()
+    for name, item in members(node).items()
+    if isinstance(item, ast.FunctionDef) and is_property(item)
+]
+VALUES = [
+    (c, name)
+    for c, node in CLASSES.items()
+    for name, item in members(node).items()
+    if isinstance(item, ast.AnnAssign)
+]
 
 
 def parameters(node):
@@ -147,7 +160,9 @@ def test_settings_of_the_add_on_have_the_same_defaults(medial):
     from medial_axis.core.settings import Settings
 
     line = signature_line(medial.MedialAnalysis.extract)
-    assert float(re.search(r"theta: [\w.]+ = ([\d.]+)", line).group(1)) == pytest.approx(Settings().theta, rel=1e-15)
+    assert float(re.search(r"theta: [\w.]+ = ([\d.]+)", line).group(1)) == pytest.approx(
+        Settings().theta, rel=1e-15
+    )
     assert float(re.search(r"rho: [\w.]+ = ([\d.]+)", line).group(1)) == Settings().rho
     for choice in ("rule", "criteria"):
         value = getattr(Settings(), choice)
@@ -160,7 +175,9 @@ def test_settings_of_the_add_on_have_the_same_defaults(medial):
 def test_the_fields_of_the_result_are_those_of_the_add_on(medial):
     from medial_axis.core.analysis import MedialAxis
 
-    assert set(MedialAxis.__dataclass_fields__) == {name for owner, name in PROPERTIES if owner == "MedialMesh"}
+    assert set(MedialAxis.__dataclass_fields__) == {
+        name for owner, name in PROPERTIES if owner == "MedialMesh"
+    }
 
 
 def test_objects_cannot_be_subclassed_or_made_from_nothing(medial):
