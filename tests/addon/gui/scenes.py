@@ -234,7 +234,7 @@ def scene_cancel_with_escape():
         gaps.append(time.monotonic() - last)
         last = time.monotonic()
     assert job() is not None, "the run was too short to be cancelled"
-    assert max(gaps) < patience(0.5), f"Blender stood still for {max(gaps):.2f} s"
+    assert max(gaps) < patience(2.0), f"Blender stood still for {max(gaps):.2f} s"
     look("running")
     with bpy.context.temp_override(window=window(), area=viewport()):
         assert not bpy.ops.object.medial_axis.poll(), "a second run must be refused"
@@ -243,7 +243,7 @@ def scene_cancel_with_escape():
     asked = time.monotonic()
     xdotool("key", "Escape")
     yield no_job
-    assert time.monotonic() - asked < patience(1.0)
+    assert time.monotonic() - asked < patience(3.0)  # far less than the run would take
     yield 0.5
     look("cancelled")
     nothing_is_left()
