@@ -1,7 +1,4 @@
-"""Writing a mesh: fast, exact in float32, and all or nothing."""
-
-import os
-import time
+"""Writing a mesh: exact in float32, and all or nothing."""
 
 import bpy
 import numpy as np
