@@ -184,10 +184,12 @@ class OBJECT_OT_medial_axis(bpy.types.Operator):
             self._tell(context, "WARNING", f"'{source.name}' is gone; its medial axis was dropped")
             return []
         computation = outcome.computation
-        for warning in computation.warnings:
-            self._tell(context, "WARNING", f"'{source.name}': {warning}")
         if computation.axis.facets == 0:
+            for warning in computation.warnings:
+                self._tell(context, "WARNING", f"'{source.name}': {warning}")
             return []
+        for warning in computation.warnings:  # the panel shows them with the result
+            self.report({"WARNING"}, f"'{source.name}': {warning}")
         start = time.perf_counter()
         result = write_result(thing, computation, source.frame)
         seconds = computation.seconds + time.perf_counter() - start

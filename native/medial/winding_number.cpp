@@ -71,7 +71,8 @@ int WindingNumber::closed(const Vec3& query) const {
 int WindingNumber::closed_from(const Vec3& known, int closed_there, const Vec3& query) const {
   const Vec3 way = query - known;
   const double reach = length(way);
-  if (!(reach > 0 && reach < HUGE_VAL)) return closed(query);
+  if (reach == 0) return closed_there;
+  if (!(reach < HUGE_VAL)) return closed(query);
   const auto drop = crossings_(known, (1 / reach) * way, reach);
   return drop ? closed_there - *drop : closed(query);
 }
