@@ -16,14 +16,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from .analysis import MedialAxis
 from .errors import ExportError
 from .triangulate import triangulate
 from .whole_file import write_whole
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from .analysis import MedialAxis
 
 _CHUNK = 1 << 16  # rows formatted at once; bounds the memory of one write
 
@@ -92,18 +91,7 @@ def known_extensions() -> str:
 # --- placing
 
 
-_FIELDS = (
-    "vertices",
-    "radius",
-    "face_offsets",
-    "face_vertices",
-    "theta",
-    "rho",
-    "side",
-    "generators",
-    "unbounded",
-    "zero_area",
-)
+_FIELDS = tuple(MedialAxis.__dataclass_fields__)
 
 
 def _place(axis: MedialAxis, transform: NDArray[np.float64]) -> SimpleNamespace:

@@ -155,6 +155,22 @@ std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progr
                                   });
 }
 
+template <typename EdgeOf>
+std::vector<Side> MedialAnalysis::facet_sides(int64_t count, const Run& run,
+                                              const EdgeOf& edge_of) const {
+  std::vector<Side> sides(static_cast<size_t>(count), Side::both);
+  if (sides_.empty()) return sides;
+  parallel_chunks(count, run, [&](int64_t begin, int64_t end, int) {
+    std::vector<int32_t> ring;
+    for (int64_t f = begin; f < end; ++f) {
+      const auto edge = edge_of(f);
+      ring_of_cells(triangulation_, edges_.ends[edge], edges_.cell[edge], ring);
+      sides[f] = facet_side(ring, sides_);
+    }
+  });
+  return sides;
+}
+
 MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
   begin_stage(progress, "Selection", 0, 0.4);
   const std::vector<int32_t> ids = select(x, progress);
@@ -173,16 +189,8 @@ MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) cons
     mesh.rho[f] = (either ? significance_.rho : significance_.rho_both)[e];
     mesh.generators[f] = {samples_.row[edges_.ends[e][0]], samples_.row[edges_.ends[e][1]]};
   });
-  if (x.side == Side::both && !sides_.empty()) {
-    std::vector<std::vector<int32_t>> rings(threads_);
-    parallel_chunks(faces, run,
-                    [&, &mesh = mesh, &kept = kept](int64_t begin, int64_t end, int worker) {
-                      for (int64_t f = begin; f < end; ++f) {
-                        ring_of_cells(triangulation_, edges_.ends[kept[f]], edges_.cell[kept[f]],
-                                      rings[worker]);
-                        mesh.side[f] = facet_side(rings[worker], sides_);
-                      }
-                    });
+  if (x.side == Side::both) {
+    mesh.side = facet_sides(faces, run, [&kept = kept](int64_t f) { return kept[f]; });
   }
   advance(progress, 1);
   return std::move(mesh);
@@ -198,16 +206,7 @@ std::vector<Edge> MedialAnalysis::edge_rows() const {
 }
 
 std::vector<Side> MedialAnalysis::edge_sides() const {
-  std::vector<Side> sides(edges_.ends.size(), Side::both);
-  if (sides_.empty()) return sides;
-  parallel_chunks(edges_.count(), {threads_, nullptr}, [&](int64_t begin, int64_t end, int) {
-    std::vector<int32_t> ring;
-    for (int64_t e = begin; e < end; ++e) {
-      ring_of_cells(triangulation_, edges_.ends[e], edges_.cell[e], ring);
-      sides[e] = facet_side(ring, sides_);
-    }
-  });
-  return sides;
+  return facet_sides(edges_.count(), {threads_, nullptr}, [](int64_t e) { return e; });
 }
 
 std::vector<uint8_t> MedialAnalysis::edges_bounded() const {

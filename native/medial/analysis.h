@@ -49,6 +49,9 @@ class MedialAnalysis {
 
  private:
   void sort_edges(const Run& run);
+  // Of the facets dual to edge_of(0), ..., edge_of(count - 1).
+  template <typename EdgeOf>
+  std::vector<Side> facet_sides(int64_t count, const Run& run, const EdgeOf& edge_of) const;
   bool in_limit_set(int32_t edge, const Thresholds& thresholds,
                     std::span<const int32_t> ring) const;
 

@@ -23,7 +23,7 @@ struct Csr {
 
 // Turns counts[i], the length of list i, into offsets; counts has one extra last entry, whatever
 // its value.
-inline void counts_to_offsets(std::vector<int64_t>& counts) {
+inline void counts_to_offsets(std::span<int64_t> counts) {
   int64_t sum = 0;
   for (auto& count : counts) {
     const int64_t length = count;
@@ -48,13 +48,8 @@ Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists,
       if (k >= 0 && k < lists) ++start[k];
     }
   }
-  int64_t sum = 0;
-  for (int32_t k = 0; k <= lists; ++k) {
-    const int64_t length = start[k];
-    start[k] = sum;
-    sum += length;
-  }
-  result.items.resize(static_cast<size_t>(sum));
+  counts_to_offsets(std::span(result.offsets).subspan(1));
+  result.items.resize(static_cast<size_t>(result.offsets.back()));
   for (int32_t i = 0; i < static_cast<int32_t>(table.size()); ++i) {
     if (i % kBatch == 0) throw_if_cancelled(progress);
     for (const int32_t k : table[static_cast<size_t>(i)]) {

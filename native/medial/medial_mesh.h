@@ -19,12 +19,13 @@ struct MedialMesh {
   int64_t zero_area = 0;               // facets that are a point or a segment: not emitted
 };
 
-// Polygons of the dual facets of `edge_ids`, with vertices and radii; the attributes are the
-// caller's. `kept` receives the ids of the edges whose facets were emitted, in order.
+// Polygons with vertices and radii; the attributes are the caller's.
 struct Facets {
   MedialMesh mesh;
-  std::vector<int32_t> edges;
+  std::vector<int32_t> edges;  // (f) the edge of each emitted facet
 };
+
+// The dual facets of `edge_ids`, in that order.
 Facets voronoi_facets(std::span<const int32_t> edge_ids, std::span<const Vec3> points,
                       const Triangulation& triangulation, const Voronoi& voronoi,
                       const Edges& edges, const Run& run);
