@@ -1,4 +1,4 @@
-"""The attributes of a medial axis in Blender: one table from name to domain, type and dtype."""
+"""Attributes in Blender: one table of those of a medial axis, and the normals of oriented points."""
 
 from __future__ import annotations
 
@@ -62,3 +62,31 @@ def attributes() -> tuple[Attribute, ...]:
     """All attributes, as this Blender can hold them."""
     types = bpy.types.Attribute.bl_rna.properties["data_type"].enum_items
     return (RADIUS, *_FACE, *(_PAIR if "INT32_2D" in types else _TWO_INTS))
+
+
+# Normals of points, a vector each. "normal" is what Blender's PLY importer writes from 4.0; earlier
+# versions keep that name of a mesh to themselves and make no such attribute.
+NORMAL_NAMES = ("normal", "ma_normal")
+
+
+def add_normals(attributes: bpy.types.AttributeGroup, normals: NDArray) -> None:
+    """Give the points of a mesh or point cloud, by its `attributes`, (n, 3) normals."""
+    made = (attributes.new(name, "FLOAT_VECTOR", "POINT") for name in NORMAL_NAMES)
+    found = next(attribute for attribute in made if attribute is not None)
+    found.data.foreach_set("vector", np.ascontiguousarray(normals, np.float32).ravel())
+
+
+def read_normals(attributes: bpy.types.AttributeGroup) -> NDArray[np.float64] | None:
+    """(n, 3) the normals of the points of a mesh or point cloud; None when it has none."""
+    for name in NORMAL_NAMES:
+        found = attributes.get(name)
+        if found is not None and (found.domain, found.data_type) == ("POINT", "FLOAT_VECTOR"):
+            return read_vectors(found.data, "vector")
+    return None
+
+
+def read_vectors(elements: bpy.types.bpy_prop_collection, name: str) -> NDArray[np.float64]:
+    """(n, 3) a vector property of all elements."""
+    values = np.empty(3 * len(elements), np.float32)
+    elements.foreach_get(name, values)
+    return values.astype(np.float64).reshape(-1, 3)
