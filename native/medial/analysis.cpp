@@ -1,24 +1,7 @@
 #include "analysis.h"
 
-#include <chrono>
-
 namespace medial {
 namespace {
-
-class Stopwatch {
- public:
-  explicit Stopwatch(std::vector<std::pair<std::string, double>>& timings) : timings_(timings) {}
-
-  void lap(const char* stage) {
-    const auto now = std::chrono::steady_clock::now();
-    timings_.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
-    last_ = now;
-  }
-
- private:
-  std::vector<std::pair<std::string, double>>& timings_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 template <typename T>
 void reorder(std::vector<T>& values, std::span<const int32_t> order, const Run& run) {
@@ -28,7 +11,7 @@ void reorder(std::vector<T>& values, std::span<const int32_t> order, const Run& 
   values = std::move(sorted);
 }
 
-void check(const Extraction& x, bool sides_known) {
+void check(const Extraction& x) {
   if (!(x.thresholds.theta >= 0 && x.thresholds.theta <= std::numbers::pi / 2)) {
     throw InvalidInputError("Expected theta from 0 to pi/2 radians, found " +
                             std::to_string(x.thresholds.theta) + "; the paper uses pi/8.");
@@ -41,26 +24,77 @@ void check(const Extraction& x, bool sides_known) {
     throw InvalidInputError(
         "Expected side INNER, OUTER or BOTH, found CROSSING; choose one of them.");
   }
-  if (x.side != Side::both && !sides_known) {
+}
+
+void require_sides(SidesFrom from, const WatertightSurface* tight_cocone) {
+  if (from == SidesFrom::none) {
     throw InvalidInputError(
-        "Expected triangles to tell inside from outside, found none; pass the faces or choose side "
-        "BOTH.");
+        "Expected an analysis that told inside from outside, found one with sides NONE; choose "
+        "other sides, or side BOTH.");
   }
+  if (tight_cocone && tight_cocone->inner_cells == 0) {
+    throw DegenerateInputError(
+        "Expected samples of a closed surface, found none that Tight Cocone could close: nothing "
+        "is enclosed; sample more densely and evenly, or choose side BOTH.");
+  }
+}
+
+SidesFrom resolve(SidesFrom wanted, const Surface& surface, std::span<const Vec3> normals) {
+  if (wanted == SidesFrom::surface && surface.triangles.empty()) {
+    throw InvalidInputError(
+        "Expected triangles for sides SURFACE, found none; pass the faces, or choose "
+        "TIGHT_COCONE.");
+  }
+  if (wanted == SidesFrom::normals && normals.empty()) {
+    throw InvalidInputError(
+        "Expected normals for sides NORMALS, found none; pass them, or choose TIGHT_COCONE.");
+  }
+  if (wanted != SidesFrom::automatic) return wanted;
+  if (surface.closed()) return SidesFrom::surface;
+  return normals.empty() ? SidesFrom::tight_cocone : SidesFrom::normals;
+}
+
+// One per row, finite, and not all zero; or none.
+void require_normals(std::span<const Vec3> normals, size_t rows) {
+  if (normals.empty()) return;
+  if (normals.size() != rows) {
+    throw InvalidInputError("Expected one normal per point, found " +
+                            std::to_string(normals.size()) + " for " + std::to_string(rows) +
+                            " points; pass all of them or none.");
+  }
+  require_finite(normals, "normal");
+  if (std::all_of(normals.begin(), normals.end(), [](const Vec3& n) { return n == Vec3{}; })) {
+    throw InvalidInputError(
+        "Expected outward normals, found zero vectors only; pass real normals or none.");
+  }
+}
+
+std::vector<Vec3> unit_normals(std::span<const Vec3> normals, const Samples& samples) {
+  std::vector<Vec3> result;
+  result.reserve(samples.row.size());
+  for (const int32_t row : samples.row) result.push_back(normalized(normals[row]));
+  return result;
 }
 
 }  // namespace
 
 MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
-                               const AnalysisOptions& options, Progress* progress)
+                               std::span<const Vec3> normals, const AnalysisOptions& options,
+                               Progress* progress)
     : threads_(thread_count(options.threads)) {
   const Run run{threads_, progress}, quiet{threads_, nullptr};
   Stopwatch watch(timings_);
   begin_stage(progress, "Samples", 0, 0.02);
   require_corners(triangles, rows.size());
+  require_normals(normals, rows.size());
   samples_ = make_samples(rows, quiet);
   const int32_t count = samples_.count();
   duplicates_ = static_cast<int64_t>(rows.size()) - count;
   require_volume(samples_.points);
+  const Surface surface = make_surface(triangles, samples_.sample_of_row, count, quiet);
+  closed_ = surface.closed();
+  boundary_edges_ = surface.open_edges();
+  sides_from_ = resolve(options.sides, surface, normals);
   if (options.bounding_sphere) add_bounding_sphere(samples_);
   const std::vector<Vec3>& points = samples_.points;
   watch.lap("samples");
@@ -72,26 +106,38 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   const Csr<int32_t> incident = incident_cells(triangulation_, count, run);
   edges_ = delaunay_edges(triangulation_, incident, run);
   watch.lap("complex");
+  const Poles p = poles(points, triangulation_, voronoi_, incident, run);
+  watch.lap("poles");
   {
-    const Poles p = poles(points, triangulation_, voronoi_, incident, run);
-    watch.lap("poles");
     const Umbrellas u = umbrellas(points, triangulation_, voronoi_, incident, p, run);
     watch.lap("umbrellas");
     significance_ = medial::significance(points, edges_, u, run);
     watch.lap("significance");
   }
-  if (!triangles.empty()) {
-    begin_stage(progress, "Surface", 0.88, 0.9);
-    const Surface surface = make_surface(triangles, samples_.sample_of_row, count, run);
-    closed_ = surface.closed();
-    boundary_edges_ = surface.open_edges();
-    sides_ = sides_from_surface(points, surface, triangulation_, voronoi_, run);
-    watch.lap("sides");
-  }
+  tell_sides(surface, normals, incident, p, options.cocone, run);
+  watch.lap("sides");
   begin_stage(progress, "Order of the edges", 0.99, 1);
   sort_edges(run);
   watch.lap("order");
   advance(progress, 1);
+}
+
+void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> normals,
+                                const Csr<int32_t>& incident, const Poles& poles,
+                                const CoconeOptions& options, const Run& run) {
+  const std::vector<Vec3>& points = samples_.points;
+  if (sides_from_ == SidesFrom::surface) {
+    sides_ = sides_from_surface(points, surface, triangulation_, voronoi_, run);
+  } else if (sides_from_ == SidesFrom::normals) {
+    sides_ =
+        sides_from_normals(points, unit_normals(normals, samples_), triangulation_, voronoi_, run);
+  } else if (sides_from_ == SidesFrom::tight_cocone) {
+    auto found = std::make_shared<WatertightSurface>(describe(
+        medial::tight_cocone(points, triangulation_, voronoi_, incident, poles, options, run),
+        samples_, triangulation_, incident, run));
+    sides_ = std::move(found->sides);
+    tight_cocone_ = std::move(found);
+  }
 }
 
 // From the order of the samples to that of the input rows: a counting sort by the lower row, then
@@ -138,7 +184,8 @@ bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds,
 }
 
 std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
-  check(x, !sides_.empty());
+  check(x);
+  if (x.side != Side::both) require_sides(sides_from_, tight_cocone_.get());
   const Run run{threads_, progress};
   std::vector<int32_t> ids = medial::select(significance_, x.thresholds, run);
   if (x.side == Side::both && !x.limit_set) return ids;
@@ -217,8 +264,8 @@ std::vector<uint8_t> MedialAnalysis::edges_bounded() const {
 }
 
 std::vector<int32_t> MedialAnalysis::sample_rows() const {
-  std::vector<int32_t> rows(samples_.row);
-  std::sort(rows.begin(), rows.end());
+  std::vector<int32_t> rows = samples_by_row(samples_);
+  for (int32_t& id : rows) id = samples_.row[id];
   return rows;
 }
 

@@ -2,15 +2,16 @@
 // as often as one likes.
 #pragma once
 
-#include <string>
-#include <utility>
+#include <memory>
 
 #include "medial_mesh.h"
-#include "samples.h"
+#include "watertight_surface.h"
 
 namespace medial {
 
 struct AnalysisOptions {
+  SidesFrom sides = SidesFrom::automatic;
+  CoconeOptions cocone = {};
   bool bounding_sphere = false;  // sect. 4.2
   int threads = 0;               // 0: all cores
 };
@@ -23,10 +24,11 @@ struct Extraction {
 
 class MedialAnalysis {
  public:
-  // `rows` are the samples, `triangles` the outward faces of the surface as ids of rows (none:
-  // inside is not known). Throws InvalidInputError, DegenerateInputError, Cancelled.
+  // `rows` are the samples, `triangles` the outward faces of the surface as ids of rows, `normals`
+  // the outward normals of the rows; each may be empty. Throws InvalidInputError,
+  // DegenerateInputError, Cancelled.
   MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
-                 const AnalysisOptions& options, Progress* progress);
+                 std::span<const Vec3> normals, const AnalysisOptions& options, Progress* progress);
 
   // Ids of the selected edges: the set F of the paper, facets without area or end included.
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
@@ -45,9 +47,15 @@ class MedialAnalysis {
   int64_t finite_cells() const { return triangulation_.finite_cells; }
   bool closed() const { return closed_; }
   int64_t boundary_edges() const { return boundary_edges_; }
-  const std::vector<std::pair<std::string, double>>& timings() const { return timings_; }
+  SidesFrom sides_from() const { return sides_from_; }
+  // Null unless the sides are from Tight Cocone; its own sides are moved away.
+  const std::shared_ptr<const WatertightSurface>& tight_cocone() const { return tight_cocone_; }
+  const Timings& timings() const { return timings_; }
 
  private:
+  void tell_sides(const Surface& surface, std::span<const Vec3> normals,
+                  const Csr<int32_t>& incident, const Poles& poles, const CoconeOptions& options,
+                  const Run& run);
   void sort_edges(const Run& run);
   // Of the facets dual to edge_of(0), ..., edge_of(count - 1).
   template <typename EdgeOf>
@@ -61,10 +69,12 @@ class MedialAnalysis {
   Edges edges_;
   Significance significance_;
   CellSides sides_;
+  SidesFrom sides_from_ = SidesFrom::none;
+  std::shared_ptr<const WatertightSurface> tight_cocone_;
   int64_t duplicates_ = 0, boundary_edges_ = 0;
   bool closed_ = false;
   int threads_ = 1;
-  std::vector<std::pair<std::string, double>> timings_;
+  Timings timings_;
 };
 
 }  // namespace medial

@@ -10,12 +10,6 @@ struct HalfEdge {
 // kNext[i][j] = k so that the permutation (i, j, k, l) of (0, 1, 2, 3) is even.
 constexpr int kNext[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
 
-int slot(const Cell& cell, int32_t id) {
-  int i = 0;
-  while (cell[i] != id) ++i;
-  return i;
-}
-
 }  // namespace
 
 Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples, const Run& run) {
@@ -54,7 +48,7 @@ Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident, const
 void ring_of_cells(const Triangulation& t, const Edge& ends, int32_t cell,
                    std::vector<int32_t>& ring) {
   ring.clear();
-  const int i = slot(t.cells[cell], ends[0]), j = slot(t.cells[cell], ends[1]);
+  const int i = slot_of(t.cells[cell], ends[0]), j = slot_of(t.cells[cell], ends[1]);
   int leave = kNext[i][j];
   int32_t keep = t.cells[cell][6 - i - j - leave];
   int32_t c = cell;
@@ -62,7 +56,7 @@ void ring_of_cells(const Triangulation& t, const Edge& ends, int32_t cell,
     ring.push_back(c);
     c = t.neighbors[c][leave];
     // Across the facet (ends, keep): next time `keep` is left behind, and the fourth corner kept.
-    leave = slot(t.cells[c], keep);
+    leave = slot_of(t.cells[c], keep);
     const Cell& ids = t.cells[c];
     keep = ids[0] + ids[1] + ids[2] + ids[3] - ends[0] - ends[1] - keep;
   } while (c != cell);

@@ -121,6 +121,16 @@ Samples make_samples(std::span<const Vec3> rows, const Run& run) {
   return samples;
 }
 
+std::vector<int32_t> samples_by_row(const Samples& samples) {
+  std::vector<int32_t> order;
+  order.reserve(samples.row.size());
+  for (int32_t row = 0; row < static_cast<int32_t>(samples.sample_of_row.size()); ++row) {
+    const int32_t id = samples.sample_of_row[row];
+    if (samples.row[id] == row) order.push_back(id);
+  }
+  return order;
+}
+
 void add_bounding_sphere(Samples& samples) {
   constexpr int kPoints = 200;
   Box box;

@@ -29,6 +29,9 @@ void require_finite(std::span<const Vec3> rows, const char* what);
 // 4 distinct rows.
 Samples make_samples(std::span<const Vec3> rows, const Run& run);
 
+// The samples in ascending order of their rows.
+std::vector<int32_t> samples_by_row(const Samples& samples);
+
 // The bounding sphere of sect. 4.2: appends 200 points, evenly spread over a sphere of twice the
 // radius of the samples about the centre of their box.
 void add_bounding_sphere(Samples& samples);

@@ -21,6 +21,13 @@ int32_t nearest_decided(int32_t cell, int64_t begin, const Triangulation& t,
   return nearest;
 }
 
+// One Voronoi vertex, one side.
+void share_sides(const Triangulation& t, const Voronoi& voronoi, CellSides& sides, const Run& run) {
+  parallel_for(t.finite_cells, {run.threads, nullptr}, [&](int64_t c) {
+    if (voronoi.vertex[c] != c) sides[c] = sides[voronoi.vertex[c]];
+  });
+}
+
 }  // namespace
 
 CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface,
@@ -41,10 +48,23 @@ CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surfac
       if (winding.is_inside(here, closed.back())) sides[c] = static_cast<uint8_t>(Side::inner);
     }
   });
-  // One Voronoi vertex, one side.
-  parallel_for(t.finite_cells, {run.threads, nullptr}, [&](int64_t c) {
-    if (voronoi.vertex[c] != c) sides[c] = sides[voronoi.vertex[c]];
+  share_sides(t, voronoi, sides, run);
+  return sides;
+}
+
+CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3> normals,
+                             const Triangulation& t, const Voronoi& voronoi, const Run& run) {
+  begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
+  CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
+  const auto samples = static_cast<int32_t>(normals.size());
+  parallel_for(t.finite_cells, run, [&](int64_t c) {
+    double vote = 0;
+    for (const int32_t p : t.cells[c]) {
+      if (p < samples) vote += dot(normals[p], normalized(voronoi.centre[c] - points[p]));
+    }
+    if (vote < 0) sides[c] = static_cast<uint8_t>(Side::inner);
   });
+  share_sides(t, voronoi, sides, run);
   return sides;
 }
 

@@ -14,8 +14,18 @@ enum class Side : int32_t { both = 0, inner = 1, outer = 2, crossing = 3 };
 // Side of each cell: inner or outer. Infinite cells are outer. Empty: not known.
 using CellSides = std::vector<uint8_t>;
 
+// What tells inside from outside. Automatic: the surface when it is closed, else normals when there
+// are any, else Tight Cocone.
+enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none };
+
 // Inner exactly where the winding number of the surface at the Voronoi vertex exceeds 1/2.
 CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface,
+                             const Triangulation& triangulation, const Voronoi& voronoi,
+                             const Run& run);
+
+// A vote of the corners of each cell: inner where their outward normals point away from its Voronoi
+// vertex, by the sum of the cosines. `normals` are per sample, unit or zero; zero ones do not vote.
+CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3> normals,
                              const Triangulation& triangulation, const Voronoi& voronoi,
                              const Run& run);
 

@@ -15,6 +15,13 @@ inline constexpr int32_t kInfinite = -1;
 
 using Cell = std::array<int32_t, 4>;
 
+// Where an id stands in a row of four that contains it.
+inline int slot_of(const Cell& row, int32_t id) {
+  int i = 0;
+  while (row[i] != id) ++i;
+  return i;
+}
+
 // Cells are positively oriented (an infinite cell as if the infinite vertex lay outside the hull)
 // and start with their lowest id. Finite cells come first; each part is in lexicographic order of
 // the sorted ids, so the arrays are the same however the triangulation was built.

@@ -26,10 +26,19 @@ class Cancelled(Exception):
 class Side:
     """Which axis a facet belongs to; also the values of `MedialMesh.side`."""
 
-    BOTH: Side  # 0: as an argument every facet, as a value "not known" (there was no surface)
-    INNER: Side  # 1: every Voronoi vertex of the facet has winding number > 1/2
-    OUTER: Side  # 2: none has
-    CROSSING: Side  # 3: some have (only as a value)
+    BOTH: Side  # 0: as an argument every facet, as a value "not known"
+    INNER: Side  # 1: every cell round the dual edge, or its Voronoi vertex, is inside
+    OUTER: Side  # 2: none is
+    CROSSING: Side  # 3: some are (only as a value)
+
+class SidesFrom:
+    """What tells inside from outside, for `MedialAnalysis`."""
+
+    AUTOMATIC: SidesFrom  # 0: SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE
+    SURFACE: SidesFrom  # 1: the winding number of the triangles
+    NORMALS: SidesFrom  # 2: a vote of the outward normals of the samples nearest to each Voronoi vertex
+    TIGHT_COCONE: SidesFrom  # 3: the watertight surface of `TightCocone`; needs the points only
+    NONE: SidesFrom  # 4: nothing; every facet has side BOTH
 
 class Rule:
     """Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3)."""
@@ -59,6 +68,112 @@ class Progress:
     def cancelled(self) -> bool: ...
     def cancel(self) -> None:
         """Ask the computation to stop; it raises `Cancelled` within 0.3 s."""
+
+@final
+class CoconeOptions:
+    """The constants of Cocone and Tight Cocone; all are angles in radians or pure numbers.
+
+    Parameters
+    ----------
+    cocone_angle : float
+        Half-angle of the cocone about the tangent plane; default pi/8 (Amenta, Choi, Dey & Leekha 2002).
+    flatness_ratio : float
+        A flat sample's cell is longer towards both poles than this times its width; default 1.2
+        (Dey & Giesen 2001).
+    flatness_angle : float
+        A flat sample's normal line agrees with its cocone neighbours' within this; default pi/3
+        (Dey & Giesen 2001).
+    sharp_angle : float
+        An edge is sharp when no two of its triangles continue each other with normals closer than this;
+        default 2 pi/3 (Dey & Goswami 2003).
+
+    Raises
+    ------
+    InvalidInputError
+        An angle outside (0, pi/2), a sharp_angle outside (0, pi), or a ratio that is not positive.
+    """
+
+    def __init__(
+        self,
+        *,
+        cocone_angle: float = ...,
+        flatness_ratio: float = ...,
+        flatness_angle: float = ...,
+        sharp_angle: float = ...,
+    ) -> None: ...
+    @property
+    def cocone_angle(self) -> float: ...
+    @property
+    def flatness_ratio(self) -> float: ...
+    @property
+    def flatness_angle(self) -> float: ...
+    @property
+    def sharp_angle(self) -> float: ...
+
+@final
+class TightCocone:
+    """The watertight surface through the samples: a subcomplex of their Delaunay triangulation (Dey & Goswami 2003).
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        As for `MedialAnalysis`.
+    options : CoconeOptions, optional
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, DegenerateInputError, Cancelled
+    """
+
+    def __init__(
+        self,
+        points: NDArray[np.float64],
+        *,
+        options: CoconeOptions | None = None,
+        progress: Progress | None = None,
+        threads: int = 0,
+    ) -> None: ...
+    @property
+    def triangles(self) -> NDArray[np.int32]:
+        """(f, 3) int32: facets between inner and outer cells, outward, lowest row first, in lexicographic order.
+        Every edge is in an even number of them. Empty when nothing is enclosed."""
+    @property
+    def cell_side(self) -> NDArray[np.int32]:
+        """(c,) int32: INNER or OUTER for each cell of `delaunay(points)`, infinite cells included."""
+    @property
+    def samples(self) -> NDArray[np.int32]:
+        """(k,) int32: rows of the distinct points, ascending."""
+    @property
+    def flat(self) -> NDArray[np.bool_]:
+        """(k,) bool: well sampled there: the Voronoi cell is long and thin and its neighbours agree."""
+    @property
+    def good(self) -> NDArray[np.bool_]:
+        """(k,) bool: the triangles that Cocone finds at the sample are one disc round it."""
+    @property
+    def on_surface(self) -> NDArray[np.bool_]:
+        """(k,) bool: a corner of one of `triangles`."""
+    @property
+    def nonmanifold_edges(self) -> int:
+        """Edges in more than two of `triangles`."""
+    @property
+    def nonmanifold_vertices(self) -> int:
+        """Samples round which `triangles` are not one disc, ends of those edges included."""
+    @property
+    def cavities(self) -> int:
+        """Patches of good samples inside the solid that flooding from infinity cannot reach: closed inner
+        cavities, most likely, which are filled."""
+    @property
+    def inner_cells(self) -> int:
+        """Delaunay cells inside; 0 when the samples enclose nothing."""
+    @property
+    def duplicates(self) -> int:
+        """Rows merged into an earlier row with the same coordinates."""
+    @property
+    def timings(self) -> dict[str, float]:
+        """Seconds of each stage, in order; none for that of a `MedialAnalysis`."""
 
 @final
 class MedialMesh:
@@ -111,6 +226,12 @@ class MedialAnalysis:
     triangles : (m, 3) int32, optional
         Outward-facing triangles of the surface as rows of `points`: they tell inside from outside.
         Rows that no triangle uses are samples all the same.
+    normals : (n, 3) float64, optional
+        Outward normals of the samples, of any length; a zero normal has no vote.
+    sides : SidesFrom
+        What tells inside from outside; default AUTOMATIC.
+    cocone : CoconeOptions, optional
+        For TIGHT_COCONE.
     bounding_sphere : bool
         Add 200 points at twice the radius (Dey & Zhao, sect. 4.2). It bounds the outer axis and removes
         its far junk; only edges between true samples are analysed and selected.
@@ -128,6 +249,9 @@ class MedialAnalysis:
         points: NDArray[np.float64],
         triangles: NDArray[np.int32] | None = None,
         *,
+        normals: NDArray[np.float64] | None = None,
+        sides: SidesFrom = ...,
+        cocone: CoconeOptions | None = None,
         bounding_sphere: bool = False,
         progress: Progress | None = None,
         threads: int = 0,
@@ -155,7 +279,14 @@ class MedialAnalysis:
         """(e,) float64: as `rho` with the minimum of the two ends (`Rule.BOTH`)."""
     @property
     def side(self) -> NDArray[np.int32]:
-        """(e,) int32: values of `Side` for the facet dual to each edge; all BOTH without triangles."""
+        """(e,) int32: values of `Side` for the facet dual to each edge; all BOTH for `SidesFrom.NONE`."""
+    @property
+    def sides_from(self) -> SidesFrom:
+        """What told inside from outside; never AUTOMATIC."""
+    @property
+    def tight_cocone(self) -> TightCocone | None:
+        """The surface that told inside from outside; None unless `sides_from` is TIGHT_COCONE. Its `cell_side` is
+        empty: with a bounding sphere the cells are not those of `delaunay`."""
     @property
     def bounded(self) -> NDArray[np.bool_]:
         """(e,) bool: the dual facet does not reach infinity."""
@@ -204,7 +335,7 @@ class MedialAnalysis:
         rho : float
             rho0 of the Ratio condition, >= 0; default 8.
         side : Side
-            BOTH (default), INNER or OUTER; INNER and OUTER need triangles.
+            BOTH (default), INNER or OUTER; INNER and OUTER need sides.
         rule : Rule
             EITHER (default) or BOTH.
         criteria : Criteria
@@ -216,6 +347,8 @@ class MedialAnalysis:
         Raises
         ------
         InvalidInputError, Cancelled
+        DegenerateInputError
+            INNER or OUTER, and Tight Cocone found nothing enclosed by the samples.
         """
 
 # The stages by themselves, for study and tests. Every one starts from the points.
@@ -255,6 +388,28 @@ def umbrellas(points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[n
     offsets : (k + 1,) int64
     triangles : (t, 3) int32
         Rows (p, a, b), a < b, sorted; U_p of the i-th sample is `triangles[offsets[i] : offsets[i + 1]]`.
+    """
+
+def cocone(
+    points: NDArray[np.float64], options: CoconeOptions | None = None
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.int32]]:
+    """Cocone's flat samples and candidate triangles; samples are the distinct rows in ascending order.
+
+    With v_p the pole vector and C_p the points y whose line p y is within `cocone_angle` of the plane through p
+    normal to v_p, the cocone neighbours of p are the samples of the triangles at p whose dual Voronoi edge
+    meets C_p.
+
+    Returns
+    -------
+    thin : (k,) bool
+        `flatness_ratio` times the distance of the farthest crossing of V_p's edges with that plane is at most the
+        distance of p to its pole and to its second pole: the farthest Voronoi vertex on the other side of the plane.
+    flat : (k,) bool
+        Thin, and its pole line is within `flatness_angle` of that of every cocone neighbour; or, grown from those:
+        thin, and within it of that of one flat cocone neighbour.
+    candidates : (t, 3) int32
+        Rows, ascending, sorted: triangles with a flat corner, whose dual Voronoi edge meets the cocone of every
+        flat corner.
     """
 
 def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:

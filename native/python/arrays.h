@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "medial/errors.h"
+#include "medial/stopwatch.h"
 #include "medial/vec3.h"
 
 namespace medial::python {
@@ -97,12 +98,34 @@ py::array view_of(const std::vector<T>& rows, const py::handle& owner) {
   return array;
 }
 
+// A property that is a view of a vector inside the object.
+template <typename Scalar, typename Owner, typename T>
+auto view_property(std::vector<T> Owner::*member) {
+  return [member](const py::object& self) {
+    return view_of<Scalar>(self.cast<const Owner&>().*member, self);
+  };
+}
+
 // Hands a result over to Python.
 template <typename Scalar, typename T>
 py::array array_of(std::vector<T> rows) {
   auto* kept = new std::vector<T>(std::move(rows));
   const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
   return view_of<Scalar>(*kept, owner);
+}
+
+inline py::dict seconds(const Timings& timings) {
+  py::dict result;
+  for (const auto& [stage, time] : timings) result[stage.c_str()] = time;
+  return result;
+}
+
+inline int thread_argument(int threads) {
+  if (threads < 0 || threads > 1024) {
+    throw InvalidInputError("Expected 0 to 1024 threads, found " + std::to_string(threads) +
+                            "; 0 takes all cores.");
+  }
+  return threads;
 }
 
 }  // namespace medial::python

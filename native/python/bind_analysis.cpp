@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -30,6 +31,10 @@ constexpr const char* kAnalysisDoc =
     "triangles : (m, 3) int32, optional\n    Outward-facing triangles of the surface as rows of "
     "`points`: they tell\n"
     "    inside from outside. Rows that no triangle uses are samples all the same.\n"
+    "normals : (n, 3) float64, optional\n    Outward normals of the samples, of any length; a zero "
+    "normal has no vote.\n"
+    "sides : SidesFrom\n    What tells inside from outside; default AUTOMATIC.\n"
+    "cocone : CoconeOptions, optional\n    For TIGHT_COCONE.\n"
     "bounding_sphere : bool\n    Add 200 points at twice the radius (Dey & Zhao, sect. 4.2); only "
     "edges between true\n"
     "    samples are analysed and selected.\n"
@@ -42,7 +47,7 @@ constexpr const char* kExtractDoc =
     "Parameters\n----------\n"
     "theta : float\n    theta0 of the Angle condition, radians in [0, pi/2]; default pi/8.\n"
     "rho : float\n    rho0 of the Ratio condition, >= 0; default 8.\n"
-    "side : Side\n    BOTH (default), INNER or OUTER; INNER and OUTER need triangles.\n"
+    "side : Side\n    BOTH (default), INNER or OUTER; INNER and OUTER need sides.\n"
     "rule : Rule\n    EITHER (default) or BOTH ends of a Delaunay edge must pass.\n"
     "criteria : Criteria\n    ANGLE_OR_RATIO (default), ANGLE or RATIO.\n"
     "limit_set : bool\n    Keep a facet selected by the Ratio condition alone only if |pq| >= "
@@ -50,30 +55,29 @@ constexpr const char* kExtractDoc =
     "    (Definition 4), mu: smallest ball radius at its vertices, eps = |pq| / (rho mu). Default "
     "off.\n"
     "progress : Progress, optional\n\n"
-    "Raises\n------\nInvalidInputError, Cancelled";
+    "Raises\n------\nInvalidInputError, Cancelled\n"
+    "DegenerateInputError\n    INNER or OUTER, and Tight Cocone found nothing enclosed by the "
+    "samples.";
 
 constexpr const char* kSelectDoc =
     "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and "
     "zero-area\n"
     "facets included. Parameters as in `extract`.\n\nReturns\n-------\nids : (s,) int32";
 
-int thread_argument(int threads) {
-  if (threads < 0 || threads > 1024) {
-    throw InvalidInputError("Expected 0 to 1024 threads, found " + std::to_string(threads) +
-                            "; 0 takes all cores.");
-  }
-  return threads;
-}
-
 std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles,
-                                        bool bounding_sphere, Progress* progress, int threads) {
+                                        const py::object& normals, SidesFrom sides,
+                                        const CoconeOptions* cocone, bool bounding_sphere,
+                                        Progress* progress, int threads) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
-  const AnalysisOptions options{bounding_sphere, thread_argument(threads)};
+  const auto oriented = normals.is_none() ? std::optional<Points>() : Points(normals, "normals");
+  const AnalysisOptions options{sides, cocone ? *cocone : CoconeOptions{}, bounding_sphere,
+                                thread_argument(threads)};
   const auto row_span = rows.span();
   const auto face_span = faces.span();
+  const auto normal_span = oriented ? oriented->span() : std::span<const Vec3>();
   const py::gil_scoped_release release;
-  return std::make_unique<MedialAnalysis>(row_span, face_span, options, progress);
+  return std::make_unique<MedialAnalysis>(row_span, face_span, normal_span, options, progress);
 }
 
 Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria criteria,
@@ -83,11 +87,20 @@ Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria c
 
 void bind_enums(py::module_& m) {
   py::enum_<Side>(m, "Side", "Which axis a facet belongs to; also the values of MedialMesh.side.")
-      .value("BOTH", Side::both,
-             "As an argument every facet, as a value not known: there was no surface.")
-      .value("INNER", Side::inner, "Every Voronoi vertex of the facet has winding number > 1/2.")
-      .value("OUTER", Side::outer, "No Voronoi vertex has.")
-      .value("CROSSING", Side::crossing, "Some have; only as a value.");
+      .value("BOTH", Side::both, "As an argument every facet, as a value not known.")
+      .value("INNER", Side::inner,
+             "Every cell round the dual edge, or its Voronoi vertex, is inside.")
+      .value("OUTER", Side::outer, "None is.")
+      .value("CROSSING", Side::crossing, "Some are; only as a value.");
+  py::enum_<SidesFrom>(m, "SidesFrom", "What tells inside from outside, for `MedialAnalysis`.")
+      .value("AUTOMATIC", SidesFrom::automatic,
+             "SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE.")
+      .value("SURFACE", SidesFrom::surface, "The winding number of the triangles.")
+      .value("NORMALS", SidesFrom::normals,
+             "A vote of the outward normals of the samples nearest to each Voronoi vertex.")
+      .value("TIGHT_COCONE", SidesFrom::tight_cocone,
+             "The watertight surface of `TightCocone`; needs the points only.")
+      .value("NONE", SidesFrom::none, "Nothing; every facet has side BOTH.");
   py::enum_<Rule>(m, "Rule",
                   "Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3).")
       .value("EITHER", Rule::either, "p or q, the paper's text.")
@@ -107,14 +120,6 @@ void bind_progress(py::module_& m) {
       .def_property_readonly("cancelled", &Progress::cancelled, "Whether `cancel` was called.")
       .def("cancel", &Progress::cancel,
            "Ask the computation to stop; it raises `Cancelled` within 0.3 s.");
-}
-
-// A property that is a view of a vector inside the object.
-template <typename Scalar, typename Owner, typename T>
-auto view_property(std::vector<T> Owner::*member) {
-  return [member](const py::object& self) {
-    return view_of<Scalar>(self.cast<const Owner&>().*member, self);
-  };
 }
 
 void bind_mesh(py::module_& m) {
@@ -157,12 +162,6 @@ py::array bounded(const MedialAnalysis& a) {
   return array_of<uint8_t>(a.edges_bounded()).attr("view")("bool");
 }
 
-py::dict timings(const MedialAnalysis& a) {
-  py::dict seconds;
-  for (const auto& [stage, time] : a.timings()) seconds[stage.c_str()] = time;
-  return seconds;
-}
-
 }  // namespace
 
 void bind_analysis(py::module_& m) {
@@ -172,8 +171,9 @@ void bind_analysis(py::module_& m) {
   const Thresholds paper;
   py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final())
       .def(py::init(&analyse), py::arg("points"), py::arg("triangles") = py::none(), py::kw_only(),
-           py::arg("bounding_sphere") = false, py::arg("progress") = nullptr,
-           py::arg("threads") = 0)
+           py::arg("normals") = py::none(), py::arg("sides") = SidesFrom::automatic,
+           py::arg("cocone") = py::none(), py::arg("bounding_sphere") = false,
+           py::arg("progress") = nullptr, py::arg("threads") = 0)
       .def_property_readonly(
           "samples", [](const MedialAnalysis& a) { return array_of<int32_t>(a.sample_rows()); },
           "(k,) int32: rows of the distinct points, ascending.")
@@ -195,8 +195,18 @@ void bind_analysis(py::module_& m) {
                              "(e,) float64: as `rho` with the minimum of the two ends (Rule.BOTH).")
       .def_property_readonly(
           "side", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_sides()); },
-          "(e,) int32: values of `Side` for the facet dual to each edge; all BOTH without "
-          "triangles.")
+          "(e,) int32: values of `Side` for the facet dual to each edge; all BOTH for "
+          "`SidesFrom.NONE`.")
+      .def_property_readonly("sides_from", &MedialAnalysis::sides_from,
+                             "What told inside from outside; never AUTOMATIC.")
+      .def_property_readonly(
+          "tight_cocone",
+          [](const MedialAnalysis& a) {
+            return std::const_pointer_cast<WatertightSurface>(a.tight_cocone());
+          },
+          "The surface that told inside from outside; None unless `sides_from` is TIGHT_COCONE. "
+          "Its `cell_side` is\nempty: with a bounding sphere the cells are not those of "
+          "`delaunay`.")
       .def_property_readonly("bounded", &bounded,
                              "(e,) bool: the dual facet does not reach infinity.")
       .def_property_readonly("closed", &MedialAnalysis::closed,
@@ -206,7 +216,9 @@ void bind_analysis(py::module_& m) {
                              "Edges of the triangles that break this.")
       .def_property_readonly("cells", &MedialAnalysis::finite_cells,
                              "Number of finite Delaunay cells.")
-      .def_property_readonly("timings", &timings, "Seconds of each stage, in order.")
+      .def_property_readonly(
+          "timings", [](const MedialAnalysis& a) { return seconds(a.timings()); },
+          "Seconds of each stage, in order.")
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,

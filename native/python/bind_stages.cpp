@@ -2,6 +2,7 @@
 // input rows.
 #include "arrays.h"
 #include "bindings.h"
+#include "medial/cocone.h"
 #include "medial/samples.h"
 #include "medial/surface.h"
 #include "medial/umbrellas.h"
@@ -32,6 +33,23 @@ constexpr const char* kUmbrellasDoc =
     "triangles : (t, 3) int32\n    Rows (p, a, b), a < b, sorted; U_p of the i-th sample is\n"
     "    triangles[offsets[i] : offsets[i + 1]].";
 
+constexpr const char* kCoconeDoc =
+    "Cocone's flat samples and candidate triangles; samples are the distinct rows in ascending "
+    "order.\n\n"
+    "With v_p the pole vector and C_p the points y whose line p y is within `cocone_angle` of the "
+    "plane through p\n"
+    "normal to v_p, the cocone neighbours of p are the samples of the triangles at p whose dual "
+    "Voronoi edge\nmeets C_p.\n\n"
+    "Returns\n-------\n"
+    "thin : (k,) bool\n    `flatness_ratio` times the distance of the farthest crossing of V_p's "
+    "edges with that plane is at\n    most the distance of p to its pole and to its second "
+    "pole.\n"
+    "flat : (k,) bool\n    Thin, and its pole line is within `flatness_angle` of that of every "
+    "cocone neighbour; or, grown\n    from those: thin, and within it of that of one flat cocone "
+    "neighbour.\n"
+    "candidates : (t, 3) int32\n    Rows, ascending, sorted: triangles with a flat corner, whose "
+    "dual Voronoi edge meets the cocone of\n    every flat corner.";
+
 constexpr const char* kOpenEdgesDoc =
     "MedialAnalysis.boundary_edges without the analysis: edges of the triangles that are not used "
     "equally often in\n"
@@ -61,14 +79,7 @@ struct Stages {
         voronoi(medial::voronoi(samples.points, triangulation, all_cores())),
         incident(incident_cells(triangulation, samples.count(), all_cores())) {}
 
-  // Samples in ascending order of their rows.
-  std::vector<int32_t> by_row() const {
-    std::vector<int32_t> order(samples.row.size());
-    for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int32_t>(i);
-    std::sort(order.begin(), order.end(),
-              [&](int32_t a, int32_t b) { return samples.row[a] < samples.row[b]; });
-    return order;
-  }
+  std::vector<int32_t> by_row() const { return samples_by_row(samples); }
   Poles poles() const {
     return medial::poles(samples.points, triangulation, voronoi, incident, all_cores());
   }
@@ -145,6 +156,39 @@ py::tuple umbrella_triangles(const py::object& points) {
                         array_of<int32_t>(std::move(triangles)));
 }
 
+std::vector<std::array<int32_t, 3>> candidate_rows(const Stages& s, const FacetSet& candidates) {
+  std::vector<std::array<int32_t, 3>> rows;
+  for_facets(s.triangulation, candidates, [&](const Facet& f) {
+    if (s.triangulation.neighbors[f.cell][f.slot] < f.cell) return;
+    auto triangle = corners(s.triangulation, f);
+    for (int32_t& id : triangle) id = s.samples.row[id];
+    std::sort(triangle.begin(), triangle.end());
+    rows.push_back(triangle);
+  });
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+py::array flags_by_row(const Stages& s, const std::vector<uint8_t>& flags) {
+  std::vector<uint8_t> ordered;
+  for (const int32_t p : s.by_row()) ordered.push_back(flags[p]);
+  return array_of<uint8_t>(std::move(ordered)).attr("view")("bool");
+}
+
+py::tuple cocone_parts(const py::object& points, const CoconeOptions* options) {
+  const Points rows(points, "points");
+  const CoconeOptions chosen = options ? *options : CoconeOptions{};
+  const auto [stages, found] = [&, span = rows.span()] {
+    const py::gil_scoped_release release;
+    Stages s(span);
+    Cocone c = cocone(s.samples.points, s.triangulation, s.voronoi, s.incident, s.poles(), chosen,
+                      all_cores());
+    return std::make_pair(std::move(s), std::move(c));
+  }();
+  return py::make_tuple(flags_by_row(stages, found.thin), flags_by_row(stages, found.flat),
+                        array_of<int32_t>(candidate_rows(stages, found.candidates)));
+}
+
 int64_t open_edges(const py::object& points, const py::object& triangles) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
@@ -184,6 +228,7 @@ void bind_stages(py::module_& m) {
   m.def("delaunay", &delaunay, kDelaunayDoc, py::arg("points"));
   m.def("poles", &pole_vectors, kPolesDoc, py::arg("points"));
   m.def("umbrellas", &umbrella_triangles, kUmbrellasDoc, py::arg("points"));
+  m.def("cocone", &cocone_parts, kCoconeDoc, py::arg("points"), py::arg("options") = py::none());
   m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
   m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"),
         py::arg("triangles"));

@@ -21,6 +21,7 @@ PYBIND11_MODULE(_medial, m) {
       "plane.";
   py::register_exception<medial::Cancelled>(m, "Cancelled", PyExc_Exception).doc() =
       "Progress.cancel was called; nothing was computed.";
+  medial::python::bind_tight_cocone(m);
   medial::python::bind_analysis(m);
   medial::python::bind_stages(m);
 }

@@ -1,0 +1,208 @@
+#include "cocone.h"
+
+#include <string>
+
+namespace medial {
+namespace {
+
+// Where a Voronoi vertex lies as seen from a sample. The zones above and below are convex: a
+// Voronoi edge misses the cocone exactly when both its ends are above, or both below.
+enum class Zone : uint8_t { in_cocone, above, below };
+
+using Zones = std::vector<std::array<Zone, 4>>;  // per cell and corner
+
+bool meet_cocone(Zone a, Zone b) { return a != b || a == Zone::in_cocone; }
+
+struct Stage {
+  std::span<const Vec3> points;
+  const Triangulation& t;
+  const Voronoi& voronoi;
+  const Csr<int32_t>& incident;
+  const CoconeOptions& options;
+  std::vector<Vec3> normal;  // unit pole vectors
+
+  int32_t samples() const { return static_cast<int32_t>(incident.size()); }
+  bool is_sample(int32_t id) const { return id >= 0 && id < samples(); }
+
+  // From p to the Voronoi vertex; of an infinite cell the direction of its ray.
+  Vec3 towards(int32_t p, int32_t cell) const {
+    return t.is_infinite(cell) ? voronoi.centre[cell] : voronoi.centre[cell] - points[p];
+  }
+};
+
+Zones zones(const Stage& s, const Run& run) {
+  const double sine = std::sin(s.options.cocone_angle);
+  Zones result(s.t.cells.size());
+  parallel_for(s.t.cell_count(), run, [&](int64_t c) {
+    for (int i = 0; i < 4; ++i) {
+      const int32_t p = s.t.cells[c][i];
+      if (!s.is_sample(p)) continue;
+      const Vec3 d = s.towards(p, static_cast<int32_t>(c));
+      const double height = dot(d, s.normal[p]);
+      if (std::abs(height) > sine * length(d)) {
+        result[c][i] = height > 0 ? Zone::above : Zone::below;
+      }
+    }
+  });
+  return result;
+}
+
+// Calls found(cell, slot, across) for the triangles at p, each once.
+template <typename Found>
+void for_triangles_at(int32_t p, const Stage& s, const Found& found) {
+  for (const int32_t cell : s.incident[p]) {
+    for (int i = 0; i < 4; ++i) {
+      const int32_t across = s.t.neighbors[cell][i];
+      if (across > cell && s.t.cells[cell][i] != p) found(cell, i, across);
+    }
+  }
+}
+
+// Distance from p, squared, at which the dual Voronoi edge of two cells crosses the tangent plane;
+// 0 when it does not.
+double crossing(int32_t p, int32_t cell, int32_t across, const Stage& s) {
+  const Vec3 a = s.towards(p, cell), b = s.towards(p, across);
+  const double ha = dot(a, s.normal[p]), hb = dot(b, s.normal[p]);
+  if ((ha >= 0) == (hb >= 0)) return 0;
+  if (s.t.is_infinite(cell) || (s.t.is_infinite(across) && hb == 0)) return HUGE_VAL;
+  if (s.t.is_infinite(across)) return squared_length(a - (ha / hb) * b);
+  return squared_length(a + (ha / (ha - hb)) * (b - a));
+}
+
+// The lower of the distances, squared, from p to its poles.
+double height(int32_t p, const Stage& s) {
+  double above = 0, below = 0;
+  for (const int32_t cell : s.incident[p]) {
+    const Vec3 d = s.towards(p, cell);
+    const double size = s.t.is_infinite(cell) ? HUGE_VAL : squared_length(d);
+    double& farthest = dot(d, s.normal[p]) > 0 ? above : below;
+    farthest = std::max(farthest, size);
+  }
+  return std::min(above, below);
+}
+
+bool is_thin(int32_t p, const Stage& s) {
+  const double ratio = s.options.flatness_ratio;
+  const double limit = height(p, s) / (ratio * ratio);
+  bool thin = limit > 0;
+  for_triangles_at(p, s, [&](int32_t cell, int, int32_t across) {
+    const double width = thin ? crossing(p, cell, across, s) : 0;
+    thin = thin && width <= limit && width < HUGE_VAL;
+  });
+  return thin;
+}
+
+// Calls found(neighbour) for the cocone neighbours of p, some several times.
+template <typename Found>
+void for_cocone_neighbours(int32_t p, const Stage& s, const Zones& zones, const Found& found) {
+  for_triangles_at(p, s, [&](int32_t cell, int slot, int32_t across) {
+    const Zone here = zones[cell][slot_of(s.t.cells[cell], p)];
+    const Zone there = zones[across][slot_of(s.t.cells[across], p)];
+    if (!meet_cocone(here, there)) return;
+    for (int i = 0; i < 4; ++i) {
+      const int32_t q = s.t.cells[cell][i];
+      if (i != slot && q != p && s.is_sample(q)) found(q);
+    }
+  });
+}
+
+// A thin sample may grow flat from a cocone neighbour with which it agrees.
+struct Growth {
+  int32_t sample, neighbour;
+};
+
+// Decides which samples are flat at once; returns the ways in which the other thin ones may grow.
+std::vector<Growth> agreement(const Stage& s, const Zones& zones, Cocone& result, const Run& run) {
+  const double least = std::cos(s.options.flatness_angle);
+  return parallel_append<Growth>(s.samples(), run, [&](int64_t id, auto& growths, int) {
+    const auto p = static_cast<int32_t>(id);
+    if (!result.thin[p]) return;
+    const size_t before = growths.size();
+    bool all = true;
+    for_cocone_neighbours(p, s, zones, [&](int32_t q) {
+      const bool agree = std::abs(dot(s.normal[p], s.normal[q])) >= least;
+      all = all && agree;
+      if (agree) growths.push_back({p, q});
+    });
+    if (!all) return;
+    result.flat[p] = 1;
+    growths.resize(before);
+  });
+}
+
+void grow(std::span<const Growth> growths, std::vector<uint8_t>& flat) {
+  std::vector<std::array<int32_t, 1>> neighbour;
+  for (const Growth& g : growths) neighbour.push_back({g.neighbour});
+  const auto at = rows_containing(std::span<const std::array<int32_t, 1>>(neighbour),
+                                  static_cast<int32_t>(flat.size()));
+  std::vector<int32_t> queue;
+  for (int32_t p = 0; p < static_cast<int32_t>(flat.size()); ++p) {
+    if (flat[p] && !at[p].empty()) queue.push_back(p);
+  }
+  while (!queue.empty()) {
+    const int32_t q = queue.back();
+    queue.pop_back();
+    for (const int32_t row : at[q]) {
+      const int32_t p = growths[row].sample;
+      if (!flat[p]) {
+        flat[p] = 1;
+        queue.push_back(p);
+      }
+    }
+  }
+}
+
+bool is_candidate(const Facet& f, const Stage& s, const Zones& zones,
+                  std::span<const uint8_t> flat) {
+  const int32_t across = s.t.neighbors[f.cell][f.slot];
+  bool any = false;
+  for (int i = 0; i < 4; ++i) {
+    if (i == f.slot) continue;
+    const int32_t p = s.t.cells[f.cell][i];
+    if (!s.is_sample(p)) return false;
+    if (!flat[p]) continue;
+    any = true;
+    if (!meet_cocone(zones[f.cell][i], zones[across][slot_of(s.t.cells[across], p)])) return false;
+  }
+  return any;
+}
+
+}  // namespace
+
+void require_valid(const CoconeOptions& o) {
+  const auto require_angle = [](const char* name, double value, double limit, const char* words) {
+    if (value > 0 && value < limit) return;
+    throw InvalidInputError("Expected " + std::string(name) + " above 0 and below " + words +
+                            " radians, found " + std::to_string(value) +
+                            "; leave it out for the default.");
+  };
+  require_angle("cocone_angle", o.cocone_angle, std::numbers::pi / 2, "pi/2");
+  require_angle("flatness_angle", o.flatness_angle, std::numbers::pi / 2, "pi/2");
+  require_angle("sharp_angle", o.sharp_angle, std::numbers::pi, "pi");
+  if (!(o.flatness_ratio > 0 && o.flatness_ratio < HUGE_VAL)) {
+    throw InvalidInputError("Expected a positive flatness_ratio, found " +
+                            std::to_string(o.flatness_ratio) + "; leave it out for the default.");
+  }
+}
+
+Cocone cocone(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
+              const Csr<int32_t>& incident, const Poles& poles, const CoconeOptions& options,
+              const Run& run) {
+  Stage s{points, t, voronoi, incident, options, poles.vector};
+  parallel_for(s.samples(), run, [&](int64_t p) { s.normal[p] = normalized(s.normal[p]); });
+  const auto samples = static_cast<size_t>(s.samples());
+  Cocone result{std::vector<uint8_t>(samples), std::vector<uint8_t>(samples), FacetSet(t)};
+  parallel_for(s.samples(), run,
+               [&](int64_t p) { result.thin[p] = is_thin(static_cast<int32_t>(p), s); });
+  const Zones z = zones(s, run);
+  grow(agreement(s, z, result, run), result.flat);
+  parallel_for(t.cell_count(), run, [&](int64_t c) {
+    for (int i = 0; i < 4; ++i) {
+      const Facet f{static_cast<int32_t>(c), i};
+      if (is_candidate(f, s, z, result.flat)) result.candidates.insert(f);
+    }
+  });
+  return result;
+}
+
+}  // namespace medial

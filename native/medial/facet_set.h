@@ -1,0 +1,98 @@
+// Sets of Delaunay triangles, and the walk from triangle to triangle round an edge.
+#pragma once
+
+#include <atomic>
+
+#include "csr.h"
+#include "triangulation.h"
+
+namespace medial {
+
+// The Delaunay triangle opposite to cells[cell][slot], seen from that cell. Each triangle is seen
+// from two cells.
+struct Facet {
+  int32_t cell = -1;
+  int slot = 0;
+
+  friend bool operator==(const Facet&, const Facet&) = default;
+};
+
+// Corners of a facet, counter-clockwise seen from its cell.
+std::array<int32_t, 3> corners(const Triangulation& triangulation, const Facet& facet);
+
+// The same triangle seen from the other cell.
+Facet mirror(const Triangulation& triangulation, const Facet& facet);
+
+// Facets as four bits per cell: a triangle may be in from one of its cells, or from both.
+class FacetSet {
+ public:
+  explicit FacetSet(const Triangulation& triangulation) : bits_(triangulation.cells.size(), 0) {}
+
+  bool has(const Facet& f) const { return bits_[f.cell] >> f.slot & 1; }
+  bool has_any(int32_t cell) const { return bits_[cell] != 0; }
+  void insert(const Facet& f) { bits_[f.cell] |= static_cast<uint8_t>(1 << f.slot); }
+  void erase(const Facet& f) { bits_[f.cell] &= static_cast<uint8_t>(~(1 << f.slot)); }
+  // Insertion by several threads: the order does not matter.
+  void insert_shared(const Facet& f) {
+    std::atomic_ref(bits_[f.cell])
+        .fetch_or(static_cast<uint8_t>(1 << f.slot), std::memory_order_relaxed);
+  }
+
+ private:
+  std::vector<uint8_t> bits_;
+};
+
+// Calls found(facet) for the facets of a set, as often as it holds them, in order of their cells.
+template <typename Found>
+void for_facets(const Triangulation& triangulation, const FacetSet& set, const Found& found) {
+  for (int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
+    if (!set.has_any(cell)) continue;
+    for (int slot = 0; slot < 4; ++slot) {
+      if (set.has({cell, slot})) found(Facet{cell, slot});
+    }
+  }
+}
+
+// The same for those at corner p, which has the cells `incident`.
+template <typename Found>
+void for_facets_at(int32_t p, const Triangulation& triangulation, std::span<const int32_t> incident,
+                   const FacetSet& set, const Found& found) {
+  for (const int32_t cell : incident) {
+    if (!set.has_any(cell)) continue;
+    for (int slot = 0; slot < 4; ++slot) {
+      if (triangulation.cells[cell][slot] != p && set.has({cell, slot})) found(Facet{cell, slot});
+    }
+  }
+}
+
+// Triangles seen from both of their cells.
+FacetSet from_both_sides(const Triangulation& triangulation, const FacetSet& set);
+void insert_both(const Triangulation& triangulation, FacetSet& set, const Facet& facet);
+void erase_both(const Triangulation& triangulation, FacetSet& set, const Facet& facet);
+
+// Turns `from` about its edge pq, through the cell that it is seen from, to the next triangle of
+// `set` (which must hold triangles from both sides); seen from the cell last passed. The other side
+// of `from` when there is none.
+Facet next_about_edge(const Triangulation& triangulation, const FacetSet& set, const Facet& from,
+                      int32_t p, int32_t q);
+
+// One triangle of a walk round a vertex p, and the edge p link that leads to the next one.
+struct Step {
+  Facet facet;
+  int32_t link = kInfinite;
+};
+
+// The triangles at corner p that continue `start`, seen from one side, until the walk is back at
+// `start`; replaces `steps`.
+void walk_about_vertex(const Triangulation& triangulation, const FacetSet& set, const Facet& start,
+                       int32_t p, std::vector<Step>& steps);
+
+// Whether a walk is a disc round its vertex: no link twice.
+bool is_disc(std::span<const Step> steps);
+
+// Whether `facets`, all triangles of an oriented surface at p, seen from its front, are one disc;
+// `surface` holds them from both sides. `steps` is room to work in.
+bool is_one_disc(const Triangulation& triangulation, const FacetSet& surface,
+                 std::span<const Facet> facets, int32_t p, std::vector<Step>& steps);
+
+}  // namespace medial

@@ -1,0 +1,21 @@
+// The boundary of the inner cells: a subcomplex of the Delaunay triangulation.
+#pragma once
+
+#include "facet_set.h"
+#include "sides.h"
+
+namespace medial {
+
+struct SolidBoundary {
+  std::vector<Triangle> triangles;   // outward
+  std::vector<uint8_t> on_surface;   // per sample: a corner of a triangle
+  int64_t nonmanifold_edges = 0;     // in more than two triangles
+  int64_t nonmanifold_vertices = 0;  // the triangles round it are not one disc
+  int64_t inner_cells = 0;
+};
+
+// Every edge is in an even number of triangles.
+SolidBoundary solid_boundary(const Triangulation& triangulation, const Csr<int32_t>& incident,
+                             const CellSides& sides, const Run& run);
+
+}  // namespace medial

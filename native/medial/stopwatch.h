@@ -1,0 +1,28 @@
+// Seconds of the stages of a computation, in order.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace medial {
+
+using Timings = std::vector<std::pair<std::string, double>>;
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(Timings& timings) : timings_(timings) {}
+
+  void lap(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    timings_.emplace_back(stage, std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+
+ private:
+  Timings& timings_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace medial

@@ -1,0 +1,30 @@
+// TIGHTCOCONE(P): the watertight surface through input rows, and what is to be said of it.
+#pragma once
+
+#include "samples.h"
+#include "solid.h"
+#include "stopwatch.h"
+#include "tight_cocone.h"
+
+namespace medial {
+
+struct WatertightSurface {
+  std::vector<Triangle> triangles;              // outward, lowest row first, in lexicographic order
+  CellSides sides;                              // per Delaunay cell
+  std::vector<int32_t> samples;                 // rows of the distinct points, ascending
+  std::vector<uint8_t> flat, good, on_surface;  // per sample, in the order of `samples`
+  int64_t nonmanifold_edges = 0, nonmanifold_vertices = 0, cavities = 0, inner_cells = 0;
+  int64_t duplicates = 0;
+  Timings timings;
+};
+
+// In terms of the rows.
+WatertightSurface describe(TightCocone result, const Samples& samples,
+                           const Triangulation& triangulation, const Csr<int32_t>& incident,
+                           const Run& run);
+
+// Throws InvalidInputError, DegenerateInputError, Cancelled.
+WatertightSurface watertight_surface(std::span<const Vec3> rows, const CoconeOptions& options,
+                                     const Run& run);
+
+}  // namespace medial
