@@ -1,9 +1,9 @@
 """Solids whose medial axes are known exactly, with seeded blue-noise samplers of their surfaces.
 
-Every shape has `sample(n, seed)`, `inside(x)`, `axis_distance(x)` (exact distance to the inner axis) and
-`axis_points(m, seed)` (uniform points of the inner axis). Truth formulas: oblate and triaxial ellipsoid: a
-disc or solid ellipse with semi-axes (a^2 - c^2)/a and (b^2 - c^2)/b; rounded slab: the rectangle; shell: the
-middle surface; convex polytope: for each pair of faces the polygon where both are nearest; tube: the curve.
+Every shape has `sample(n, seed)`, `field(x)`, `inside(x)`, `normals(x)`, `axis_distance(x)` (exact distance to the
+inner axis) and `axis_points(m, seed)` (uniform points of the inner axis). Truth formulas: oblate and triaxial
+ellipsoid: a disc or solid ellipse with semi-axes (a^2 - c^2)/a and (b^2 - c^2)/b; rounded slab: the rectangle;
+shell: the middle surface; convex polytope: for each pair of faces the polygon where both are nearest; tube: the curve.
 """
 
 from dataclasses import dataclass
@@ -28,8 +28,18 @@ class Shape:
     def candidates(self, count: int, rng: Rng) -> Array:
         raise NotImplementedError
 
-    def inside(self, x: Array) -> NDArray[np.bool_]:
+    def field(self, x: Array) -> Array:
+        """Negative inside, zero on the surface, positive outside; its size is at most the distance to the surface."""
         raise NotImplementedError
+
+    def inside(self, x: Array) -> NDArray[np.bool_]:
+        return self.field(x) < 0.0
+
+    def normals(self, x: Array) -> Array:
+        """Outward unit normals at points of the surface."""
+        steps = 1e-5 * np.eye(3)
+        slope = np.column_stack([self.field(x + step) - self.field(x - step) for step in steps])
+        return slope / np.linalg.norm(slope, axis=1)[:, None]
 
     def axis_distance(self, x: Array) -> Array:
         raise NotImplementedError
@@ -110,6 +120,11 @@ class Ellipsoid(Shape):
     def inside(self, x: Array) -> NDArray[np.bool_]:
         return np.sum((x / self.semi_axes) ** 2, axis=1) < 1.0
 
+    def field(self, x: Array) -> Array:
+        return np.where(self.inside(x), -1.0, 1.0) * distance.to_ellipsoid(
+            x, (self.a, self.b, self.c)
+        )
+
     @property
     def axis_ellipse(self) -> tuple[float, float]:
         return (self.a**2 - self.c**2) / self.a, (self.b**2 - self.c**2) / self.b
@@ -186,8 +201,8 @@ class Slab(Shape):
         beside = np.maximum(np.abs(x[:, :2]) - (self.width, self.depth), 0.0)
         return np.linalg.norm(np.column_stack((beside, x[:, 2])), axis=1)
 
-    def inside(self, x: Array) -> NDArray[np.bool_]:
-        return self.axis_distance(x) < self.radius
+    def field(self, x: Array) -> Array:
+        return self.axis_distance(x) - self.radius
 
     def axis_points(self, count: int, seed: int = 0) -> Array:
         rng = np.random.default_rng(seed)
@@ -273,8 +288,8 @@ class Shell(Shape):
     def axis_distance(self, x: Array) -> Array:
         return distance.to_ellipsoid(x, (self.a, self.b, self.c))
 
-    def inside(self, x: Array) -> NDArray[np.bool_]:
-        return self.axis_distance(x) < self.wall / 2
+    def field(self, x: Array) -> Array:
+        return self.axis_distance(x) - self.wall / 2
 
     def axis_points(self, count: int, seed: int = 0) -> Array:
         return self.middle.candidates(count, np.random.default_rng(seed))
@@ -303,8 +318,8 @@ class Box(Shape):
         points[np.arange(count), axis] = self.half[axis] * rng.choice([-1.0, 1.0], count)
         return points
 
-    def inside(self, x: Array) -> NDArray[np.bool_]:
-        return np.all(np.abs(x) < self.half, axis=1)
+    def field(self, x: Array) -> Array:
+        return np.max(np.abs(x) - self.half, axis=1)
 
     def axis_triangles(self) -> Array:
         """(m, 3, 3): the axis, cut into triangles."""
@@ -386,8 +401,8 @@ class Torus(Shape):
     def outer_axis_distance(self, x: Array) -> Array:
         return np.hypot(x[:, 0], x[:, 1])
 
-    def inside(self, x: Array) -> NDArray[np.bool_]:
-        return self.axis_distance(x) < self.small
+    def field(self, x: Array) -> Array:
+        return self.axis_distance(x) - self.small
 
     def axis_points(self, count: int, seed: int = 0) -> Array:
         u = np.random.default_rng(seed).random(count) * 2 * np.pi
@@ -420,8 +435,8 @@ class Capsule(Shape):
     def axis_distance(self, x: Array) -> Array:
         return distance.to_segment(x, np.array([-self.length, 0, 0]), np.array([self.length, 0, 0]))
 
-    def inside(self, x: Array) -> NDArray[np.bool_]:
-        return self.axis_distance(x) < self.radius
+    def field(self, x: Array) -> Array:
+        return self.axis_distance(x) - self.radius
 
     def axis_points(self, count: int, seed: int = 0) -> Array:
         points = np.zeros((count, 3))
@@ -487,8 +502,8 @@ class Knot(Shape):
     def axis_distance(self, x: Array) -> Array:
         return distance.to_curve(x, self.curve, self.tangent, 2 * np.pi)
 
-    def inside(self, x: Array) -> NDArray[np.bool_]:
-        return self.axis_distance(x) < self.radius
+    def field(self, x: Array) -> Array:
+        return self.axis_distance(x) - self.radius
 
     def axis_points(self, count: int, seed: int = 0) -> Array:
         rng = np.random.default_rng(seed)
@@ -509,8 +524,8 @@ class Sphere(Shape):
     def candidates(self, count: int, rng: Rng) -> Array:
         return self.radius * _directions(count, rng)
 
-    def inside(self, x: Array) -> NDArray[np.bool_]:
-        return np.linalg.norm(x, axis=1) < self.radius
+    def field(self, x: Array) -> Array:
+        return np.linalg.norm(x, axis=1) - self.radius
 
     def axis_distance(self, x: Array) -> Array:
         return np.linalg.norm(x, axis=1)

@@ -1,0 +1,41 @@
+"""What kind of surface some triangles are: uses of edges, components, Euler characteristic, volume."""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+Ints = NDArray[np.integer]
+
+
+def edges(triangles: Ints) -> tuple[Ints, Ints]:
+    """(e, 2) distinct edges p < q and in how many triangles each is."""
+    pairs = np.concatenate([triangles[:, [i, j]] for i, j in ((0, 1), (1, 2), (2, 0))])
+    return np.unique(np.sort(pairs, axis=1), axis=0, return_counts=True)
+
+
+def is_oriented(triangles: Ints) -> bool:
+    """Every edge is used equally often in both directions."""
+    pairs = np.concatenate([triangles[:, [i, j]] for i, j in ((0, 1), (1, 2), (2, 0))])
+    ends = np.sort(pairs, axis=1)
+    _, edge = np.unique(ends, axis=0, return_inverse=True)
+    return not np.bincount(edge, np.where(pairs[:, 0] == ends[:, 0], 1, -1)).any()
+
+
+def euler(triangles: Ints) -> int:
+    """Corners less edges plus triangles."""
+    return len(np.unique(triangles)) - len(edges(triangles)[0]) + len(triangles)
+
+
+def components(triangles: Ints) -> int:
+    """Sets of triangles that hang together, if only by a corner."""
+    rows, ends = np.unique(edges(triangles)[0], return_inverse=True)
+    p, q = ends.reshape(-1, 2).T
+    graph = coo_array((np.ones(len(p)), (p, q)), shape=(len(rows), len(rows)))
+    return connected_components(graph, directed=False)[0]
+
+
+def volume(points: NDArray[np.float64], triangles: Ints) -> float:
+    """Enclosed, positive when the triangles face outward."""
+    a, b, c = (points[triangles[:, i]] - points.mean(axis=0) for i in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
