@@ -12,7 +12,8 @@ import numpy as np
 from ..core.analysis import MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes
-from .results import UNBOUNDED, is_gone, is_result, result_of
+from .made import is_gone
+from .results import UNBOUNDED, is_result, result_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -1,19 +1,15 @@
-"""Result objects: how they are found, made, placed and updated, and what they remember.
-
-A result remembers its source, the settings and figures in custom properties; nothing is written to
-the source.
-"""
+"""Medial axes as objects: how they are found, made and updated, and what they remember."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
-from mathutils import Matrix
 
-from .. import __version__
-from ..core.errors import InvalidInputError
 from ..core.settings import OPTIONS, Choice, Settings
+from .attributes import attributes
+from .made import check_mode, made_of, new_object, place, remember, replace_mesh
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
 from .write_object import new_mesh
 
@@ -23,48 +19,23 @@ if TYPE_CHECKING:
     from ..core.analysis import Computation, MedialAxis
 
 SUFFIX = " Medial Axis"
-SOURCE = "ma_source"  # a pointer: it follows when source or result are renamed
 ANALYSIS = "ma_analysis"
-VERSION = "ma_version"
-POINTS = "ma_points"
-DUPLICATES = "ma_duplicates"
+INSIDE = "ma_inside"  # what told inside from outside, and why: a sentence
 UNBOUNDED = "ma_unbounded"
-WARNINGS = "ma_warnings"
-
-
-def source_of(result: bpy.types.Object) -> bpy.types.Object | None:
-    """The object whose medial axis this is; None when it is no result, or its source is gone."""
-    source = result.get(SOURCE)
-    return source if isinstance(source, bpy.types.Object) else None
 
 
 def is_result(thing: bpy.types.Object) -> bool:
     return thing.type == "MESH" and ANALYSIS in thing
 
 
-def is_gone(thing: bpy.types.Object | None) -> bool:
-    """Deleted: Blender keeps objects that a custom property points to, but in no collection."""
-    return thing is None or not thing.users_collection
-
-
 def result_of(source: bpy.types.Object) -> bpy.types.Object | None:
     """The result that the next computation of this source updates."""
-    found = [
-        thing
-        for thing in bpy.data.objects
-        if thing.library is None
-        and is_result(thing)
-        and not is_gone(thing)
-        and source_of(thing) == source
-    ]
-    return min(found, key=lambda thing: thing.name, default=None)
+    return made_of(source, is_result)
 
 
 def check_writable(source: bpy.types.Object) -> None:
     """Raise InvalidInputError when the result of a source cannot be updated now."""
-    result = result_of(source)
-    if result is not None:
-        _check_mode(result)
+    check_mode(result_of(source))
 
 
 def write_result(
@@ -89,15 +60,15 @@ def write_result(
     if result is None:
         result = _new_result(source, computation.axis)
     else:
-        _replace_mesh(result, computation.axis)
-    _place(result, frame)
+        replace_mesh(result, partial(_axis_mesh, computation.axis))
+    place(result, frame)
     _remember(result, source, computation)
     return result
 
 
 def update_result(result: bpy.types.Object, axis: MedialAxis, settings: Settings) -> None:
     """Give a result other facets of the same analysis; it stays where it is."""
-    _replace_mesh(result, axis)
+    replace_mesh(result, partial(_axis_mesh, axis))
     _remember_settings(result, settings)
     _remember_axis(result, axis)
 
@@ -118,51 +89,22 @@ def settings_of(result: bpy.types.Object) -> Settings:
     return Settings(**values)
 
 
-def _check_mode(result: bpy.types.Object) -> None:
-    if result.mode != "OBJECT":
-        raise InvalidInputError(
-            f"Expected '{result.name}' in object mode, found it in {result.mode.lower()} mode; "
-            "leave that mode and compute again"
-        )
-
-
 def _new_result(source: bpy.types.Object, axis: MedialAxis) -> bpy.types.Object:
-    mesh = new_mesh(axis, source.name + SUFFIX)
+    mesh = _axis_mesh(axis, source.name + SUFFIX)
     mesh.materials.append(radius_material())
-    result = bpy.data.objects.new(source.name + SUFFIX, mesh)
+    result = new_object(source, SUFFIX, mesh)
     result.show_in_front = True  # an inner axis lies inside the surface
-    editable = [collection for collection in source.users_collection if collection.library is None]
-    for collection in editable or [bpy.context.scene.collection]:
-        collection.objects.link(result)
     return result
 
 
-def _replace_mesh(result: bpy.types.Object, axis: MedialAxis) -> None:
-    """Swap in a new mesh, also for linked duplicates; materials and the name stay."""
-    _check_mode(result)
-    old = result.data
-    mesh = new_mesh(axis, old.name)
-    for material in old.materials:
-        mesh.materials.append(material)
-    old.user_remap(mesh)
-    name = old.name
-    bpy.data.meshes.remove(old)
-    mesh.name = name
-
-
-def _place(result: bpy.types.Object, frame: np.ndarray) -> None:
-    result.matrix_world = Matrix(frame.tolist())
-    if result.parent is None:
-        result.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
+def _axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
+    return new_mesh(axis, name, attributes())
 
 
 def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: Computation) -> None:
-    result[SOURCE] = source
+    remember(result, source, computation.points, computation.duplicates, computation.warnings)
     result[ANALYSIS] = computation.key
-    result[VERSION] = __version__
-    result[POINTS] = computation.points
-    result[DUPLICATES] = computation.duplicates
-    result[WARNINGS] = "\n".join(computation.warnings)
+    result[INSIDE] = str(computation.sides)
     _remember_settings(result, computation.settings)
     _remember_axis(result, computation.axis)
 

@@ -1,24 +1,18 @@
-"""From points to a medial axis: `_medial.MedialAnalysis`, typed, with a memory of the last ones.
-
-Everything costly is kept, so that other thresholds for the same points cost milliseconds.
-"""
+"""From points to a medial axis: `_medial.MedialAnalysis`, typed, with a memory of the last ones."""
 
 from __future__ import annotations
 
-import hashlib
-import threading
 import time
-from collections import OrderedDict
 from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import native
-from .errors import Cancelled, DegenerateInputError, InvalidInputError, OutOfMemoryError
-from .settings import Settings, Side
+from .cache import CACHE, key_of
+from .settings import Settings, Side, SidesFrom
+from .sides import Sides, cocone_warnings, look_inward, resolve_sides
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -70,7 +64,9 @@ class Computation:
     ----------
     axis : MedialAxis
     settings : Settings
-        `side` is never AUTOMATIC here.
+        `side` and `sides` are never AUTOMATIC here.
+    sides : Sides
+        What told inside from outside, and why.
     key : str
         Names the analysis for `refilter`.
     points, duplicates : int
@@ -82,6 +78,7 @@ class Computation:
 
     axis: MedialAxis
     settings: Settings
+    sides: Sides
     key: str
     points: int
     duplicates: int
@@ -94,6 +91,7 @@ def compute(
     triangles: NDArray[np.int32],
     settings: Settings,
     progress: Any | None = None,
+    normals: NDArray[np.float64] | None = None,
 ) -> Computation:
     """The medial axis of samples of a surface.
 
@@ -104,6 +102,8 @@ def compute(
         Outward faces of the surface as rows of `points`; (0, 3) for a cloud of points.
     settings : Settings
     progress : _medial.Progress, optional
+    normals : (n, 3) float64, optional
+        Outward, of any length; a zero normal says nothing.
 
     Raises
     ------
@@ -111,16 +111,24 @@ def compute(
     """
     start = time.perf_counter()
     gaps = _open_edges(points, triangles)
-    chosen = resolve_side(settings, triangles, gaps)
-    key, analysis = _analyse(points, triangles, chosen.side is not Side.INNER, progress)
+    sides = resolve_sides(settings.sides, triangles, gaps, normals)
+    side = Side.INNER if settings.side is Side.AUTOMATIC else settings.side
+    chosen = replace(settings, side=side, sides=sides.source)
+    shape = _Shape(
+        points,
+        triangles if sides.source is SidesFrom.SURFACE else None,
+        normals if sides.source is SidesFrom.NORMALS else None,
+    )
+    key, analysis = _analyse(shape, chosen, progress)
     axis = _extract(analysis, chosen, progress)
     return Computation(
         axis=axis,
         settings=chosen,
+        sides=sides,
         key=key,
         points=len(points),
         duplicates=analysis.duplicates,
-        warnings=tuple(_warnings(points, triangles, chosen, gaps, axis)),
+        warnings=tuple(_warnings(shape, chosen, gaps, analysis, axis)),
         seconds=time.perf_counter() - start,
     )
 
@@ -131,48 +139,45 @@ def refilter(key: str, settings: Settings) -> MedialAxis | None:
     return None if analysis is None else _extract(analysis, settings, None)
 
 
-def new_progress() -> Any:
-    """A `_medial.Progress`, to be shared by the thread that computes and the one that watches."""
-    return native.load().Progress()
+@dataclass(frozen=True, eq=False)
+class _Shape:
+    """The samples, and what tells inside from outside: one of the others, or for Tight Cocone none."""
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32] | None
+    normals: NDArray[np.float64] | None
 
 
-# --- sides
-
-
-def resolve_side(settings: Settings, triangles: NDArray[np.int32], gaps: int) -> Settings:
-    """The settings with AUTOMATIC decided: INNER for a closed surface, BOTH for anything else."""
-    has_surface = len(triangles) > 0
-    if settings.side in (Side.INNER, Side.OUTER) and not has_surface:
-        raise InvalidInputError(
-            "Expected faces, which tell inside from outside, for side "
-            f"{settings.side.name.capitalize()}, found points only; choose side Both or Automatic"
-        )
-    if settings.side is not Side.AUTOMATIC:
-        return settings
-    side = Side.INNER if has_surface and gaps == 0 else Side.BOTH
-    return Settings(**{**vars(settings), "side": side})
+# --- warnings
 
 
 def _warnings(
-    points: NDArray[np.float64],
-    triangles: NDArray[np.int32],
-    settings: Settings,
-    gaps: int,
-    axis: MedialAxis,
+    shape: _Shape, settings: Settings, gaps: int, analysis: Any, axis: MedialAxis
 ) -> Iterator[str]:
-    if gaps and settings.side in (Side.INNER, Side.OUTER):
+    if shape.triangles is not None and gaps and settings.side is not Side.BOTH:
         yield (
             f"the surface is open at {gaps:,} edges: inside was taken to be where the winding "
             "number of the open surface is above one half"
         )
-    if axis.facets == 0:
-        if settings.side is Side.INNER and gaps == 0 and _volume(points, triangles) < 0:
-            yield (
-                "no facet lies inside because the faces point inward; recalculate their normals "
-                "(Mesh > Normals > Recalculate Outside) and compute again"
-            )
-        else:
-            yield "no facet passes the conditions; lower theta or rho, or choose another side"
+    if settings.sides is SidesFrom.TIGHT_COCONE:
+        yield from cocone_warnings(analysis.tight_cocone)
+    if shape.normals is not None and look_inward(shape.points, shape.normals):
+        yield (
+            "the normals point inward, so inside and outside are exchanged; turn them round, "
+            "or choose Inside From Tight Cocone, and compute again"
+        )
+    elif axis.facets == 0:
+        yield _why_empty(shape, settings, gaps)
+
+
+def _why_empty(shape: _Shape, settings: Settings, gaps: int) -> str:
+    closed = shape.triangles is not None and gaps == 0
+    if closed and settings.side is Side.INNER and _volume(shape.points, shape.triangles) < 0:
+        return (
+            "no facet lies inside because the faces point inward; recalculate their normals "
+            "(Mesh > Normals > Recalculate Outside) and compute again"
+        )
+    return "no facet passes the conditions; lower theta or rho, or choose another side"
 
 
 def _volume(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
@@ -183,33 +188,31 @@ def _volume(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
 # --- the compiled module
 
 
-def _analyse(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], sphere: bool, progress: Any | None
-) -> tuple[str, Any]:
-    key = _key(points, triangles, sphere)
+def _analyse(shape: _Shape, settings: Settings, progress: Any | None) -> tuple[str, Any]:
+    sphere = settings.side is not Side.INNER
+    key = key_of(sphere, settings.sides.name, shape.points, shape.triangles, shape.normals)
     analysis = CACHE.get(key)
     if analysis is None:
-        module = native.load()
-        with _own_errors(module):
+        with native.own_errors() as module:
             analysis = module.MedialAnalysis(
-                points,
-                triangles if len(triangles) else None,
+                shape.points,
+                shape.triangles,
+                normals=shape.normals,
+                sides=getattr(module.SidesFrom, settings.sides.name),
                 bounding_sphere=sphere,
                 progress=progress,
             )
-        CACHE.put(key, analysis, len(points))
+        CACHE.put(key, analysis, len(shape.points))
     return key, analysis
 
 
 def _open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
-    module = native.load()
-    with _own_errors(module):
+    with native.own_errors() as module:
         return module.open_edges(points, triangles) if len(triangles) else 0
 
 
 def _extract(analysis: Any, settings: Settings, progress: Any | None) -> MedialAxis:
-    module = native.load()
-    with _own_errors(module):
+    with native.own_errors() as module:
         mesh = analysis.extract(
             settings.theta,
             settings.rho,
@@ -220,80 +223,3 @@ def _extract(analysis: Any, settings: Settings, progress: Any | None) -> MedialA
             progress=progress,
         )
     return MedialAxis(**{name: getattr(mesh, name) for name in MedialAxis.__dataclass_fields__})
-
-
-@contextmanager
-def _own_errors(module: Any) -> Iterator[None]:
-    """The compiled module's errors as ours, which exist without it."""
-    try:
-        yield
-    except module.InvalidInputError as error:
-        raise InvalidInputError(str(error)) from error
-    except module.DegenerateInputError as error:
-        raise DegenerateInputError(str(error)) from error
-    except module.Cancelled as error:
-        raise Cancelled(str(error)) from error
-    except MemoryError as error:
-        raise OutOfMemoryError(
-            "Expected enough memory, about 1.5 KB per point, found too little; "
-            "close other programs or use fewer points"
-        ) from error
-
-
-# --- memory
-
-
-def _key(points: NDArray[np.float64], triangles: NDArray[np.int32], sphere: bool) -> str:
-    digest = hashlib.blake2b(bytes([sphere]), digest_size=16)
-    for array in (points, triangles):
-        digest.update(repr((array.shape, array.dtype.str)).encode())
-        digest.update(np.ascontiguousarray(array).data)
-    return digest.hexdigest()
-
-
-class AnalysisCache:
-    """The most recent analyses; the newest always stays, older ones as long as there is room.
-
-    Parameters
-    ----------
-    entries : int
-        Most analyses that are kept.
-    points : int
-        Most points that all kept analyses have together (about 1.5 KB each).
-    """
-
-    def __init__(self, entries: int = 8, points: int = 1_500_000) -> None:
-        self._entries = entries
-        self._points = points
-        self._kept: OrderedDict[str, tuple[Any, int]] = OrderedDict()
-        self._lock = threading.Lock()
-        self.analyses = 0  # computed since Blender started
-
-    def get(self, key: str) -> Any | None:
-        with self._lock:
-            if key not in self._kept:
-                return None
-            self._kept.move_to_end(key)
-            return self._kept[key][0]
-
-    def put(self, key: str, analysis: Any, points: int) -> None:
-        with self._lock:
-            self._kept[key] = (analysis, points)
-            self._kept.move_to_end(key)
-            self.analyses += 1
-            while len(self._kept) > 1 and self._too_much():
-                self._kept.popitem(last=False)
-
-    def clear(self) -> None:
-        with self._lock:
-            self._kept.clear()
-
-    def __len__(self) -> int:
-        return len(self._kept)
-
-    def _too_much(self) -> bool:
-        points = sum(points for _, points in self._kept.values())
-        return len(self._kept) > self._entries or points > self._points
-
-
-CACHE = AnalysisCache()

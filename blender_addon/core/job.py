@@ -1,45 +1,37 @@
-"""Medial axes of several shapes: at once, or in a thread that can be watched and cancelled."""
+"""Work on several shapes: at once, or in a thread that can be watched and cancelled."""
 
 from __future__ import annotations
 
 import atexit
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from .analysis import Computation, compute, new_progress
+from . import native
 from .errors import Cancelled, MedialAxisError
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from .settings import Settings
 
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """One shape and what is wanted of it; `name` is for messages. Arrays as in `compute`."""
+    """Work on one shape, called with a `_medial.Progress` or None; `name` is for messages."""
 
     name: str
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    settings: Settings
+    work: Callable[[Any | None], Any]
 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What became of a task: a computation, or an error."""
+    """What became of a task: what its work returned, or an error."""
 
-    computation: Computation | None
+    value: Any | None
     error: MedialAxisError | None
 
 
 def run_task(task: Task, progress: Any | None = None) -> Outcome:
-    """Compute one medial axis; only `Cancelled` leaves as an exception."""
+    """Do the work; of our errors only `Cancelled` leaves as an exception."""
     try:
-        return Outcome(compute(task.points, task.triangles, task.settings, progress), None)
+        return Outcome(task.work(progress), None)
     except Cancelled:
         raise
     except MedialAxisError as error:
@@ -51,7 +43,7 @@ class Job:
 
     def __init__(self, tasks: Sequence[Task]) -> None:
         self.names = tuple(task.name for task in tasks)
-        self._progress = tuple(new_progress() for _ in tasks)
+        self._progress = tuple(native.load().Progress() for _ in tasks)
         self._current = 0
         self._cancelled = False
         self._outcomes: list[Outcome] = []

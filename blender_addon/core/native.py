@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 from types import ModuleType
 
-from .errors import NativeModuleError
+from .errors import (
+    Cancelled,
+    DegenerateInputError,
+    InvalidInputError,
+    NativeModuleError,
+    OutOfMemoryError,
+)
 
 LIB = Path(__file__).resolve().parent.parent / "lib"
 NAME = "_medial"
@@ -38,6 +46,25 @@ def load() -> ModuleType:
             )
             raise NativeModuleError(_failure) from error
     return _module
+
+
+@contextmanager
+def own_errors() -> Iterator[ModuleType]:
+    """The compiled module; its errors are raised as ours, which exist without it."""
+    module = load()
+    try:
+        yield module
+    except module.InvalidInputError as error:
+        raise InvalidInputError(str(error)) from error
+    except module.DegenerateInputError as error:
+        raise DegenerateInputError(str(error)) from error
+    except module.Cancelled as error:
+        raise Cancelled(str(error)) from error
+    except MemoryError as error:
+        raise OutOfMemoryError(
+            "Expected enough memory, about 1.5 KB per point, found too little; "
+            "close other programs or use fewer points"
+        ) from error
 
 
 def problem() -> str:

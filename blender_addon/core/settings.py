@@ -21,6 +21,15 @@ class Side(Enum):
     BOTH = "BOTH"
 
 
+class SidesFrom(Enum):
+    """What tells inside from outside."""
+
+    AUTOMATIC = "AUTOMATIC"
+    SURFACE = "SURFACE"
+    NORMALS = "NORMALS"
+    TIGHT_COCONE = "TIGHT_COCONE"
+
+
 class Rule(Enum):
     """Which ends of a Delaunay edge must pass a condition."""
 
@@ -94,13 +103,35 @@ OPTIONS: dict[str, Number | Choice | Switch] = {
         description="Which part of the medial axis is wanted",
         default=Side.AUTOMATIC,
         items={
-            Side.AUTOMATIC: ("Automatic", "Inner for a closed mesh, both sides for anything else"),
-            Side.INNER: (
-                "Inner",
-                "The axis inside the surface, where its winding number is above one half",
-            ),
-            Side.OUTER: ("Outer", "The axis outside the surface, bounded by a sphere around it"),
+            Side.AUTOMATIC: ("Automatic", "Inner"),
+            Side.INNER: ("Inner", "The axis inside the shape"),
+            Side.OUTER: ("Outer", "The axis outside the shape, bounded by a sphere around it"),
             Side.BOTH: ("Both", "The whole axis, bounded by a sphere around the shape"),
+        },
+    ),
+    "sides": Choice(
+        label="Inside From",
+        description="What tells inside from outside",
+        default=SidesFrom.AUTOMATIC,
+        items={
+            SidesFrom.AUTOMATIC: (
+                "Automatic",
+                "The faces when they close a volume; else the normals of the points when they "
+                "have an attribute of that name; else Tight Cocone",
+            ),
+            SidesFrom.SURFACE: (
+                "Surface",
+                "The faces: inside is where their winding number is above one half",
+            ),
+            SidesFrom.NORMALS: (
+                "Normals",
+                "The attribute 'normal' of the points, which points outward: the points nearest "
+                "to a place vote whether it is inside",
+            ),
+            SidesFrom.TIGHT_COCONE: (
+                "Tight Cocone",
+                "A watertight surface that is found through the points alone; faces are ignored",
+            ),
         },
     ),
     "rule": Choice(
@@ -148,6 +179,7 @@ class Settings:
     rho : float
         rho0 of the Ratio condition.
     side : Side
+    sides : SidesFrom
     rule : Rule
     criteria : Criteria
     limit_set : bool
@@ -161,6 +193,7 @@ class Settings:
     theta: float = OPTIONS["theta"].default
     rho: float = OPTIONS["rho"].default
     side: Side = OPTIONS["side"].default
+    sides: SidesFrom = OPTIONS["sides"].default
     rule: Rule = OPTIONS["rule"].default
     criteria: Criteria = OPTIONS["criteria"].default
     limit_set: bool = OPTIONS["limit_set"].default

@@ -4,11 +4,11 @@ import textwrap
 
 import bpy
 
-from ..bridge import results
+from ..bridge import made, results, surfaces
 from ..core import native
 from . import running
-from .operators import obstacle
-from .properties import copy_settings, shown_result
+from .properties import copy_settings, shown_result, shown_surface
+from .sources import obstacle
 
 _CHARACTER = 7  # pixels of an average character; only decides where lines break
 
@@ -52,6 +52,21 @@ class VIEW3D_PT_medial_axis_result(_Tab, bpy.types.Panel):
         layout.operator("export_scene.medial_axis", icon="EXPORT")
 
 
+class VIEW3D_PT_medial_axis_surface(_Tab, bpy.types.Panel):
+    """Figures of the reconstructed surface"""
+
+    bl_label = "Surface"
+    bl_idname = "VIEW3D_PT_medial_axis_surface"
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+
+    @classmethod
+    def poll(cls, context):
+        return shown_surface(context) is not None
+
+    def draw(self, context):
+        _draw_surface(context, self.layout, shown_surface(context))
+
+
 def _draw_settings(context, layout):
     panel = context.scene.medial_axis
     column = layout.column()
@@ -59,7 +74,7 @@ def _draw_settings(context, layout):
     column.use_property_decorate = False
     for name in ("theta", "rho"):
         column.prop(panel, name, slider=True)
-    for name in ("side", "rule", "criteria", "limit_set"):
+    for name in ("side", "sides", "rule", "criteria", "limit_set"):
         column.prop(panel, name)
 
 
@@ -74,6 +89,7 @@ def _draw_compute(context, layout):
         context.scene.medial_axis,
         row.operator("object.medial_axis", icon="OUTLINER_DATA_MESH"),
     )
+    layout.operator("object.tight_cocone_surface", icon="MESH_ICOSPHERE")
     reason = obstacle(context)
     if reason and reason != native.problem():
         _sentence(context, layout, reason, "INFO")
@@ -91,20 +107,53 @@ def _draw_progress(context, layout, job):
 
 
 def _draw_figures(context, layout, result):
-    layout.label(text=result.name, icon="OUTLINER_OB_MESH")
+    _draw_table(
+        layout,
+        result,
+        {
+            "Points": f"{result.get(made.POINTS, 0):,}",
+            "Duplicates": f"{result.get(made.DUPLICATES, 0):,}",
+            "Facets": f"{len(result.data.polygons):,}",
+            "Vertices": f"{len(result.data.vertices):,}",
+            "Unbounded": f"{result.get(results.UNBOUNDED, 0):,}",
+            "Radius": "{:.3g} to {:.3g}".format(*results.radius_range(result)),
+        },
+    )
+    if inside := result.get(results.INSIDE):
+        _sentence(context, layout, inside, "INFO")
+    _draw_warnings(context, layout, result)
+
+
+def _draw_surface(context, layout, surface):
+    edges, vertices = (
+        surface.get(name, 0) for name in (surfaces.NONMANIFOLD_EDGES, surfaces.NONMANIFOLD_VERTICES)
+    )
+    _draw_table(
+        layout,
+        surface,
+        {
+            "Points": f"{surface.get(made.POINTS, 0):,}",
+            "Duplicates": f"{surface.get(made.DUPLICATES, 0):,}",
+            "Off Surface": f"{surface.get(surfaces.OFF_SURFACE, 0):,}",
+            "Triangles": f"{len(surface.data.polygons):,}",
+            "Non-Manifold": f"{edges:,} edges, {vertices:,} points",
+            "Cavities": f"{surface.get(surfaces.CAVITIES, 0):,}",
+        },
+    )
+    _draw_warnings(context, layout, surface)
+
+
+def _draw_table(layout, thing, figures):
+    layout.label(text=thing.name, icon="OUTLINER_OB_MESH")
     column = layout.column(align=True)
-    for label, text in (
-        ("Points", f"{result.get(results.POINTS, 0):,}"),
-        ("Duplicates", f"{result.get(results.DUPLICATES, 0):,}"),
-        ("Facets", f"{len(result.data.polygons):,}"),
-        ("Vertices", f"{len(result.data.vertices):,}"),
-        ("Unbounded", f"{result.get(results.UNBOUNDED, 0):,}"),
-        ("Radius", "{:.3g} to {:.3g}".format(*results.radius_range(result))),
-    ):
+    for label, text in figures.items():
         row = column.split(factor=0.45)
         row.label(text=label)
         row.label(text=text)
-    for warning in result.get(results.WARNINGS, "").splitlines():
+
+
+def _draw_warnings(context, layout, thing):
+    for warning in thing.get(made.WARNINGS, "").splitlines():
         _sentence(context, layout, warning, "ERROR")
 
 
@@ -117,7 +166,11 @@ def _sentence(context, layout, text, icon):
         column.label(text=line, icon="BLANK1" if number else icon)
 
 
-CLASSES = (VIEW3D_PT_medial_axis, VIEW3D_PT_medial_axis_result)
+CLASSES = (
+    VIEW3D_PT_medial_axis,
+    VIEW3D_PT_medial_axis_result,
+    VIEW3D_PT_medial_axis_surface,
+)
 
 
 def register():

@@ -2,11 +2,15 @@
 
 import ctypes
 import math
+from dataclasses import replace
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty
 
-from ..bridge.results import is_gone, is_result, result_of, settings_of, update_result
+from ..bridge.made import is_gone
+from ..bridge.read_object import SOURCE_TYPES
+from ..bridge.results import ANALYSIS, is_result, result_of, settings_of, update_result
+from ..bridge.surfaces import is_surface, surface_of
 from ..core.analysis import refilter
 from ..core.errors import MedialAxisError
 from ..core.settings import OPTIONS, Choice, Number, Settings
@@ -80,11 +84,20 @@ def _exact(option: Number, value: float) -> float:
 
 
 def shown_result(context):
-    """The result that the panel speaks of: the active object, or that of the active object."""
+    """The medial axis that the panel speaks of: the active object, or that of the active object."""
+    return _shown(context, is_result, result_of)
+
+
+def shown_surface(context):
+    """The surface that the panel speaks of: the active object, or that of the active object."""
+    return _shown(context, is_surface, surface_of)
+
+
+def _shown(context, is_kind, of_source):
     active = getattr(context, "object", None)
-    if active is None or active.type != "MESH":
+    if active is None or active.type not in SOURCE_TYPES:
         return None
-    return active if is_result(active) else result_of(active)
+    return active if is_kind(active) else of_source(active)
 
 
 def _refilter(panel, context):
@@ -102,8 +115,8 @@ def _refilter(panel, context):
 def _refilter_result(result, panel) -> str:
     kept = settings_of(result)
     wanted = settings_from(panel)
-    wanted = Settings(**{**vars(wanted), "side": kept.side})  # another side is another analysis
-    axis = refilter(result["ma_analysis"], wanted)
+    wanted = replace(wanted, side=kept.side, sides=kept.sides)  # others need another analysis
+    axis = refilter(result[ANALYSIS], wanted)
     if axis is None:
         return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
     if axis.facets == 0:
@@ -118,6 +131,7 @@ class MedialAxisPanelSettings(bpy.types.PropertyGroup):
     theta: number("theta", _refilter)
     rho: number("rho", _refilter)
     side: choice("side")
+    sides: choice("sides")
     rule: choice("rule", _refilter)
     criteria: choice("criteria", _refilter)
     limit_set: switch("limit_set", _refilter)

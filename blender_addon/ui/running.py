@@ -6,16 +6,17 @@ import bpy
 from bpy.app.handlers import persistent
 
 from ..core import native
-from ..core.analysis import CACHE
+from ..core.cache import CACHE
 from ..core.job import Job, Task
 
 _job: Job | None = None
+_product = ""
 
 
-def start(tasks: list[Task]) -> Job:
-    """Begin a computation; `finish` or `stop` ends it. There must be none."""
-    global _job
-    _job = Job(tasks)
+def start(tasks: list[Task], product: str) -> Job:
+    """Begin a computation of `product`s; `finish` or `stop` ends it. There must be none."""
+    global _job, _product
+    _job, _product = Job(tasks), product
     return _job
 
 
@@ -44,7 +45,7 @@ def stop() -> None:
 def show(context: bpy.types.Context) -> None:
     """Stage and percentage in the status bar and the panel."""
     if _job is not None and context.workspace is not None:
-        context.workspace.status_text_set(f"Medial Axis of {_job.text}    Esc: Cancel")
+        context.workspace.status_text_set(f"{_product.title()} of {_job.text}    Esc: Cancel")
     redraw()
 
 
@@ -63,7 +64,7 @@ def obstacle() -> str:
     if problem := native.problem():
         return problem
     if _job is not None:
-        return "A medial axis is being computed; wait for it, or press Esc to cancel it"
+        return f"A {_product} is being computed; wait for it, or press Esc to cancel it"
     return ""
 
 

@@ -9,4 +9,4 @@ from scene import addon
 def empty_scene():
     """Every test starts with nothing: no objects, no kept analyses, paper defaults."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    addon("core.analysis").CACHE.clear()
+    addon("core.cache").CACHE.clear()

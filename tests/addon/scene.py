@@ -7,6 +7,7 @@ import re
 
 import bpy
 import numpy as np
+import pytest
 
 MODULE = os.environ["MEDIAL_AXIS_MODULE"]
 
@@ -72,6 +73,32 @@ def torus(name="Torus"):
     return thing
 
 
+def on_ellipsoid(count=2000, axes=(1.0, 0.7, 0.5), seed=7):
+    """(n, 3) points on an ellipsoid, evenly spread as on a spiral, and their unit outward normals."""
+    height = 1 - (2 * np.arange(count) + 1) / count
+    angle = np.pi * (1 + 5**0.5) * np.arange(count)
+    angle += np.random.default_rng(seed).normal(scale=1e-3, size=count)
+    level = np.sqrt(1 - height**2)
+    sphere = np.column_stack([level * np.cos(angle), level * np.sin(angle), height])
+    normals = sphere / axes
+    return sphere * axes, normals / np.linalg.norm(normals, axis=1)[:, None]
+
+
+def scan(name="Scan", points=None, normals=None):
+    """A mesh of vertices alone, as a scan is imported; a clean ellipsoid if nothing else is said."""
+    thing = link(name, on_ellipsoid()[0] if points is None else points)
+    if normals is not None:
+        addon("bridge.attributes").add_normals(thing.data.attributes, normals)
+    return thing
+
+
+def opened(name="Open", faces=40):
+    """An ellipsoid that lacks its first faces."""
+    source = ellipsoid()
+    kept = [list(polygon.vertices) for polygon in source.data.polygons][faces:]
+    return link(name, positions(source.data), kept)
+
+
 def positions(mesh):
     """(n, 3) the vertices of a mesh."""
     values = np.empty(3 * len(mesh.vertices), np.float32)
@@ -103,12 +130,30 @@ def result_of(source):
 
 def analyses():
     """How many analyses were computed since Blender started."""
-    return addon("core.analysis").CACHE.analyses
+    return addon("core.cache").CACHE.analyses
 
 
 def compute(**settings):
     """Run the operator on the selection; it must succeed."""
     assert bpy.ops.object.medial_axis(**settings) == {"FINISHED"}
+
+
+def refuse(match, operator="medial_axis", **settings):
+    """The operator raises one sentence and leaves the file as it was."""
+    before = contents()
+    with pytest.raises(RuntimeError, match=match) as caught:
+        getattr(bpy.ops.object, operator)(**settings)
+    assert "Traceback" not in str(caught.value)
+    assert contents() == before
+    return str(caught.value)
+
+
+def contents():
+    """What is in the file, by name."""
+    return [
+        sorted(thing.name for thing in kind)
+        for kind in (bpy.data.objects, bpy.data.meshes, bpy.data.materials)
+    ]
 
 
 def direct(points, triangles=None, sphere=False, **settings):

@@ -112,7 +112,7 @@ def test_npz_holds_all_attributes(result, tmp_path):
     assert np.array_equal(np.diff(arrays["face_offsets"]), corner_counts(mesh))
     assert np.array_equal(arrays["face_vertices"], np.concatenate(polygons(mesh)))
     assert arrays["generators"].shape == (len(mesh.polygons), 2)
-    source = addon("bridge.results").source_of(result)
+    source = addon("bridge.made").source_of(result)
     samples = world_positions(source)[
         arrays["generators"]
     ]  # the axis lies halfway between its generators
@@ -134,7 +134,7 @@ def test_read_axis_is_the_computed_axis_in_float32(result):
 
 def test_source_exports_its_result(result, tmp_path):
     export(tmp_path / "result.off")
-    select(addon("bridge.results").source_of(result))
+    select(addon("bridge.made").source_of(result))
     export(tmp_path / "source.off")
     assert (tmp_path / "result.off").read_bytes() == (tmp_path / "source.off").read_bytes()
 

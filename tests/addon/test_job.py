@@ -2,6 +2,7 @@
 
 import threading
 import time
+from functools import partial
 
 import bpy
 import numpy as np
@@ -13,9 +14,14 @@ def task(count=60_000, name="Cloud"):
     """A task of about a second."""
     points = np.random.default_rng(9).normal(size=(count, 3))
     points /= np.linalg.norm(points, axis=1)[:, None]
-    points *= (1.0, 0.8, 0.6)
+    return task_of(name, points * (1.0, 0.8, 0.6))
+
+
+def task_of(name, points):
+    """What the operator asks for a cloud of points."""
+    none, settings = np.zeros((0, 3), np.int32), addon("core.settings").Settings()
     return addon("core.job").Task(
-        name, points, np.zeros((0, 3), np.int32), addon("core.settings").Settings()
+        name, partial(addon("core.analysis").compute, points, none, settings)
     )
 
 
@@ -41,16 +47,16 @@ def test_job_reports_stages_and_a_fraction_that_never_falls():
     assert any(text.startswith("One, 1 of 2: Delaunay triangulation, ") for _, text in seen)
     assert any(text.startswith("Two, 2 of 2: ") for _, text in seen)
     assert len({text.split(", ")[1] for _, text in seen}) > 3, seen
-    assert [outcome.computation.points for outcome in job.outcomes()] == [60_000, 20_000]
+    assert [outcome.value.points for outcome in job.outcomes()] == [60_000, 20_000]
     assert threads() == []
 
 
 def test_job_gives_what_the_script_way_gives():
     one = task(3_000)
     job = addon("core.job").Job([one])
-    mine = job.outcomes()[0].computation.axis
-    addon("core.analysis").CACHE.clear()
-    other = addon("core.job").run_task(one).computation.axis
+    mine = job.outcomes()[0].value.axis
+    addon("core.cache").CACHE.clear()
+    other = addon("core.job").run_task(one).value.axis
     for name in (
         "vertices",
         "radius",
@@ -79,18 +85,14 @@ def test_cancel_ends_the_job_soon_and_keeps_nothing(delay):
 
 
 def test_an_error_belongs_to_its_task():
-    flat = addon("core.job").Task(
-        "Flat", np.zeros((9, 3)), np.zeros((0, 3), np.int32), task(9).settings
-    )
+    flat = task_of("Flat", np.zeros((9, 3)))
     bad, good = addon("core.job").Job([flat, task(1000)]).outcomes()
-    assert (
-        isinstance(bad.error, addon("core.errors").DegenerateInputError) and bad.computation is None
-    )
-    assert good.error is None and good.computation.axis.facets > 0
+    assert isinstance(bad.error, addon("core.errors").DegenerateInputError) and bad.value is None
+    assert good.error is None and good.value.axis.facets > 0
 
 
 def test_an_unforeseen_failure_is_raised_where_the_outcomes_are_asked_for():
-    wrong = addon("core.job").Task("Wrong", None, None, None)
+    wrong = addon("core.job").Task("Wrong", None)
     with pytest.raises(TypeError):
         addon("core.job").Job([wrong]).outcomes()
 
@@ -98,7 +100,7 @@ def test_an_unforeseen_failure_is_raised_where_the_outcomes_are_asked_for():
 def test_second_run_is_refused_while_one_runs():
     ellipsoid()
     running = addon("ui.running")
-    job = running.start([task(300_000)])
+    job = running.start([task(300_000)], "medial axis")
     with pytest.raises(RuntimeError, match="A medial axis is being computed"):
         bpy.ops.object.medial_axis()
     assert bpy.context.window_manager.medial_axis_progress.percentage >= 0
@@ -106,7 +108,7 @@ def test_second_run_is_refused_while_one_runs():
     wait(job)
     running.stop()
     compute()
-    with pytest.raises(RuntimeError, match="No medial axis is being computed"):
+    with pytest.raises(RuntimeError, match="Nothing is being computed"):
         bpy.ops.object.medial_axis_cancel()
 
 
@@ -114,7 +116,7 @@ def test_sliders_rest_while_a_job_runs():
     source = ellipsoid()
     compute()
     count = len(result_of(source).data.polygons)
-    addon("ui.running").start([task(300_000)])
+    addon("ui.running").start([task(300_000)], "medial axis")
     bpy.context.scene.medial_axis.theta = 1.2
     assert len(result_of(source).data.polygons) == count
     addon("ui.running").stop()
@@ -123,16 +125,16 @@ def test_sliders_rest_while_a_job_runs():
 def test_loading_a_file_stops_the_job_and_forgets_analyses():
     ellipsoid()
     compute()
-    assert len(addon("core.analysis").CACHE) == 1
-    addon("ui.running").start([task(300_000)])
+    assert len(addon("core.cache").CACHE) == 1
+    addon("ui.running").start([task(300_000)], "medial axis")
     assert threads()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     assert threads() == [] and addon("ui.running").job() is None
-    assert len(addon("core.analysis").CACHE) == 0 and medial_objects() == []
+    assert len(addon("core.cache").CACHE) == 0 and medial_objects() == []
 
 
 def test_disabling_the_addon_stops_the_job():
-    addon("ui.running").start([task(300_000)])
+    addon("ui.running").start([task(300_000)], "medial axis")
     bpy.ops.preferences.addon_disable(module=MODULE)
     assert threads() == []
     bpy.ops.preferences.addon_enable(module=MODULE)
@@ -140,8 +142,7 @@ def test_disabling_the_addon_stops_the_job():
 
 def test_source_deleted_before_the_result_is_written(capfd):
     source = ellipsoid()
-    operators = addon("ui.operators")
-    found = operators.Source(source.name, getattr(source, "session_uid", None), None)
+    found = addon("ui.sources").Source(source.name, getattr(source, "session_uid", None), None)
     assert found.find() == source
     bpy.data.objects.remove(source)
     assert found.find() is None

@@ -15,6 +15,7 @@ from scene import (
     positions,
     reports,
     result_of,
+    scan,
     select,
     suzanne,
     torus,
@@ -148,14 +149,25 @@ def test_every_setting_reaches_the_compiled_module(settings):
         assert result_of(source)[f"ma_{name}"] == pytest.approx(value)
 
 
-def test_vertex_only_mesh_gives_both_sides():
-    points = np.random.default_rng(2).normal(size=(300, 3)).astype(np.float32)
-    source = link("Cloud", points)
+def test_raw_scan_gives_a_clean_inner_axis_in_one_step():
+    source = scan()
     compute()
     result = result_of(source)
-    assert result["ma_side"] == "BOTH"
-    assert set(attribute(result.data, "ma_side")) == {0}
-    assert_holds(result, direct(points.astype(float), None, True))
+    assert result["ma_side"] == "INNER" and result["ma_warnings"] == ""
+    assert set(attribute(result.data, "ma_side")) == {1}
+    module = addon("core.native").load()
+    assert_holds(result, direct(positions(source.data), side=module.Side.INNER))
+    where = positions(result.data)  # the axis of an ellipsoid is a flat elliptic disc
+    assert np.abs(where[:, 2]).max() < 0.05
+    assert ((where[:, :2] / [0.75, 0.343]) ** 2).sum(axis=1).max() < 1.1
+
+
+def test_scan_gives_both_sides_when_asked():
+    source = scan(points=positions(torus().data))
+    compute(side="BOTH")
+    result = result_of(source)
+    assert set(attribute(result.data, "ma_side")) >= {1, 2}
+    assert_holds(result, direct(positions(source.data), None, True))
 
 
 def test_loose_vertices_are_samples_too():
@@ -196,7 +208,8 @@ def test_several_selected_objects_give_one_result_each(capfd):
     infos = [text for kind, text in reports(capfd) if kind == "Info" and "points" in text]
     assert len(infos) == 2
     assert "162 points" in infos[0] and "facets" in infos[0] and "duplicates merged 0" in infos[0]
-    assert "unbounded facets" in infos[0] and " s," in infos[0]
+    assert "unbounded facets 0" in infos[0] and infos[0].endswith(" s")
+    assert "; Inside from Surface: the faces are closed; " in infos[0]
 
 
 def test_one_bad_object_does_not_take_the_others_down():
@@ -388,7 +401,7 @@ def test_slider_that_leaves_nothing_leaves_the_result_as_it_was():
 def test_slider_without_kept_analysis_asks_for_compute():
     source = ellipsoid()
     compute()
-    addon("core.analysis").CACHE.clear()
+    addon("core.cache").CACHE.clear()
     count = len(result_of(source).data.polygons)
     bpy.context.scene.medial_axis.theta = 1.2
     assert len(result_of(source).data.polygons) == count
@@ -407,7 +420,7 @@ def test_changed_mesh_is_analysed_again():
 
 
 def test_kept_analyses_are_bounded():
-    cache = addon("core.analysis").AnalysisCache(entries=2, points=100)
+    cache = addon("core.cache").AnalysisCache(entries=2, points=100)
     for key, points in (("a", 40), ("b", 40), ("c", 40)):
         cache.put(key, key, points)
     assert cache.get("a") is None and cache.get("b") == "b" and cache.get("c") == "c"

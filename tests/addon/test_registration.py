@@ -9,7 +9,7 @@ import bpy
 import pytest
 from scene import MODULE, addon, compute, ellipsoid, link, result_of
 
-OPTIONS = ("theta", "rho", "side", "rule", "criteria", "limit_set")
+OPTIONS = ("theta", "rho", "side", "sides", "rule", "criteria", "limit_set")
 
 
 def menu_texts(menu):
@@ -19,9 +19,11 @@ def menu_texts(menu):
 def present():
     return {
         "operator": hasattr(bpy.types, "OBJECT_OT_medial_axis"),
+        "surface": hasattr(bpy.types, "OBJECT_OT_tight_cocone_surface"),
         "cancel": hasattr(bpy.types, "OBJECT_OT_medial_axis_cancel"),
         "export": hasattr(bpy.types, "EXPORT_SCENE_OT_medial_axis"),
         "panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis"),
+        "surface panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_surface"),
         "settings": hasattr(bpy.types.Scene, "medial_axis"),
         "progress": hasattr(bpy.types.WindowManager, "medial_axis_progress"),
         "object menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object),
@@ -113,6 +115,8 @@ def test_defaults_are_those_of_the_compiled_module():
         assert {member.name for member in enum} == set(getattr(module, enum.__name__).__members__)
     for side in set(settings.Side) - {settings.Side.AUTOMATIC}:
         assert side.name in module.Side.__members__
+    for source in settings.SidesFrom:
+        assert source.name in module.SidesFrom.__members__
 
 
 def test_rounded_limits_and_defaults_mean_the_exact_numbers():

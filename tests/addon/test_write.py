@@ -33,9 +33,15 @@ def changed(axis, **fields):
     )
 
 
+def written(axis, name):
+    return addon("bridge.write_object").new_mesh(
+        axis, name, addon("bridge.attributes").attributes()
+    )
+
+
 def test_arrays_arrive():
     axis = honeycomb(4, 5)
-    mesh = addon("bridge.write_object").new_mesh(axis, "Honeycomb")
+    mesh = written(axis, "Honeycomb")
     np.testing.assert_array_equal(positions(mesh), axis.vertices.astype(np.float32))
     assert [len(p.vertices) for p in mesh.polygons] == [6] * 20
     np.testing.assert_array_equal(
@@ -57,7 +63,7 @@ def test_polygons_of_different_sizes():
         face_offsets=np.array([0, 3, 7], np.int32),
         face_vertices=np.array([0, 1, 2, 4, 3, 2, 1], np.int32),
     )
-    mesh = addon("bridge.write_object").new_mesh(axis, "Mixed")
+    mesh = written(axis, "Mixed")
     assert [list(p.vertices) for p in mesh.polygons] == [[0, 1, 2], [4, 3, 2, 1]]
 
 
@@ -82,5 +88,5 @@ def test_nothing_is_left_of_a_mesh_that_cannot_be_made(fields, error):
     if isinstance(error, str):
         error = getattr(addon("core.errors"), error)
     with pytest.raises(error):
-        addon("bridge.write_object").new_mesh(changed(honeycomb(1, 2), **fields), "Broken")
+        written(changed(honeycomb(1, 2), **fields), "Broken")
     assert len(bpy.data.meshes) == 0

@@ -31,6 +31,7 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=5)
     options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
     medial = _module.load()
+    from medial_axis.bridge.attributes import attributes
     from medial_axis.bridge.write_object import new_mesh
     from medial_axis.core.analysis import MedialAxis
 
@@ -40,7 +41,7 @@ def main() -> None:
     seconds = []
     for _ in range(options.repeats):
         start = time.perf_counter()
-        written = new_mesh(axis, "Benchmark")
+        written = new_mesh(axis, "Benchmark", attributes())
         seconds.append(time.perf_counter() - start)
         bpy.data.meshes.remove(written)
     facets, median = axis.facets, statistics.median(seconds)

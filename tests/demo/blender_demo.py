@@ -170,7 +170,7 @@ def figures(package, result):
     filter_seconds = sum(seconds.values()) + time.perf_counter() - start
     return {
         "model": result.name.removesuffix(results.SUFFIX),
-        "points": f"{result[results.POINTS]:,}",
+        "points": f"{result['ma_points']:,}",
         "Delaunay s": f"{delaunay:.2f}",
         "filter s": f"{filter_seconds:.2f}",
         "facets": f"{len(result.data.polygons):,}",

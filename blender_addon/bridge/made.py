@@ -1,0 +1,103 @@
+"""Objects that are made of a source, and made again when it is computed again.
+
+They remember their source in a custom property; nothing is written to the source.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import bpy
+from mathutils import Matrix
+
+from .. import __version__
+from ..core.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    import numpy as np
+
+SOURCE = "ma_source"  # a pointer: it follows when either of the two is renamed
+VERSION = "ma_version"
+POINTS = "ma_points"
+DUPLICATES = "ma_duplicates"
+WARNINGS = "ma_warnings"
+
+
+def source_of(made: bpy.types.Object) -> bpy.types.Object | None:
+    """The object that this was made of; None when it was not made, or its source is gone."""
+    source = made.get(SOURCE)
+    return source if isinstance(source, bpy.types.Object) else None
+
+
+def is_gone(thing: bpy.types.Object | None) -> bool:
+    """Deleted: Blender keeps objects that a custom property points to, but in no collection."""
+    return thing is None or not thing.users_collection
+
+
+def made_of(
+    source: bpy.types.Object, is_kind: Callable[[bpy.types.Object], bool]
+) -> bpy.types.Object | None:
+    """The object of a kind that the next computation of this source updates."""
+    found = [
+        thing
+        for thing in bpy.data.objects
+        if thing.library is None
+        and is_kind(thing)
+        and not is_gone(thing)
+        and source_of(thing) == source
+    ]
+    return min(found, key=lambda thing: thing.name, default=None)
+
+
+def check_mode(made: bpy.types.Object | None) -> None:
+    """Raise InvalidInputError when an object that was made before cannot be updated now."""
+    if made is not None and made.mode != "OBJECT":
+        raise InvalidInputError(
+            f"Expected '{made.name}' in object mode, found it in {made.mode.lower()} mode; "
+            "leave that mode and compute again"
+        )
+
+
+def new_object(source: bpy.types.Object, suffix: str, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    """An object named after its source, in the collections of that."""
+    made = bpy.data.objects.new(source.name + suffix, mesh)
+    editable = [collection for collection in source.users_collection if collection.library is None]
+    for collection in editable or [bpy.context.scene.collection]:
+        collection.objects.link(made)
+    return made
+
+
+def replace_mesh(made: bpy.types.Object, build: Callable[[str], bpy.types.Mesh]) -> None:
+    """Swap in a new mesh, also for linked duplicates; materials and the name stay."""
+    check_mode(made)
+    old = made.data
+    mesh = build(old.name)
+    for material in old.materials:
+        mesh.materials.append(material)
+    old.user_remap(mesh)
+    name = old.name
+    bpy.data.meshes.remove(old)
+    mesh.name = name
+
+
+def place(made: bpy.types.Object, frame: np.ndarray) -> None:
+    """Put an object where `frame`, (4, 4) rotation and translation, says."""
+    made.matrix_world = Matrix(frame.tolist())
+    if made.parent is None:
+        made.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
+
+
+def remember(
+    made: bpy.types.Object,
+    source: bpy.types.Object,
+    points: int,
+    duplicates: int,
+    warnings: tuple[str, ...],
+) -> None:
+    """What everything that is made remembers."""
+    made[SOURCE] = source
+    made[VERSION] = __version__
+    made[POINTS] = points
+    made[DUPLICATES] = duplicates
+    made[WARNINGS] = "\n".join(warnings)

@@ -1,0 +1,96 @@
+"""From points to the watertight surface through them: `_medial.TightCocone`, ready for Blender."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import native
+from .errors import DegenerateInputError
+from .sides import cocone_warnings
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Reconstruction:
+    """A closed surface of triangles whose vertices are samples, and how it came about.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+        Only samples that a triangle uses.
+    triangles : (f, 3) int32
+        Outward; every edge is in an even number of them.
+    points, duplicates : int
+        Rows of the input, and those of them merged into an earlier row with the same coordinates.
+    off_surface : int
+        Distinct points that no triangle uses.
+    nonmanifold_edges, nonmanifold_vertices, cavities : int
+        As of `_medial.TightCocone`.
+    warnings : tuple of str
+        What looks wrong, a sentence each.
+    seconds : float
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    points: int
+    duplicates: int
+    off_surface: int
+    nonmanifold_edges: int
+    nonmanifold_vertices: int
+    cavities: int
+    warnings: tuple[str, ...]
+    seconds: float
+
+    @property
+    def face_offsets(self) -> NDArray[np.int32]:
+        """(f + 1,) int32, as `MedialAxis.face_offsets`."""
+        return np.arange(0, self.triangles.size + 1, 3, dtype=np.int32)
+
+    @property
+    def face_vertices(self) -> NDArray[np.int32]:
+        """(3 f,) int32, as `MedialAxis.face_vertices`."""
+        return self.triangles.ravel()
+
+
+def reconstruct(points: NDArray[np.float64], progress: Any | None = None) -> Reconstruction:
+    """The watertight surface through samples (Dey & Goswami 2003).
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    progress : _medial.Progress, optional
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
+    DegenerateInputError
+        The points span no volume, or enclose nothing.
+    """
+    start = time.perf_counter()
+    with native.own_errors() as module:
+        found = module.TightCocone(points, progress=progress)
+    if found.inner_cells == 0:
+        raise DegenerateInputError(
+            "Expected points that lie densely on a closed surface, found nothing enclosed by "
+            "them; use more points, or fewer that lie inside"
+        )
+    rows, triangles = np.unique(found.triangles, return_inverse=True)
+    return Reconstruction(
+        vertices=points[rows],
+        triangles=triangles.reshape(-1, 3).astype(np.int32),
+        points=len(points),
+        duplicates=found.duplicates,
+        off_surface=len(found.samples) - len(rows),
+        nonmanifold_edges=found.nonmanifold_edges,
+        nonmanifold_vertices=found.nonmanifold_vertices,
+        cavities=found.cavities,
+        warnings=tuple(cocone_warnings(found)),
+        seconds=time.perf_counter() - start,
+    )

@@ -1,0 +1,137 @@
+"""Point cloud objects, and points that geometry nodes make of a mesh, as sources."""
+
+import bpy
+import numpy as np
+import pytest
+from scene import (
+    addon,
+    attribute,
+    compute,
+    ellipsoid,
+    on_ellipsoid,
+    positions,
+    refuse,
+    result_of,
+    select,
+    world_positions,
+)
+
+
+def point_cloud(points, normals=None, name="Cloud"):
+    """A point cloud object; Blender has no way to give one a number of points but its own operators."""
+    experimental = bpy.context.preferences.experimental
+    if not hasattr(bpy.types, "PointCloud") or not hasattr(
+        experimental, "use_new_point_cloud_type"
+    ):
+        pytest.skip("this Blender makes no point cloud objects by pointcloud_add")
+    experimental.use_new_point_cloud_type = True
+    bpy.ops.object.pointcloud_add()
+    thing = bpy.context.object
+    thing.name = name
+    count = len(thing.data.points)
+    vectors = np.asarray(points, np.float32)[:count].ravel()
+    thing.data.attributes["position"].data.foreach_set("vector", vectors)
+    thing.data.update_tag()
+    if normals is not None:
+        addon("bridge.attributes").add_normals(thing.data.attributes, normals[:count])
+    select(thing)
+    return thing
+
+
+def shape_of(thing):
+    return addon("bridge.read_object").read_object(thing, bpy.context.evaluated_depsgraph_get())
+
+
+def to_points(source):
+    """Geometry nodes that turn the mesh into points."""
+    tree = bpy.data.node_groups.new("Mesh to Points", "GeometryNodeTree")
+    if hasattr(tree, "interface"):
+        for direction in ("INPUT", "OUTPUT"):
+            tree.interface.new_socket(
+                "Geometry", in_out=direction, socket_type="NodeSocketGeometry"
+            )
+    else:
+        tree.inputs.new("NodeSocketGeometry", "Geometry")
+        tree.outputs.new("NodeSocketGeometry", "Geometry")
+    start, points, end = map(
+        tree.nodes.new, ("NodeGroupInput", "GeometryNodeMeshToPoints", "NodeGroupOutput")
+    )
+    tree.links.new(start.outputs[0], points.inputs[0])
+    tree.links.new(points.outputs[0], end.inputs[0])
+    source.modifiers.new("Points", "NODES").node_group = tree
+    select(source)
+
+
+CLOUD = 400  # what pointcloud_add makes
+
+
+def test_point_cloud_is_read():
+    points, _ = on_ellipsoid(CLOUD)
+    shape = shape_of(point_cloud(points))
+    np.testing.assert_array_equal(shape.points, points.astype(np.float32))
+    assert shape.triangles.shape == (0, 3) and shape.normals is None
+
+
+def test_point_cloud_gives_an_inner_axis():
+    source = point_cloud(on_ellipsoid(CLOUD)[0])
+    compute()
+    result = result_of(source)
+    assert result.name == "Cloud Medial Axis" and result["ma_side"] == "INNER"
+    assert result["ma_inside"].startswith("Inside from Tight Cocone: the points have no faces")
+    assert set(attribute(result.data, "ma_side")) == {1}
+    assert addon("ui.properties").shown_result(bpy.context) == result
+    select(source)
+    assert addon("ui.properties").shown_result(bpy.context) == result
+    bpy.context.scene.medial_axis.theta = 0.6
+    assert result["ma_theta"] == pytest.approx(0.6)
+
+
+def test_point_cloud_with_normals():
+    points, normals = on_ellipsoid(CLOUD)
+    source = point_cloud(points, normals)
+    source.scale = (-1, 2, 1)
+    select(source)
+    compute()
+    result = result_of(source)
+    assert result["ma_inside"] == "Inside from Normals: the points have no faces"
+    assert result["ma_warnings"] == ""
+    inside = (world_positions(result) / (1, 1.4, 0.5)) ** 2
+    assert inside.sum(axis=1).max() < 1
+
+
+def test_point_cloud_gives_a_surface():
+    source = point_cloud(on_ellipsoid(CLOUD)[0])
+    assert bpy.ops.object.tight_cocone_surface() == {"FINISHED"}
+    surface = addon("bridge.surfaces").surface_of(source)
+    assert len(surface.data.vertices) == CLOUD and len(surface.data.polygons) == 2 * CLOUD - 4
+
+
+def test_empty_point_cloud():
+    if not hasattr(bpy.data, "pointclouds"):
+        pytest.skip("this Blender has no point clouds")
+    thing = bpy.data.objects.new("Empty", bpy.data.pointclouds.new("Empty"))
+    bpy.context.scene.collection.objects.link(thing)
+    select(thing)
+    refuse("'Empty': Expected points, found none")
+
+
+def test_points_that_geometry_nodes_make_of_a_mesh():
+    source = ellipsoid()
+    before = positions(source.data)
+    to_points(source)
+    np.testing.assert_array_equal(shape_of(source).points, before)
+    compute()
+    assert result_of(source)["ma_sides"] == "TIGHT_COCONE"
+    assert result_of(source)["ma_points"] == len(before)
+
+
+def test_points_of_another_object_are_not_taken():
+    other, source = ellipsoid("Other"), ellipsoid("Mine", segments=2)
+    to_points(other)
+    count = len(source.data.vertices)
+    to_points(source)
+    assert len(shape_of(source).points) == count
+    source.modifiers.clear()
+    source.data.clear_geometry()
+    select(source)
+    refuse("'Mine': Expected points, found none")

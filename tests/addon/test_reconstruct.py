@@ -1,0 +1,386 @@
+"""Reconstruct Surface (Tight Cocone): the object that is made, made again, or not made at all."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+from scene import (
+    addon,
+    attribute,
+    compute,
+    contents,
+    ellipsoid,
+    on_ellipsoid,
+    opened,
+    positions,
+    refuse,
+    reports,
+    result_of,
+    scan,
+    select,
+    suzanne,
+    torus,
+    triangles_of,
+    world_positions,
+)
+from test_transforms import PLACES, place
+
+
+def surface_of(source):
+    return addon("bridge.surfaces").surface_of(source)
+
+
+def surfaces():
+    return [thing for thing in bpy.data.objects if addon("bridge.surfaces").is_surface(thing)]
+
+
+def reconstruct():
+    """Run the operator on the selection; it must succeed."""
+    assert bpy.ops.object.tight_cocone_surface() == {"FINISHED"}
+
+
+def torus_scan(name="Ring"):
+    return scan(name, positions(torus().data))
+
+
+def two_scans(name="Two"):
+    points, _ = on_ellipsoid(1500)
+    return scan(name, np.concatenate([points, points * 0.5 + (3, 0, 0)]))
+
+
+def assert_closed(thing, euler):
+    """Watertight, manifold, outward triangles without loose vertices."""
+    mesh = bmesh.new()
+    mesh.from_mesh(thing.data)
+    try:
+        assert all(len(face.verts) == 3 for face in mesh.faces)
+        assert all(edge.is_manifold and edge.is_contiguous for edge in mesh.edges)
+        assert all(vertex.is_manifold and vertex.link_faces for vertex in mesh.verts)
+        assert len(mesh.verts) - len(mesh.edges) + len(mesh.faces) == euler
+        assert mesh.calc_volume(signed=True) > 0
+    finally:
+        mesh.free()
+
+
+@pytest.mark.parametrize(
+    ("make", "euler"), [(scan, 2), (torus_scan, 0), (two_scans, 4)], ids=["ball", "ring", "two"]
+)
+def test_clean_scan_becomes_a_closed_surface(make, euler, capfd):
+    source = make()
+    reconstruct()
+    surface = surface_of(source)
+    assert surface.name == f"{source.name} Surface" and surface.type == "MESH"
+    assert_closed(surface, euler)
+    assert surface.data.validate() is False
+    assert not any(polygon.use_smooth for polygon in surface.data.polygons)
+    np.testing.assert_array_equal(  # every sample, exactly
+        np.unique(positions(surface.data), axis=0), np.unique(positions(source.data), axis=0)
+    )
+    assert surface["ma_source"] == source and surface["ma_points"] == len(source.data.vertices)
+    for figure in ("off_surface", "nonmanifold_edges", "nonmanifold_vertices", "cavities"):
+        assert surface[f"ma_{figure}"] == 0
+    assert surface["ma_warnings"] == "" and surface["ma_duplicates"] == 0
+    assert bpy.context.selected_objects == [surface] == [bpy.context.object]
+    kinds, texts = zip(*reports(capfd))
+    assert "Warning" not in kinds
+    assert f"{len(surface.data.polygons):,} triangles" in texts[-1]
+    assert "points off the surface 0" in texts[-1] and texts[-1].endswith(" s")
+
+
+def test_it_is_the_compiled_modules_answer():
+    source = scan()
+    reconstruct()
+    found = addon("core.native").load().TightCocone(positions(source.data))
+    surface = surface_of(source)
+    np.testing.assert_array_equal(triangles_of(surface.data), found.triangles)
+
+
+def test_volume_of_the_ellipsoid():
+    source = scan(points=on_ellipsoid(8000)[0])
+    reconstruct()
+    mesh = bmesh.new()
+    mesh.from_mesh(surface_of(source).data)
+    volume = mesh.calc_volume(signed=True)
+    mesh.free()
+    assert volume == pytest.approx(4 / 3 * np.pi * 1.0 * 0.7 * 0.5, rel=0.01)
+
+
+def test_source_is_not_changed():
+    source = scan()
+    before = (positions(source.data).tobytes(), dict(source.items()), list(source.data.attributes))
+    reconstruct()
+    assert (
+        positions(source.data).tobytes(),
+        dict(source.items()),
+        list(source.data.attributes),
+    ) == before
+    assert list(surface_of(source).users_collection) == list(source.users_collection)
+
+
+def test_faces_are_not_used():
+    source = opened()
+    reconstruct()
+    assert_closed(surface_of(source), 2)
+    bare = scan("Bare", positions(source.data))
+    reconstruct()
+    np.testing.assert_array_equal(
+        triangles_of(surface_of(source).data), triangles_of(surface_of(bare).data)
+    )
+
+
+def test_modifiers_are_applied():
+    source = suzanne(levels=1)
+    reconstruct()
+    assert surface_of(source)["ma_points"] == 2012
+
+
+def test_what_is_wrong_is_counted_and_said(capfd):
+    points, _ = on_ellipsoid(5000)
+    points += np.random.default_rng(3).normal(scale=0.01, size=points.shape)
+    source = scan(points=points)
+    reconstruct()
+    surface = surface_of(source)
+    off, edges = surface["ma_off_surface"], surface["ma_nonmanifold_edges"]
+    assert off == 5000 - len(surface.data.vertices) > 0
+    mesh = bmesh.new()
+    mesh.from_mesh(surface.data)
+    assert sum(len(edge.link_faces) > 2 for edge in mesh.edges) == edges > 0
+    assert all(len(edge.link_faces) % 2 == 0 for edge in mesh.edges)
+    assert sum(not v.is_manifold for v in mesh.verts) == surface["ma_nonmanifold_vertices"]
+    mesh.free()
+    said = [text for kind, text in reports(capfd) if kind == "Warning"]
+    assert f"'Scan': {off:,} of 5,000 points are not on the surface" in said[0]
+    assert f"touches itself at {edges:,} edges" in said[1]
+    assert surface["ma_warnings"].splitlines() == [text.removeprefix("'Scan': ") for text in said]
+
+
+def test_points_inside_are_left_out():
+    points, _ = on_ellipsoid(3000)
+    inside = np.random.default_rng(3).uniform(-0.1, 0.1, (5, 3))
+    source = scan(points=np.concatenate([inside, points]))
+    reconstruct()
+    surface = surface_of(source)
+    assert surface["ma_off_surface"] == 5 and len(surface.data.vertices) == 3000
+    assert_closed(surface, 2)
+
+
+def test_duplicates_are_merged():
+    points, _ = on_ellipsoid(1000)
+    source = scan(points=np.concatenate([points, points[:30]]))
+    reconstruct()
+    surface = surface_of(source)
+    assert surface["ma_duplicates"] == 30 and len(surface.data.vertices) == 1000
+    assert_closed(surface, 2)
+
+
+def test_running_again_updates_the_same_object():
+    source = scan()
+    reconstruct()
+    surface, meshes = surface_of(source), len(bpy.data.meshes)
+    surface.data.name = "My Skin"
+    own = bpy.data.materials.new("Own")
+    surface.data.materials.append(own)
+    surface.location = (5, 5, 5)
+    source.data.vertices[0].co *= 1.05
+    source.data.update()
+    select(source)
+    reconstruct()
+    assert surfaces() == [surface] and surface.data.name == "My Skin"
+    assert list(surface.data.materials) == [own] and len(bpy.data.meshes) == meshes
+    bpy.context.view_layer.update()
+    assert surface.matrix_world.translation.length == 0
+    assert np.abs(positions(surface.data)).max() == np.abs(positions(source.data)).max()
+
+
+def test_selected_surface_is_made_anew_from_its_source():
+    source = scan()
+    reconstruct()
+    surface = surface_of(source)
+    assert bpy.context.selected_objects == [surface]
+    select(surface, source)
+    reconstruct()
+    assert surfaces() == [surface]
+
+
+def test_surface_whose_source_is_gone_is_a_mesh_like_any_other():
+    source = scan()
+    reconstruct()
+    surface = surface_of(source)
+    bpy.data.objects.remove(source)
+    select(surface)
+    reconstruct()
+    assert surface_of(surface).name == "Scan Surface Surface"
+
+
+def test_surface_from_a_selected_medial_axis():
+    source = scan()
+    compute()
+    assert bpy.context.object == result_of(source)
+    reconstruct()
+    assert surface_of(source) is not None and len(surfaces()) == 1
+
+
+def test_surface_is_a_source_and_its_axis_that_of_the_scan():
+    source = scan()
+    compute()
+    select(source)
+    reconstruct()
+    surface = surface_of(source)
+    compute()
+    result = result_of(surface)
+    assert result.name == "Scan Surface Medial Axis" and result_of(source) != result
+    assert result["ma_inside"] == "Inside from Surface: the faces are closed"
+    assert len(result.data.polygons) == len(result_of(source).data.polygons)
+    np.testing.assert_allclose(
+        attribute(result.data, "ma_radius"),
+        attribute(result_of(source).data, "ma_radius"),
+        rtol=1e-5,
+    )
+
+
+@pytest.mark.parametrize("parents", [False, True], ids=["alone", "with parents"])
+@pytest.mark.parametrize("name", PLACES)
+def test_surface_lies_where_the_points_are(name, parents):
+    source = scan()
+    place(source, PLACES[name], parents)
+    select(source)
+    reconstruct()
+    surface = surface_of(source)
+    bpy.context.view_layer.update()
+    assert surface.matrix_world.to_scale()[:] == pytest.approx((1, 1, 1), abs=1e-6)
+    assert surface.matrix_world.determinant() > 0
+    mine, theirs = world_positions(surface), world_positions(source)
+    size = np.ptp(theirs, axis=0).max()
+    assert len(mine) == len(theirs)
+    np.testing.assert_allclose(mine, theirs, atol=1e-5 * size)
+    assert_closed(surface, 2)
+
+
+def test_several_at_once_and_one_that_fails():
+    good, flat = scan("Good"), scan("Flat", [(x, y, 0) for x in range(4) for y in range(4)])
+    other = ellipsoid("Other")
+    select(good, flat, other)
+    with pytest.raises(RuntimeError, match="'Flat': .*plane"):
+        bpy.ops.object.tight_cocone_surface()
+    assert {thing.name for thing in surfaces()} == {"Good Surface", "Other Surface"}
+
+
+@pytest.mark.parametrize(
+    ("points", "sentence"),
+    [
+        (np.random.default_rng(2).normal(size=(300, 3)), "found nothing enclosed"),
+        ([(x, y, 0) for x in range(4) for y in range(4)], "plane"),
+        ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], "at least 4"),
+        ([(np.nan, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)], "finite"),
+    ],
+    ids=["dust", "plane", "three", "not finite"],
+)
+def test_bad_points_leave_nothing_behind(points, sentence):
+    scan(points=points)
+    refuse(f"'Scan': .*{sentence}", operator="tight_cocone_surface")
+
+
+def test_bad_points_leave_an_older_surface_as_it_was():
+    source = scan()
+    reconstruct()
+    before = triangles_of(surface_of(source).data).tobytes()
+    source.scale = (1, 1, 0)
+    select(source)
+    refuse("plane", operator="tight_cocone_surface")
+    assert triangles_of(surface_of(source).data).tobytes() == before
+
+
+def test_nothing_selected():
+    refuse("Select a mesh or a point cloud", operator="tight_cocone_surface")
+
+
+def test_surface_in_edit_mode_is_refused():
+    source = scan()
+    reconstruct()
+    bpy.ops.object.mode_set(mode="EDIT")
+    refuse("in object mode, found it in edit mode", operator="tight_cocone_surface")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert_closed(surface_of(source), 2)
+
+
+def test_source_in_edit_mode():
+    source = scan()
+    bpy.ops.object.mode_set(mode="EDIT")
+    reconstruct()
+    assert source.mode == "EDIT"
+    assert_closed(surface_of(source), 2)
+
+
+def test_undo_is_one_step():
+    bpy.context.preferences.edit.use_global_undo = True
+    scan()
+    bpy.ops.ed.undo_push(message="Scene is set")
+    before = contents()
+    assert bpy.ops.object.tight_cocone_surface("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert contents() != before
+    bpy.ops.ed.undo()
+    assert contents() == before
+    bpy.ops.ed.redo()
+    assert_closed(bpy.data.objects["Scan Surface"], 2)
+
+
+def test_cancelled_job_leaves_nothing():
+    points, _ = on_ellipsoid(200_000)
+    task = addon("core.job").Task(
+        "Scan", lambda progress: addon("core.reconstruction").reconstruct(points, progress)
+    )
+    before = contents()
+    job = addon("core.job").Job([task])
+    while job.stage == "Preparing":
+        assert not job.done
+    job.cancel()
+    with pytest.raises(addon("core.errors").Cancelled):
+        job.outcomes()
+    assert contents() == before
+
+
+def test_progress_is_told():
+    points, _ = on_ellipsoid(60_000)
+    work = addon("core.reconstruction").reconstruct
+    job = addon("core.job").Job(
+        [addon("core.job").Task("Scan", lambda progress: work(points, progress))]
+    )
+    seen = []
+    while not job.done:
+        seen.append((job.fraction, job.stage))
+    fractions = [fraction for fraction, _ in seen]
+    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
+    assert len({stage for _, stage in seen}) > 3, {stage for _, stage in seen}
+    assert len(job.outcomes()[0].value.triangles) == 2 * 60_000 - 4
+
+
+def test_refusal_while_another_computation_runs_names_it():
+    scan()
+    points, _ = on_ellipsoid(300_000)
+    work = addon("core.reconstruction").reconstruct
+    task = addon("core.job").Task("Big", lambda progress: work(points, progress))
+    addon("ui.running").start([task], "surface")
+    for operator in ("tight_cocone_surface", "medial_axis"):
+        refuse("A surface is being computed; wait", operator=operator)
+    addon("ui.running").stop()
+
+
+def test_mirrored_source_is_still_outward():
+    source = scan()
+    source.matrix_world = Matrix.Diagonal((-1, 1, 1, 1))
+    select(source)
+    reconstruct()
+    assert_closed(surface_of(source), 2)
+
+
+def test_panel_knows_the_surface():
+    source = scan()
+    reconstruct()
+    properties = addon("ui.properties")
+    assert properties.shown_surface(bpy.context) == surface_of(source)
+    assert properties.shown_result(bpy.context) is None
+    select(source)
+    assert properties.shown_surface(bpy.context) == surface_of(source)
+    compute()
+    assert properties.shown_result(bpy.context) == result_of(source)
