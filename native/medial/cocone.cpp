@@ -47,13 +47,23 @@ Zones zones(const Stage& s, const Run& run) {
   return result;
 }
 
-// Calls found(cell, slot, across) for the triangles at p, each once.
-template <typename Found>
-void for_triangles_at(int32_t p, const Stage& s, const Found& found) {
+// A triangle at a sample whose dual Voronoi edge, between the vertices of two cells, meets its
+// cocone.
+struct Meeting {
+  int32_t cell, across;
+  int slot;  // of the corner of `cell` that the triangle lacks
+};
+
+void find_meetings(int32_t p, const Stage& s, const Zones& zones, std::vector<Meeting>& meetings) {
+  meetings.clear();
   for (const int32_t cell : s.incident[p]) {
+    const Zone here = zones[cell][slot_of(s.t.cells[cell], p)];
     for (int i = 0; i < 4; ++i) {
       const int32_t across = s.t.neighbors[cell][i];
-      if (across > cell && s.t.cells[cell][i] != p) found(cell, i, across);
+      if (across < cell || s.t.cells[cell][i] == p) continue;
+      if (meet_cocone(here, zones[across][slot_of(s.t.cells[across], p)])) {
+        meetings.push_back({cell, across, i});
+      }
     }
   }
 }
@@ -81,29 +91,25 @@ double height(int32_t p, const Stage& s) {
   return std::min(above, below);
 }
 
-bool is_thin(int32_t p, const Stage& s) {
+bool is_thin(int32_t p, const Stage& s, std::span<const Meeting> meetings) {
   const double ratio = s.options.flatness_ratio;
   const double limit = height(p, s) / (ratio * ratio);
-  bool thin = limit > 0;
-  for_triangles_at(p, s, [&](int32_t cell, int, int32_t across) {
-    const double width = thin ? crossing(p, cell, across, s) : 0;
-    thin = thin && width <= limit && width < HUGE_VAL;
-  });
-  return thin;
+  return limit > 0 && std::all_of(meetings.begin(), meetings.end(), [&](const Meeting& m) {
+           const double width = crossing(p, m.cell, m.across, s);
+           return width <= limit && width < HUGE_VAL;
+         });
 }
 
 // Calls found(neighbour) for the cocone neighbours of p, some several times.
 template <typename Found>
-void for_cocone_neighbours(int32_t p, const Stage& s, const Zones& zones, const Found& found) {
-  for_triangles_at(p, s, [&](int32_t cell, int slot, int32_t across) {
-    const Zone here = zones[cell][slot_of(s.t.cells[cell], p)];
-    const Zone there = zones[across][slot_of(s.t.cells[across], p)];
-    if (!meet_cocone(here, there)) return;
+void for_neighbours(int32_t p, const Stage& s, std::span<const Meeting> meetings,
+                    const Found& found) {
+  for (const Meeting& m : meetings) {
     for (int i = 0; i < 4; ++i) {
-      const int32_t q = s.t.cells[cell][i];
-      if (i != slot && q != p && s.is_sample(q)) found(q);
+      const int32_t q = s.t.cells[m.cell][i];
+      if (i != m.slot && q != p && s.is_sample(q)) found(q);
     }
-  });
+  }
 }
 
 // A thin sample may grow flat from a cocone neighbour with which it agrees.
@@ -111,15 +117,20 @@ struct Growth {
   int32_t sample, neighbour;
 };
 
-// Decides which samples are flat at once; returns the ways in which the other thin ones may grow.
+// Decides which samples are thin, and which are flat at once; returns the ways in which the other
+// thin ones may grow.
 std::vector<Growth> agreement(const Stage& s, const Zones& zones, Cocone& result, const Run& run) {
   const double least = std::cos(s.options.flatness_angle);
-  return parallel_append<Growth>(s.samples(), run, [&](int64_t id, auto& growths, int) {
+  std::vector<std::vector<Meeting>> meetings_of(run.threads);
+  return parallel_append<Growth>(s.samples(), run, [&](int64_t id, auto& growths, int worker) {
+    auto& meetings = meetings_of[worker];
     const auto p = static_cast<int32_t>(id);
+    find_meetings(p, s, zones, meetings);
+    result.thin[p] = is_thin(p, s, meetings);
     if (!result.thin[p]) return;
     const size_t before = growths.size();
     bool all = true;
-    for_cocone_neighbours(p, s, zones, [&](int32_t q) {
+    for_neighbours(p, s, meetings, [&](int32_t q) {
       const bool agree = std::abs(dot(s.normal[p], s.normal[q])) >= least;
       all = all && agree;
       if (agree) growths.push_back({p, q});
@@ -192,8 +203,6 @@ Cocone cocone(std::span<const Vec3> points, const Triangulation& t, const Vorono
   parallel_for(s.samples(), run, [&](int64_t p) { s.normal[p] = normalized(s.normal[p]); });
   const auto samples = static_cast<size_t>(s.samples());
   Cocone result{std::vector<uint8_t>(samples), std::vector<uint8_t>(samples), FacetSet(t)};
-  parallel_for(s.samples(), run,
-               [&](int64_t p) { result.thin[p] = is_thin(static_cast<int32_t>(p), s); });
   const Zones z = zones(s, run);
   grow(agreement(s, z, result, run), result.flat);
   parallel_for(t.cell_count(), run, [&](int64_t c) {

@@ -8,25 +8,12 @@ namespace {
 // Corners of a positively oriented cell opposite to each slot, counter-clockwise seen from inside.
 constexpr int kFacet[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 
-// The corner of a facet that is neither p nor q.
-int32_t third_corner(const Triangulation& t, const Facet& f, int32_t p, int32_t q) {
-  for (const int32_t id : corners(t, f)) {
-    if (id != p && id != q) return id;
-  }
-  return kInfinite;
-}
-
 }  // namespace
 
-std::array<int32_t, 3> corners(const Triangulation& t, const Facet& f) {
+Triangle corners(const Triangulation& t, const Facet& f) {
   const Cell& cell = t.cells[f.cell];
   const auto& [i, j, k] = kFacet[f.slot];
   return {cell[i], cell[j], cell[k]};
-}
-
-Facet mirror(const Triangulation& t, const Facet& f) {
-  const int32_t across = t.neighbors[f.cell][f.slot];
-  return {across, slot_of(t.neighbors[across], f.cell)};
 }
 
 FacetSet from_both_sides(const Triangulation& t, const FacetSet& set) {
@@ -47,14 +34,14 @@ void erase_both(const Triangulation& t, FacetSet& set, const Facet& f) {
 
 Facet next_about_edge(const Triangulation& t, const FacetSet& set, const Facet& from, int32_t p,
                       int32_t q) {
-  const Facet back = mirror(t, from);
-  int32_t cell = from.cell;
-  int32_t behind = third_corner(t, from, p, q), ahead = t.cells[cell][from.slot];
+  int32_t cell = from.cell, ahead = t.cells[cell][from.slot];
+  int32_t behind = third_corner(t, from, p, q);
   for (;;) {
     // The facet (p, q, ahead) lies opposite to the corner that is left behind.
     const Facet f{cell, slot_of(t.cells[cell], behind)};
-    if (set.has(f) || f == back) return f;
+    if (set.has(f)) return f;
     const Facet across = mirror(t, f);
+    if (across == from) return f;
     cell = across.cell;
     behind = ahead;
     ahead = t.cells[cell][across.slot];
@@ -64,7 +51,7 @@ Facet next_about_edge(const Triangulation& t, const FacetSet& set, const Facet& 
 void walk_about_vertex(const Triangulation& t, const FacetSet& set, const Facet& start, int32_t p,
                        std::vector<Step>& steps) {
   steps.clear();
-  const auto seen = corners(t, start);
+  const Triangle seen = corners(t, start);
   Facet f = start;
   int32_t link = seen[0] != p ? seen[0] : seen[1];
   do {

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "csr.h"
+#include "boundary.h"
 #include "triangulation.h"
 
 namespace medial {
@@ -18,10 +18,20 @@ struct Facet {
 };
 
 // Corners of a facet, counter-clockwise seen from its cell.
-std::array<int32_t, 3> corners(const Triangulation& triangulation, const Facet& facet);
+Triangle corners(const Triangulation& triangulation, const Facet& facet);
 
 // The same triangle seen from the other cell.
-Facet mirror(const Triangulation& triangulation, const Facet& facet);
+inline Facet mirror(const Triangulation& triangulation, const Facet& facet) {
+  const int32_t across = triangulation.neighbors[facet.cell][facet.slot];
+  return {across, slot_of(triangulation.neighbors[across], facet.cell)};
+}
+
+// The corner of a facet at the edge pq that is neither p nor q.
+inline int32_t third_corner(const Triangulation& triangulation, const Facet& facet, int32_t p,
+                            int32_t q) {
+  const auto& [i, j, k, l] = triangulation.cells[facet.cell];
+  return i + j + k + l - triangulation.cells[facet.cell][facet.slot] - p - q;
+}
 
 // Facets as four bits per cell: a triangle may be in from one of its cells, or from both.
 class FacetSet {

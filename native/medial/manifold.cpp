@@ -23,11 +23,6 @@ std::array<int32_t, 3> seen_from(const Triangulation& t, const Facet& f, int cor
   return {ids[(corner + 1) % 3], ids[(corner + 2) % 3], ids[corner]};
 }
 
-int32_t opposite(const Triangulation& t, const Facet& f, int32_t p, int32_t q) {
-  const auto [i, j, k] = corners(t, f);
-  return i != p && i != q ? i : j != p && j != q ? j : k;
-}
-
 // A disc whose triangles all continue one another.
 bool is_umbrella(const Stage& s, int32_t p, std::span<const Step> steps) {
   if (!is_disc(steps)) return false;
@@ -39,29 +34,67 @@ bool is_umbrella(const Stage& s, int32_t p, std::span<const Step> steps) {
   return true;
 }
 
-// The triangles that are part of an umbrella at one of their corners.
-FacetSet umbrella_triangles(const Stage& s, const FacetSet& set, const Run& run) {
-  FacetSet result(s.t);
-  std::vector<std::vector<Step>> steps_of(run.threads);
-  std::vector<std::vector<Facet>> walked_of(run.threads);
-  parallel_chunks(s.incident.size(), run, [&](int64_t begin, int64_t end, int worker) {
-    auto& steps = steps_of[worker];
-    auto& walked = walked_of[worker];
+// Triangles that are part of umbrellas, from both sides.
+struct Umbrellas {
+  FacetSet triangles;
+  std::vector<uint8_t> simple;  // per sample: all its triangles are one umbrella
+};
+
+class UmbrellaSearch {
+ public:
+  UmbrellaSearch(const Stage& s, const FacetSet& set, Umbrellas& result)
+      : s_(s), set_(set), result_(result) {}
+
+  // All triangles at p, if they are one umbrella.
+  void find_simple(int32_t p) {
+    start(p);
+    if (facets_.empty()) return;
+    walk_about_vertex(s_.t, set_, facets_.front(), p, steps_);
+    // The other half of the facets is the back of the walk.
+    result_.simple[p] = 2 * steps_.size() == facets_.size() && is_umbrella(s_, p, steps_);
+    if (result_.simple[p]) insert();
+  }
+  // The triangles at p that are part of some umbrella.
+  void find_all(int32_t p) {
+    start(p);
+    for (const Facet& f : facets_) {
+      if (std::find(walked_.begin(), walked_.end(), f) != walked_.end()) continue;
+      walk_about_vertex(s_.t, set_, f, p, steps_);
+      for (const Step& step : steps_) walked_.push_back(step.facet);
+      if (is_umbrella(s_, p, steps_)) insert();
+    }
+  }
+
+ private:
+  void start(int32_t p) {
+    facets_.clear();
+    walked_.clear();
+    for_facets_at(p, s_.t, s_.incident[p], set_, [&](const Facet& f) { facets_.push_back(f); });
+  }
+  void insert() {
+    for (const Step& step : steps_) {
+      result_.triangles.insert_shared(step.facet);
+      result_.triangles.insert_shared(mirror(s_.t, step.facet));
+    }
+  }
+
+  const Stage& s_;
+  const FacetSet& set_;
+  Umbrellas& result_;
+  std::vector<Facet> facets_, walked_;
+  std::vector<Step> steps_;
+};
+
+// Calls search(search, p) for all samples.
+template <typename Search>
+void search_umbrellas(const Stage& s, const FacetSet& set, Umbrellas& result, const Run& run,
+                      const Search& at) {
+  parallel_chunks(s.incident.size(), run, [&](int64_t begin, int64_t end, int) {
+    UmbrellaSearch search(s, set, result);
     for (auto p = static_cast<int32_t>(begin); p < end; ++p) {
-      walked.clear();
-      for_facets_at(p, s.t, s.incident[p], set, [&](const Facet& f) {
-        if (std::find(walked.begin(), walked.end(), f) != walked.end()) return;
-        walk_about_vertex(s.t, set, f, p, steps);
-        for (const Step& step : steps) walked.push_back(step.facet);
-        if (!is_umbrella(s, p, steps)) return;
-        for (const Step& step : steps) {
-          result.insert_shared(step.facet);
-          result.insert_shared(mirror(s.t, step.facet));
-        }
-      });
+      if (!result.simple[p]) at(search, p);
     }
   });
-  return result;
 }
 
 // An edge is sharp when none of its triangles continues another.
@@ -69,7 +102,7 @@ bool is_sharp(const Stage& s, const FacetSet& set, const Facet& f, int32_t p, in
   std::vector<int32_t> wings;
   Facet g = f;
   do {
-    wings.push_back(opposite(s.t, g, p, q));
+    wings.push_back(third_corner(s.t, g, p, q));
     g = mirror(s.t, next_about_edge(s.t, set, g, p, q));
   } while (!(g == f));
   for (size_t i = 0; i < wings.size(); ++i) {
@@ -121,14 +154,18 @@ void prune(const Stage& s, FacetSet& set, const FacetSet& locked, std::span<cons
 // candidate that conflicts with what is there is dropped.
 class Walk {
  public:
-  Walk(const Stage& stage, FacetSet candidates)
-      : s_(stage), candidates_(std::move(candidates)), surface_(stage.t), front_(stage.t) {}
+  Walk(const Stage& stage, Umbrellas umbrellas)
+      : s_(stage),
+        candidates_(std::move(umbrellas.triangles)),
+        simple_(std::move(umbrellas.simple)),
+        surface_(stage.t),
+        front_(stage.t) {}
 
   void start(const Facet& seed) {
     if (!take(seed)) return;
     for (size_t i = 0; i < queue_.size(); ++i) {
       const Facet f = queue_[i];
-      for (int edge = 0; edge < 3; ++edge) cross_edge(f, edge);
+      for (int edge = 0; edge < 3 && front_.has(f); ++edge) cross_edge(f, edge);
     }
     queue_.clear();
   }
@@ -138,40 +175,54 @@ class Walk {
   // To the first candidate on the front side that continues f across an edge.
   void cross_edge(const Facet& f, int edge) {
     const auto [p, q, x] = seen_from(s_.t, f, edge);
-    const Facet back = mirror(s_.t, f);
     Facet from = f;
     for (;;) {
       const Facet g = next_about_edge(s_.t, candidates_, from, p, q);
-      if (g == back || surface_.has(g)) return;
-      if (s_.continue_each_other(p, q, x, opposite(s_.t, g, p, q)) && take(g)) return;
+      if (surface_.has(g)) {
+        const bool one_sided = !front_.has(g) && !(g == mirror(s_.t, f));
+        if (one_sided) drop(f);
+        return;
+      }
+      const bool next =
+          is_simple(p, q) || s_.continue_each_other(p, q, x, third_corner(s_.t, g, p, q));
+      if (next && take(g)) return;
       if (candidates_.has(g)) from = mirror(s_.t, g);  // too sharp: look behind it
     }
   }
 
-  // Into the surface, unless an edge would have a third triangle or one that faces the other way.
+  // Into the surface, unless an edge would have a third triangle.
   bool take(const Facet& f) {
     if (!candidates_.has(f) || surface_.has(f)) return false;
     insert_both(s_.t, surface_, f);
     for (int edge = 0; edge < 3; ++edge) {
       if (fits(f, edge)) continue;
-      erase_both(s_.t, surface_, f);
-      erase_both(s_.t, candidates_, f);
+      drop(f);
       return false;
     }
     front_.insert(f);
     queue_.push_back(f);
     return true;
   }
+  void drop(const Facet& f) {
+    erase_both(s_.t, surface_, f);
+    erase_both(s_.t, candidates_, f);
+    front_.erase(f);
+  }
+
+  // The edge has two candidates, which continue each other.
+  bool is_simple(int32_t p, int32_t q) const { return simple_[p] || simple_[q]; }
   bool fits(const Facet& f, int edge) const {
     const auto [p, q, x] = seen_from(s_.t, f, edge);
-    const Facet back = mirror(s_.t, f), g = next_about_edge(s_.t, surface_, f, p, q);
-    if (g == back) return true;
-    return front_.has(g) && next_about_edge(s_.t, surface_, back, p, q) == mirror(s_.t, g);
+    if (is_simple(p, q)) return true;
+    const Facet ahead = next_about_edge(s_.t, surface_, f, p, q), back = mirror(s_.t, f);
+    return ahead == back || next_about_edge(s_.t, surface_, back, p, q) == mirror(s_.t, ahead);
   }
 
   const Stage& s_;
-  FacetSet candidates_, surface_;  // from both sides
-  FacetSet front_;                 // from one
+  FacetSet candidates_;  // from both sides
+  std::vector<uint8_t> simple_;
+  FacetSet surface_;  // from both sides
+  FacetSet front_;    // from one
   std::vector<Facet> queue_;
 };
 
@@ -181,9 +232,16 @@ FacetSet manifold(std::span<const Vec3> points, const Triangulation& t,
                   const Csr<int32_t>& incident, Cocone cocone, const CoconeOptions& options,
                   const Run& run) {
   const Stage s{points, t, incident, std::cos(options.sharp_angle)};
-  const FacetSet locked = umbrella_triangles(s, cocone.candidates, run);
-  prune(s, cocone.candidates, locked, cocone.flat, run);
-  Walk walk(s, umbrella_triangles(s, cocone.candidates, run));
+  Umbrellas umbrellas{FacetSet(t), std::vector<uint8_t>(cocone.flat.size())};
+  search_umbrellas(s, cocone.candidates, umbrellas, run,
+                   [](UmbrellaSearch& search, int32_t p) { search.find_simple(p); });
+  // Where all is clear already, no triangle is lost to the pruning of its neighbours.
+  prune(s, cocone.candidates, FacetSet(umbrellas.triangles), cocone.flat, run);
+  search_umbrellas(s, cocone.candidates, umbrellas, run, [](UmbrellaSearch& search, int32_t p) {
+    search.find_simple(p);
+    search.find_all(p);
+  });
+  Walk walk(s, std::move(umbrellas));
   for (int32_t cell = 0; cell < t.finite_cells; ++cell) {
     throw_if_cancelled(run.progress);
     for (int i = 0; i < 4; ++i) walk.start({cell, i});
