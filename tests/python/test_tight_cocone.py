@@ -1,0 +1,365 @@
+"""Tight Cocone: watertight, of the right topology, with the right inside, on solids whose truth is known."""
+
+from functools import cache
+from itertools import combinations
+
+import inputs
+import meshes
+import numpy as np
+import pytest
+import topology
+from scipy.spatial import cKDTree
+from shapes import SHAPES
+from solids import SOLIDS, Filled
+
+SIZES = {"knot": 4000, "genus 2": 4000, "genus 3": 4000}  # the others: 2000
+CASES = [(name, SIZES.get(name, 2000)) for name in SOLIDS]
+LARGE = [(name, n) for name in SOLIDS for n in (8000, 50000)]
+ALL = CASES + [pytest.param(*case, marks=pytest.mark.slow) for case in LARGE]
+
+
+@cache
+def samples(name, n):
+    return SOLIDS[name].shape.sample(n, 3)
+
+
+@pytest.fixture(scope="module")
+def surface_of(medial):
+    return cache(lambda name, n: medial.TightCocone(samples(name, n)))
+
+
+# ---- the contract, for any input
+
+
+def assert_watertight(points, surface):
+    """Every edge in an even number of triangles, as often one way as the other; and all counts are right."""
+    triangles = surface.triangles
+    assert_ordered(triangles)
+    uses = topology.edges(triangles)[1]
+    assert (uses % 2 == 0).all() and topology.is_oriented(triangles)
+    assert surface.nonmanifold_edges == (uses > 2).sum()
+    assert np.isin(triangles, surface.samples).all()
+    assert np.array_equal(surface.on_surface, np.isin(surface.samples, triangles))
+    assert len(surface.samples) + surface.duplicates == len(points)
+    assert (len(triangles) == 0) == (surface.inner_cells == 0)
+    assert surface.cavities >= 0
+
+
+def assert_ordered(triangles):
+    """Lowest row first, in lexicographic order, none twice."""
+    assert triangles.dtype == np.int32 and triangles.shape[1:] == (3,)
+    assert (triangles[:, 0] < triangles[:, 1:].min(axis=1)).all()
+    rows = triangles.tolist()
+    assert rows == sorted(rows) and len({tuple(sorted(row)) for row in rows}) == len(rows)
+
+
+def assert_between_inner_and_outer_cells(medial, points, surface):
+    """The triangles are exactly the Delaunay facets with one side in and one out, and face the outer one."""
+    cells, neighbors, _ = medial.delaunay(points)
+    inner, outer = (surface.cell_side == int(x) for x in (medial.Side.INNER, medial.Side.OUTER))
+    assert len(surface.cell_side) == len(cells) and (inner | outer).all()
+    assert outer[(cells < 0).any(axis=1)].all()
+    assert surface.inner_cells == inner.sum()
+    cell, slot = np.nonzero(inner[:, None] & outer[neighbors])
+    wanted = lowest_first(np.take_along_axis(cells[cell], FACING[slot], axis=1))
+    assert np.array_equal(surface.triangles, wanted[np.lexsort(wanted.T[::-1])])
+
+
+FACING = np.array(
+    [(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)]
+)  # away from corner 0, 1, 2, 3 of a cell
+
+
+def lowest_first(triangles):
+    first = triangles.argmin(axis=1)
+    return np.take_along_axis(triangles, (first[:, None] + np.arange(3)) % 3, axis=1)
+
+
+# ---- known solids
+
+
+@pytest.mark.parametrize("name, n", ALL)
+def test_topology_is_exact(surface_of, name, n):
+    """A closed manifold of the solid's components and Euler characteristic through every sample."""
+    surface, solid = surface_of(name, n), SOLIDS[name]
+    assert_watertight(samples(name, n), surface)
+    assert (topology.edges(surface.triangles)[1] == 2).all()
+    assert topology.euler(surface.triangles) == solid.euler
+    assert topology.components(surface.triangles) == solid.components
+    assert surface.on_surface.all()
+    assert (surface.nonmanifold_edges, surface.nonmanifold_vertices, surface.cavities) == (0, 0, 0)
+
+
+@pytest.mark.parametrize("name, n", ALL)
+def test_triangles_face_outward_and_enclose_the_volume(surface_of, name, n):
+    points, shape = samples(name, n), SOLIDS[name].shape
+    low, size = points.min(axis=0), np.ptp(points, axis=0)
+    thrown = low + np.random.default_rng(0).random((100_000, 3)) * size
+    exact = shape.inside(thrown).mean() * np.prod(size)
+    assert topology.volume(points, surface_of(name, n).triangles) == pytest.approx(exact, rel=0.05)
+
+
+@pytest.mark.parametrize("name, n", CASES)
+def test_triangles_lie_between_inner_and_outer_cells(medial, surface_of, name, n):
+    assert_between_inner_and_outer_cells(medial, samples(name, n), surface_of(name, n))
+
+
+def far_cells(medial, points, shape):
+    """Rows of finite cells whose Voronoi vertex is farther from the surface than the samples there from each other."""
+    cells, _, centres = medial.delaunay(points)
+    finite = np.flatnonzero((cells >= 0).all(axis=1))
+    spacing = cKDTree(points).query(points, 2)[0][:, 1]
+    far = np.abs(shape.field(centres[finite])) > spacing[cells[finite]].max(axis=1)
+    return finite[far], centres[finite[far]]
+
+
+@pytest.mark.parametrize("name, n", ALL)
+def test_cells_off_the_surface_have_the_right_side(medial, surface_of, name, n):
+    points, shape = samples(name, n), SOLIDS[name].shape
+    rows, centres = far_cells(medial, points, shape)
+    inside = shape.inside(centres)
+    assert inside.sum() > 0.5 * n
+    wanted = np.where(inside, int(medial.Side.INNER), int(medial.Side.OUTER))
+    assert np.array_equal(surface_of(name, n).cell_side[rows], wanted)
+
+
+@pytest.mark.parametrize("name, n", CASES)
+def test_dense_smooth_samples_are_flat_and_good(surface_of, name, n):
+    surface = surface_of(name, n)
+    assert surface.flat.mean() > 0.98 and surface.good.mean() > 0.98
+
+
+@pytest.mark.parametrize("name, n", CASES)
+def test_flat_samples_are_those_of_cocone(medial, surface_of, name, n):
+    assert np.array_equal(surface_of(name, n).flat, medial.cocone(samples(name, n))[1])
+
+
+# ---- the same inside for the medial axis
+
+
+@pytest.mark.parametrize("name, n", CASES)
+def test_facets_are_inner_where_all_cells_round_their_edge_are(medial, surface_of, name, n):
+    points, surface = samples(name, n), surface_of(name, n)
+    analysis = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
+    cells = medial.delaunay(points)[0].astype(np.int64)
+    inner = surface.cell_side == int(medial.Side.INNER)
+    pairs, inside = [], []
+    for i, j in combinations(range(4), 2):
+        ends = np.sort(cells[:, [i, j]], axis=1)
+        pairs.append(ends[ends[:, 0] >= 0])
+        inside.append(inner[ends[:, 0] >= 0])
+    edges, row, count = np.unique(
+        np.concatenate(pairs), axis=0, return_inverse=True, return_counts=True
+    )
+    found = np.bincount(row, np.concatenate(inside))
+    assert np.array_equal(edges, analysis.edges)
+    assert np.array_equal(analysis.side, np.where(found == count, 1, np.where(found == 0, 2, 3)))
+
+
+@pytest.mark.parametrize("name, n", CASES)
+def test_inner_facets_do_not_depend_on_the_bounding_sphere(medial, name, n):
+    """But for some at flat cells on the surface, where the sphere changes the cells outside."""
+    inner = [
+        set(map(tuple, analysis.edges[analysis.select(side=medial.Side.INNER)].tolist()))
+        for analysis in (
+            medial.MedialAnalysis(
+                samples(name, n), sides=medial.SidesFrom.TIGHT_COCONE, bounding_sphere=sphere
+            )
+            for sphere in (False, True)
+        )
+    ]
+    assert len(inner[0]) > 100 and len(inner[0] ^ inner[1]) <= 0.001 * len(inner[0])
+
+
+@pytest.mark.parametrize("sphere", [False, True])
+def test_the_surface_of_an_analysis(medial, surface_of, sphere):
+    points, alone = samples("torus", 2000), surface_of("torus", 2000)
+    analysis = medial.MedialAnalysis(
+        points, sides=medial.SidesFrom.TIGHT_COCONE, bounding_sphere=sphere
+    )
+    found = analysis.tight_cocone
+    assert_watertight(points, found)
+    assert np.array_equal(found.samples, alone.samples) and found.on_surface.all()
+    assert len(found.cell_side) == 0 and found.timings == {} and alone.timings
+    if not sphere:
+        for name in ("triangles", "flat", "good"):
+            assert np.array_equal(getattr(found, name), getattr(alone, name)), name
+
+
+# ---- changes that must not matter
+
+
+@pytest.mark.parametrize("name", ["torus", "two balls", "genus 2"])
+@pytest.mark.parametrize("threads", [1, 2, 3, 0])
+def test_thread_count_changes_no_byte(medial, surface_of, name, threads):
+    n = SIZES.get(name, 2000)
+    assert_same(surface_of(name, n), medial.TightCocone(samples(name, n), threads=threads))
+
+
+ARRAYS = ("triangles", "cell_side", "samples", "flat", "good", "on_surface")
+COUNTS = ("nonmanifold_edges", "nonmanifold_vertices", "cavities", "inner_cells", "duplicates")
+
+
+def assert_same(a, b, arrays=ARRAYS):
+    for name in arrays:
+        assert getattr(a, name).tobytes() == getattr(b, name).tobytes(), name
+    assert [getattr(a, name) for name in COUNTS] == [getattr(b, name) for name in COUNTS]
+
+
+@pytest.mark.parametrize("scale", [1e-6, 2.0**-10, 1e3, 1e6])
+@pytest.mark.parametrize("name", ["torus", "ellipsoid"])
+def test_scale(medial, surface_of, name, scale):
+    assert_same(surface_of(name, 2000), medial.TightCocone(samples(name, 2000) * scale))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", ["torus", "ellipsoid"])
+def test_rotation_and_shift(medial, surface_of, name, seed):
+    """The cells come in another order then."""
+    moved = samples(name, 2000) @ inputs.rotation(seed).T + (1.0, -2.0, 3.0)
+    arrays = tuple(name for name in ARRAYS if name != "cell_side")
+    assert_same(surface_of(name, 2000), medial.TightCocone(moved), arrays)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_permutation(medial, surface_of, seed):
+    points, plain = samples("torus", 2000), surface_of("torus", 2000)
+    order = np.random.default_rng(seed).permutation(len(points))
+    mixed = medial.TightCocone(points[order])
+    turned = lowest_first(order[mixed.triangles])
+    assert np.array_equal(turned[np.lexsort(turned.T[::-1])], plain.triangles)
+    for name in ("flat", "good", "on_surface"):
+        assert np.array_equal(getattr(mixed, name), getattr(plain, name)[order])
+
+
+def test_repeated_rows_are_one_sample(medial, surface_of):
+    points, plain = samples("torus", 2000), surface_of("torus", 2000)
+    repeated = medial.TightCocone(np.concatenate((points, points[:300])))
+    assert repeated.duplicates == 300
+    assert np.array_equal(repeated.triangles, plain.triangles)
+    assert np.array_equal(repeated.samples, plain.samples)
+
+
+# ---- other input
+
+
+def test_two_far_clusters(medial):
+    ball = samples("sphere", 2000)
+    surface = medial.TightCocone(np.concatenate((ball, ball + np.array([1e4, 3e3, 0.0]))))
+    assert topology.components(surface.triangles) == 2 and topology.euler(surface.triangles) == 4
+    assert surface.on_surface.all() and surface.nonmanifold_vertices == 0
+
+
+def cylinder(around=40, up=20):
+    turn = np.arange(around) * 2 * np.pi / around
+    ring = np.column_stack((np.cos(turn), np.sin(turn)))
+    side = [np.column_stack((ring, np.full(around, z))) for z in np.linspace(0.0, 3.0, up)]
+    disc = [np.column_stack((ring * r, np.zeros(around))) for r in (0.25, 0.5, 0.75)]
+    disc = np.concatenate((np.zeros((1, 3)), *disc))
+    return np.concatenate((*side, disc, disc + np.array([0.0, 0.0, 3.0])))
+
+
+GRIDS = {
+    "box": meshes.box((16, 12, 8))[0],
+    "uv sphere": meshes.uv_sphere(32, 16)[0],
+    "uv ellipsoid": meshes.uv_sphere(32, 16)[0] * (1.0, 0.8, 0.6),
+    "icosphere": meshes.icosphere(3)[0],
+    "torus": meshes.torus()[0],
+    "cylinder": cylinder(),
+}
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("name", GRIDS)
+def test_grids(medial, name, turned):
+    """Cospherical and coplanar samples, sharp edges: exact all the same."""
+    points = GRIDS[name] @ inputs.rotation(5).T if turned else GRIDS[name]
+    surface = medial.TightCocone(points)
+    assert_watertight(points, surface)
+    assert_between_inner_and_outer_cells(medial, points, surface)
+    assert topology.euler(surface.triangles) == (0 if name == "torus" else 2)
+    assert topology.components(surface.triangles) == 1
+    assert surface.on_surface.all() and surface.nonmanifold_vertices == 0
+
+
+@pytest.mark.parametrize("layers", [2, 3, 5])
+def test_coplanar_layers(medial, layers):
+    points = inputs.grid((8, 7, layers))
+    surface = medial.TightCocone(points)
+    assert_watertight(points, surface)
+    assert_between_inner_and_outer_cells(medial, points, surface)
+
+
+def test_an_open_surface_is_closed(medial):
+    """A hemisphere: the hole gets a lid."""
+    ball = samples("sphere", 4000)
+    points = ball[ball[:, 2] > 0.0]
+    surface = medial.TightCocone(points)
+    assert_watertight(points, surface)
+    assert topology.euler(surface.triangles) == 2 and surface.on_surface.mean() > 0.99
+    assert topology.volume(points, surface.triangles) == pytest.approx(2 * np.pi / 3, rel=0.1)
+
+
+def test_a_closed_cavity_is_filled_and_counted(medial):
+    """Flooding from infinity cannot see it."""
+    solid = Filled(SHAPES["shell"])
+    points = solid.sample(6000, 0)
+    surface = medial.TightCocone(points)
+    assert_watertight(points, surface)
+    outer = solid.shell.field(points) > -1e-9
+    outer &= np.abs(solid.field(points)) < 1e-9
+    assert np.array_equal(surface.on_surface, outer) and 1000 < outer.sum() < 5000
+    assert topology.euler(surface.triangles) == 2 and surface.cavities == 1
+    rows, centres = far_cells(medial, points, solid.shell)
+    inside = solid.inside(centres)
+    assert np.array_equal(surface.cell_side[rows] == int(medial.Side.INNER), inside)
+
+
+@pytest.mark.parametrize("where", ["outside", "inside"])
+def test_isolated_outliers_are_off_the_surface(medial, surface_of, where):
+    ball, rng = samples("sphere", 2000), np.random.default_rng(4)
+    direction = rng.normal(size=(12, 3))
+    direction /= np.linalg.norm(direction, axis=1)[:, None]
+    reach = rng.uniform(2.0, 4.0, (12, 1)) if where == "outside" else rng.uniform(0.2, 0.6, (12, 1))
+    surface = medial.TightCocone(np.concatenate((ball, direction * reach)))
+    assert np.array_equal(surface.on_surface, np.arange(len(ball) + 12) < len(ball))
+    assert np.array_equal(surface.triangles, surface_of("sphere", 2000).triangles)
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        inputs.grid((2, 2, 2))[[0, 1, 2, 4]],
+        np.concatenate((np.eye(3), [[0, 0, 0], [1, 1, 1.0]])),
+        inputs.grid((2, 2, 2)),
+        np.concatenate((np.eye(3), -np.eye(3))),
+        np.random.default_rng(0).random((7, 3)),
+    ],
+    ids=["tetrahedron", "five", "cube", "octahedron", "seven"],
+)
+def test_very_few_points(medial, points):
+    surface = medial.TightCocone(points)
+    assert_watertight(points, surface)
+    assert_between_inner_and_outer_cells(medial, points, surface)
+
+
+def test_nothing_enclosed_is_an_error_where_an_inside_is_needed(medial):
+    points = np.random.default_rng(0).random((6, 3))
+    analysis = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
+    assert analysis.tight_cocone.inner_cells == 0 and len(analysis.tight_cocone.triangles) == 0
+    for side in (medial.Side.INNER, medial.Side.OUTER):
+        for call in (analysis.select, analysis.extract):
+            with pytest.raises(medial.DegenerateInputError) as error:
+                call(0.0, 0.0, side=side)
+            assert str(error.value).startswith("Expected ") and "found" in str(error.value)
+    assert len(analysis.select(0.0, 0.0)) > 0
+    assert np.isfinite(analysis.extract(0.0, 0.0).vertices).all()
+
+
+@pytest.mark.parametrize("share", [0.001, 0.003, 0.01, 0.03])
+def test_noise_breaks_no_promise(medial, share):
+    ball = samples("torus", 2000)
+    points = ball + np.random.default_rng(1).normal(size=ball.shape) * share * 3.0
+    surface = medial.TightCocone(points)
+    assert_watertight(points, surface)
+    assert_between_inner_and_outer_cells(medial, points, surface)
