@@ -89,7 +89,9 @@ def _draw_compute(context, layout):
         context.scene.medial_axis,
         row.operator("object.medial_axis", icon="OUTLINER_DATA_MESH"),
     )
-    layout.operator("object.tight_cocone_surface", icon="MESH_ICOSPHERE")
+    layout.operator(
+        "object.tight_cocone_surface", text="Reconstruct Surface", icon="MESH_ICOSPHERE"
+    )
     reason = obstacle(context)
     if reason and reason != native.problem():
         _sentence(context, layout, reason, "INFO")

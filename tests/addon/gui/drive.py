@@ -14,6 +14,8 @@ LIMIT = 240  # seconds for one scene, start of Blender included
 
 SCENES = {  # name -> whether the compiled module is installed
     "compute_drag_undo": True,
+    "scan": True,
+    "cancel_surface_with_escape": True,
     "cancel_with_escape": True,
     "cancel_with_button": True,
     "source_deleted": True,
@@ -95,7 +97,7 @@ def run_scene(blender, name: str, folder: Path) -> str:
         return f"no answer, exit code {code}:\n{text[-3000:]}"
     problem = json.loads(answer.read_text(encoding="utf-8"))["problem"]
     # Blender's own exit code is 1 after Esc was the last key.
-    escaped = code == 1 and name == "cancel_with_escape"
+    escaped = code == 1 and name.endswith("with_escape")
     if not problem and code != 0 and not escaped:
         problem = f"exit code {code}"
     if not problem and "Traceback" in text:

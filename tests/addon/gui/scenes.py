@@ -17,15 +17,16 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from scene import addon, analyses, medial_objects, select
+from scene import addon, analyses, attribute, medial_objects, on_ellipsoid, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
 # (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 draws it.
 TAB = (13, 177)
 THETA_LEFT, THETA_RIGHT = (120, 46), (50, 46)
-COMPUTE = (102, 192)
-CANCEL = (102, 214)
+COMPUTE = (102, 215)
+RECONSTRUCT = (102, 246)
+CANCEL = (102, 237)
 
 
 # --- hands and eyes
@@ -160,12 +161,20 @@ def result_exists():
     return bool(medial_objects()) and job() is None
 
 
+def surfaces():
+    return [thing for thing in bpy.data.objects if addon("bridge.surfaces").is_surface(thing)]
+
+
+def surface_exists():
+    return bool(surfaces()) and job() is None
+
+
 def threads():
     return [thread for thread in threading.enumerate() if thread.name == "medial axis"]
 
 
 def nothing_is_left():
-    assert medial_objects() == [] and threads() == []
+    assert medial_objects() == [] and surfaces() == [] and threads() == []
     assert not [m.name for m in bpy.data.meshes if "Medial" in m.name]
     assert not [m.name for m in bpy.data.materials if "Medial" in m.name]
 
@@ -187,7 +196,7 @@ def scene_compute_drag_undo():
     first, before = facets(), analyses()
     yield from click(145, 705)  # opens Adjust Last Operation at the lower left
     yield 1.0
-    yield from drag((220, 583), (250, 583))  # its theta
+    yield from drag((220, 560), (250, 560))  # its theta
     yield 1.0
     look("adjusted")
     adjusted = facets()
@@ -223,6 +232,66 @@ def start_long_run():
     yield from click(*at(COMPUTE))
     yield job_runs
     assert medial_objects() == []
+
+
+def scan_file():
+    """A raw scan: that of a cactus where the shared data are, or else a bare ellipsoid."""
+    path = Path(__file__).resolve().parents[4] / "shared" / "data" / "cactus.xyz"
+    if not path.exists():
+        path = Path(FOLDER) / "scan.xyz"
+        np.savetxt(path, on_ellipsoid(3000)[0])
+    return path
+
+
+def scene_scan():
+    """File > Import of a raw scan, one click, a clean inner axis; another click, its surface."""
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        assert bpy.ops.import_mesh.xyz(filepath=str(scan_file())) == {"FINISHED"}
+    source = bpy.context.view_layer.objects.active
+    assert len(source.data.vertices) > 1000 and len(source.data.polygons) == 0
+    frame_all()
+    yield from open_tab()
+    look("imported")
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield 0.5
+    look("computed")
+    (result,) = medial_objects()
+    assert result["ma_inside"].startswith("Inside from Tight Cocone: the points have no faces")
+    assert set(attribute(result.data, "ma_side")) == {1}
+    select(source)
+    yield from click(*at(RECONSTRUCT))
+    yield surface_exists
+    yield 0.5
+    look("reconstructed")
+    (surface,) = surfaces()
+    assert surface["ma_off_surface"] == 0 and len(surface.data.polygons) > 2000
+    yield from key("ctrl+z")
+    assert surfaces() == [] and len(medial_objects()) == 1, "undo must remove the surface alone"
+    yield from key("ctrl+shift+z")
+    assert len(surfaces()) == 1, "redo must bring the surface back"
+    look("redone")
+
+
+def frame_all():
+    area = viewport()
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window(), area=area, region=region):
+        bpy.ops.view3d.view_all(use_all_regions=True)
+
+
+def scene_cancel_surface_with_escape():
+    cloud()
+    yield from open_tab()
+    yield from click(*at(RECONSTRUCT))
+    yield job_runs
+    look("running")
+    yield from key("Escape")
+    yield no_job
+    yield 0.5
+    nothing_is_left()
+    assert "cancelled" in bpy.context.scene.medial_axis.note
 
 
 def scene_cancel_with_escape():
@@ -325,7 +394,7 @@ def scene_missing_module():
     look("message")
     native = addon("core.native")
     assert native.expected_abi() in native.problem() and "found none" in native.problem()
-    yield from click(*at((102, 319)))  # the button lies below the message; it is grey
+    yield from click(*at((102, 342)))  # the button lies below the message; it is grey
     yield 0.5
     with bpy.context.temp_override(window=window(), area=viewport()):
         assert not bpy.ops.object.medial_axis.poll()
