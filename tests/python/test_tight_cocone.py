@@ -1,12 +1,12 @@
 """Tight Cocone: watertight, of the right topology, with the right inside, on solids whose truth is known."""
 
 from functools import cache
-from itertools import combinations
 
 import inputs
 import meshes
 import numpy as np
 import pytest
+import rings
 import topology
 from scipy.spatial import cKDTree
 from shapes import SHAPES
@@ -141,19 +141,9 @@ def test_flat_samples_are_those_of_cocone(medial, surface_of, name, n):
 def test_facets_are_inner_where_all_cells_round_their_edge_are(medial, surface_of, name, n):
     points, surface = samples(name, n), surface_of(name, n)
     analysis = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
-    cells = medial.delaunay(points)[0].astype(np.int64)
     inner = surface.cell_side == int(medial.Side.INNER)
-    pairs, inside = [], []
-    for i, j in combinations(range(4), 2):
-        ends = np.sort(cells[:, [i, j]], axis=1)
-        pairs.append(ends[ends[:, 0] >= 0])
-        inside.append(inner[ends[:, 0] >= 0])
-    edges, row, count = np.unique(
-        np.concatenate(pairs), axis=0, return_inverse=True, return_counts=True
-    )
-    found = np.bincount(row, np.concatenate(inside))
-    assert np.array_equal(edges, analysis.edges)
-    assert np.array_equal(analysis.side, np.where(found == count, 1, np.where(found == 0, 2, 3)))
+    edges, sides = rings.facet_sides(medial.delaunay(points)[0], inner)
+    assert np.array_equal(edges, analysis.edges) and np.array_equal(sides, analysis.side)
 
 
 @pytest.mark.parametrize("name, n", CASES)

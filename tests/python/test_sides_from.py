@@ -1,0 +1,381 @@
+"""What tells inside from outside: the rule of AUTOMATIC, the vote of normals, and the errors of each choice."""
+
+import re
+import threading
+import time
+
+import inputs
+import meshes
+import numpy as np
+import pytest
+import rings
+from scipy.spatial import cKDTree
+from shapes import SHAPES
+from solids import SOLIDS
+
+CLOUD = np.random.default_rng(0).random((50, 3))
+CLOSED = meshes.jitter(meshes.icosphere(3), 1e-3)
+OPEN = CLOSED[0], CLOSED[1][5:]
+OUTWARD = CLOSED[0] / np.linalg.norm(CLOSED[0], axis=1)[:, None]
+SAMPLED = {name: SHAPES[name] for name in SHAPES} | {
+    name: SOLIDS[name].shape for name in ("two balls", "genus 2", "genus 3")
+}
+
+
+def analysis_of(medial, points, triangles=None, sides="AUTOMATIC", **options):
+    return medial.MedialAnalysis(
+        points, triangles, sides=getattr(medial.SidesFrom, sides), **options
+    )
+
+
+# ---- the rule
+
+
+@pytest.mark.parametrize(
+    "triangles, normals, chosen",
+    [
+        (CLOSED[1], None, "SURFACE"),
+        (CLOSED[1], -OUTWARD, "SURFACE"),
+        (OPEN[1], OUTWARD, "NORMALS"),
+        (None, OUTWARD, "NORMALS"),
+        (CLOSED[1][:0], OUTWARD, "NORMALS"),
+        (OPEN[1], None, "TIGHT_COCONE"),
+        (None, None, "TIGHT_COCONE"),
+        (CLOSED[1][:0], None, "TIGHT_COCONE"),
+    ],
+)
+def test_automatic(medial, triangles, normals, chosen):
+    """The faces when they close a volume, else the normals, else Tight Cocone; exactly as when it is asked for."""
+    found = medial.MedialAnalysis(CLOSED[0], triangles, normals=normals)
+    assert found.sides_from == getattr(medial.SidesFrom, chosen)
+    assert (found.tight_cocone is None) == (chosen != "TIGHT_COCONE")
+    asked = analysis_of(medial, CLOSED[0], triangles, chosen, normals=normals)
+    assert asked.sides_from == found.sides_from and np.array_equal(asked.side, found.side)
+    assert (found.side == int(medial.Side.INNER)).sum() > 500
+
+
+@pytest.mark.parametrize("chosen", ["SURFACE", "NORMALS", "TIGHT_COCONE", "NONE"])
+def test_what_is_asked_for_is_used(medial, chosen):
+    """Also with everything given; and the faces are looked at all the same."""
+    analysis = analysis_of(medial, *OPEN, chosen, normals=OUTWARD)
+    assert analysis.sides_from == getattr(medial.SidesFrom, chosen)
+    assert (analysis.tight_cocone is None) == (chosen != "TIGHT_COCONE")
+    assert not analysis.closed and analysis.boundary_edges > 0
+    assert (analysis.side == 0).all() == (chosen == "NONE")
+
+
+def test_sources_agree_on_a_ball(medial):
+    inner = {
+        name: inner_edges(medial, analysis_of(medial, *CLOSED, name, normals=OUTWARD))
+        for name in ("SURFACE", "NORMALS", "TIGHT_COCONE")
+    }
+    for name in ("NORMALS", "TIGHT_COCONE"):
+        assert len(inner[name] ^ inner["SURFACE"]) < 0.01 * len(inner["SURFACE"]), name
+
+
+def inner_edges(medial, analysis):
+    return set(map(tuple, analysis.edges[analysis.side == int(medial.Side.INNER)].tolist()))
+
+
+# ---- normals
+
+
+def settled_sides(medial, points, shape):
+    """(e,) side of every facet by the exact inside test, and (e,) whether its vertices are off the surface."""
+    cells, _, centres = medial.delaunay(points)
+    finite = (cells >= 0).all(axis=1)
+    spacing = cKDTree(points).query(points, 2)[0][:, 1]
+    field = np.where(finite, np.inf, -np.inf)
+    field[finite] = shape.field(centres[finite])
+    far = ~finite
+    far[finite] = np.abs(field[finite]) > spacing[cells[finite]].max(axis=1)
+    edges, side = rings.facet_sides(cells, finite & (field < 0.0))
+    return edges, side, rings.facet_sides(cells, far)[1] == 1
+
+
+@pytest.mark.parametrize("name", SAMPLED)
+def test_normals_give_the_exact_sides(medial, name):
+    """Away from the surface; cavities too, which no flooding from infinity can see. Flipped they swap the sides."""
+    shape, rng = SAMPLED[name], np.random.default_rng(2)
+    points = shape.sample(9000 if name == "shell" else 3000, 1)  # its wall is thin
+    edges, side, settled = settled_sides(medial, points, shape)
+    normals = shape.normals(points)
+    analysis = analysis_of(
+        medial, points, normals=normals * 2.0 ** rng.integers(-9, 9, (len(points), 1))
+    )
+    assert np.array_equal(analysis.edges, edges)
+    assert np.array_equal(analysis.side[settled], side[settled])
+    assert (side[settled] == 1).sum() > 1000
+    flipped = analysis_of(medial, points, normals=-normals)
+    swapped = settled & analysis.bounded
+    assert np.array_equal(flipped.side[swapped], np.array([0, 2, 1, 3])[side[swapped]])
+
+
+def test_a_zero_normal_has_no_vote(medial):
+    shape, rng = SHAPES["torus"], np.random.default_rng(5)
+    points = shape.sample(3000, 1)
+    normals = shape.normals(points)
+    full = analysis_of(medial, points, normals=normals)
+    normals[rng.random(len(points)) < 0.3] = 0.0
+    some = analysis_of(medial, points, normals=normals)
+    _, side, settled = settled_sides(medial, points, shape)
+    voters = (normals != 0.0).any(axis=1)[full.edges].any(axis=1)
+    assert voters.mean() > 0.85
+    assert np.array_equal(some.side[settled & voters], side[settled & voters])
+
+
+def test_normals_of_any_length_and_of_float32(medial):
+    points = SHAPES["ellipsoid"].sample(1000, 0)
+    normals = SHAPES["ellipsoid"].normals(points).astype(np.float32)
+    plain = analysis_of(medial, points, normals=normals.astype(float))
+    for other in (normals, normals * 1e-30, normals * 1e30, np.asfortranarray(normals)):
+        assert np.array_equal(analysis_of(medial, points, normals=other).side, plain.side)
+
+
+def test_normals_of_repeated_rows(medial):
+    points = SHAPES["ellipsoid"].sample(1000, 0)
+    normals = SHAPES["ellipsoid"].normals(points)
+    plain = analysis_of(medial, points, normals=normals)
+    twice = analysis_of(
+        medial, np.concatenate((points, points)), normals=np.concatenate((normals, normals))
+    )
+    assert twice.duplicates == len(points) and np.array_equal(twice.side, plain.side)
+
+
+@pytest.mark.parametrize("sphere", [False, True])
+def test_threads_and_order_change_nothing(medial, sphere):
+    points = SHAPES["knot"].sample(3000, 1)
+    normals, order = SHAPES["knot"].normals(points), np.random.default_rng(1).permutation(3000)
+    order = order[order < len(points)]
+    plain = analysis_of(medial, points, normals=normals, bounding_sphere=sphere, threads=1)
+    for threads in (2, 3):
+        again = analysis_of(
+            medial, points, normals=normals, bounding_sphere=sphere, threads=threads
+        )
+        assert again.side.tobytes() == plain.side.tobytes()
+    mixed = analysis_of(medial, points[order], normals=normals[order], bounding_sphere=sphere)
+    edges = np.sort(order[mixed.edges], axis=1)
+    row = np.lexsort(edges.T[::-1])
+    assert np.array_equal(edges[row], plain.edges) and np.array_equal(mixed.side[row], plain.side)
+
+
+# ---- errors
+
+
+def one_sentence(error):
+    text = str(error.value)
+    assert re.match(r"^Expected .+", text) and "found" in text and "\n" not in text, text
+    assert 20 < len(text) < 300, text
+    return text
+
+
+@pytest.mark.parametrize("triangles", [None, np.empty((0, 3), np.int32)])
+def test_a_surface_needs_triangles(medial, triangles):
+    with pytest.raises(medial.InvalidInputError, match="triangles|faces"):
+        analysis_of(medial, CLOUD, triangles, "SURFACE")
+
+
+def test_normals_must_be_given(medial):
+    for triangles in (None, meshes.icosphere(1)[1]):
+        with pytest.raises(medial.InvalidInputError, match="normals") as error:
+            analysis_of(medial, CLOUD, triangles, "NORMALS")
+        one_sentence(error)
+
+
+def with_value(value):
+    normals = CLOUD.copy()
+    normals[31, 2] = value
+    return normals
+
+
+@pytest.mark.parametrize("sides", ["AUTOMATIC", "NORMALS"])
+@pytest.mark.parametrize(
+    "normals",
+    [
+        CLOUD[:, :2],
+        CLOUD[:-1],
+        CLOUD.ravel(),
+        CLOUD[None],
+        np.concatenate((CLOUD, CLOUD)),
+        CLOUD[:0],
+        CLOUD.astype(int),
+        CLOUD > 0.5,
+        CLOUD.astype(complex),
+        CLOUD.astype(str),
+        with_value(np.nan),
+        with_value(np.inf),
+    ],
+    ids=[
+        "two columns",
+        "one row less",
+        "flat",
+        "three axes",
+        "twice as many",
+        "none",
+        "int",
+        "bool",
+        "complex",
+        "str",
+        "nan",
+        "inf",
+    ],
+)
+def test_normals_of_a_wrong_shape_type_or_value(medial, sides, normals):
+    with pytest.raises(medial.InvalidInputError, match="normal") as error:
+        analysis_of(medial, CLOUD, sides=sides, normals=normals)
+    one_sentence(error)
+
+
+def test_normals_that_are_not_finite_name_their_row(medial):
+    with pytest.raises(medial.InvalidInputError, match=r"\b31\b"):
+        analysis_of(medial, CLOUD, normals=with_value(np.nan))
+
+
+@pytest.mark.parametrize("side", ["INNER", "OUTER"])
+def test_a_side_needs_sides(medial, side):
+    analysis = analysis_of(medial, CLOUD, sides="NONE")
+    for call in (analysis.select, analysis.extract):
+        with pytest.raises(medial.InvalidInputError) as error:
+            call(side=getattr(medial.Side, side))
+        one_sentence(error)
+
+
+@pytest.mark.parametrize("value", ["TIGHT_COCONE", 3, None])
+def test_sides_of_a_wrong_type(medial, value):
+    with pytest.raises(TypeError):
+        medial.MedialAnalysis(CLOUD, sides=value)
+
+
+# ---- the constants of Tight Cocone
+
+DEFAULTS = {
+    "cocone_angle": np.pi / 8,
+    "flatness_ratio": 1.2,
+    "flatness_angle": np.pi / 3,
+    "sharp_angle": 2 * np.pi / 3,
+}
+LIMITS = {
+    "cocone_angle": np.pi / 2,
+    "flatness_angle": np.pi / 2,
+    "sharp_angle": np.pi,
+    "flatness_ratio": np.inf,
+}
+
+
+def test_defaults_are_the_papers(medial):
+    options = medial.CoconeOptions()
+    for name, value in DEFAULTS.items():
+        assert getattr(options, name) == pytest.approx(value, rel=1e-15)
+        with pytest.raises(AttributeError):
+            setattr(options, name, value)
+    with pytest.raises(TypeError):
+        medial.CoconeOptions(np.pi / 8)
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_ranges_of_the_options(medial, name):
+    for bad in (0.0, -1e-9, LIMITS[name], np.nan, -np.inf, np.inf):
+        with pytest.raises(medial.InvalidInputError, match=name) as error:
+            medial.CoconeOptions(**{name: bad})
+        one_sentence(error)
+    for good in (1e-9, min(LIMITS[name], 1e9) * 0.999):
+        assert getattr(medial.CoconeOptions(**{name: good}), name) == good
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"cocone_angle": 0.02},
+        {"flatness_ratio": 4.0},
+        {"flatness_angle": 0.02},
+        {"sharp_angle": 0.2},
+    ],
+    ids=lambda options: next(iter(options)),
+)
+def test_every_option_has_an_effect(medial, options):
+    """On the surface alone and as an argument of an analysis, alike."""
+    points = SHAPES["torus"].random_sample(1500, 0)
+    changed = medial.CoconeOptions(**options)
+    plain, other = medial.TightCocone(points), medial.TightCocone(points, options=changed)
+    figures = lambda x: (x.flat.tobytes(), x.good.tobytes(), x.triangles.tobytes())
+    assert figures(plain) != figures(other)
+    analysis = analysis_of(medial, points, sides="TIGHT_COCONE", cocone=changed)
+    assert figures(analysis.tight_cocone) == figures(other)
+
+
+# ---- cancelling
+
+
+@pytest.mark.parametrize("call", ["TightCocone", "MedialAnalysis"])
+def test_cancelled_before_it_starts(medial, call):
+    progress = medial.Progress()
+    progress.cancel()
+    with pytest.raises(medial.Cancelled):
+        getattr(medial, call)(CLOUD, progress=progress)
+
+
+@pytest.mark.parametrize("call", ["TightCocone", "MedialAnalysis"])
+@pytest.mark.parametrize("when", [0.02, 0.7, 0.92])
+def test_cancel_from_another_thread(medial, call, when):
+    points = SHAPES["torus"].random_sample(30_000, 0)
+    progress, raised = medial.Progress(), []
+
+    def compute():
+        try:
+            raised.append(getattr(medial, call)(points, progress=progress))
+        except medial.Cancelled as error:
+            raised.append(error)
+
+    worker = threading.Thread(target=compute)
+    worker.start()
+    while worker.is_alive() and progress.fraction < when:
+        time.sleep(0.0005)
+    progress.cancel()
+    worker.join(60)
+    assert isinstance(raised[0], medial.Cancelled) and 0 <= progress.fraction < 1
+
+
+@pytest.mark.parametrize("call", ["TightCocone", "MedialAnalysis"])
+def test_progress_rises_to_one_and_names_its_stages(medial, call):
+    points = SHAPES["torus"].random_sample(30_000, 0)
+    progress, seen = medial.Progress(), []
+    worker = threading.Thread(target=lambda: getattr(medial, call)(points, progress=progress))
+    worker.start()
+    while worker.is_alive():
+        seen.append((progress.fraction, progress.stage))
+        time.sleep(0.001)
+    fractions, stages = [x for x, _ in seen], {x for _, x in seen}
+    assert fractions == sorted(fractions) and progress.fraction == 1.0
+    assert "Delaunay triangulation" in stages and any("ocone" in stage for stage in stages)
+
+
+# ---- the points of `TightCocone` and `cocone` are those of `MedialAnalysis`
+
+
+@pytest.mark.parametrize("call", ["TightCocone", "cocone"])
+@pytest.mark.parametrize(
+    "points",
+    [CLOUD[:, :2], CLOUD.ravel(), CLOUD.astype(int), with_value(np.nan), with_value(np.inf)],
+    ids=["two columns", "flat", "int", "nan", "inf"],
+)
+def test_points_that_are_not_valid(medial, call, points):
+    with pytest.raises(medial.InvalidInputError) as error:
+        getattr(medial, call)(points)
+    one_sentence(error)
+
+
+@pytest.mark.parametrize("call", ["TightCocone", "cocone"])
+@pytest.mark.parametrize(
+    "points",
+    [CLOUD[:0], CLOUD[:3], np.ones((9, 3)), inputs.grid((5, 5, 1)), inputs.grid((9, 1, 1))],
+    ids=["none", "three", "identical", "plane", "line"],
+)
+def test_points_without_volume(medial, call, points):
+    with pytest.raises(medial.DegenerateInputError) as error:
+        getattr(medial, call)(points)
+    one_sentence(error)
+
+
+def test_threads_must_not_be_negative(medial):
+    with pytest.raises(medial.InvalidInputError):
+        medial.TightCocone(CLOUD, threads=-1)
