@@ -140,9 +140,9 @@ def read_off(path):
 
 
 def compute(source):
-    side = "INNER" if source.data.polygons else "AUTOMATIC"
+    sides = "SURFACE" if source.data.polygons else "AUTOMATIC"
     start = time.perf_counter()
-    bpy.ops.object.medial_axis(side=side)
+    bpy.ops.object.medial_axis(sides=sides)
     result = bpy.context.view_layer.objects.active
     print(
         f"{result.name}: {len(result.data.polygons):,} facets after {time.perf_counter() - start:.2f} s"
