@@ -127,9 +127,6 @@ def _draw_figures(context, layout, result):
 
 
 def _draw_surface(context, layout, surface):
-    edges, vertices = (
-        surface.get(name, 0) for name in (surfaces.NONMANIFOLD_EDGES, surfaces.NONMANIFOLD_VERTICES)
-    )
     _draw_table(
         layout,
         surface,
@@ -138,7 +135,8 @@ def _draw_surface(context, layout, surface):
             "Duplicates": f"{surface.get(made.DUPLICATES, 0):,}",
             "Off Surface": f"{surface.get(surfaces.OFF_SURFACE, 0):,}",
             "Triangles": f"{len(surface.data.polygons):,}",
-            "Non-Manifold": f"{edges:,} edges, {vertices:,} points",
+            "Non-Manifold": f"{surface.get(surfaces.NONMANIFOLD_EDGES, 0):,} edges",
+            "": f"{surface.get(surfaces.NONMANIFOLD_VERTICES, 0):,} points",
             "Cavities": f"{surface.get(surfaces.CAVITIES, 0):,}",
         },
     )

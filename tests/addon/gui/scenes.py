@@ -250,7 +250,7 @@ def scene_scan():
         assert bpy.ops.import_mesh.xyz(filepath=str(scan_file())) == {"FINISHED"}
     source = bpy.context.view_layer.objects.active
     assert len(source.data.vertices) > 1000 and len(source.data.polygons) == 0
-    frame_all()
+    frame_selected()
     yield from open_tab()
     look("imported")
     yield from click(*at(COMPUTE))
@@ -263,7 +263,7 @@ def scene_scan():
     select(source)
     yield from click(*at(RECONSTRUCT))
     yield surface_exists
-    yield 0.5
+    yield 1.5
     look("reconstructed")
     (surface,) = surfaces()
     assert len(surface.data.vertices) > 0.99 * (surface["ma_points"] - surface["ma_duplicates"])
@@ -271,14 +271,15 @@ def scene_scan():
     assert surfaces() == [] and len(medial_objects()) == 1, "undo must remove the surface alone"
     yield from key("ctrl+shift+z")
     assert len(surfaces()) == 1, "redo must bring the surface back"
+    yield 1.0
     look("redone")
 
 
-def frame_all():
+def frame_selected():
     area = viewport()
     region = next(region for region in area.regions if region.type == "WINDOW")
     with bpy.context.temp_override(window=window(), area=area, region=region):
-        bpy.ops.view3d.view_all(use_all_regions=True)
+        bpy.ops.view3d.view_selected()
 
 
 def scene_cancel_surface_with_escape():
