@@ -247,7 +247,7 @@ def scene_scan():
     """File > Import of a raw scan, one click, a clean inner axis; another click, its surface."""
     bpy.data.objects.remove(bpy.data.objects["Cube"])
     with bpy.context.temp_override(window=window(), area=viewport()):
-        assert bpy.ops.import_mesh.xyz(filepath=str(scan_file())) == {"FINISHED"}
+        assert bpy.ops.import_mesh.points_xyz(filepath=str(scan_file())) == {"FINISHED"}
     source = bpy.context.view_layer.objects.active
     assert len(source.data.vertices) > 1000 and len(source.data.polygons) == 0
     frame_selected()
