@@ -188,15 +188,6 @@ def test_limits_of_the_thresholds_are_valid(medial):
     assert len(analysis.select(0.0, 0.0)) > len(analysis.select(0.1, 2.0))
 
 
-@pytest.mark.parametrize("side", ["INNER", "OUTER"])
-def test_a_side_needs_triangles(medial, side):
-    analysis = medial.MedialAnalysis(CLOUD)
-    for call in (analysis.select, analysis.extract):
-        with pytest.raises(medial.InvalidInputError) as error:
-            call(side=getattr(medial.Side, side))
-        assert "triangles" in one_sentence(error)
-
-
 def test_crossing_is_no_argument(medial):
     analysis = medial.MedialAnalysis(*meshes.jitter(BALL, 1e-3))
     with pytest.raises(medial.InvalidInputError):
@@ -205,10 +196,11 @@ def test_crossing_is_no_argument(medial):
 
 def test_an_open_mesh_may_be_asked_for_its_inner_axis(medial):
     vertices, triangles = meshes.jitter(meshes.icosphere(3), 1e-3)
-    analysis = medial.MedialAnalysis(
-        vertices * (1.0, 0.7, 0.4), triangles[vertices[triangles].mean(axis=1)[:, 2] < 0.8]
-    )
-    assert not analysis.closed and len(analysis.extract(side=medial.Side.INNER).generators) > 100
+    lidless = triangles[vertices[triangles].mean(axis=1)[:, 2] < 0.8]
+    for source in (medial.SidesFrom.SURFACE, medial.SidesFrom.TIGHT_COCONE):
+        analysis = medial.MedialAnalysis(vertices * (1.0, 0.7, 0.4), lidless, sides=source)
+        assert not analysis.closed
+        assert len(analysis.extract(side=medial.Side.INNER).generators) > 100
 
 
 def test_threads_must_not_be_negative(medial):

@@ -45,7 +45,7 @@ def reference_of(medial, case):
 
 @cache
 def analysis_of(medial, case):
-    return medial.MedialAnalysis(points_of(case))
+    return medial.MedialAnalysis(points_of(case), sides=medial.SidesFrom.NONE)
 
 
 @pytest.fixture(params=CASES, ids=name_of, scope="module")

@@ -1,9 +1,14 @@
-"""10,000 small inputs, most of them degenerate: no crash, no broken invariant, errors only where they belong."""
+"""10,000 small inputs, most of them degenerate: no crash, no broken invariant, errors only where they belong.
+
+And 10,000 for Tight Cocone, of which a run without --slow takes 2,000.
+"""
 
 import inputs
 import numpy as np
 import pytest
+from shapes import SHAPES
 from test_invariants import assert_invariants
+from test_tight_cocone import assert_between_inner_and_outer_cells, assert_same, assert_watertight
 
 BATCHES, BATCH = 50, 200
 
@@ -58,16 +63,30 @@ def random_triangles(rng, n):
     return rng.integers(0, n, (int(rng.integers(0, 2 * n)), 3)).astype(np.int32)
 
 
+def random_sides(medial, rng, points, seed):
+    """What tells inside from outside: every source in turn."""
+    if seed % 4 == 0:
+        triangles = random_triangles(rng, len(points))
+        is_open = (
+            medial.open_edges(points, triangles) > 0
+        )  # else there may be no triangle of any area
+        sides = medial.SidesFrom.SURFACE if is_open else medial.SidesFrom.AUTOMATIC
+        return {"triangles": triangles, "sides": sides}
+    if seed % 4 == 1:
+        return {"normals": rng.integers(-2, 3, points.shape).astype(float)}
+    return {"sides": medial.SidesFrom.TIGHT_COCONE if seed % 4 == 2 else medial.SidesFrom.NONE}
+
+
 @pytest.mark.parametrize("batch", range(BATCHES))
 def test_small_inputs(medial, batch):
     degenerate = 0
     for seed in range(batch * BATCH, (batch + 1) * BATCH):
         rng = np.random.default_rng(seed)
         points = random_points(rng)
-        triangles = random_triangles(rng, len(points)) if seed % 3 == 0 else None
         try:
+            options = random_sides(medial, rng, points, seed)
             analysis = medial.MedialAnalysis(
-                points, triangles, bounding_sphere=seed % 5 == 0, threads=1 + seed % 2
+                points, **options, bounding_sphere=seed % 5 == 0, threads=1 + seed % 2
             )
         except medial.DegenerateInputError:
             degenerate += 1
@@ -95,3 +114,64 @@ def assert_sound(medial, analysis, points, rng, seed):
         assert_invariants(points, mesh)
     except AssertionError as error:
         raise AssertionError(f"seed {seed}: {error}") from error
+
+
+# ---- Tight Cocone
+
+
+def random_cloud(rng):
+    """The same trouble, and clouds of up to 300 points that enclose something."""
+    kind = int(rng.integers(0, 8))
+    if kind < 3:
+        return random_points(rng)
+    n = int(rng.integers(20, 301))
+    name = str(rng.choice(["ellipsoid", "torus", "box", "shell"]))
+    points = SHAPES[name].random_sample(n, int(rng.integers(2**31)))
+    if kind == 3:  # noise
+        return points + rng.normal(size=points.shape) * 10.0 ** rng.uniform(-4, 0)
+    if kind == 4:  # two far clusters, one of them small
+        return np.concatenate(
+            (points, points * 10.0 ** rng.uniform(-6, 0) + 10.0 ** rng.uniform(0, 8))
+        )
+    if kind == 5:  # outliers, and rows twice
+        return np.concatenate(
+            (points, rng.normal(size=(9, 3)) * 10.0 ** rng.uniform(-1, 3), points[:9])
+        )
+    if kind == 6:  # coplanar layers
+        return np.column_stack((points[:, :2], np.round(points[:, 2] * 2)))
+    return points * 10.0 ** rng.uniform(-45, 45)  # tiny and huge
+
+
+def random_options(medial, rng, seed):
+    if seed % 3:
+        return None
+    return medial.CoconeOptions(
+        cocone_angle=rng.uniform(0.01, 1.5),
+        flatness_ratio=10.0 ** rng.uniform(-3, 3),
+        flatness_angle=rng.uniform(0.01, 1.5),
+        sharp_angle=rng.uniform(0.01, 3.1),
+    )
+
+
+@pytest.mark.parametrize(
+    "batch", [*range(10), *(pytest.param(i, marks=pytest.mark.slow) for i in range(10, 50))]
+)
+def test_tight_cocone(medial, batch):
+    """Watertight, whatever comes; and the same for one thread and for two."""
+    enclosing = 0
+    for seed in range(batch * BATCH, (batch + 1) * BATCH):
+        rng = np.random.default_rng(seed)
+        points, options = random_cloud(rng), random_options(medial, rng, seed)
+        try:
+            one, two = (medial.TightCocone(points, options=options, threads=n) for n in (1, 2))
+        except medial.DegenerateInputError:
+            assert spans_volume(points) is not True, seed
+            continue
+        try:
+            assert_watertight(points, one)
+            assert_between_inner_and_outer_cells(medial, points, one)
+            assert_same(one, two)
+        except AssertionError as error:
+            raise AssertionError(f"seed {seed}: {error}") from error
+        enclosing += one.inner_cells > 0
+    assert enclosing > 0.2 * BATCH

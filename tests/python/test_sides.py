@@ -107,6 +107,10 @@ OPEN = {
 ALL = CLOSED | OPEN
 
 
+def analyse(medial, points, triangles, **options):
+    return medial.MedialAnalysis(points, triangles, sides=medial.SidesFrom.SURFACE, **options)
+
+
 def circumcentres(medial, points):
     """Finite cells of the points and their circumcentres, from a mesh's rows."""
     cells, _, centres = medial.delaunay(points)
@@ -136,7 +140,7 @@ def expected_sides(medial, points, triangles, analysis):
 def test_sides_equal_brute_force(medial, name):
     """Where they differ, a Voronoi vertex of the facet lies on the surface, up to rounding."""
     points, triangles = ALL[name]
-    analysis = medial.MedialAnalysis(points, triangles)
+    analysis = analyse(medial, points, triangles)
     wanted, incident, centres = expected_sides(medial, points, triangles, analysis)
     wrong = np.flatnonzero(analysis.side != wanted)
     if len(wrong) == 0:
@@ -154,7 +158,7 @@ def test_sides_equal_brute_force(medial, name):
 @pytest.mark.parametrize("name", ALL)
 def test_no_inner_vertex_is_outside(medial, name):
     points, triangles = ALL[name]
-    mesh = medial.MedialAnalysis(points, triangles).extract(0.0, 0.0, medial.Side.INNER)
+    mesh = analyse(medial, points, triangles).extract(0.0, 0.0, medial.Side.INNER)
     assert (mesh.side == 1).all()
     assert_inside(mesh.vertices, mesh.radius, points, triangles)
 
@@ -168,7 +172,7 @@ def assert_inside(vertices, radius, points, triangles):
 
 @pytest.mark.parametrize("name", ALL)
 def test_side_filters_by_the_side_array(medial, name):
-    analysis = medial.MedialAnalysis(*ALL[name])
+    analysis = analyse(medial, *ALL[name])
     every = analysis.select()
     for side, value in ((medial.Side.INNER, 1), (medial.Side.OUTER, 2)):
         chosen = analysis.select(side=side)
@@ -182,23 +186,24 @@ def test_side_filters_by_the_side_array(medial, name):
 @pytest.mark.parametrize("name", ALL)
 def test_closed_and_boundary_edges(medial, name):
     points, triangles = ALL[name]
-    analysis = medial.MedialAnalysis(points, triangles)
+    analysis = analyse(medial, points, triangles)
     assert analysis.boundary_edges == reference.boundary_edges(triangles)
     assert analysis.closed == (name in CLOSED)
 
 
-def test_without_triangles_no_side_is_known(medial):
-    points = ALL["sphere"][0]
-    for triangles in (None, np.empty((0, 3), dtype=np.int32)):
-        analysis = medial.MedialAnalysis(points, triangles)
-        assert not analysis.closed and analysis.boundary_edges == 0 and (analysis.side == 0).all()
+def test_when_nothing_tells_no_side_is_known(medial):
+    points, triangles = ALL["sphere"]
+    for faces in (None, triangles[:0], triangles):
+        analysis = medial.MedialAnalysis(points, faces, sides=medial.SidesFrom.NONE)
+        assert (analysis.side == 0).all() and (analysis.extract(0.0, 0.0).side == 0).all()
+        assert analysis.closed == (faces is triangles) and analysis.boundary_edges == 0
 
 
 @pytest.mark.parametrize("name", ["nested shell", "torus", "ellipsoid", "overlapping balls"])
 def test_sides_do_not_depend_on_the_bounding_sphere(medial, name):
     points, triangles = ALL[name]
-    plain = medial.MedialAnalysis(points, triangles)
-    bounded = medial.MedialAnalysis(points, triangles, bounding_sphere=True)
+    plain = analyse(medial, points, triangles)
+    bounded = analyse(medial, points, triangles, bounding_sphere=True)
     sides = {tuple(e): s for e, s in zip(plain.edges.tolist(), plain.side.tolist())}
     inner = [tuple(e) for e, s in zip(bounded.edges.tolist(), bounded.side.tolist()) if s == 1]
     assert len(inner) > 100 and np.mean([sides.get(e) == 1 for e in inner]) > 0.99
@@ -244,7 +249,7 @@ def test_winding_number_of_many_queries_and_triangles(medial):
 )
 def test_sides_of_real_meshes(medial, data_file, file, closed):
     points, triangles = meshes.read(data_file(file))
-    analysis = medial.MedialAnalysis(points, triangles)
+    analysis = analyse(medial, points, triangles)
     if closed is not None:
         assert analysis.closed is closed
     mesh = analysis.extract(side=medial.Side.INNER)
