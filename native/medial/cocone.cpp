@@ -11,7 +11,9 @@ enum class Zone : uint8_t { in_cocone, above, below };
 
 using Zones = std::vector<std::array<Zone, 4>>;  // per cell and corner
 
-bool meet_cocone(Zone a, Zone b) { return a != b || a == Zone::in_cocone; }
+// Per cell and facet (opposite to each of its corners): bit i says that the dual Voronoi edge meets
+// the cocone of corner i.
+using Meetings = std::vector<std::array<uint8_t, 4>>;
 
 struct Stage {
   std::span<const Vec3> points;
@@ -47,23 +49,31 @@ Zones zones(const Stage& s, const Run& run) {
   return result;
 }
 
-// A triangle at a sample whose dual Voronoi edge, between the vertices of two cells, meets its
-// cocone.
-struct Meeting {
-  int32_t cell, across;
-  int slot;  // of the corner of `cell` that the triangle lacks
-};
-
-void find_meetings(int32_t p, const Stage& s, const Zones& zones, std::vector<Meeting>& meetings) {
-  meetings.clear();
-  for (const int32_t cell : s.incident[p]) {
-    const Zone here = zones[cell][slot_of(s.t.cells[cell], p)];
-    for (int i = 0; i < 4; ++i) {
-      const int32_t across = s.t.neighbors[cell][i];
-      if (across < cell || s.t.cells[cell][i] == p) continue;
-      if (meet_cocone(here, zones[across][slot_of(s.t.cells[across], p)])) {
-        meetings.push_back({cell, across, i});
+Meetings meetings(const Stage& s, const Zones& zones, const Run& run) {
+  Meetings result(s.t.cells.size());
+  parallel_for(s.t.cell_count(), run, [&](int64_t c) {
+    const Cell& ids = s.t.cells[c];
+    for (int facet = 0; facet < 4; ++facet) {
+      const int32_t across = s.t.neighbors[c][facet];
+      for (int i = 0; i < 4; ++i) {
+        if (i == facet || !s.is_sample(ids[i])) continue;
+        const Zone here = zones[c][i], there = zones[across][slot_of(s.t.cells[across], ids[i])];
+        const bool meet = here != there || here == Zone::in_cocone;
+        result[c][facet] |= static_cast<uint8_t>(meet << i);
       }
+    }
+  });
+  return result;
+}
+
+// The triangles at p whose dual Voronoi edges meet the cocone of p, each seen from one cell.
+void meetings_at(int32_t p, const Stage& s, const Meetings& meetings, std::vector<Facet>& out) {
+  out.clear();
+  for (const int32_t cell : s.incident[p]) {
+    const int corner = slot_of(s.t.cells[cell], p);
+    for (int i = 0; i < 4; ++i) {
+      if ((meetings[cell][i] >> corner & 1) && s.t.neighbors[cell][i] > cell)
+        out.push_back({cell, i});
     }
   }
 }
@@ -91,23 +101,21 @@ double height(int32_t p, const Stage& s) {
   return std::min(above, below);
 }
 
-bool is_thin(int32_t p, const Stage& s, std::span<const Meeting> meetings) {
+bool is_thin(int32_t p, const Stage& s, std::span<const Facet> facets) {
   const double ratio = s.options.flatness_ratio;
   const double limit = height(p, s) / (ratio * ratio);
-  return limit > 0 && std::all_of(meetings.begin(), meetings.end(), [&](const Meeting& m) {
-           const double width = crossing(p, m.cell, m.across, s);
+  return limit > 0 && std::all_of(facets.begin(), facets.end(), [&](const Facet& f) {
+           const double width = crossing(p, f.cell, s.t.neighbors[f.cell][f.slot], s);
            return width <= limit && width < HUGE_VAL;
          });
 }
 
-// Calls found(neighbour) for the cocone neighbours of p, some several times.
+// Calls found(neighbour) for the samples of triangles at p, some several times.
 template <typename Found>
-void for_neighbours(int32_t p, const Stage& s, std::span<const Meeting> meetings,
-                    const Found& found) {
-  for (const Meeting& m : meetings) {
-    for (int i = 0; i < 4; ++i) {
-      const int32_t q = s.t.cells[m.cell][i];
-      if (i != m.slot && q != p && s.is_sample(q)) found(q);
+void for_neighbours(int32_t p, const Stage& s, std::span<const Facet> facets, const Found& found) {
+  for (const Facet& f : facets) {
+    for (const int32_t q : corners(s.t, f)) {
+      if (q != p && s.is_sample(q)) found(q);
     }
   }
 }
@@ -119,18 +127,19 @@ struct Growth {
 
 // Decides which samples are thin, and which are flat at once; returns the ways in which the other
 // thin ones may grow.
-std::vector<Growth> agreement(const Stage& s, const Zones& zones, Cocone& result, const Run& run) {
+std::vector<Growth> agreement(const Stage& s, const Meetings& meetings, Cocone& result,
+                              const Run& run) {
   const double least = std::cos(s.options.flatness_angle);
-  std::vector<std::vector<Meeting>> meetings_of(run.threads);
+  std::vector<std::vector<Facet>> facets_of(run.threads);
   return parallel_append<Growth>(s.samples(), run, [&](int64_t id, auto& growths, int worker) {
-    auto& meetings = meetings_of[worker];
+    auto& facets = facets_of[worker];
     const auto p = static_cast<int32_t>(id);
-    find_meetings(p, s, zones, meetings);
-    result.thin[p] = is_thin(p, s, meetings);
+    meetings_at(p, s, meetings, facets);
+    result.thin[p] = is_thin(p, s, facets);
     if (!result.thin[p]) return;
     const size_t before = growths.size();
     bool all = true;
-    for_neighbours(p, s, meetings, [&](int32_t q) {
+    for_neighbours(p, s, facets, [&](int32_t q) {
       const bool agree = std::abs(dot(s.normal[p], s.normal[q])) >= least;
       all = all && agree;
       if (agree) growths.push_back({p, q});
@@ -163,17 +172,15 @@ void grow(std::span<const Growth> growths, std::vector<uint8_t>& flat) {
   }
 }
 
-bool is_candidate(const Facet& f, const Stage& s, const Zones& zones,
+bool is_candidate(const Facet& f, const Stage& s, const Meetings& meetings,
                   std::span<const uint8_t> flat) {
-  const int32_t across = s.t.neighbors[f.cell][f.slot];
   bool any = false;
   for (int i = 0; i < 4; ++i) {
     if (i == f.slot) continue;
     const int32_t p = s.t.cells[f.cell][i];
     if (!s.is_sample(p)) return false;
-    if (!flat[p]) continue;
-    any = true;
-    if (!meet_cocone(zones[f.cell][i], zones[across][slot_of(s.t.cells[across], p)])) return false;
+    if (flat[p] && !(meetings[f.cell][f.slot] >> i & 1)) return false;
+    any |= flat[p] != 0;
   }
   return any;
 }
@@ -203,12 +210,12 @@ Cocone cocone(std::span<const Vec3> points, const Triangulation& t, const Vorono
   parallel_for(s.samples(), run, [&](int64_t p) { s.normal[p] = normalized(s.normal[p]); });
   const auto samples = static_cast<size_t>(s.samples());
   Cocone result{std::vector<uint8_t>(samples), std::vector<uint8_t>(samples), FacetSet(t)};
-  const Zones z = zones(s, run);
-  grow(agreement(s, z, result, run), result.flat);
+  const Meetings m = meetings(s, zones(s, run), run);
+  grow(agreement(s, m, result, run), result.flat);
   parallel_for(t.cell_count(), run, [&](int64_t c) {
     for (int i = 0; i < 4; ++i) {
       const Facet f{static_cast<int32_t>(c), i};
-      if (is_candidate(f, s, z, result.flat)) result.candidates.insert(f);
+      if (is_candidate(f, s, m, result.flat)) result.candidates.insert(f);
     }
   });
   return result;

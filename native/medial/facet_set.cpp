@@ -16,9 +16,15 @@ Triangle corners(const Triangulation& t, const Facet& f) {
   return {cell[i], cell[j], cell[k]};
 }
 
-FacetSet from_both_sides(const Triangulation& t, const FacetSet& set) {
+FacetSet from_both_sides(const Triangulation& t, const FacetSet& set, const Run& run) {
   FacetSet both(t);
-  for_facets(t, set, [&](const Facet& f) { insert_both(t, both, f); });
+  parallel_for(t.cell_count(), run, [&](int64_t c) {
+    const auto cell = static_cast<int32_t>(c);
+    for_facets_of(cell, set, [&](const Facet& f) {
+      both.insert_shared(f);
+      both.insert_shared(mirror(t, f));
+    });
+  });
   return both;
 }
 
@@ -39,46 +45,49 @@ Facet next_about_edge(const Triangulation& t, const FacetSet& set, const Facet& 
   for (;;) {
     // The facet (p, q, ahead) lies opposite to the corner that is left behind.
     const Facet f{cell, slot_of(t.cells[cell], behind)};
-    if (set.has(f)) return f;
-    const Facet across = mirror(t, f);
-    if (across == from) return f;
-    cell = across.cell;
+    const int32_t next = t.neighbors[cell][f.slot];
+    if (set.has(f) || next == from.cell) return f;
+    const auto& [i, j, k, l] = t.cells[next];
     behind = ahead;
-    ahead = t.cells[cell][across.slot];
+    ahead = i + j + k + l - p - q - behind;
+    cell = next;
   }
 }
 
 void walk_about_vertex(const Triangulation& t, const FacetSet& set, const Facet& start, int32_t p,
-                       std::vector<Step>& steps) {
+                       std::vector<Facet>& steps) {
   steps.clear();
-  const Triangle seen = corners(t, start);
   Facet f = start;
-  int32_t link = seen[0] != p ? seen[0] : seen[1];
+  int32_t link = link_of(corners(t, start), p)[0];
   do {
-    steps.push_back({f, link});
+    steps.push_back(f);
     f = next_about_edge(t, set, f, p, link);
     link = third_corner(t, f, p, link);
   } while (!(f == start));
 }
 
-bool is_disc(std::span<const Step> steps) {
-  if (steps.size() < 3) return false;
-  for (size_t i = 0; i < steps.size(); ++i) {
-    for (size_t j = 0; j < i; ++j) {
-      if (steps[i].link == steps[j].link) return false;
+bool chain(std::vector<Edge>& links) {
+  if (links.size() < 3) return false;
+  for (size_t i = 0; i + 1 < links.size(); ++i) {
+    const int32_t end = links[i][1];
+    const auto rest = links.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+    const auto next =
+        std::find_if(rest, links.end(), [&](const Edge& e) { return e[0] == end || e[1] == end; });
+    if (next == links.end()) return false;
+    if ((*next)[0] != end) std::swap((*next)[0], (*next)[1]);
+    std::swap(*rest, *next);
+    for (size_t j = 0; j <= i; ++j) {
+      if (links[j][0] == end) return false;
     }
   }
-  return true;
+  return links.back()[1] == links.front()[0];
 }
 
-bool is_one_disc(const Triangulation& t, const FacetSet& surface, std::span<const Facet> facets,
-                 int32_t p, std::vector<Step>& steps) {
-  if (facets.empty()) return false;
-  walk_about_vertex(t, surface, facets.front(), p, steps);
-  if (steps.size() != facets.size() || !is_disc(steps)) return false;
-  return std::all_of(steps.begin(), steps.end(), [&](const Step& step) {
-    return std::find(facets.begin(), facets.end(), step.facet) != facets.end();
-  });
+bool is_one_disc(const Triangulation& t, std::span<const Facet> facets, int32_t p,
+                 std::vector<Edge>& links) {
+  links.clear();
+  for (const Facet& f : facets) links.push_back(link_of(corners(t, f), p));
+  return chain(links);
 }
 
 }  // namespace medial

@@ -52,31 +52,31 @@ class FacetSet {
   std::vector<uint8_t> bits_;
 };
 
-// Calls found(facet) for the facets of a set, as often as it holds them, in order of their cells.
+// Call found(facet) for the facets that a set holds: those seen from one cell; all, in order of
+// their cells; those at corner p, which has the cells `incident`.
 template <typename Found>
-void for_facets(const Triangulation& triangulation, const FacetSet& set, const Found& found) {
-  for (int32_t cell = 0; cell < triangulation.cell_count(); ++cell) {
-    if (!set.has_any(cell)) continue;
-    for (int slot = 0; slot < 4; ++slot) {
-      if (set.has({cell, slot})) found(Facet{cell, slot});
-    }
+void for_facets_of(int32_t cell, const FacetSet& set, const Found& found) {
+  if (!set.has_any(cell)) return;
+  for (int slot = 0; slot < 4; ++slot) {
+    if (set.has({cell, slot})) found(Facet{cell, slot});
   }
 }
-
-// The same for those at corner p, which has the cells `incident`.
+template <typename Found>
+void for_facets(const Triangulation& triangulation, const FacetSet& set, const Found& found) {
+  for (int32_t cell = 0; cell < triangulation.cell_count(); ++cell) for_facets_of(cell, set, found);
+}
 template <typename Found>
 void for_facets_at(int32_t p, const Triangulation& triangulation, std::span<const int32_t> incident,
                    const FacetSet& set, const Found& found) {
   for (const int32_t cell : incident) {
-    if (!set.has_any(cell)) continue;
-    for (int slot = 0; slot < 4; ++slot) {
-      if (triangulation.cells[cell][slot] != p && set.has({cell, slot})) found(Facet{cell, slot});
-    }
+    for_facets_of(cell, set, [&](const Facet& f) {
+      if (triangulation.cells[cell][f.slot] != p) found(f);
+    });
   }
 }
 
 // Triangles seen from both of their cells.
-FacetSet from_both_sides(const Triangulation& triangulation, const FacetSet& set);
+FacetSet from_both_sides(const Triangulation& triangulation, const FacetSet& set, const Run& run);
 void insert_both(const Triangulation& triangulation, FacetSet& set, const Facet& facet);
 void erase_both(const Triangulation& triangulation, FacetSet& set, const Facet& facet);
 
@@ -86,23 +86,19 @@ void erase_both(const Triangulation& triangulation, FacetSet& set, const Facet& 
 Facet next_about_edge(const Triangulation& triangulation, const FacetSet& set, const Facet& from,
                       int32_t p, int32_t q);
 
-// One triangle of a walk round a vertex p, and the edge p link that leads to the next one.
-struct Step {
-  Facet facet;
-  int32_t link = kInfinite;
-};
-
 // The triangles at corner p that continue `start`, seen from one side, until the walk is back at
 // `start`; replaces `steps`.
 void walk_about_vertex(const Triangulation& triangulation, const FacetSet& set, const Facet& start,
-                       int32_t p, std::vector<Step>& steps);
+                       int32_t p, std::vector<Facet>& steps);
 
-// Whether a walk is a disc round its vertex: no link twice.
-bool is_disc(std::span<const Step> steps);
+// Puts the links of triangles at a vertex, their edges opposite to it, in order: each link ends
+// where the next one starts, the last one where the first one starts. Whether that is possible and
+// passes no sample twice: the triangles are one disc round the vertex.
+bool chain(std::vector<Edge>& links);
 
-// Whether `facets`, all triangles of an oriented surface at p, seen from its front, are one disc;
-// `surface` holds them from both sides. `steps` is room to work in.
-bool is_one_disc(const Triangulation& triangulation, const FacetSet& surface,
-                 std::span<const Facet> facets, int32_t p, std::vector<Step>& steps);
+// Whether the triangles at p are one disc round it; each is in `facets` once. `links` is room to
+// work in.
+bool is_one_disc(const Triangulation& triangulation, std::span<const Facet> facets, int32_t p,
+                 std::vector<Edge>& links);
 
 }  // namespace medial

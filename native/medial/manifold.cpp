@@ -23,13 +23,12 @@ std::array<int32_t, 3> seen_from(const Triangulation& t, const Facet& f, int cor
   return {ids[(corner + 1) % 3], ids[(corner + 2) % 3], ids[corner]};
 }
 
-// A disc whose triangles all continue one another.
-bool is_umbrella(const Stage& s, int32_t p, std::span<const Step> steps) {
-  if (!is_disc(steps)) return false;
-  for (size_t i = 0; i < steps.size(); ++i) {
-    const size_t n = steps.size();
-    const int32_t before = steps[(i + n - 1) % n].link, after = steps[(i + 1) % n].link;
-    if (!s.continue_each_other(p, steps[i].link, before, after)) return false;
+// Whether triangles at p are a disc and all continue one another.
+bool is_umbrella(const Stage& s, int32_t p, std::vector<Edge>& links) {
+  if (!chain(links)) return false;
+  for (size_t i = 0; i < links.size(); ++i) {
+    const Edge &here = links[i], &next = links[(i + 1) % links.size()];
+    if (!s.continue_each_other(p, here[1], here[0], next[1])) return false;
   }
   return true;
 }
@@ -48,41 +47,46 @@ class UmbrellaSearch {
   // All triangles at p, if they are one umbrella.
   void find_simple(int32_t p) {
     start(p);
-    if (facets_.empty()) return;
-    walk_about_vertex(s_.t, set_, facets_.front(), p, steps_);
-    // The other half of the facets is the back of the walk.
-    result_.simple[p] = 2 * steps_.size() == facets_.size() && is_umbrella(s_, p, steps_);
-    if (result_.simple[p]) insert();
+    links_.clear();
+    for (const Facet& f : facets_) {
+      if (f.cell < s_.t.neighbors[f.cell][f.slot]) links_.push_back(link_of(corners(s_.t, f), p));
+    }
+    result_.simple[p] = is_umbrella(s_, p, links_);
+    if (!result_.simple[p]) return;
+    for (const Facet& f : facets_) result_.triangles.insert_shared(f);
   }
   // The triangles at p that are part of some umbrella.
   void find_all(int32_t p) {
-    start(p);
+    find_simple(p);
+    if (result_.simple[p]) return;
+    walked_.clear();
     for (const Facet& f : facets_) {
       if (std::find(walked_.begin(), walked_.end(), f) != walked_.end()) continue;
       walk_about_vertex(s_.t, set_, f, p, steps_);
-      for (const Step& step : steps_) walked_.push_back(step.facet);
-      if (is_umbrella(s_, p, steps_)) insert();
+      links_.clear();
+      for (const Facet& g : steps_) links_.push_back(link_of(corners(s_.t, g), p));
+      walked_.insert(walked_.end(), steps_.begin(), steps_.end());
+      if (is_umbrella(s_, p, links_)) insert_walk();
     }
   }
 
  private:
   void start(int32_t p) {
     facets_.clear();
-    walked_.clear();
     for_facets_at(p, s_.t, s_.incident[p], set_, [&](const Facet& f) { facets_.push_back(f); });
   }
-  void insert() {
-    for (const Step& step : steps_) {
-      result_.triangles.insert_shared(step.facet);
-      result_.triangles.insert_shared(mirror(s_.t, step.facet));
+  void insert_walk() {
+    for (const Facet& f : steps_) {
+      result_.triangles.insert_shared(f);
+      result_.triangles.insert_shared(mirror(s_.t, f));
     }
   }
 
   const Stage& s_;
   const FacetSet& set_;
   Umbrellas& result_;
-  std::vector<Facet> facets_, walked_;
-  std::vector<Step> steps_;
+  std::vector<Facet> facets_, walked_, steps_;
+  std::vector<Edge> links_;
 };
 
 // Calls search(search, p) for all samples.
@@ -99,15 +103,12 @@ void search_umbrellas(const Stage& s, const FacetSet& set, Umbrellas& result, co
 
 // An edge is sharp when none of its triangles continues another.
 bool is_sharp(const Stage& s, const FacetSet& set, const Facet& f, int32_t p, int32_t q) {
-  std::vector<int32_t> wings;
-  Facet g = f;
-  do {
-    wings.push_back(third_corner(s.t, g, p, q));
-    g = mirror(s.t, next_about_edge(s.t, set, g, p, q));
-  } while (!(g == f));
-  for (size_t i = 0; i < wings.size(); ++i) {
-    for (size_t j = 0; j < i; ++j) {
-      if (s.continue_each_other(p, q, wings[i], wings[j])) return false;
+  const auto next = [&](const Facet& g) { return mirror(s.t, next_about_edge(s.t, set, g, p, q)); };
+  for (Facet g = next(f); !(g == f); g = next(g)) {
+    for (Facet h = f; !(h == g); h = next(h)) {
+      if (s.continue_each_other(p, q, third_corner(s.t, g, p, q), third_corner(s.t, h, p, q))) {
+        return false;
+      }
     }
   }
   return true;
@@ -138,7 +139,10 @@ void prune(const Stage& s, FacetSet& set, const FacetSet& locked, std::span<cons
     const auto cell = static_cast<int32_t>(c);
     for (int i = 0; i < 4; ++i) {
       const Facet f{cell, i};
-      if (set.has(f) && !locked.has(f) && s.t.neighbors[cell][i] > cell) found.push_back(f);
+      if (set.has(f) && !locked.has(f) && s.t.neighbors[cell][i] > cell &&
+          has_sharp_edge(s, set, f, flat)) {
+        found.push_back(f);
+      }
     }
   });
   while (!queue.empty()) {
@@ -226,6 +230,15 @@ class Walk {
   std::vector<Facet> queue_;
 };
 
+// Calls found(facet, the corner opposite to it) for all facets of all cells.
+template <typename Found>
+void for_corners(const Triangulation& t, const Progress* progress, const Found& found) {
+  for (int32_t cell = 0; cell < t.cell_count(); ++cell) {
+    if (cell % (1 << 16) == 0) throw_if_cancelled(progress);
+    for (int i = 0; i < 4; ++i) found(Facet{cell, i}, t.cells[cell][i]);
+  }
+}
+
 }  // namespace
 
 FacetSet manifold(std::span<const Vec3> points, const Triangulation& t,
@@ -237,15 +250,16 @@ FacetSet manifold(std::span<const Vec3> points, const Triangulation& t,
                    [](UmbrellaSearch& search, int32_t p) { search.find_simple(p); });
   // Where all is clear already, no triangle is lost to the pruning of its neighbours.
   prune(s, cocone.candidates, FacetSet(umbrellas.triangles), cocone.flat, run);
-  search_umbrellas(s, cocone.candidates, umbrellas, run, [](UmbrellaSearch& search, int32_t p) {
-    search.find_simple(p);
-    search.find_all(p);
-  });
+  search_umbrellas(s, cocone.candidates, umbrellas, run,
+                   [](UmbrellaSearch& search, int32_t p) { search.find_all(p); });
   Walk walk(s, std::move(umbrellas));
-  for (int32_t cell = 0; cell < t.finite_cells; ++cell) {
-    throw_if_cancelled(run.progress);
-    for (int i = 0; i < 4; ++i) walk.start({cell, i});
-  }
+  // From outside, where the hull tells it: the front of a stack of triangles is another surface
+  // than its back.
+  const auto samples = static_cast<int32_t>(incident.size());
+  for_corners(t, run.progress, [&](const Facet& f, int32_t corner) {
+    if (corner < 0 || corner >= samples) walk.start(f);
+  });
+  for_corners(t, run.progress, [&](const Facet& f, int32_t) { walk.start(f); });
   return std::move(walk).front();
 }
 

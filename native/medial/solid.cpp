@@ -18,52 +18,54 @@ FacetSet outer_facets(const Triangulation& t, const CellSides& sides, const Run&
 
 // Per sample: the triangles round it are not one disc.
 std::vector<uint8_t> nonmanifold(const Triangulation& t, const Csr<int32_t>& incident,
-                                 const FacetSet& outer, const FacetSet& surface, const Run& run) {
+                                 const FacetSet& outer, const Run& run) {
   std::vector<uint8_t> result(static_cast<size_t>(incident.size()));
   parallel_chunks(incident.size(), run, [&](int64_t begin, int64_t end, int) {
     std::vector<Facet> facets;
-    std::vector<Step> steps;
+    std::vector<Edge> links;
     for (auto p = static_cast<int32_t>(begin); p < end; ++p) {
       facets.clear();
       for_facets_at(p, t, incident[p], outer, [&](const Facet& f) { facets.push_back(f); });
-      result[p] = !facets.empty() && !is_one_disc(t, surface, facets, p, steps);
+      result[p] = !facets.empty() && !is_one_disc(t, facets, p, links);
     }
   });
   return result;
 }
 
 // Both ends of such an edge are not manifold either.
-int64_t count_nonmanifold_edges(const Triangulation& t, const FacetSet& outer,
-                                const FacetSet& surface, std::span<const uint8_t> nonmanifold) {
-  std::vector<Edge> found;
-  for_facets(t, outer, [&](const Facet& f) {
-    const Triangle ids = corners(t, f);
-    for (const int32_t x : ids) {
-      const auto [p, q] = link_of(ids, x);
-      if (!nonmanifold[p] || !nonmanifold[q]) continue;
-      const Facet ahead = next_about_edge(t, surface, f, p, q);
-      const Facet behind = next_about_edge(t, surface, mirror(t, f), p, q);
-      if (!(mirror(t, ahead) == behind)) found.push_back({std::min(p, q), std::max(p, q)});
+int64_t count_nonmanifold_edges(std::span<const Triangle> triangles,
+                                std::span<const uint8_t> nonmanifold) {
+  std::vector<Edge> edges;
+  for (const Triangle& t : triangles) {
+    for (const int32_t corner : t) {
+      const auto [p, q] = link_of(t, corner);
+      if (nonmanifold[p] && nonmanifold[q]) edges.push_back({std::min(p, q), std::max(p, q)});
     }
-  });
-  std::sort(found.begin(), found.end());
-  return std::unique(found.begin(), found.end()) - found.begin();
+  }
+  std::sort(edges.begin(), edges.end());
+  int64_t count = 0;
+  for (size_t i = 2; i < edges.size(); ++i) {
+    // The third of its kind: then there is a fourth, and so on.
+    const bool third = edges[i] == edges[i - 2] && (i == 2 || edges[i] != edges[i - 3]);
+    count += third;
+  }
+  return count;
 }
 
 }  // namespace
 
 SolidBoundary solid_boundary(const Triangulation& t, const Csr<int32_t>& incident,
                              const CellSides& sides, const Run& run) {
-  const FacetSet outer = outer_facets(t, sides, run), surface = from_both_sides(t, outer);
+  const FacetSet outer = outer_facets(t, sides, run);
   SolidBoundary result;
   result.on_surface.assign(static_cast<size_t>(incident.size()), 0);
   for_facets(t, outer, [&](const Facet& f) {
     result.triangles.push_back(corners(t, f));
     for (const int32_t p : result.triangles.back()) result.on_surface[p] = 1;
   });
-  const auto bad = nonmanifold(t, incident, outer, surface, run);
+  const auto bad = nonmanifold(t, incident, outer, run);
   result.nonmanifold_vertices = std::count(bad.begin(), bad.end(), 1);
-  result.nonmanifold_edges = count_nonmanifold_edges(t, outer, surface, bad);
+  result.nonmanifold_edges = count_nonmanifold_edges(result.triangles, bad);
   result.inner_cells = std::count(sides.begin(), sides.end(), static_cast<uint8_t>(Side::inner));
   return result;
 }

@@ -13,6 +13,7 @@ struct Sheets {
   std::vector<uint8_t> good;              // per sample: the surface is one disc round it
   std::vector<std::array<Face, 4>> face;  // per cell and good corner
   std::vector<int32_t> patch;  // per good sample: lowest of those that the surface connects with it
+  std::vector<int8_t> opaque;  // per cell without good corners: the slot of its smallest facet
   std::vector<uint8_t> open;   // per patch, by its lowest sample: a corner of it is not good
 };
 
@@ -23,13 +24,14 @@ class Marking {
       : t_(t), incident_(incident), front_(front), surface_(surface) {}
 
   bool is_good(int32_t p) {
-    facets_at(p);
-    return is_one_disc(t_, surface_, facets_, p, steps_);
+    facets_.clear();
+    for_facets_at(p, t_, incident_[p], front_, [&](const Facet& f) { facets_.push_back(f); });
+    return is_one_disc(t_, facets_, p, links_);
   }
 
-  // Floods the cells at a good sample from the front of its umbrella; the others lie behind it.
+  // Floods the cells at the good sample p, of which is_good was asked last, from the front of its
+  // umbrella; the others lie behind it.
   void split(int32_t p, std::vector<std::array<Face, 4>>& face) {
-    facets_at(p);
     queue_.clear();
     const auto reach = [&](int32_t cell) {
       Face& f = face[cell][slot_of(t_.cells[cell], p)];
@@ -52,18 +54,12 @@ class Marking {
   }
 
  private:
-  // The triangles at p, seen from the front.
-  void facets_at(int32_t p) {
-    facets_.clear();
-    for_facets_at(p, t_, incident_[p], front_, [&](const Facet& f) { facets_.push_back(f); });
-  }
-
   const Triangulation& t_;
   const Csr<int32_t>& incident_;
   const FacetSet& front_;
   const FacetSet& surface_;
-  std::vector<Facet> facets_;
-  std::vector<Step> steps_;
+  std::vector<Facet> facets_;  // at a sample, seen from the front
+  std::vector<Edge> links_;
   std::vector<int32_t> queue_;
 };
 
@@ -87,9 +83,30 @@ void find_patches(const Triangulation& t, const FacetSet& front, Sheets& sheets)
   });
 }
 
-Sheets mark(const Triangulation& t, const Csr<int32_t>& incident, const FacetSet& front,
-            const Run& run) {
-  const FacetSet surface = from_both_sides(t, front);
+double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  return squared_length(u) * squared_length(v) * squared_length(c - b) /
+         squared_length(cross(u, v));
+}
+
+// Slot of the facet of least circumradius.
+int smallest_facet(std::span<const Vec3> points, const Triangulation& t, int32_t cell) {
+  int smallest = 0;
+  double least = HUGE_VAL;
+  for (int i = 0; i < 4; ++i) {
+    const auto [p, q, r] = corners(t, {cell, i});
+    const double size = squared_circumradius(points[p], points[q], points[r]);
+    if (size < least) {
+      least = size;
+      smallest = i;
+    }
+  }
+  return smallest;
+}
+
+Sheets mark(std::span<const Vec3> points, const Triangulation& t, const Csr<int32_t>& incident,
+            const FacetSet& front, const Run& run) {
+  const FacetSet surface = from_both_sides(t, front, run);
   Sheets sheets;
   sheets.good.resize(static_cast<size_t>(incident.size()));
   sheets.face.resize(t.cells.size());
@@ -100,14 +117,13 @@ Sheets mark(const Triangulation& t, const Csr<int32_t>& incident, const FacetSet
       if (sheets.good[p]) marking.split(p, sheets.face);
     }
   });
+  sheets.opaque.assign(t.cells.size(), -1);
+  parallel_for(t.finite_cells, run, [&](int64_t c) {
+    if (sheets.face[c] != std::array<Face, 4>{}) return;
+    sheets.opaque[c] = static_cast<int8_t>(smallest_facet(points, t, static_cast<int32_t>(c)));
+  });
   find_patches(t, front, sheets);
   return sheets;
-}
-
-double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a;
-  return squared_length(u) * squared_length(v) * squared_length(c - b) /
-         squared_length(cross(u, v));
 }
 
 // Takes cells away from the hull inwards, until what is left is bounded by the surface.
@@ -150,9 +166,18 @@ class Peeling {
   }
 
  private:
+  // Its good corners learn from it where outside is.
   void take(int32_t cell) {
     outside_[cell] = 1;
-    queue_.push_back(cell);
+    stack_.push_back(cell);
+    for (int i = 0; i < 4 && marking_; ++i) {
+      const Face face = sheets_.face[cell][i];
+      if (face == Face::none) continue;
+      Face& outer = outer_face_[sheets_.patch[t_.cells[cell][i]]];
+      if (outer != Face::none) continue;
+      outer = face;
+      news_ = true;
+    }
   }
 
   void peel(const Progress* progress) {
@@ -161,69 +186,51 @@ class Peeling {
       std::vector<Facet> again;
       std::swap(again, waiting_);
       for (const Facet& f : again) reach(f);
-      while (!queue_.empty()) {
-        throw_if_cancelled(progress);
-        std::vector<int32_t> layer;
-        std::swap(layer, queue_);
-        for (const int32_t cell : layer) {
-          for (int i = 0; i < 4; ++i) reach({cell, i});
-        }
+      while (!stack_.empty()) {
+        if (++steps_ % kBatch == 0) throw_if_cancelled(progress);
+        const int32_t cell = stack_.back();
+        stack_.pop_back();
+        for (int i = 0; i < 4; ++i) reach({cell, i});
       }
     } while (news_);
   }
 
-  // Facet seen from outside: orients the surface at its corners, and passes it when that is
-  // allowed.
+  // Passes a facet, seen from outside, when that is allowed.
   void reach(const Facet& f) {
     const int32_t next = t_.neighbors[f.cell][f.slot];
     if (outside_[next]) return;
-    if (marking_) orient(f);
-    if (is_outside(next, f)) {
+    const Verdict verdict = judge(next, f);
+    if (verdict.outside) {
       take(next);
-    } else {
+    } else if (verdict.may_change) {
       waiting_.push_back(f);
     }
   }
 
-  void orient(const Facet& f) {
-    for (int i = 0; i < 4; ++i) {
-      const int32_t p = t_.cells[f.cell][i];
-      if (i == f.slot || !sheets_.good[p]) continue;
-      Face& outer = outer_face_[sheets_.patch[p]];
-      if (outer != Face::none) continue;
-      outer = sheets_.face[f.cell][i];
-      news_ = true;
-    }
-  }
+  struct Verdict {
+    bool outside;
+    bool may_change;  // when more of the surface is oriented, or given up
+  };
 
-  bool is_outside(int32_t cell, const Facet& entrance) const {
+  // The good corners vote. Without any the cell is transparent but for its smallest facet.
+  Verdict judge(int32_t cell, const Facet& entrance) const {
     int votes = 0, voters = 0, undecided = 0;
     for (int i = 0; i < 4; ++i) {
-      const int32_t p = t_.cells[cell][i];
-      if (!sheets_.good[p]) continue;
-      const Face outer = outer_face_[sheets_.patch[p]];
-      undecided += outer == Face::none;
-      if (outer == Face::none) continue;
-      ++voters;
-      votes += sheets_.face[cell][i] == outer ? 1 : -1;
-    }
-    if (voters > 0) return votes > 0;
-    if (undecided > 0 && marking_) return false;
-    return !(smallest_facet(cell) == mirror(t_, entrance));
-  }
-
-  Facet smallest_facet(int32_t cell) const {
-    Facet smallest;
-    double least = HUGE_VAL;
-    for (int i = 0; i < 4; ++i) {
-      const auto [p, q, r] = corners(t_, {cell, i});
-      const double size = squared_circumradius(points_[p], points_[q], points_[r]);
-      if (size < least) {
-        least = size;
-        smallest = {cell, i};
+      const Face face = sheets_.face[cell][i];
+      if (face == Face::none) continue;
+      const Face outer = outer_face_[sheets_.patch[t_.cells[cell][i]]];
+      if (outer == Face::none) {
+        ++undecided;
+      } else {
+        ++voters;
+        votes += face == outer ? 1 : -1;
       }
     }
-    return smallest;
+    if (voters > 0) return {votes > 0, undecided > 0};
+    if (undecided > 0 && marking_) return {false, true};
+    const int opaque =
+        sheets_.opaque[cell] >= 0 ? sheets_.opaque[cell] : smallest_facet(points_, t_, cell);
+    return {mirror(t_, entrance).slot != opaque, false};
   }
 
   std::span<const Vec3> points_;
@@ -231,8 +238,10 @@ class Peeling {
   const Sheets& sheets_;
   std::vector<uint8_t> outside_;
   std::vector<Face> outer_face_;  // per patch, by its lowest sample
-  std::vector<int32_t> queue_;
+  std::vector<int32_t> stack_;
   std::vector<Facet> waiting_;  // seen from outside
+  static constexpr int64_t kBatch = 1 << 16;
+  int64_t steps_ = 0;
   bool marking_ = true, news_ = false;
 };
 
@@ -245,7 +254,7 @@ TightCocone tight_cocone(std::span<const Vec3> points, const Triangulation& t,
   TightCocone result;
   result.flat = c.flat;
   const FacetSet front = manifold(points, t, incident, std::move(c), options, run);
-  Sheets sheets = mark(t, incident, front, run);
+  Sheets sheets = mark(points, t, incident, front, run);
   Peeling peeling(points, t, sheets);
   peeling.run(run.progress);
   result.sides = peeling.sides();
