@@ -346,10 +346,36 @@ def test_nothing_enclosed_is_an_error_where_an_inside_is_needed(medial):
     assert np.isfinite(analysis.extract(0.0, 0.0).vertices).all()
 
 
-@pytest.mark.parametrize("share", [0.001, 0.003, 0.01, 0.03])
-def test_noise_breaks_no_promise(medial, share):
-    ball = samples("torus", 2000)
-    points = ball + np.random.default_rng(1).normal(size=ball.shape) * share * 3.0
+def noisy(name, spacings, seed):
+    """Samples with a normal error in every coordinate; its deviation in median distances of neighbours."""
+    points = samples(name, SIZES.get(name, 2000))
+    spacing = np.median(cKDTree(points).query(points, 2)[0][:, 1])
+    noise = np.random.default_rng(seed).normal(size=points.shape)
+    return points + noise * spacings * spacing
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", ["torus", "ellipsoid", "genus 2"])
+def test_noise_of_a_tenth_of_the_spacing_changes_no_topology(medial, name, seed):
+    surface = medial.TightCocone(noisy(name, 0.1, seed))
+    assert topology.euler(surface.triangles) == SOLIDS[name].euler
+    assert topology.components(surface.triangles) == 1
+    assert (~surface.on_surface).mean() < 0.002
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", ["torus", "ellipsoid", "genus 2"])
+def test_noise_of_a_fifth_of_the_spacing_costs_few_samples(medial, surface_of, name, seed):
+    points = noisy(name, 0.2, seed)
+    surface, clean = medial.TightCocone(points), surface_of(name, SIZES.get(name, 2000))
+    exact = topology.volume(samples(name, SIZES.get(name, 2000)), clean.triangles)
+    assert topology.components(surface.triangles) == 1 and (~surface.on_surface).mean() < 0.03
+    assert topology.volume(points, surface.triangles) == pytest.approx(exact, rel=0.03)
+
+
+@pytest.mark.parametrize("spacings", [0.1, 0.3, 1.0, 3.0])
+def test_noise_breaks_no_promise(medial, spacings):
+    points = noisy("torus", spacings, 1)
     surface = medial.TightCocone(points)
     assert_watertight(points, surface)
     assert_between_inner_and_outer_cells(medial, points, surface)
