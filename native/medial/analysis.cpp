@@ -1,15 +1,9 @@
 #include "analysis.h"
 
+#include "order.h"
+
 namespace medial {
 namespace {
-
-template <typename T>
-void reorder(std::vector<T>& values, std::span<const int32_t> order, const Run& run) {
-  std::vector<T> sorted(values.size());
-  parallel_for(static_cast<int64_t>(order.size()), run,
-               [&](int64_t i) { sorted[i] = values[order[i]]; });
-  values = std::move(sorted);
-}
 
 void check(const Extraction& x) {
   if (!(x.thresholds.theta >= 0 && x.thresholds.theta <= std::numbers::pi / 2)) {
@@ -140,26 +134,17 @@ void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> no
   }
 }
 
-// From the order of the samples to that of the input rows: a counting sort by the lower row, then
-// by the higher.
+// From the order of the samples to that of the input rows: by the lower row, then by the higher.
 void MedialAnalysis::sort_edges(const Run& run) {
   const std::vector<int32_t>& row = samples_.row;
+  std::vector<Edge> rows(edges_.ends.size());
   parallel_for(edges_.count(), run, [&](int64_t e) {
     auto& [p, q] = edges_.ends[e];
     if (row[p] > row[q]) std::swap(p, q);
+    rows[e] = {row[p], row[q]};
   });
-  std::vector<int64_t> start(samples_.sample_of_row.size() + 1, 0);
-  for (const Edge& ends : edges_.ends) ++start[row[ends[0]]];
-  counts_to_offsets(start);
-  std::vector<int32_t> order(edges_.ends.size());
-  auto next = start;
-  for (int32_t e = 0; e < static_cast<int32_t>(order.size()); ++e)
-    order[next[row[edges_.ends[e][0]]]++] = e;
-  parallel_for(static_cast<int64_t>(start.size()) - 1, run, [&](int64_t r) {
-    std::sort(order.begin() + start[r], order.begin() + start[r + 1], [&](int32_t a, int32_t b) {
-      return row[edges_.ends[a][1]] < row[edges_.ends[b][1]];
-    });
-  });
+  const auto order =
+      lexicographic_order(std::span<const Edge>(rows), samples_.sample_of_row.size(), run);
   reorder(edges_.ends, order, run);
   reorder(edges_.cell, order, run);
   for (auto* values : {&significance_.theta, &significance_.rho, &significance_.theta_both,

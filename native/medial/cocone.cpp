@@ -206,6 +206,7 @@ void require_valid(const CoconeOptions& o) {
 Cocone cocone(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
               const Csr<int32_t>& incident, const Poles& poles, const CoconeOptions& options,
               const Run& run) {
+  begin_stage(run.progress, "Cocone", 0.9, 0.93);
   Stage s{points, t, voronoi, incident, options, poles.vector};
   parallel_for(s.samples(), run, [&](int64_t p) { s.normal[p] = normalized(s.normal[p]); });
   const auto samples = static_cast<size_t>(s.samples());

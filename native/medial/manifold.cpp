@@ -145,7 +145,8 @@ void prune(const Stage& s, FacetSet& set, const FacetSet& locked, std::span<cons
       }
     }
   });
-  while (!queue.empty()) {
+  for (int64_t tried = 0; !queue.empty(); ++tried) {
+    if (tried % (1 << 15) == 0) throw_if_cancelled(run.progress);
     const Facet f = queue.back();
     queue.pop_back();
     if (!set.has(f) || locked.has(f) || !has_sharp_edge(s, set, f, flat)) continue;
@@ -158,8 +159,9 @@ void prune(const Stage& s, FacetSet& set, const FacetSet& locked, std::span<cons
 // candidate that conflicts with what is there is dropped.
 class Walk {
  public:
-  Walk(const Stage& stage, Umbrellas umbrellas)
+  Walk(const Stage& stage, Umbrellas umbrellas, const Progress* progress)
       : s_(stage),
+        progress_(progress),
         candidates_(std::move(umbrellas.triangles)),
         simple_(std::move(umbrellas.simple)),
         surface_(stage.t),
@@ -168,6 +170,7 @@ class Walk {
   void start(const Facet& seed) {
     if (!take(seed)) return;
     for (size_t i = 0; i < queue_.size(); ++i) {
+      if (i % kBatch == 0) throw_if_cancelled(progress_);
       const Facet f = queue_[i];
       for (int edge = 0; edge < 3 && front_.has(f); ++edge) cross_edge(f, edge);
     }
@@ -222,7 +225,10 @@ class Walk {
     return ahead == back || next_about_edge(s_.t, surface_, back, p, q) == mirror(s_.t, ahead);
   }
 
+  static constexpr size_t kBatch = 1 << 15;
+
   const Stage& s_;
+  const Progress* progress_;
   FacetSet candidates_;  // from both sides
   std::vector<uint8_t> simple_;
   FacetSet surface_;  // from both sides
@@ -244,6 +250,7 @@ void for_corners(const Triangulation& t, const Progress* progress, const Found& 
 FacetSet manifold(std::span<const Vec3> points, const Triangulation& t,
                   const Csr<int32_t>& incident, Cocone cocone, const CoconeOptions& options,
                   const Run& run) {
+  begin_stage(run.progress, "Manifold extraction", 0.93, 0.95);
   const Stage s{points, t, incident, std::cos(options.sharp_angle)};
   Umbrellas umbrellas{FacetSet(t), std::vector<uint8_t>(cocone.flat.size())};
   search_umbrellas(s, cocone.candidates, umbrellas, run,
@@ -252,7 +259,7 @@ FacetSet manifold(std::span<const Vec3> points, const Triangulation& t,
   prune(s, cocone.candidates, FacetSet(umbrellas.triangles), cocone.flat, run);
   search_umbrellas(s, cocone.candidates, umbrellas, run,
                    [](UmbrellaSearch& search, int32_t p) { search.find_all(p); });
-  Walk walk(s, std::move(umbrellas));
+  Walk walk(s, std::move(umbrellas), run.progress);
   // From outside, where the hull tells it: the front of a stack of triangles is another surface
   // than its back.
   const auto samples = static_cast<int32_t>(incident.size());

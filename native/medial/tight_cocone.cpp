@@ -13,8 +13,8 @@ struct Sheets {
   std::vector<uint8_t> good;              // per sample: the surface is one disc round it
   std::vector<std::array<Face, 4>> face;  // per cell and good corner
   std::vector<int32_t> patch;  // per good sample: lowest of those that the surface connects with it
-  std::vector<int8_t> opaque;  // per cell without good corners: the slot of its smallest facet
-  std::vector<uint8_t> open;   // per patch, by its lowest sample: a corner of it is not good
+  std::vector<uint8_t> opaque;  // per cell without good corners: its smallest facets, a bit each
+  std::vector<uint8_t> open;    // per patch, by its lowest sample: a corner of it is not good
 };
 
 class Marking {
@@ -89,18 +89,18 @@ double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
          squared_length(cross(u, v));
 }
 
-// Slot of the facet of least circumradius.
-int smallest_facet(std::span<const Vec3> points, const Triangulation& t, int32_t cell) {
-  int smallest = 0;
-  double least = HUGE_VAL;
+// The facets of least circumradius, a bit each: more than one where single precision, in which most
+// points are stored, cannot tell them apart.
+uint8_t smallest_facets(std::span<const Vec3> points, const Triangulation& t, int32_t cell) {
+  constexpr double kTie = 1 + 0x1p-20;
+  std::array<double, 4> size;
   for (int i = 0; i < 4; ++i) {
     const auto [p, q, r] = corners(t, {cell, i});
-    const double size = squared_circumradius(points[p], points[q], points[r]);
-    if (size < least) {
-      least = size;
-      smallest = i;
-    }
+    size[i] = squared_circumradius(points[p], points[q], points[r]);
   }
+  const double least = *std::min_element(size.begin(), size.end());
+  uint8_t smallest = 0;
+  for (int i = 0; i < 4; ++i) smallest |= static_cast<uint8_t>((size[i] <= kTie * least) << i);
   return smallest;
 }
 
@@ -117,10 +117,10 @@ Sheets mark(std::span<const Vec3> points, const Triangulation& t, const Csr<int3
       if (sheets.good[p]) marking.split(p, sheets.face);
     }
   });
-  sheets.opaque.assign(t.cells.size(), -1);
+  sheets.opaque.assign(t.cells.size(), 0);
   parallel_for(t.finite_cells, run, [&](int64_t c) {
     if (sheets.face[c] != std::array<Face, 4>{}) return;
-    sheets.opaque[c] = static_cast<int8_t>(smallest_facet(points, t, static_cast<int32_t>(c)));
+    sheets.opaque[c] = smallest_facets(points, t, static_cast<int32_t>(c));
   });
   find_patches(t, front, sheets);
   return sheets;
@@ -145,7 +145,8 @@ class Peeling {
       }
     }
     peel(progress);
-    marking_ = false;  // good samples that were never reached count no more
+    // Outliers may hide the surface from outside: through them, too.
+    through_ = true;
     peel(progress);
   }
 
@@ -170,7 +171,7 @@ class Peeling {
   void take(int32_t cell) {
     outside_[cell] = 1;
     stack_.push_back(cell);
-    for (int i = 0; i < 4 && marking_; ++i) {
+    for (int i = 0; i < 4; ++i) {
       const Face face = sheets_.face[cell][i];
       if (face == Face::none) continue;
       Face& outer = outer_face_[sheets_.patch[t_.cells[cell][i]]];
@@ -209,10 +210,10 @@ class Peeling {
 
   struct Verdict {
     bool outside;
-    bool may_change;  // when more of the surface is oriented, or given up
+    bool may_change;  // when more of the surface is oriented
   };
 
-  // The good corners vote. Without any the cell is transparent but for its smallest facet.
+  // The oriented corners vote. Without any the cell is transparent but for its smallest facets.
   Verdict judge(int32_t cell, const Facet& entrance) const {
     int votes = 0, voters = 0, undecided = 0;
     for (int i = 0; i < 4; ++i) {
@@ -227,10 +228,10 @@ class Peeling {
       }
     }
     if (voters > 0) return {votes > 0, undecided > 0};
-    if (undecided > 0 && marking_) return {false, true};
-    const int opaque =
-        sheets_.opaque[cell] >= 0 ? sheets_.opaque[cell] : smallest_facet(points_, t_, cell);
-    return {mirror(t_, entrance).slot != opaque, false};
+    if (undecided > 0 && !through_) return {false, true};
+    const uint8_t opaque =
+        undecided > 0 ? smallest_facets(points_, t_, cell) : sheets_.opaque[cell];
+    return {!(opaque >> mirror(t_, entrance).slot & 1), undecided > 0};
   }
 
   std::span<const Vec3> points_;
@@ -242,7 +243,7 @@ class Peeling {
   std::vector<Facet> waiting_;  // seen from outside
   static constexpr int64_t kBatch = 1 << 16;
   int64_t steps_ = 0;
-  bool marking_ = true, news_ = false;
+  bool through_ = false, news_ = false;
 };
 
 }  // namespace
@@ -254,7 +255,9 @@ TightCocone tight_cocone(std::span<const Vec3> points, const Triangulation& t,
   TightCocone result;
   result.flat = c.flat;
   const FacetSet front = manifold(points, t, incident, std::move(c), options, run);
+  begin_stage(run.progress, "Marking", 0.95, 0.97);
   Sheets sheets = mark(points, t, incident, front, run);
+  begin_stage(run.progress, "Peeling", 0.97, 0.99);
   Peeling peeling(points, t, sheets);
   peeling.run(run.progress);
   result.sides = peeling.sides();

@@ -1,14 +1,20 @@
 #include "watertight_surface.h"
 
+#include "order.h"
+
 namespace medial {
 namespace {
 
-std::vector<Triangle> in_rows(std::vector<Triangle> triangles, const Samples& samples) {
-  for (Triangle& t : triangles) {
+std::vector<Triangle> in_rows(std::vector<Triangle> triangles, const Samples& samples,
+                              const Run& run) {
+  parallel_for(static_cast<int64_t>(triangles.size()), run, [&](int64_t i) {
+    Triangle& t = triangles[i];
     for (int32_t& id : t) id = samples.row[id];
     std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  }
-  std::sort(triangles.begin(), triangles.end());
+  });
+  const auto order =
+      lexicographic_order(std::span<const Triangle>(triangles), samples.sample_of_row.size(), run);
+  reorder(triangles, order, run);
   return triangles;
 }
 
@@ -26,7 +32,7 @@ WatertightSurface describe(TightCocone found, const Samples& samples, const Tria
   SolidBoundary boundary = solid_boundary(t, incident, found.sides, run);
   const std::vector<int32_t> order = samples_by_row(samples);
   WatertightSurface result;
-  result.triangles = in_rows(std::move(boundary.triangles), samples);
+  result.triangles = in_rows(std::move(boundary.triangles), samples, run);
   for (const int32_t id : order) result.samples.push_back(samples.row[id]);
   result.flat = in_order(found.flat, order);
   result.good = in_order(found.good, order);

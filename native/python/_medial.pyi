@@ -102,13 +102,17 @@ class CoconeOptions:
         sharp_angle: float = ...,
     ) -> None: ...
     @property
-    def cocone_angle(self) -> float: ...
+    def cocone_angle(self) -> float:
+        """Half-angle of the cocone about the tangent plane, radians."""
     @property
-    def flatness_ratio(self) -> float: ...
+    def flatness_ratio(self) -> float:
+        """A flat sample's cell is longer towards both poles than this times its width."""
     @property
-    def flatness_angle(self) -> float: ...
+    def flatness_angle(self) -> float:
+        """Largest angle between the normal lines of flat cocone neighbours, radians."""
     @property
-    def sharp_angle(self) -> float: ...
+    def sharp_angle(self) -> float:
+        """Largest angle between the normals of triangles that continue each other, radians."""
 
 @final
 class TightCocone:

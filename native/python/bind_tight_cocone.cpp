@@ -62,10 +62,15 @@ void bind_options(py::module_& m) {
            py::arg("flatness_ratio") = paper.flatness_ratio,
            py::arg("flatness_angle") = paper.flatness_angle,
            py::arg("sharp_angle") = paper.sharp_angle)
-      .def_readonly("cocone_angle", &CoconeOptions::cocone_angle)
-      .def_readonly("flatness_ratio", &CoconeOptions::flatness_ratio)
-      .def_readonly("flatness_angle", &CoconeOptions::flatness_angle)
-      .def_readonly("sharp_angle", &CoconeOptions::sharp_angle);
+      .def_readonly("cocone_angle", &CoconeOptions::cocone_angle,
+                    "Half-angle of the cocone about the tangent plane, radians.")
+      .def_readonly("flatness_ratio", &CoconeOptions::flatness_ratio,
+                    "A flat sample's cell is longer towards both poles than this times its width.")
+      .def_readonly("flatness_angle", &CoconeOptions::flatness_angle,
+                    "Largest angle between the normal lines of flat cocone neighbours, radians.")
+      .def_readonly(
+          "sharp_angle", &CoconeOptions::sharp_angle,
+          "Largest angle between the normals of triangles that continue each other, radians.");
 }
 
 }  // namespace

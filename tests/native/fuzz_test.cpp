@@ -1,6 +1,7 @@
 // 10,000 small inputs, most of them degenerate: no crash, no broken invariant.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "medial/analysis.h"
@@ -68,6 +69,18 @@ void expect_sound(const MedialMesh& mesh, std::span<const Vec3> points, int inpu
   }
 }
 
+// Every edge in an even number of triangles.
+void expect_closed(const WatertightSurface& surface, int input) {
+  std::map<Edge, int> uses;
+  for (const Triangle& t : surface.triangles) {
+    for (const int32_t corner : t) {
+      const auto [p, q] = link_of(t, corner);
+      ++uses[{std::min(p, q), std::max(p, q)}];
+    }
+  }
+  for (const auto& [edge, count] : uses) ASSERT_EQ(count % 2, 0) << input;
+}
+
 TEST(Fuzz, TenThousandSmallInputs) {
   std::mt19937 random(20261121);
   int degenerate = 0;
@@ -83,6 +96,7 @@ TEST(Fuzz, TenThousandSmallInputs) {
       expect_sound(analysis.extract({.thresholds = {.theta = 0, .rho = 0}}), points, input);
       expect_sound(analysis.extract({.limit_set = true}), points, input);
       analysis.edge_sides();
+      if (analysis.tight_cocone()) expect_closed(*analysis.tight_cocone(), input);
     } catch (const DegenerateInputError&) {
       ++degenerate;
     }

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <thread>
+
+#include "medial/analysis.h"
+#include "shapes.h"
+
+namespace medial {
+namespace {
+
+WatertightSurface surface_of(std::span<const Vec3> points, int threads = 2) {
+  return watertight_surface(points, {}, {threads, nullptr});
+}
+
+std::map<Edge, int> edge_uses(std::span<const Triangle> triangles) {
+  std::map<Edge, int> uses;
+  for (const Triangle& t : triangles) {
+    for (const int32_t corner : t) {
+      const auto [p, q] = link_of(t, corner);
+      ++uses[{std::min(p, q), std::max(p, q)}];
+    }
+  }
+  return uses;
+}
+
+double volume(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  double sum = 0;
+  for (const auto& [i, j, k] : triangles) sum += dot(points[i], cross(points[j], points[k])) / 6;
+  return sum;
+}
+
+TEST(FacetSet, ATurnAboutAnEdgeMeetsAllItsTrianglesAndComesBack) {
+  const auto points = make_samples(test::random_points(60, 3), {1, nullptr}).points;
+  const Triangulation t = triangulate(points, {1, nullptr});
+  FacetSet all(t);
+  for (int32_t cell = 0; cell < t.cell_count(); ++cell) {
+    for (int i = 0; i < 4; ++i) all.insert({cell, i});
+  }
+  std::vector<int32_t> ring;
+  for (int32_t cell = 0; cell < t.finite_cells; ++cell) {
+    const Facet start{cell, 3};
+    const auto [p, q, x] = corners(t, start);
+    ring_of_cells(t, {p, q}, cell, ring);
+    Facet f = start;
+    size_t turns = 0;
+    do {
+      f = mirror(t, next_about_edge(t, all, f, p, q));
+      ++turns;
+    } while (!(f == start) && turns <= ring.size());
+    EXPECT_EQ(turns, ring.size());
+  }
+}
+
+TEST(FacetSet, ALonelyTriangleIsItsOwnNeighbour) {
+  const auto points = make_samples(test::random_points(60, 4), {1, nullptr}).points;
+  const Triangulation t = triangulate(points, {1, nullptr});
+  const Facet lonely{t.finite_cells / 2, 1};
+  FacetSet set(t);
+  insert_both(t, set, lonely);
+  for (const int32_t x : corners(t, lonely)) {
+    const auto [p, q] = link_of(corners(t, lonely), x);
+    EXPECT_EQ(next_about_edge(t, set, lonely, p, q), mirror(t, lonely));
+  }
+}
+
+TEST(FacetSet, LinksChainToADiscOnlyWhenEachIsPassedOnce) {
+  const auto is_disc = [](std::vector<Edge> links) { return chain(links); };
+  EXPECT_TRUE(is_disc({{1, 2}, {3, 2}, {1, 3}}));
+  EXPECT_TRUE(is_disc({{1, 2}, {4, 3}, {2, 3}, {1, 4}}));
+  EXPECT_FALSE(is_disc({}));
+  EXPECT_FALSE(is_disc({{1, 2}, {2, 1}}));
+  EXPECT_FALSE(is_disc({{1, 2}, {2, 3}}));                                  // open
+  EXPECT_FALSE(is_disc({{1, 2}, {2, 3}, {3, 1}, {3, 4}}));                  // a fin
+  EXPECT_FALSE(is_disc({{1, 2}, {2, 3}, {3, 1}, {4, 5}, {5, 6}, {6, 4}}));  // two
+  EXPECT_FALSE(is_disc({{1, 2}, {2, 3}, {3, 1}, {3, 4}, {4, 5}, {5, 3}}));  // an eight
+}
+
+TEST(TightCocone, ClosesASampledTorusAndAnEllipsoid) {
+  const auto torus = test::torus(90, 40);
+  const auto points = test::ellipsoid(3000, 1);
+  for (const auto& [rows, euler] :
+       {std::pair{torus.vertices, 0}, std::pair{std::vector<Vec3>(points), 2}}) {
+    const WatertightSurface surface = surface_of(rows);
+    const auto uses = edge_uses(surface.triangles);
+    for (const auto& [edge, count] : uses) ASSERT_EQ(count, 2) << edge[0] << " " << edge[1];
+    EXPECT_EQ(static_cast<int>(rows.size() + surface.triangles.size() - uses.size()), euler);
+    EXPECT_EQ(std::count(surface.on_surface.begin(), surface.on_surface.end(), 0), 0);
+    EXPECT_EQ(surface.nonmanifold_edges + surface.nonmanifold_vertices + surface.cavities, 0);
+    EXPECT_GT(volume(rows, surface.triangles), 0);
+  }
+}
+
+TEST(TightCocone, GivesTheSameBytesForEveryThreadCount) {
+  auto points = test::ellipsoid(4000, 2);
+  const auto noise = test::random_points(4000, 3);
+  for (size_t i = 0; i < points.size(); ++i) points[i] = points[i] + 0.02 * noise[i];
+  const WatertightSurface one = surface_of(points, 1), four = surface_of(points, 4);
+  EXPECT_GT(one.triangles.size(), 1000u);
+  EXPECT_EQ(one.triangles, four.triangles);
+  EXPECT_EQ(one.sides, four.sides);
+  EXPECT_EQ(one.flat, four.flat);
+  EXPECT_EQ(one.good, four.good);
+}
+
+TEST(TightCocone, CancelsInEveryStage) {
+  const auto points = test::ellipsoid(20000, 4);
+  for (const double share : {0.0, 0.6, 0.905, 0.935, 0.955, 0.975}) {
+    Progress progress;
+    std::jthread watcher([&] {
+      while (progress.fraction() < share) std::this_thread::yield();
+      progress.cancel();
+    });
+    try {
+      watertight_surface(points, {}, {2, &progress});
+    } catch (const Cancelled&) {
+    }
+  }
+}
+
+TEST(TightCocone, AnEmptySolidIsAnErrorOnlyWhereItIsAskedFor) {
+  const std::vector<Vec3> corners{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}};
+  const MedialAnalysis analysis(corners, {}, {}, {}, nullptr);
+  ASSERT_EQ(analysis.sides_from(), SidesFrom::tight_cocone);
+  EXPECT_EQ(analysis.tight_cocone()->inner_cells, 0);
+  EXPECT_TRUE(analysis.tight_cocone()->triangles.empty());
+  EXPECT_THROW(analysis.extract({.side = Side::inner}), DegenerateInputError);
+  EXPECT_THROW(analysis.extract({.side = Side::outer}), DegenerateInputError);
+  EXPECT_NO_THROW(analysis.extract({}));
+}
+
+}  // namespace
+}  // namespace medial
