@@ -176,6 +176,24 @@ def test_the_surface_of_an_analysis(medial, surface_of, sphere):
             assert np.array_equal(getattr(found, name), getattr(alone, name)), name
 
 
+SMALL = ["3holes.off", "knot1.off", "hand_closed.obj", "spot_low.obj", "rocker-arm.off"]
+BIG = ["mannequin.off", "screwdriver.off", "dilo.off", "igea.ply"]
+
+
+@pytest.mark.parametrize("file", SMALL + [pytest.param(x, marks=pytest.mark.slow) for x in BIG])
+def test_meshes_without_their_faces(medial, data_file, file):
+    """Almost the same inner axis as with them."""
+    points, triangles = meshes.read(data_file(file))
+    wanted, found = (
+        set(map(tuple, analysis.edges[analysis.select(side=medial.Side.INNER)].tolist()))
+        for analysis in (
+            medial.MedialAnalysis(points, triangles, sides=medial.SidesFrom.SURFACE),
+            medial.MedialAnalysis(points, triangles, sides=medial.SidesFrom.TIGHT_COCONE),
+        )
+    )
+    assert len(wanted & found) >= 0.97 * len(wanted | found)
+
+
 # ---- changes that must not matter
 
 
