@@ -29,3 +29,7 @@ class Cancelled(MedialAxisError):  # noqa: N818 - as in _medial
 
 class ExportError(MedialAxisError, OSError):
     """A medial axis could not be written; no file was changed."""
+
+
+class ReadError(MedialAxisError, OSError):
+    """A file of points could not be read; nothing was made."""

@@ -1,0 +1,518 @@
+"""What is read from `.xyz`, `.xyzn` and `.off` files, and what is refused."""
+
+import numpy as np
+import pytest
+from medial_axis.core import import_text
+from medial_axis.core.errors import MedialAxisError, ReadError
+from medial_axis.core.export import export_axis
+from medial_axis.core.import_points import import_points
+from medial_axis.core.import_rounding import rounding_warning
+from test_export import AXES
+
+THREE = np.array([[0.1, -2.5e3, 3.0], [4.0, 5.0, -6.25], [7.0, 8.0, 9.0]])
+NORMALS = np.array([[1.0, 0.0, 0.0], [0.0, -0.6, 0.8], [0.0, 0.0, 1.0]])
+
+
+@pytest.fixture
+def file(tmp_path):
+    """(name, bytes or text) -> path of that file."""
+
+    def write(name, content):
+        path = tmp_path / name
+        path.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
+        return path
+
+    return write
+
+
+@pytest.fixture
+def read(file):
+    return lambda name, content: import_points(file(name, content))
+
+
+@pytest.fixture
+def refuse(file):
+    """(name, content, words) -> the file is refused in one sentence that has these words."""
+
+    def check(name, content, words):
+        with pytest.raises(ReadError, match=words) as error:
+            import_points(file(name, content))
+        text = str(error.value)
+        assert "\n" not in text and ". " not in text and not text.endswith(".")
+        assert text.startswith("Expected ") and ", found " in text and "; " in text
+
+    return check
+
+
+def rows(*tables, mark=" "):
+    """Text of tables side by side, 17 digits."""
+    table = np.column_stack(tables)
+    return "".join(mark.join(f"{x:.17g}" for x in row) + "\n" for row in table.tolist())
+
+
+def assert_points(found, points=THREE, normals=None):
+    assert np.array_equal(found.vertices, points) and found.vertices.dtype == np.float64
+    if normals is None:
+        assert found.normals is None
+    else:
+        assert np.array_equal(found.normals, normals)
+
+
+# --- .xyz and .xyzn
+
+
+@pytest.mark.parametrize("mark", [" ", "\t", "  \t ", ",", ", ", " , ", ";", "; ", ";\t"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"], ids=["LF", "CRLF", "CR"])
+def test_separators_and_line_ends(read, mark, end):
+    found = read("a.xyz", rows(THREE, mark=mark).replace("\n", end))
+    assert_points(found)
+    assert found.faces == 0 and found.warnings == ()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{0}{1}{2}",
+        "3\n{0}{1}{2}",
+        "3\n\n{0}{1}{2}",
+        "3\ntaken 24 May, 12.5 metres\n{0}{1}{2}",
+        "3\n//X Y Z\n{0}{1}{2}",
+        "X Y Z\n{0}{1}{2}",
+        "x,y,z\n{0}{1}{2}",
+        "# points\n\n{0}# more 1 2 3\n{1}\n \t \n//\n{2}\n\n",
+        "  {0}  {1}\t{2}",
+    ],
+)
+def test_counts_titles_comments_and_blank_lines(read, text):
+    assert_points(read("a.xyz", text.format(*rows(THREE).splitlines(keepends=True))))
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"\xef\xbb\xbf" + rows(THREE).encode(),
+        "# caf\xe9, 20 \xb0C\n".encode("latin-1") + rows(THREE).encode(),
+        "# café, 20 °C\n".encode() + rows(THREE).encode(),
+        rows(THREE).rstrip().encode(),
+        rows(THREE).encode().replace(b"\n", b" # \xff\x00\x85\n"),
+        rows(THREE).encode().replace(b"e", b"E"),
+    ],
+    ids=["byte order mark", "Latin-1", "UTF-8", "no last line end", "any byte", "capital E"],
+)
+def test_bytes(read, content):
+    assert_points(read("a.xyz", content))
+
+
+def test_trailing_separators(read):
+    assert_points(read("a.xyz", rows(THREE, mark=",").replace("\n", ", \n")))
+
+
+def test_every_number_is_the_nearest_float64(read):
+    points = np.random.default_rng(1).normal(size=(500, 3)) * 10.0 ** np.arange(-300, 200)[:, None]
+    assert_points(read("a.xyz", rows(points)), points)
+
+
+def test_pieces_join_without_a_seam(read, monkeypatch):
+    points = np.random.default_rng(2).normal(size=(100, 3))
+    text = rows(points).replace("\n", " # comment\n\n", 50)
+    for size in (1, 7, 100):
+        monkeypatch.setattr(import_text, "_CHUNK", size)
+        assert_points(read("a.xyz", text), points)
+
+
+def test_xyzn_has_normals_of_any_length(read):
+    assert_points(read("a.xyzn", rows(THREE, 3 * NORMALS)), normals=3 * NORMALS)
+    assert_points(read("a.XYZN", rows(THREE, 0 * NORMALS)), normals=0 * NORMALS)
+
+
+def test_xyz_has_normals_when_they_look_like_it(read):
+    found = read("a.xyz", rows(THREE, NORMALS.round(2)))
+    assert_points(found, normals=NORMALS.round(2))
+    assert found.warnings == ()
+
+
+def test_points_without_a_normal_among_others(read):
+    normals = NORMALS * [[1], [1], [0]]
+    assert_points(read("a.xyz", rows(THREE, normals)), normals=normals)
+
+
+@pytest.mark.parametrize(
+    "extra",
+    [
+        [[255, 128, 0], [0, 0, 255], [12, 13, 14]],
+        [[1, 0, 0], [1, 0, 0], [0, 0, 1]],  # pure colours are of length 1 too
+        2 * NORMALS,
+        0 * NORMALS,
+    ],
+    ids=["bytes", "pure", "long", "zero"],
+)
+def test_other_columns_are_left_with_a_warning(read, extra):
+    found = read("a.xyz", rows(THREE, extra))
+    assert_points(found)
+    (warning,) = found.warnings
+    assert warning.startswith("Left out 3 of 6 columns: ") and ".xyzn" in warning
+
+
+@pytest.mark.parametrize(
+    "extra, warning",
+    [
+        ([1, 2, 3], "Left out 1 of 4 columns: only positions and normals are read"),
+        ([[1, 2], [1, 2], [1, 2]], "Left out 2 of 5 columns: only positions and normals are read"),
+    ],
+)
+def test_few_other_columns(read, extra, warning):
+    found = read("a.xyz", rows(THREE, np.array(extra)))
+    assert_points(found)
+    assert found.warnings == (warning,)
+
+
+@pytest.mark.parametrize("name", ["a.xyz", "a.xyzn"])
+def test_columns_after_normals(read, name):
+    found = read(name, rows(THREE, NORMALS, [[7, 8], [9, 10], [11, 12]]))
+    assert_points(found, normals=NORMALS)
+    assert found.warnings == ("Left out 2 of 8 columns: only positions and normals are read",)
+
+
+XYZ_REFUSED = {
+    "empty": ("", "Expected points, found none in 'a.xyz'"),
+    "comments alone": ("# nothing\n\n// here\n", "Expected points, found none"),
+    "title alone": ("x y z\n", "Expected points, found none"),
+    "count alone": ("0\n", "Expected points, found none"),
+    "two columns": ("1 2\n3 4\n", "x y z, at least 3 numbers, in line 1 of 'a.xyz', found 2"),
+    "other columns": ("\n1 2 3\n#\n4 5 6\n\n7 8\n", "3 numbers in line 6 .* line 2, found 2"),
+    "a word": ("1 2 3\n\n4 five 6\n", "finite numbers in line 3 of 'a.xyz', found 'five'"),
+    "no title": ("a 2 3\n4 5 6\n", "finite numbers in line 1 of 'a.xyz', found 'a'"),
+    "elements": ("2\nwater\nO 0 0 0\nH 1 0 0\n", "finite numbers in line 3 .*found 'O'"),
+    "NaN": ("1 2 3\n4 nan 6\n", "finite numbers in line 2 of 'a.xyz', found 'nan'"),
+    "NaN at once": ("nan nan nan\n4 5 6\n", "finite numbers in line 1 of 'a.xyz', found 'nan'"),
+    "infinity": ("1 2 -Inf\n", "line 1 of 'a.xyz', found '-Inf'"),
+    "too large": ("1 2 1e400\n", "line 1 of 'a.xyz', found '1e400'"),
+    "underscore": ("1 2 3\n1_0 2 3\n", "line 2 of 'a.xyz', found '1_0'"),
+    "binary": (bytes(range(256)) * 4, "Expected text in 'a.xyz', found a binary"),
+    "UTF-16": ("1 2 3\n4 5 6\n".encode("utf-16"), "Expected text in 'a.xyz', .* UTF-16"),
+    "long word": ("1 2 " + "x" * 10000, "found 'x{24}'\\.\\.\\."),
+    "truncated": ("4\n1 2 3\n4 5 6\n", "Expected 4 points, .* first line, found 2"),
+    "more than counted": ("1\n1 2 3\n4 5 6\n", "Expected 1 points, .* found 2"),
+    "huge count": ("999999999999999999\n1 2 3\n", "Expected 999999999999999999 points, .* found 1"),
+    "decimal commas": ("1,5 2,5 3,5\n", "between each two ',' in line 1 of 'a.xyz'"),
+    "decimal commas, semicolons": ("1,5;2,5;3,5\n", "line 1 of 'a.xyz', found '1,5'"),
+    "decimal commas later": ("1 2 3\n1,5 2 3\n", "line 2 of 'a.xyz', found '1,5'"),
+    "empty field": ("1,2,3\n\n1,,2,3\n", "between each two ',' in line 3 of 'a.xyz'"),
+    "first field empty": ("1,2,3\n ,1,2\n", "between each two ',' in line 2 of 'a.xyz'"),
+    "blanks among commas": ("1,2,3\n1 2,3,\n", "between each two ',' in line 2 of 'a.xyz'"),
+    "one line": ("1 2 3 " * 5 + "\n1 2 3\n", "Expected 15 numbers in line 2 .*found 3"),
+}
+
+
+@pytest.mark.parametrize("content, words", XYZ_REFUSED.values(), ids=XYZ_REFUSED)
+def test_xyz_refused(refuse, content, words):
+    refuse("a.xyz", content, words)
+
+
+def test_line_numbers_in_a_later_piece(refuse, monkeypatch):
+    monkeypatch.setattr(import_text, "_CHUNK", 10)
+    refuse("a.xyz", "1 2 3\n# comment\n\n" * 50 + "1 2 x\n", "in line 151 of 'a.xyz', found 'x'")
+    refuse("a.xyz", "1 2 3\n# comment\n\n" * 50 + "1 2\n", "in line 151 of 'a.xyz', .* found 2")
+
+
+def test_xyzn_without_normals(refuse):
+    refuse("a.xyzn", rows(THREE), "x y z nx ny nz, at least 6 numbers, in line 1 .* found 3")
+
+
+# --- .off
+
+CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]) + 1 / 3
+QUADS = ["4 0 1 3 2", "4 4 6 7 5", "4 0 4 5 1", "4 2 3 7 6", "4 0 2 6 4", "4 1 5 7 3"]
+CORNERS = [[int(word) for word in quad.split()[1:]] for quad in QUADS]
+OUTWARD = (CUBE - CUBE.mean(axis=0)) / np.linalg.norm(CUBE - CUBE.mean(axis=0), axis=1)[:, None]
+BYTES = np.array([[255, 0, i, 255] for i in range(8)])
+
+
+def off(*tables, header="OFF\n8 6 12\n", faces=QUADS):
+    return header + rows(CUBE, *tables) + "".join(f"{face}\n" for face in faces)
+
+
+def assert_cube(found, normals=None):
+    assert_points(found, CUBE, normals)
+    assert found.face_offsets.tolist() == list(range(0, 25, 4))
+    assert found.face_vertices.tolist() == np.concatenate(CORNERS).tolist()
+    assert found.face_offsets.dtype == found.face_vertices.dtype == np.int32
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "OFF\n8 6 12\n",
+        "OFF 8 6 12\n",
+        "OFF\n8 6\n",
+        "# a\n\nOFF # b\n# c\n8 6 0 # d\n\n",
+        "OFF\t8 6 0\n",
+    ],
+)
+@pytest.mark.parametrize("end", ["\n", "\r\n"], ids=["LF", "CRLF"])
+def test_off_headers(read, header, end):
+    found = read("a.off", off(header=header).replace("\n", end))
+    assert_cube(found)
+    assert found.warnings == ()
+
+
+def test_off_colours_of_faces_are_left(read):
+    faces = [f"{quad} {i} 0.5 1e-3" for i, quad in enumerate(QUADS)]
+    assert_cube(read("a.off", off(faces=faces)))
+
+
+def test_off_polygons_of_any_size(read):
+    faces = ["3 0 1 2", "8 0 1 2 3 4 5 6 7", "5 7 6 5 4 3", "2 0 1", "1 3", "0", "4 1 2 3 4"]
+    found = read("a.off", off(header="OFF 8 7 0\n", faces=faces))
+    assert found.face_offsets.tolist() == [0, 3, 11, 16, 20]
+    assert found.face_vertices.tolist() == [0, 1, 2, *range(8), 7, 6, 5, 4, 3, 1, 2, 3, 4]
+    assert found.warnings == ("Left out faces of fewer than three corners: 3",)
+
+
+def test_off_points_alone(read):
+    found = read("a.off", off(header="OFF 8 0 0\n", faces=[]))
+    assert_points(found, CUBE)
+    assert found.face_offsets.tolist() == [0] and len(found.face_vertices) == 0
+
+
+def test_noff(read):
+    assert_cube(read("a.off", off(OUTWARD, header="NOFF 8 6 0\n")), OUTWARD)
+    assert_cube(read("a.off", off(5 * OUTWARD, header="NOFF 8 6 0\n")), 5 * OUTWARD)
+
+
+@pytest.mark.parametrize("keyword", ["COFF", "STOFF", "OFF", "STCOFF"])
+def test_off_other_columns_of_points_are_left(read, keyword):
+    found = read("a.off", off(BYTES, header=f"{keyword} 8 6 0\n"))
+    assert_cube(found)
+    assert found.warnings == ("Left out 4 of 7 columns: only positions and normals are read",)
+
+
+@pytest.mark.parametrize("keyword", ["CNOFF", "NCOFF", "STCNOFF"])
+def test_off_normals_beside_colours(read, keyword):
+    """Geomview writes normals first, MeshLab last."""
+    header = f"{keyword} 8 6 0\n"
+    for tables in ((OUTWARD, BYTES), (BYTES, OUTWARD), (BYTES[:, :3], OUTWARD)):
+        found = read("a.off", off(*tables, header=header))
+        assert_cube(found, OUTWARD)
+        assert found.warnings[0].startswith(
+            f"Left out {tables[0].shape[1] + tables[1].shape[1] - 3} of "
+        )
+
+
+def lines_of(text, line, new):
+    """The text with one of its lines, counted from 1, replaced."""
+    lines = text.splitlines()
+    lines[line - 1] = new
+    return "\n".join(lines)
+
+
+OFF_REFUSED = {
+    "empty": ("", "Expected OFF, .* in line 1 of 'a.off', found ''"),
+    "another keyword": ("PLY\n1 2 3\n", "Expected OFF, .* in line 1 of 'a.off', found 'PLY'"),
+    "four dimensions": ("4OFF\n1 0 0\n1 2 3 4\n", "three dimensions|found '4OFF'"),
+    "any dimension": ("nOFF\n3\n1 0 0\n1 2 3\n", "found 'nOFF'"),
+    "binary": (b"OFF BINARY\n\x00\x00\x00\x08", "Expected OFF as text, found OFF BINARY in line 1"),
+    "keyword alone": ("OFF\n", "numbers of points, faces and edges in line 1 of 'a.off', found ''"),
+    "one count": ("OFF\n8\n", "numbers of points, faces and edges in line 2 of 'a.off', found '8'"),
+    "negative count": ("OFF\n-8 6 0\n", "numbers of points, .* found '-8 6 0'"),
+    "counts not whole": ("OFF\n8.0 6 0\n", "numbers of points, .* found '8.0 6 0'"),
+    "no points": ("OFF\n0 0 0\n", "Expected points, found none in 'a.off'"),
+    "huge counts": ("OFF\n999999999999999999 9 0\n1 2 3\n", "999999999999999999 lines .* found 1 "),
+    "absurd counts": (
+        "OFF\n" + "9" * 5000 + " 9 0\n1 2 3\n",
+        "numbers of points, .* found '9{24}'",
+    ),
+    "truncated": (
+        "\n".join(off().splitlines()[:12]),
+        "8 lines of points and 6 of faces .* found 10",
+    ),
+    "cut in a line": (off()[:-4], "as many corners in line 16 of 'a.off', found 4 and 2"),
+    "too long": (off() + "3 0 1 2\n", "8 lines of points and 6 of faces .* found 15"),
+    "two numbers": (lines_of(off(), 5, "1 2"), "3 numbers in line 5 of 'a.off', .* found 2"),
+    "a word": (lines_of(off(), 5, "1 2 x"), "finite numbers in line 5 of 'a.off', found 'x'"),
+    "NaN": (lines_of(off(), 5, "1 2 NaN"), "finite numbers in line 5 of 'a.off', found 'NaN'"),
+    "corner too large": (lines_of(off(), 12, "4 0 1 8 2"), "0 to 7 in line 12 of 'a.off', found 8"),
+    "corner negative": (lines_of(off(), 12, "4 0 -1 3 2"), "0 to 7 in line 12 .* found -1"),
+    "corner not whole": (lines_of(off(), 12, "4 0 1.5 3 2"), "0 to 7 in line 12 .* found 1.5"),
+    "corner huge": (lines_of(off(), 12, "4 0 1e300 3 2"), "0 to 7 in line 12 .* found 1"),
+    "size huge": (
+        lines_of(off(), 12, "1e300 0 1 3 2"),
+        "corners in line 12 .* found 1.*e\\+300 and 4",
+    ),
+    "size negative": (lines_of(off(), 12, "-3 0 1 3"), "corners in line 12 .* found -3 and 3"),
+    "size not whole": (lines_of(off(), 12, "3.5 0 1 3 2"), "corners in line 12 .* found 3.5 and 4"),
+    "commas": (lines_of(off(), 5, "1,2,3"), "finite numbers in line 5 of 'a.off', found '1,2,3'"),
+    "NOFF without normals": (off(header="NOFF 8 6 0\n"), "x y z nx ny nz, .* in line 2 .* found 3"),
+    "CNOFF without normals": (off(BYTES, header="CNOFF 8 6 0\n"), "Expected normals of length 1"),
+}
+
+
+@pytest.mark.parametrize("content, words", OFF_REFUSED.values(), ids=OFF_REFUSED)
+def test_off_refused(refuse, content, words):
+    refuse("a.off", content, words)
+
+
+@pytest.mark.parametrize("name", ["sheets", "grid"])
+def test_our_own_off_comes_back(name, tmp_path):
+    axis = AXES[name]
+    found = import_points(export_axis(axis, tmp_path / "a.off"))
+    assert np.array_equal(found.vertices, axis.vertices)
+    assert np.array_equal(found.face_offsets, axis.face_offsets)
+    assert np.array_equal(found.face_vertices, axis.face_vertices)
+
+
+# --- files
+
+
+def test_no_file(tmp_path):
+    for path in (tmp_path / "none.xyz", tmp_path):
+        with pytest.raises(ReadError, match="Expected .*, found .*; choose another"):
+            import_points(path)
+    (tmp_path / "folder.xyz").mkdir()
+    with pytest.raises(ReadError, match="Expected a file, found none at"):
+        import_points(tmp_path / "folder.xyz")
+
+
+def test_unknown_extension(refuse):
+    refuse("a.ply", "ply\n", r"\.xyz, \.xyzn, \.off, found 'a\.ply'")
+
+
+def test_system_refuses(file, monkeypatch):
+    def refuse(*_arguments, **_options):
+        raise PermissionError(13, "Permission denied")
+
+    path = file("a.xyz", "1 2 3\n")
+    monkeypatch.setattr("builtins.open", refuse)
+    with pytest.raises(ReadError, match="Expected to read '.*a.xyz', .* 'Permission denied'"):
+        import_points(path)
+
+
+def test_reading_does_not_change_the_file(file):
+    path = file("a.off", off())
+    import_points(path)
+    assert path.read_text() == off()
+
+
+# --- data of others
+
+
+@pytest.mark.parametrize("name, count", [("cactus.xyz", 3318), ("distcap.xyz", 12745)])
+def test_scans(data_file, name, count):
+    found = import_points(data_file(name))
+    assert_points(found, np.loadtxt(data_file(name)))
+    assert (len(found.vertices), found.faces, found.warnings) == (count, 0, ())
+
+
+@pytest.mark.parametrize(
+    "name, vertices, faces",
+    [
+        ("3holes.off", 3596, 7200),
+        ("knot1.off", 3200, 6400),
+        ("mannequin.off", 11703, 23402),
+        ("fandisk_large.off", 15843, 31682),
+        ("club.off", 9597, 19136),
+        ("foot.off", 10010, 20016),
+        ("screwdriver.off", 27152, 54300),
+        ("dilo.off", 27174, 54344),
+        ("rocker-arm.off", 10044, 20088),
+        ("elephant-with-holes.off", 2798, 4463),
+    ],
+)
+def test_meshes(data_file, name, vertices, faces):
+    found = import_points(data_file(name))
+    tokens = data_file(name).read_bytes().split()[4:]
+    points = np.array(tokens[: 3 * vertices], float).reshape(-1, 3)
+    triangles = np.array(tokens[3 * vertices :], int).reshape(faces, 4)
+    assert_points(found, points)
+    assert np.array_equal(found.face_vertices.reshape(-1, 3), triangles[:, 1:])
+    assert found.faces == faces and found.warnings == ()
+
+
+# --- what is kept in 32 bits
+
+
+def grid(step, offset):
+    return np.stack(np.meshgrid(*[np.arange(20)] * 3), axis=-1).reshape(-1, 3) * step + offset
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        grid(0.1, 0.0),
+        grid(0.1, 1000.0),
+        grid(1.0, 5e5),
+        grid(1e-9, 0.0),
+        grid(1e30, 0.0),
+        np.full((5, 3), 0.1),
+        grid(0.1, 0.0)[:1],
+    ],
+    ids=["at home", "not far", "whole numbers", "tiny", "huge", "one place", "one point"],
+)
+def test_float32_is_enough(points):
+    assert rounding_warning(points) is None
+
+
+@pytest.mark.parametrize("step, offset, lie", [(0.1, 5e5, "0.1"), (1e-3, 1e4, "0.001")])
+def test_float32_is_too_little(step, offset, lie):
+    text = rounding_warning(grid(step, offset))
+    assert f"while neighbours lie {lie} apart; subtract a common offset" in text
+    moved = float(text.split("up to ")[1].split()[0])
+    assert 0.05 * step < moved <= 2 * np.spacing(np.float32(offset))
+
+
+# --- fuzz
+
+FUZZED = {
+    "a.xyz": "3\ntitle\n" + rows(THREE),
+    "b.xyz": rows(THREE, NORMALS, mark=","),
+    "c.xyzn": rows(THREE, NORMALS, mark="; "),
+    "d.off": off(OUTWARD, BYTES, header="# f\nCNOFF\n8 6 12\n"),
+    "e.off": off(),
+}
+
+
+def damaged(data, rng):
+    """Cut off, with some bytes changed, doubled, exchanged or lost."""
+    data = bytearray(data)
+    for _ in range(int(rng.integers(0, 4))):
+        start, stop = sorted(rng.integers(0, len(data) + 1, 2).tolist())
+        stop = min(stop, start + 20)
+        kind = rng.integers(0, 5)
+        if kind == 0:
+            data[start:stop] = bytes(rng.integers(0, 256, stop - start, dtype=np.uint8))
+        elif kind == 1:
+            data[start:stop] = bytes(
+                rng.choice(list(b"0123456789 .-e\n,;#/"), stop - start).tolist()
+            )
+        elif kind == 2:
+            del data[start:stop]
+        elif kind == 3:
+            data[start:start] = data[start:stop]
+        else:
+            del data[start:]
+    return bytes(data)
+
+
+@pytest.mark.parametrize("name", FUZZED)
+def test_damaged_files_are_read_or_refused(name, file):
+    """Whatever is found keeps what ImportedPoints promises; nothing else than our errors is raised."""
+    rng = np.random.default_rng(5)
+    content, outcomes = FUZZED[name].encode(), set()
+    for _ in range(1500):
+        path = file(name, damaged(content, rng))
+        try:
+            found = import_points(path)
+        except MedialAxisError as error:
+            assert "\n" not in str(error) and str(error).startswith("Expected ")
+            outcomes.add("refused")
+            continue
+        outcomes.add("read")
+        assert found.vertices.ndim == 2 and found.vertices.shape[1] == 3 and len(found.vertices)
+        assert np.isfinite(found.vertices).all()
+        assert found.normals is None or (
+            found.normals.shape == found.vertices.shape and np.isfinite(found.normals).all()
+        )
+        assert found.face_offsets[0] == 0 and found.face_offsets[-1] == len(found.face_vertices)
+        assert (np.diff(found.face_offsets) >= 3).all()
+        assert ((found.face_vertices >= 0) & (found.face_vertices < len(found.vertices))).all()
+    assert outcomes == {"read", "refused"}
