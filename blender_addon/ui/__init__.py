@@ -6,9 +6,9 @@ from types import ModuleType
 
 
 def _modules() -> tuple[ModuleType, ...]:
-    from . import export, menus, operators, panels, properties, running
+    from . import export, import_points, menus, operators, panels, properties, running
 
-    return (properties, operators, export, panels, menus, running)
+    return (properties, operators, export, import_points, panels, menus, running)
 
 
 def register() -> None:

@@ -1,0 +1,420 @@
+"""File > Import of `.xyz`, `.xyzn` and `.off` files, and of points through Blender's own importers."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from scene import (
+    MODULE,
+    addon,
+    compute,
+    contents,
+    ellipsoid,
+    link,
+    on_ellipsoid,
+    positions,
+    reports,
+    result_of,
+    select,
+    triangles_of,
+)
+
+BEFORE_4 = bpy.app.version < (4, 0, 0)
+POINTS, NORMALS = (np.float64(np.float32(x)) for x in on_ellipsoid(500))  # 9 digits are exact
+AXES = ("X", "-X", "Y", "-Y", "Z", "-Z")
+TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder with a scan, one with normals, a mesh, and a file that is none of these."""
+    np.savetxt(tmp_path / "scan.xyz", POINTS, fmt="%.9g")
+    np.savetxt(tmp_path / "oriented.xyzn", np.column_stack([POINTS, NORMALS]), fmt="%.9g")
+    (tmp_path / "solid.off").write_text(TETRAHEDRON)
+    (tmp_path / "bad.xyz").write_text("1 2 3\n4 5 six\n")
+    return tmp_path
+
+
+def read(path, *more, **options):
+    """Import one file, or several of a folder; returns what the operator returns."""
+    kind = "off" if path.suffix == ".off" else "xyz"
+    operator = getattr(bpy.ops.import_mesh, f"points_{kind}")
+    if more:
+        names = [{"name": one.name} for one in (path, *more)]
+        return operator(directory=str(path.parent), files=names, **options)
+    return operator(filepath=str(path), **options)
+
+
+def normals_of(thing):
+    return addon("bridge.attributes").read_normals(thing.data.attributes)
+
+
+def test_points(folder, capfd):
+    assert read(folder / "scan.xyz") == {"FINISHED"}
+    thing = bpy.context.object
+    assert (thing.name, thing.data.name, thing.type) == ("scan", "scan", "MESH")
+    np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS))
+    assert len(thing.data.edges) == len(thing.data.polygons) == 0
+    assert normals_of(thing) is None
+    assert np.array_equal(thing.matrix_world, np.identity(4))
+    assert reports(capfd) == [("Info", "'scan': 500 points, 0 faces")]
+
+
+def test_normals(folder, capfd):
+    read(folder / "oriented.xyzn")
+    thing = bpy.context.object
+    np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS))
+    np.testing.assert_allclose(normals_of(thing), NORMALS, atol=1e-7)
+    assert reports(capfd) == [("Info", "'oriented': 500 points, 0 faces, with normals")]
+
+
+def test_faces(folder, capfd):
+    read(folder / "solid.off")
+    mesh = bpy.context.object.data
+    assert triangles_of(mesh).tolist() == [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    assert len(mesh.edges) == 6 and not any(polygon.use_smooth for polygon in mesh.polygons)
+    assert reports(capfd) == [("Info", "'solid': 4 points, 4 faces")]
+
+
+def test_what_is_imported_is_selected_alone_and_active(folder):
+    other = link("Other", [(0, 0, 0)])
+    collection = bpy.data.collections.new("Active")
+    bpy.context.scene.collection.children.link(collection)
+    layer = bpy.context.view_layer.layer_collection.children["Active"]
+    bpy.context.view_layer.active_layer_collection = layer
+    read(folder / "scan.xyz", folder / "oriented.xyzn")
+    names = [thing.name for thing in bpy.context.selected_objects]
+    assert sorted(names) == ["oriented", "scan"] and not other.select_get()
+    assert bpy.context.object.name == "oriented"
+    assert sorted(thing.name for thing in collection.objects) == ["oriented", "scan"]
+
+
+def test_importing_again_makes_another(folder):
+    read(folder / "solid.off")
+    read(folder / "solid.off")
+    assert [thing.name for thing in bpy.data.objects] == ["solid", "solid.001"]
+
+
+def test_import_leaves_edit_mode(folder):
+    edited = ellipsoid()
+    bpy.ops.object.mode_set(mode="EDIT")
+    read(folder / "scan.xyz")
+    assert (edited.mode, bpy.context.object.name) == ("OBJECT", "scan")
+
+
+def test_collection_that_is_not_shown(folder):
+    collection = bpy.data.collections.new("Hidden")
+    bpy.context.scene.collection.children.link(collection)
+    layer = bpy.context.view_layer.layer_collection.children["Hidden"]
+    bpy.context.view_layer.active_layer_collection = layer
+    layer.exclude = True
+    assert read(folder / "scan.xyz") == {"FINISHED"}
+    assert "scan" in bpy.data.objects and bpy.data.objects["scan"].users_collection
+
+
+def test_collection_of_another_file(folder):
+    """It cannot be added to, so that the scene's own takes the object."""
+    bpy.data.libraries.write(str(folder / "a.blend"), {bpy.data.collections.new("Theirs")})
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    with bpy.data.libraries.load(str(folder / "a.blend"), link=True) as (_, loaded):
+        loaded.collections = ["Theirs"]
+    bpy.context.scene.collection.children.link(bpy.data.collections["Theirs"])
+    layer = bpy.context.view_layer.layer_collection.children["Theirs"]
+    bpy.context.view_layer.active_layer_collection = layer
+    assert bpy.context.collection.library is not None
+    read(folder / "scan.xyz")
+    assert bpy.context.object.users_collection == (bpy.context.scene.collection,)
+
+
+def test_path_beside_the_blend_file(folder):
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
+    assert bpy.ops.import_mesh.points_xyz(filepath="//scan.xyz") == {"FINISHED"}
+    assert bpy.ops.import_mesh.points_xyz(directory="//", files=[{"name": "scan.xyz"}]) == {
+        "FINISHED"
+    }
+
+
+# --- axes and scale
+
+
+@pytest.mark.parametrize("forward, up", [(f, u) for f in AXES for u in AXES if f[-1] != u[-1]])
+def test_axes(folder, forward, up):
+    """What points forward in the file points along Y, what points up along Z; normals turn too."""
+    read(folder / "oriented.xyzn", axis_forward=forward, axis_up=up)
+    thing = bpy.context.object
+    axes = {"XYZ"[i]: row for i, row in enumerate(np.identity(3))}
+    axes |= {f"-{name}": -axis for name, axis in axes.items()}
+    turn = np.array([np.cross(axes[forward], axes[up]), axes[forward], axes[up]])
+    np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS @ turn.T))
+    np.testing.assert_allclose(normals_of(thing), NORMALS @ turn.T, atol=1e-7)
+
+
+def test_scale(folder):
+    read(folder / "oriented.xyzn", global_scale=0.25)
+    thing = bpy.context.object
+    np.testing.assert_array_equal(positions(thing.data), np.float32(0.25 * POINTS))
+    np.testing.assert_allclose(normals_of(thing), NORMALS, atol=1e-7)
+    assert tuple(thing.scale) == (1, 1, 1)
+
+
+@pytest.mark.parametrize("forward, up", [(f, u) for f in AXES for u in AXES if f[-1] == u[-1]])
+def test_one_axis_twice(folder, forward, up):
+    """Blender chooses another axis, as in its own importers."""
+    assert read(folder / "scan.xyz", axis_forward=forward, axis_up=up) == {"FINISHED"}
+    found = np.abs(positions(bpy.context.object.data))
+    np.testing.assert_array_equal(np.sort(found), np.sort(np.abs(np.float32(POINTS))))
+
+
+# --- what is wrong
+
+
+def test_bad_file_leaves_nothing(folder):
+    edited = ellipsoid()
+    bpy.ops.object.mode_set(mode="EDIT")
+    before = contents()
+    for name, words in (("bad.xyz", "line 2 of 'bad.xyz', found 'six'"), ("no.off", "found none")):
+        with pytest.raises(RuntimeError, match=words) as error:
+            read(folder / name)
+        assert "Traceback" not in str(error.value)
+    assert contents() == before
+    assert edited.mode == "EDIT" and edited.select_get()
+
+
+def test_good_ones_of_several_files_are_imported(folder):
+    with pytest.raises(RuntimeError, match="found 'six'"):
+        read(folder / "bad.xyz", folder / "scan.xyz", folder / "oriented.xyzn")
+    assert contents()[:2] == [["oriented", "scan"]] * 2
+    assert bpy.context.object.name == "oriented"
+
+
+def test_coordinates_that_blender_cannot_hold(folder):
+    (folder / "far.xyz").write_text("0 0 0\n1 2 1e39\n")
+    with pytest.raises(RuntimeError, match=r"below 3.4e\+38, .* found 1e\+39"):
+        read(folder / "far.xyz")
+    assert contents() == [[], [], []]
+    assert read(folder / "far.xyz", global_scale=1e-3) == {"FINISHED"}
+
+
+def test_coordinates_of_a_country(folder, capfd):
+    np.savetxt(folder / "utm.xyz", 0.2 * POINTS + [500000.1, 5200000.2, 350.3], fmt="%.4f")
+    read(folder / "utm.xyz")
+    ((kind, text), _) = reports(capfd)
+    assert kind == "Warning"
+    assert text.startswith("'utm': Blender keeps coordinates in 32 bits, which moves these points")
+
+
+def test_colours_are_left_with_a_warning(folder, capfd):
+    np.savetxt(
+        folder / "coloured.xyz", np.column_stack([POINTS, 255 * np.abs(NORMALS)]), fmt="%.9g"
+    )
+    read(folder / "coloured.xyz")
+    ((kind, text), _) = reports(capfd)
+    assert (kind, text[:36]) == ("Warning", "'coloured': Left out 3 of 6 columns:")
+    assert normals_of(bpy.context.object) is None
+
+
+def test_faces_that_blender_cannot_hold(folder, capfd):
+    """They would crash it, or its tools, later."""
+    faces = "3 0 0 1\n3 2 1 0\n4 0 1 2 0\n2 0 1\n"
+    text = TETRAHEDRON.replace("4 4 0", "4 8 0") + faces
+    (folder / "odd.off").write_text(text)
+    read(folder / "odd.off")
+    mesh = bpy.context.object.data
+    assert not mesh.validate() and len(mesh.polygons) == 4
+    told = [text for kind, text in reports(capfd) if kind == "Warning"]
+    assert told == [
+        "'odd': Left out faces of fewer than three corners: 1",
+        "'odd': Left out faces that repeat a corner or another face: 3",
+    ]
+
+
+# --- undo, menu, dropping
+
+
+@pytest.mark.parametrize("name", ["scan.xyz", "solid.off"])
+def test_undo_is_one_step(folder, name):
+    bpy.context.preferences.edit.use_global_undo = True
+    link("Other", [(0, 0, 0)])
+    bpy.ops.ed.undo_push(message="Scene is set")
+    operator = (
+        bpy.ops.import_mesh.points_off if name == "solid.off" else bpy.ops.import_mesh.points_xyz
+    )
+    operator("EXEC_DEFAULT", True, filepath=str(folder / name))
+    assert len(bpy.data.objects) == 2
+    bpy.ops.ed.undo()
+    assert [thing.name for thing in bpy.data.objects] == ["Other"]
+    bpy.ops.ed.redo()
+    assert len(bpy.data.objects) == 2
+
+
+def test_menu_entries():
+    draw = addon("ui.import_points").menu_func_import
+    assert draw in bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
+    shown = {}
+    layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
+    draw(SimpleNamespace(layout=layout), bpy.context)
+    assert shown == {
+        "import_mesh.points_xyz": "Points (.xyz/.xyzn)",
+        "import_mesh.points_off": "Object File Format (.off)",
+    }
+
+
+def test_disabling_removes_operators_and_menu_entries():
+    def present():
+        entries = bpy.types.TOPBAR_MT_file_import._dyn_ui_initialize()
+        return [
+            f"{MODULE}.ui.import_points" in [function.__module__ for function in entries],
+            hasattr(bpy.types, "IMPORT_MESH_OT_points_xyz"),
+            hasattr(bpy.types, "IMPORT_MESH_OT_points_off"),
+        ]
+
+    assert present() == [True] * 3
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    try:
+        assert present() == [False] * 3
+    finally:
+        bpy.ops.preferences.addon_enable(module=MODULE)
+    assert present() == [True] * 3
+
+
+def test_no_other_importer_is_replaced():
+    """Blender brings an importer of molecules named import_mesh.xyz."""
+    if not hasattr(bpy.ops.preferences, "addon_enable") or bpy.app.version >= (4, 2, 0):
+        pytest.skip("this Blender brings no Atomic Blender")
+    bpy.ops.preferences.addon_enable(module="io_mesh_atomic")
+    names = {"IMPORT_MESH_OT_xyz", "IMPORT_MESH_OT_points_xyz"}
+    assert names <= {cls for cls in dir(bpy.types) if cls in names}
+    bpy.ops.preferences.addon_disable(module="io_mesh_atomic")
+    assert hasattr(bpy.types, "IMPORT_MESH_OT_points_xyz")
+
+
+def test_dropped_files_are_not_asked_for_again():
+    """Blender's helper shows the options alone when it knows the files; before 4.1 there is no dropping."""
+    shared, asked = addon("ui.import_points").ImportPoints, []
+    manager = SimpleNamespace(fileselect_add=lambda _operator: asked.append("files"))
+    context = SimpleNamespace(window_manager=manager)
+
+    class Dropping(shared):
+        def invoke_popup(self, _context):
+            asked.append("options")
+
+    Dropping().invoke(context, None)
+    assert asked == ["options"]
+    if not hasattr(shared, "invoke_popup"):
+        shared().invoke(context, None)
+        assert asked == ["options", "files"]
+
+
+def test_files_can_be_dropped_where_blender_takes_them():
+    module = addon("ui.import_points")
+    made = [module.drop_handler(object, operator) for operator in module.OPERATORS]
+    assert [(cls.bl_import_operator, cls.bl_file_extensions) for cls in made] == [
+        ("import_mesh.points_xyz", ".xyz;.xyzn"),
+        ("import_mesh.points_off", ".off"),
+    ]
+    for space, taken in (("VIEW_3D", True), ("OUTLINER", True), ("CONSOLE", False)):
+        area = SimpleNamespace(type=space)
+        assert made[0].poll_drop(SimpleNamespace(area=area)) == taken
+    assert not made[0].poll_drop(SimpleNamespace(area=None))
+    registered = [cls for cls in module.CLASSES if cls not in module.OPERATORS]
+    assert len(registered) == (2 if hasattr(bpy.types, "FileHandler") else 0)
+
+
+# --- from a file to the axis
+
+
+def test_scan_to_inner_axis(folder):
+    read(folder / "scan.xyz")
+    source = bpy.context.object
+    compute()
+    assert result_of(source)["ma_sides"] == "TIGHT_COCONE"
+
+
+def test_oriented_scan_to_inner_axis(folder):
+    read(folder / "oriented.xyzn")
+    source = bpy.context.object
+    compute()
+    assert result_of(source)["ma_sides"] == "NORMALS"
+
+
+def test_mesh_to_inner_axis(folder):
+    thing = ellipsoid()
+    points, triangles = positions(thing.data), triangles_of(thing.data)
+    with open(folder / "mesh.off", "w") as stream:
+        stream.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
+        np.savetxt(stream, points, fmt="%.9g")
+        np.savetxt(stream, np.insert(triangles, 0, 3, axis=1), fmt="%d")
+    read(folder / "mesh.off")
+    again = bpy.context.object
+    np.testing.assert_array_equal(positions(again.data), points)
+    np.testing.assert_array_equal(triangles_of(again.data), triangles)
+    compute()
+    assert result_of(again)["ma_sides"] == "SURFACE"
+
+
+def test_our_own_off_comes_back(folder):
+    source = ellipsoid()
+    compute(side="INNER")
+    axis = result_of(source)
+    select(axis)
+    bpy.ops.export_scene.medial_axis(filepath=str(folder / "axis.off"))
+    read(folder / "axis.off")
+    again = bpy.context.object.data
+    np.testing.assert_array_equal(positions(again), positions(axis.data))
+    assert [list(p.vertices) for p in again.polygons] == [
+        list(p.vertices) for p in axis.data.polygons
+    ]
+
+
+# --- points in Blender's own importers
+
+
+def test_blenders_ply_importer_keeps_points_alone(folder):
+    """Before 4.0 it drops their normals; from then on they become the attribute that we read."""
+    header = "ply\nformat ascii 1.0\nelement vertex 500\n"
+    header += "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
+    with open(folder / "cloud.ply", "w") as stream:
+        stream.write(header + "end_header\n")
+        np.savetxt(stream, np.column_stack([POINTS, NORMALS]), fmt="%.9g")
+    importer = bpy.ops.import_mesh.ply if BEFORE_4 else bpy.ops.wm.ply_import
+    assert importer(filepath=str(folder / "cloud.ply")) == {"FINISHED"}
+    thing = bpy.context.object
+    np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS))
+    assert len(thing.data.polygons) == 0
+    if BEFORE_4:
+        assert normals_of(thing) is None
+    else:
+        np.testing.assert_allclose(normals_of(thing), NORMALS, atol=1e-6)
+
+
+def test_blenders_ply_importer_keeps_points_beside_faces(folder):
+    header = "ply\nformat ascii 1.0\nelement vertex 500\n"
+    header += "property float x\nproperty float y\nproperty float z\n"
+    header += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    with open(folder / "part.ply", "w") as stream:
+        stream.write(header)
+        np.savetxt(stream, POINTS, fmt="%.9g")
+        stream.write("3 0 1 2\n")
+    importer = bpy.ops.import_mesh.ply if BEFORE_4 else bpy.ops.wm.ply_import
+    importer(filepath=str(folder / "part.ply"))
+    assert len(bpy.context.object.data.vertices) == 500
+
+
+def test_blenders_obj_importer_keeps_points_alone(folder):
+    """But not their normals."""
+    with open(folder / "cloud.obj", "w") as stream:
+        np.savetxt(stream, POINTS, fmt="v %.9g %.9g %.9g")
+        np.savetxt(stream, NORMALS, fmt="vn %.9g %.9g %.9g")
+    bpy.ops.wm.obj_import(filepath=str(folder / "cloud.obj"), forward_axis="Y", up_axis="Z")
+    thing = bpy.context.selected_objects[0]
+    np.testing.assert_array_equal(positions(thing.data), np.float32(POINTS))
+    assert len(thing.data.polygons) == 0 and normals_of(thing) is None
+
+
+def test_blenders_obj_importer_drops_points_beside_faces(folder):
+    with open(folder / "part.obj", "w") as stream:
+        np.savetxt(stream, POINTS, fmt="v %.9g %.9g %.9g")
+        stream.write("f 1 2 3\n")
+    bpy.ops.wm.obj_import(filepath=str(folder / "part.obj"))
+    assert len(bpy.context.selected_objects[0].data.vertices) == 3
