@@ -26,9 +26,8 @@ struct Stage {
   int32_t samples() const { return static_cast<int32_t>(incident.size()); }
   bool is_sample(int32_t id) const { return id >= 0 && id < samples(); }
 
-  // From p to the Voronoi vertex; of an infinite cell the direction of its ray.
   Vec3 towards(int32_t p, int32_t cell) const {
-    return t.is_infinite(cell) ? voronoi.centre[cell] : voronoi.centre[cell] - points[p];
+    return medial::towards(points[p], t, voronoi, cell);
   }
 };
 

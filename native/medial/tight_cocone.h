@@ -2,7 +2,7 @@
 // between them (Dey & Goswami 2003).
 #pragma once
 
-#include "manifold.h"
+#include "marking.h"
 #include "sides.h"
 
 namespace medial {

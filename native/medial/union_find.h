@@ -35,4 +35,41 @@ class UnionFind {
   std::vector<int32_t> parent_;
 };
 
+// Disjoint sets of things that can be turned over: within a set it is known which of them are
+// turned relative to its lowest id.
+class OrientedUnionFind {
+ public:
+  explicit OrientedUnionFind(size_t count) : parent_(count), turned_(count, 0) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  struct Found {
+    int32_t root;
+    bool turned;  // relative to the root
+  };
+  Found find(int32_t id) {
+    bool turned = false;
+    while (parent_[id] != id) {
+      const int32_t above = parent_[id];
+      turned_[id] ^= turned_[above];  // a root is never turned
+      parent_[id] = parent_[above];
+      turned ^= turned_[id] != 0;
+      id = parent_[id];
+    }
+    return {id, turned};
+  }
+  // `turned`: b relative to a. Without effect when they are in one set already.
+  void unite(int32_t a, int32_t b, bool turned) {
+    Found high = find(a), low = find(b);
+    if (high.root == low.root) return;
+    if (high.root < low.root) std::swap(high, low);
+    parent_[high.root] = low.root;
+    turned_[high.root] = high.turned != (low.turned != turned);
+  }
+
+ private:
+  std::vector<int32_t> parent_;
+  std::vector<uint8_t> turned_;  // relative to the parent
+};
+
 }  // namespace medial

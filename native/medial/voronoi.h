@@ -15,6 +15,13 @@ struct Voronoi {
   std::vector<int32_t> vertex;
 };
 
+// From a point to the Voronoi vertex of a cell; for an infinite cell the direction of its ray.
+inline Vec3 towards(const Vec3& point, const Triangulation& triangulation, const Voronoi& voronoi,
+                    int32_t cell) {
+  const Vec3& centre = voronoi.centre[cell];
+  return triangulation.is_infinite(cell) ? centre : centre - point;
+}
+
 Voronoi voronoi(std::span<const Vec3> points, const Triangulation& triangulation, const Run& run);
 
 }  // namespace medial

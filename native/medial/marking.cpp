@@ -1,0 +1,231 @@
+#include "marking.h"
+
+#include <tuple>
+
+#include "union_find.h"
+
+namespace medial {
+namespace {
+
+Face turned(Face face) {
+  return face == Face::front ? Face::back : face == Face::back ? Face::front : Face::none;
+}
+
+// What one thread needs to mark the cells at one sample after another.
+class Marker {
+ public:
+  Marker(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
+         const Csr<int32_t>& incident, const FacetSet& front, const FacetSet& surface, double sine,
+         Marks& marks)
+      : points_(points),
+        t_(t),
+        voronoi_(voronoi),
+        incident_(incident),
+        front_(front),
+        surface_(surface),
+        sine_(sine),
+        marks_(marks) {}
+
+  bool is_good(int32_t p) {
+    facets_.clear();
+    for_facets_at(p, t_, incident_[p], front_, [&](const Facet& f) { facets_.push_back(f); });
+    return is_one_disc(t_, facets_, p, links_);
+  }
+
+  // Floods the cells at the good sample p, of which is_good was asked last, from the front of its
+  // umbrella; the others lie behind it.
+  void split_by_umbrella(int32_t p) {
+    stack_.clear();
+    const auto reach = [&](int32_t cell) {
+      Face& face = at(cell, p);
+      if (face == Face::front) return;
+      face = Face::front;
+      stack_.push_back(cell);
+    };
+    for (const Facet& f : facets_) reach(f.cell);
+    while (!stack_.empty()) {
+      const int32_t cell = stack_.back();
+      stack_.pop_back();
+      for (int i = 0; i < 4; ++i) {
+        if (t_.cells[cell][i] != p && !surface_.has({cell, i})) reach(t_.neighbors[cell][i]);
+      }
+    }
+    for (const int32_t cell : incident_[p]) {
+      Face& face = at(cell, p);
+      if (face == Face::none) face = Face::back;
+    }
+  }
+
+  // The front is where the pole lies; cells in the cocone are left out.
+  void split_by_plane(int32_t p, const Vec3& normal) {
+    for (const int32_t cell : incident_[p]) at(cell, p) = above_plane(cell, p, normal);
+  }
+  // Whether the pole lies in front of the umbrella.
+  bool faces_pole(int32_t p, const Vec3& normal) {
+    int votes = 0;
+    for (const int32_t cell : incident_[p]) {
+      const Face plane = above_plane(cell, p, normal);
+      if (plane != Face::none) votes += plane == at(cell, p) ? 1 : -1;
+    }
+    return votes >= 0;
+  }
+
+ private:
+  Face& at(int32_t cell, int32_t p) { return marks_.face[cell][slot_of(t_.cells[cell], p)]; }
+  Face above_plane(int32_t cell, int32_t p, const Vec3& normal) const {
+    const Vec3 d = towards(points_[p], t_, voronoi_, cell);
+    const double height = dot(d, normal);
+    if (!(std::abs(height) > sine_ * length(d))) return Face::none;
+    return height > 0 ? Face::front : Face::back;
+  }
+
+  std::span<const Vec3> points_;
+  const Triangulation& t_;
+  const Voronoi& voronoi_;
+  const Csr<int32_t>& incident_;
+  const FacetSet& front_;
+  const FacetSet& surface_;
+  double sine_;
+  Marks& marks_;
+  std::vector<Facet> facets_;  // at a sample, seen from the front
+  std::vector<Edge> links_;
+  std::vector<int32_t> stack_;
+};
+
+// Two flat samples whose normal lines agree.
+struct Agreement {
+  double cosine;  // of their pole vectors
+  int32_t p, q;
+};
+
+// Of samples that share a candidate triangle, best first. Two good samples are left to the surface.
+std::vector<Agreement> agreements(const Triangulation& t, const Cocone& cocone,
+                                  std::span<const Vec3> normal, std::span<const uint8_t> good,
+                                  double least, const Run& run) {
+  auto found = parallel_append<Agreement>(t.finite_cells, run, [&](int64_t c, auto& out, int) {
+    for_facets_of(static_cast<int32_t>(c), cocone.candidates, [&](const Facet& f) {
+      const Triangle ids = corners(t, f);
+      for (const int32_t x : ids) {
+        const auto [p, q] = link_of(ids, x);
+        if (p > q || !cocone.flat[p] || !cocone.flat[q] || (good[p] && good[q])) continue;
+        const double cosine = dot(normal[p], normal[q]);
+        if (std::abs(cosine) >= least) out.push_back({cosine, p, q});
+      }
+    });
+  });
+  std::sort(found.begin(), found.end(), [](const Agreement& a, const Agreement& b) {
+    return std::tuple(-std::abs(a.cosine), a.p, a.q) < std::tuple(-std::abs(b.cosine), b.p, b.q);
+  });
+  return found;
+}
+
+struct Stage {
+  std::span<const Vec3> points;
+  const Triangulation& t;
+  const Csr<int32_t>& incident;
+  const Cocone& cocone;
+  const FacetSet& front;
+  std::vector<Vec3> normal;  // unit pole vectors
+
+  int64_t samples() const { return incident.size(); }
+};
+
+template <typename Body>
+void for_samples(const Stage& s, const Marker& marker, const Run& run, const Body& body) {
+  parallel_chunks(s.samples(), run, [&](int64_t begin, int64_t end, int) {
+    Marker own(marker);
+    for (auto p = static_cast<int32_t>(begin); p < end; ++p) body(own, p);
+  });
+}
+
+void mark_cells(const Stage& s, const Marker& marker, Marks& marks, const Run& run) {
+  for_samples(s, marker, run, [&](Marker& own, int32_t p) {
+    marks.good[p] = own.is_good(p);
+    if (marks.good[p]) {
+      own.split_by_umbrella(p);
+    } else if (s.cocone.flat[p]) {
+      own.split_by_plane(p, s.normal[p]);
+    }
+  });
+}
+
+// Per sample: its pole lies in front of it.
+std::vector<uint8_t> facing_poles(const Stage& s, const Marker& marker,
+                                  std::span<const Agreement> agreements, const Marks& marks,
+                                  const Run& run) {
+  std::vector<uint8_t> result(marks.good.size(), 1), asked(marks.good.size(), 0);
+  for (const auto& [cosine, p, q] : agreements) asked[p] = asked[q] = 1;
+  for_samples(s, marker, run, [&](Marker& own, int32_t p) {
+    if (asked[p] && marks.good[p]) result[p] = own.faces_pole(p, s.normal[p]);
+  });
+  return result;
+}
+
+void unite_on_surface(const Stage& s, std::span<const uint8_t> good, OrientedUnionFind& patches) {
+  for_facets(s.t, s.front, [&](const Facet& f) {
+    const auto [i, j, k] = corners(s.t, f);
+    if (good[i] && good[j]) patches.unite(i, j, false);
+    if (good[j] && good[k]) patches.unite(j, k, false);
+    if (good[k] && good[i]) patches.unite(k, i, false);
+  });
+}
+
+// Turns what is turned relative to the lowest sample of its patch.
+void number_patches(const Stage& s, OrientedUnionFind& patches, Marks& marks, const Run& run) {
+  std::vector<uint8_t> turn(marks.good.size());
+  marks.patch.resize(marks.good.size());
+  for (int32_t p = 0; p < static_cast<int32_t>(turn.size()); ++p) {
+    const auto found = patches.find(p);
+    marks.patch[p] = found.root;
+    turn[p] = found.turned;
+  }
+  parallel_for(s.t.cell_count(), run, [&](int64_t c) {
+    for (int i = 0; i < 4; ++i) {
+      Face& face = marks.face[c][i];
+      if (face != Face::none && turn[s.t.cells[c][i]]) face = turned(face);
+    }
+  });
+}
+
+void find_closed(const Stage& s, Marks& marks) {
+  marks.closed = marks.good;
+  const auto open = [&](int32_t p) { marks.closed[marks.patch[p]] = 0; };
+  for (int32_t p = 0; p < s.samples(); ++p) {
+    if (!marks.good[p]) open(p);
+  }
+  for_facets(s.t, s.front, [&](const Facet& f) {
+    const Triangle ids = corners(s.t, f);
+    const bool all = std::all_of(ids.begin(), ids.end(), [&](int32_t p) { return marks.good[p]; });
+    if (!all) std::for_each(ids.begin(), ids.end(), open);
+  });
+}
+
+}  // namespace
+
+Marks mark(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
+           const Csr<int32_t>& incident, const Poles& poles, const Cocone& cocone,
+           const FacetSet& front, const CoconeOptions& options, const Run& run) {
+  begin_stage(run.progress, "Marking", 0.95, 0.97);
+  Stage s{points, t, incident, cocone, front, poles.vector};
+  parallel_for(s.samples(), run, [&](int64_t p) { s.normal[p] = normalized(s.normal[p]); });
+  Marks marks;
+  marks.good.resize(poles.vector.size());
+  marks.face.resize(t.cells.size());
+  const FacetSet surface = from_both_sides(t, front, run);
+  const Marker marker(points, t, voronoi, incident, front, surface, std::sin(options.cocone_angle),
+                      marks);
+  mark_cells(s, marker, marks, run);
+  OrientedUnionFind patches(marks.good.size());
+  unite_on_surface(s, marks.good, patches);
+  const auto agreeing =
+      agreements(t, cocone, s.normal, marks.good, std::cos(options.flatness_angle), run);
+  const auto facing = facing_poles(s, marker, agreeing, marks, run);
+  for (const auto& [cosine, p, q] : agreeing) {
+    patches.unite(p, q, (cosine < 0) != (facing[p] != facing[q]));
+  }
+  number_patches(s, patches, marks, run);
+  find_closed(s, marks);
+  return marks;
+}
+
+}  // namespace medial
