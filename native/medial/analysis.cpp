@@ -48,14 +48,9 @@ SidesFrom resolve(SidesFrom wanted, const Surface& surface, std::span<const Vec3
   return normals.empty() ? SidesFrom::tight_cocone : SidesFrom::normals;
 }
 
-// One per row, finite, and not all zero; or none.
-void require_normals(std::span<const Vec3> normals, size_t rows) {
+// Finite, and not all zero; or none.
+void require_normals(std::span<const Vec3> normals) {
   if (normals.empty()) return;
-  if (normals.size() != rows) {
-    throw InvalidInputError("Expected one normal per point, found " +
-                            std::to_string(normals.size()) + " for " + std::to_string(rows) +
-                            " points; pass all of them or none.");
-  }
   require_finite(normals, "normal");
   if (std::all_of(normals.begin(), normals.end(), [](const Vec3& n) { return n == Vec3{}; })) {
     throw InvalidInputError(
@@ -80,7 +75,7 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   Stopwatch watch(timings_);
   begin_stage(progress, "Samples", 0, 0.02);
   require_corners(triangles, rows.size());
-  require_normals(normals, rows.size());
+  require_normals(normals);
   samples_ = make_samples(rows, quiet);
   const int32_t count = samples_.count();
   duplicates_ = static_cast<int64_t>(rows.size()) - count;
@@ -126,11 +121,14 @@ void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> no
     sides_ =
         sides_from_normals(points, unit_normals(normals, samples_), triangulation_, voronoi_, run);
   } else if (sides_from_ == SidesFrom::tight_cocone) {
-    auto found = std::make_shared<WatertightSurface>(describe(
-        medial::tight_cocone(points, triangulation_, voronoi_, incident, poles, options, run),
-        samples_, triangulation_, incident, run));
-    sides_ = std::move(found->sides);
-    tight_cocone_ = std::move(found);
+    TightCocone found =
+        medial::tight_cocone(points, triangulation_, voronoi_, incident, poles, options, run);
+    SolidBoundary boundary = solid_boundary(triangulation_, incident, found.sides, run);
+    sides_ = sides_in_solid(points, boundary_normals(points, boundary), found.sides, triangulation_,
+                            voronoi_, run);
+    found.sides = {};
+    tight_cocone_ = std::make_shared<WatertightSurface>(
+        describe(std::move(found), std::move(boundary), samples_, run));
   }
 }
 

@@ -25,7 +25,7 @@ struct Extraction {
 class MedialAnalysis {
  public:
   // `rows` are the samples, `triangles` the outward faces of the surface as ids of rows, `normals`
-  // the outward normals of the rows; each may be empty. Throws InvalidInputError,
+  // the outward normals of the rows, one each; both may be empty. Throws InvalidInputError,
   // DegenerateInputError, Cancelled.
   MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
                  std::span<const Vec3> normals, const AnalysisOptions& options, Progress* progress);

@@ -28,6 +28,19 @@ void share_sides(const Triangulation& t, const Voronoi& voronoi, CellSides& side
   });
 }
 
+// Sum of the cosines between the outward normals of a cell's corners and the directions to its
+// Voronoi vertex.
+double vote(std::span<const Vec3> points, std::span<const Vec3> normals, const Cell& cell,
+            const Vec3& centre) {
+  double sum = 0;
+  for (const int32_t p : cell) {
+    if (static_cast<size_t>(p) < normals.size()) {
+      sum += dot(normals[p], normalized(centre - points[p]));
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface,
@@ -56,15 +69,23 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
                              const Triangulation& t, const Voronoi& voronoi, const Run& run) {
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
-  const auto samples = static_cast<int32_t>(normals.size());
   parallel_for(t.finite_cells, run, [&](int64_t c) {
-    double vote = 0;
-    for (const int32_t p : t.cells[c]) {
-      if (p < samples) vote += dot(normals[p], normalized(voronoi.centre[c] - points[p]));
-    }
-    if (vote < 0) sides[c] = static_cast<uint8_t>(Side::inner);
+    if (vote(points, normals, t.cells[c], voronoi.centre[c]) < 0)
+      sides[c] = static_cast<uint8_t>(Side::inner);
   });
   share_sides(t, voronoi, sides, run);
+  return sides;
+}
+
+CellSides sides_in_solid(std::span<const Vec3> points, std::span<const Vec3> normals,
+                         const CellSides& solid, const Triangulation& t, const Voronoi& voronoi,
+                         const Run& run) {
+  CellSides sides(solid);
+  parallel_for(t.finite_cells, run, [&](int64_t c) {
+    const bool inner = solid[c] == static_cast<uint8_t>(Side::inner);
+    if (inner && vote(points, normals, t.cells[c], voronoi.centre[c]) > 0)
+      sides[c] = static_cast<uint8_t>(Side::outer);
+  });
   return sides;
 }
 

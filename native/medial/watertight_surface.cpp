@@ -27,9 +27,8 @@ std::vector<uint8_t> in_order(const std::vector<uint8_t>& values, std::span<cons
 
 }  // namespace
 
-WatertightSurface describe(TightCocone found, const Samples& samples, const Triangulation& t,
-                           const Csr<int32_t>& incident, const Run& run) {
-  SolidBoundary boundary = solid_boundary(t, incident, found.sides, run);
+WatertightSurface describe(TightCocone found, SolidBoundary boundary, const Samples& samples,
+                           const Run& run) {
   const std::vector<int32_t> order = samples_by_row(samples);
   WatertightSurface result;
   result.triangles = in_rows(std::move(boundary.triangles), samples, run);
@@ -63,7 +62,9 @@ WatertightSurface watertight_surface(std::span<const Vec3> rows, const CoconeOpt
   watch.lap("poles");
   TightCocone found = tight_cocone(samples.points, t, v, incident, p, options, run);
   watch.lap("tight cocone");
-  WatertightSurface result = describe(std::move(found), samples, t, incident, run);
+  begin_stage(run.progress, "Surface", 0.99, 1);
+  SolidBoundary boundary = solid_boundary(t, incident, found.sides, run);
+  WatertightSurface result = describe(std::move(found), std::move(boundary), samples, run);
   watch.lap("surface");
   result.timings = std::move(timings);
   advance(run.progress, 1);

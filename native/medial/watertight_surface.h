@@ -19,8 +19,7 @@ struct WatertightSurface {
 };
 
 // In terms of the rows.
-WatertightSurface describe(TightCocone result, const Samples& samples,
-                           const Triangulation& triangulation, const Csr<int32_t>& incident,
+WatertightSurface describe(TightCocone result, SolidBoundary boundary, const Samples& samples,
                            const Run& run);
 
 // Throws InvalidInputError, DegenerateInputError, Cancelled.

@@ -27,7 +27,7 @@ class Side:
     """Which axis a facet belongs to; also the values of `MedialMesh.side`."""
 
     BOTH: Side  # 0: as an argument every facet, as a value "not known"
-    INNER: Side  # 1: every cell round the dual edge, or its Voronoi vertex, is inside
+    INNER: Side  # 1: every Voronoi vertex of the facet is inside; by Tight Cocone, every cell round the dual edge, too
     OUTER: Side  # 2: none is
     CROSSING: Side  # 3: some are (only as a value)
 

@@ -75,6 +75,11 @@ std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::obje
                                 thread_argument(threads)};
   const auto row_span = rows.span();
   const auto face_span = faces.span();
+  if (oriented && oriented->span().size() != row_span.size()) {
+    throw InvalidInputError("Expected one normal per point, found " +
+                            std::to_string(oriented->span().size()) + " for " +
+                            std::to_string(row_span.size()) + " points; pass all of them or none.");
+  }
   const auto normal_span = oriented ? oriented->span() : std::span<const Vec3>();
   const py::gil_scoped_release release;
   return std::make_unique<MedialAnalysis>(row_span, face_span, normal_span, options, progress);
@@ -89,7 +94,8 @@ void bind_enums(py::module_& m) {
   py::enum_<Side>(m, "Side", "Which axis a facet belongs to; also the values of MedialMesh.side.")
       .value("BOTH", Side::both, "As an argument every facet, as a value not known.")
       .value("INNER", Side::inner,
-             "Every cell round the dual edge, or its Voronoi vertex, is inside.")
+             "Every Voronoi vertex of the facet is inside; by Tight Cocone, every cell round the "
+             "dual edge, too.")
       .value("OUTER", Side::outer, "None is.")
       .value("CROSSING", Side::crossing, "Some are; only as a value.");
   py::enum_<SidesFrom>(m, "SidesFrom", "What tells inside from outside, for `MedialAnalysis`.")

@@ -138,12 +138,23 @@ def test_flat_samples_are_those_of_cocone(medial, surface_of, name, n):
 
 
 @pytest.mark.parametrize("name, n", CASES)
-def test_facets_are_inner_where_all_cells_round_their_edge_are(medial, surface_of, name, n):
+def test_facets_are_inner_where_all_cells_and_voronoi_vertices_are(medial, surface_of, name, n):
+    """A flat cell beneath the surface may have its Voronoi vertex outside: its facets are not inner."""
     points, surface = samples(name, n), surface_of(name, n)
     analysis = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
-    inner = surface.cell_side == int(medial.Side.INNER)
-    edges, sides = rings.facet_sides(medial.delaunay(points)[0], inner)
-    assert np.array_equal(edges, analysis.edges) and np.array_equal(sides, analysis.side)
+    cells, _, centres = medial.delaunay(points)
+    solid = surface.cell_side == int(medial.Side.INNER)
+    outside = np.zeros(len(cells), bool)
+    outside[solid] = ~SOLIDS[name].shape.inside(centres[solid])
+    edges, by_cells = rings.facet_sides(cells, solid)
+    _, by_both = rings.facet_sides(cells, solid & ~outside)
+    inner = int(medial.Side.INNER)
+    assert np.array_equal(edges, analysis.edges)
+    assert (by_cells[analysis.side == inner] == inner).all()
+    differ = (analysis.side == inner) != (
+        by_both == inner
+    )  # centres within rounding of the surface
+    assert (by_both == inner).sum() > 500 and differ.mean() < 0.002
 
 
 @pytest.mark.parametrize("name, n", CASES)
