@@ -85,7 +85,10 @@ double crossing(int32_t p, int32_t cell, int32_t across, const Stage& s) {
   if ((ha >= 0) == (hb >= 0)) return 0;
   if (s.t.is_infinite(cell) || (s.t.is_infinite(across) && hb == 0)) return HUGE_VAL;
   if (s.t.is_infinite(across)) return squared_length(a - (ha / hb) * b);
-  return squared_length(a + (ha / (ha - hb)) * (b - a));
+  // From the nearer end, which has more digits where it counts.
+  const bool a_is_nearer = squared_length(a) <= squared_length(b);
+  return squared_length(a_is_nearer ? a + (ha / (ha - hb)) * (b - a)
+                                    : b + (hb / (hb - ha)) * (a - b));
 }
 
 // The lower of the distances, squared, from p to its poles.
