@@ -91,25 +91,26 @@ double crossing(int32_t p, int32_t cell, int32_t across, const Stage& s) {
                                     : b + (hb / (hb - ha)) * (a - b));
 }
 
-// The lower of the distances, squared, from p to its poles.
-double height(int32_t p, const Stage& s) {
-  double above = 0, below = 0;
+// Whether Voronoi vertices of p lie at least this far, squared, on both sides of the tangent plane;
+// so the poles do.
+bool reaches(int32_t p, double distance, const Stage& s) {
+  bool above = false, below = false;
   for (const int32_t cell : s.incident[p]) {
     const Vec3 d = s.towards(p, cell);
-    const double size = s.t.is_infinite(cell) ? HUGE_VAL : squared_length(d);
-    double& farthest = dot(d, s.normal[p]) > 0 ? above : below;
-    farthest = std::max(farthest, size);
+    if (!s.t.is_infinite(cell) && squared_length(d) < distance) continue;
+    (dot(d, s.normal[p]) > 0 ? above : below) = true;
+    if (above && below) return true;
   }
-  return std::min(above, below);
+  return false;
 }
 
 bool is_thin(int32_t p, const Stage& s, std::span<const Facet> facets) {
+  double width = 0;
+  for (const Facet& f : facets) {
+    width = std::max(width, crossing(p, f.cell, s.t.neighbors[f.cell][f.slot], s));
+  }
   const double ratio = s.options.flatness_ratio;
-  const double limit = height(p, s) / (ratio * ratio);
-  return limit > 0 && std::all_of(facets.begin(), facets.end(), [&](const Facet& f) {
-           const double width = crossing(p, f.cell, s.t.neighbors[f.cell][f.slot], s);
-           return width <= limit && width < HUGE_VAL;
-         });
+  return width < HUGE_VAL && reaches(p, ratio * ratio * width, s);
 }
 
 // Calls found(neighbour) for the samples of triangles at p, some several times.

@@ -3,19 +3,6 @@
 #include <algorithm>
 
 namespace medial {
-namespace {
-
-// Corners of a positively oriented cell opposite to each slot, counter-clockwise seen from inside.
-constexpr int kFacet[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
-
-}  // namespace
-
-Triangle corners(const Triangulation& t, const Facet& f) {
-  const Cell& cell = t.cells[f.cell];
-  const auto& [i, j, k] = kFacet[f.slot];
-  return {cell[i], cell[j], cell[k]};
-}
-
 FacetSet from_both_sides(const Triangulation& t, const FacetSet& set, const Run& run) {
   FacetSet both(t);
   parallel_for(t.cell_count(), run, [&](int64_t c) {
@@ -36,22 +23,6 @@ void insert_both(const Triangulation& t, FacetSet& set, const Facet& f) {
 void erase_both(const Triangulation& t, FacetSet& set, const Facet& f) {
   set.erase(f);
   set.erase(mirror(t, f));
-}
-
-Facet next_about_edge(const Triangulation& t, const FacetSet& set, const Facet& from, int32_t p,
-                      int32_t q) {
-  int32_t cell = from.cell, ahead = t.cells[cell][from.slot];
-  int32_t behind = third_corner(t, from, p, q);
-  for (;;) {
-    // The facet (p, q, ahead) lies opposite to the corner that is left behind.
-    const Facet f{cell, slot_of(t.cells[cell], behind)};
-    const int32_t next = t.neighbors[cell][f.slot];
-    if (set.has(f) || next == from.cell) return f;
-    const auto& [i, j, k, l] = t.cells[next];
-    behind = ahead;
-    ahead = i + j + k + l - p - q - behind;
-    cell = next;
-  }
 }
 
 void walk_about_vertex(const Triangulation& t, const FacetSet& set, const Facet& start, int32_t p,

@@ -17,8 +17,13 @@ struct Facet {
   friend bool operator==(const Facet&, const Facet&) = default;
 };
 
-// Corners of a facet, counter-clockwise seen from its cell.
-Triangle corners(const Triangulation& triangulation, const Facet& facet);
+// Corners of a facet, counter-clockwise seen from its (positively oriented) cell.
+inline Triangle corners(const Triangulation& triangulation, const Facet& facet) {
+  constexpr int kFacet[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+  const Cell& cell = triangulation.cells[facet.cell];
+  const auto& [i, j, k] = kFacet[facet.slot];
+  return {cell[i], cell[j], cell[k]};
+}
 
 // The same triangle seen from the other cell.
 inline Facet mirror(const Triangulation& triangulation, const Facet& facet) {
@@ -83,8 +88,21 @@ void erase_both(const Triangulation& triangulation, FacetSet& set, const Facet& 
 // Turns `from` about its edge pq, through the cell that it is seen from, to the next triangle of
 // `set` (which must hold triangles from both sides); seen from the cell last passed. The other side
 // of `from` when there is none.
-Facet next_about_edge(const Triangulation& triangulation, const FacetSet& set, const Facet& from,
-                      int32_t p, int32_t q);
+inline Facet next_about_edge(const Triangulation& t, const FacetSet& set, const Facet& from,
+                             int32_t p, int32_t q) {
+  int32_t cell = from.cell, ahead = t.cells[cell][from.slot];
+  int32_t behind = third_corner(t, from, p, q);
+  for (;;) {
+    // The facet (p, q, ahead) lies opposite to the corner that is left behind.
+    const Facet f{cell, slot_of(t.cells[cell], behind)};
+    const int32_t next = t.neighbors[cell][f.slot];
+    if (set.has(f) || next == from.cell) return f;
+    const auto& [i, j, k, l] = t.cells[next];
+    behind = ahead;
+    ahead = i + j + k + l - p - q - behind;
+    cell = next;
+  }
+}
 
 // The triangles at corner p that continue `start`, seen from one side, until the walk is back at
 // `start`; replaces `steps`.

@@ -57,8 +57,7 @@ class UmbrellaSearch {
   }
   // The triangles at p that are part of some umbrella.
   void find_all(int32_t p) {
-    find_simple(p);
-    if (result_.simple[p]) return;
+    start(p);
     walked_.clear();
     for (const Facet& f : facets_) {
       if (std::find(walked_.begin(), walked_.end(), f) != walked_.end()) continue;
@@ -66,7 +65,10 @@ class UmbrellaSearch {
       links_.clear();
       for (const Facet& g : steps_) links_.push_back(link_of(corners(s_.t, g), p));
       walked_.insert(walked_.end(), steps_.begin(), steps_.end());
-      if (is_umbrella(s_, p, links_)) insert_walk();
+      if (!is_umbrella(s_, p, links_)) continue;
+      insert_walk();
+      result_.simple[p] = 2 * steps_.size() == facets_.size();
+      if (result_.simple[p]) return;  // the rest is the back of it
     }
   }
 
@@ -167,18 +169,31 @@ class Walk {
         surface_(stage.t),
         front_(stage.t) {}
 
-  void start(const Facet& seed) {
-    if (!take(seed)) return;
-    for (size_t i = 0; i < queue_.size(); ++i) {
-      if (i % kBatch == 0) throw_if_cancelled(progress_);
-      const Facet f = queue_[i];
-      for (int edge = 0; edge < 3 && front_.has(f); ++edge) cross_edge(f, edge);
+  // From all candidates that are wanted, in order of their cells.
+  template <typename Wanted>
+  void start(const Wanted& wanted) {
+    for (int32_t cell = 0; cell < s_.t.cell_count(); ++cell) {
+      if (cell % kBatch == 0) throw_if_cancelled(progress_);
+      for_facets_of(cell, candidates_, [&](const Facet& f) {
+        if (!surface_.has(f) && wanted(f)) start_from(f);
+      });
     }
-    queue_.clear();
   }
   FacetSet front() && { return std::move(front_); }
 
  private:
+  void start_from(const Facet& seed) {
+    if (!take(seed)) return;
+    queue_.push_back({seed, -1});
+    for (size_t i = 0; i < queue_.size(); ++i) {
+      if (i % static_cast<size_t>(kBatch) == 0) throw_if_cancelled(progress_);
+      const auto [f, entry] = queue_[i];
+      for (int edge = 0; edge < 3 && front_.has(f); ++edge) {
+        if (edge != entry) cross_edge(f, edge);
+      }
+    }
+    queue_.clear();
+  }
   // To the first candidate on the front side that continues f across an edge.
   void cross_edge(const Facet& f, int edge) {
     const auto [p, q, x] = seen_from(s_.t, f, edge);
@@ -192,9 +207,17 @@ class Walk {
       }
       const bool next =
           is_simple(p, q) || s_.continue_each_other(p, q, x, third_corner(s_.t, g, p, q));
-      if (next && take(g)) return;
+      if (next && take(g)) {
+        queue_.push_back({g, edge_of(g, p, q)});
+        return;
+      }
       if (candidates_.has(g)) from = mirror(s_.t, g);  // too sharp: look behind it
     }
+  }
+
+  int edge_of(const Facet& f, int32_t p, int32_t q) const {
+    const Triangle ids = corners(s_.t, f);
+    return ids[0] != p && ids[0] != q ? 0 : ids[1] != p && ids[1] != q ? 1 : 2;
   }
 
   // Into the surface, unless an edge would have a third triangle.
@@ -207,7 +230,6 @@ class Walk {
       return false;
     }
     front_.insert(f);
-    queue_.push_back(f);
     return true;
   }
   void drop(const Facet& f) {
@@ -225,7 +247,7 @@ class Walk {
     return ahead == back || next_about_edge(s_.t, surface_, back, p, q) == mirror(s_.t, ahead);
   }
 
-  static constexpr size_t kBatch = 1 << 15;
+  static constexpr int32_t kBatch = 1 << 15;
 
   const Stage& s_;
   const Progress* progress_;
@@ -233,17 +255,12 @@ class Walk {
   std::vector<uint8_t> simple_;
   FacetSet surface_;  // from both sides
   FacetSet front_;    // from one
-  std::vector<Facet> queue_;
+  struct Reached {
+    Facet facet;
+    int entry;  // the edge by which it was reached; -1 for a seed
+  };
+  std::vector<Reached> queue_;
 };
-
-// Calls found(facet, the corner opposite to it) for all facets of all cells.
-template <typename Found>
-void for_corners(const Triangulation& t, const Progress* progress, const Found& found) {
-  for (int32_t cell = 0; cell < t.cell_count(); ++cell) {
-    if (cell % (1 << 16) == 0) throw_if_cancelled(progress);
-    for (int i = 0; i < 4; ++i) found(Facet{cell, i}, t.cells[cell][i]);
-  }
-}
 
 }  // namespace
 
@@ -263,10 +280,11 @@ FacetSet manifold(std::span<const Vec3> points, const Triangulation& t,
   // From outside, where the hull tells it: the front of a stack of triangles is another surface
   // than its back.
   const auto samples = static_cast<int32_t>(incident.size());
-  for_corners(t, run.progress, [&](const Facet& f, int32_t corner) {
-    if (corner < 0 || corner >= samples) walk.start(f);
+  walk.start([&](const Facet& f) {
+    const int32_t beyond = t.cells[f.cell][f.slot];
+    return beyond < 0 || beyond >= samples;
   });
-  for_corners(t, run.progress, [&](const Facet& f, int32_t) { walk.start(f); });
+  walk.start([](const Facet&) { return true; });
   return std::move(walk).front();
 }
 
