@@ -177,6 +177,11 @@ def _why_empty(shape: _Shape, settings: Settings, gaps: int) -> str:
             "no facet lies inside because the faces point inward; recalculate their normals "
             "(Mesh > Normals > Recalculate Outside) and compute again"
         )
+    if settings.sides is SidesFrom.TIGHT_COCONE and settings.side is Side.INNER:
+        return (
+            "no facet lies inside the surface that Tight Cocone closed; the axis of an open scan "
+            "may lie beyond the opening: choose side Both, or lower theta or rho"
+        )
     return "no facet passes the conditions; lower theta or rho, or choose another side"
 
 

@@ -29,7 +29,7 @@ void require_sides(SidesFrom from, const WatertightSurface* tight_cocone) {
   if (tight_cocone && tight_cocone->inner_cells == 0) {
     throw DegenerateInputError(
         "Expected samples of a closed surface, found none that Tight Cocone could close: nothing "
-        "is enclosed; sample more densely and evenly, or choose side BOTH.");
+        "is enclosed; sample more densely and evenly, or choose side Both.");
   }
 }
 
@@ -124,8 +124,7 @@ void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> no
     TightCocone found =
         medial::tight_cocone(points, triangulation_, voronoi_, incident, poles, options, run);
     SolidBoundary boundary = solid_boundary(triangulation_, incident, found.sides, run);
-    sides_ = sides_in_solid(points, boundary_normals(points, boundary), found.sides, triangulation_,
-                            voronoi_, run);
+    sides_ = sides_in_solid(points, found.sides, triangulation_, voronoi_, run);
     found.sides = {};
     tight_cocone_ = std::make_shared<WatertightSurface>(
         describe(std::move(found), std::move(boundary), samples_, run));

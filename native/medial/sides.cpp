@@ -1,11 +1,13 @@
 #include "sides.h"
 
+#include "facet_set.h"
 #include "winding_number.h"
 
 namespace medial {
 namespace {
 
-// The decided neighbour, of a cell from `begin` on, whose Voronoi vertex is nearest; -1: none.
+// The neighbour, of the cells from `begin` on that come before this one, whose Voronoi vertex is
+// nearest; -1: none.
 int32_t nearest_decided(int32_t cell, int64_t begin, const Triangulation& t,
                         const Voronoi& voronoi) {
   int32_t nearest = -1;
@@ -28,17 +30,24 @@ void share_sides(const Triangulation& t, const Voronoi& voronoi, CellSides& side
   });
 }
 
-// Sum of the cosines between the outward normals of a cell's corners and the directions to its
-// Voronoi vertex.
-double vote(std::span<const Vec3> points, std::span<const Vec3> normals, const Cell& cell,
-            const Vec3& centre) {
-  double sum = 0;
-  for (const int32_t p : cell) {
-    if (static_cast<size_t>(p) < normals.size()) {
-      sum += dot(normals[p], normalized(centre - points[p]));
-    }
+bool is_beyond(std::span<const Vec3> points, const Triangulation& t, const Facet& f,
+               const Vec3& x) {
+  const auto [i, j, k] = corners(t, f);
+  return dot(cross(points[j] - points[i], points[k] - points[i]), x - points[i]) < 0;
+}
+
+// The cell that contains a point, or an infinite one; found by walking towards it.
+int32_t cell_of(std::span<const Vec3> points, const Vec3& x, int32_t from, const Triangulation& t) {
+  int32_t cell = from, last = from;
+  // In exact arithmetic the walk ends; rounding may turn it in a circle round the point.
+  for (int32_t steps = 0; steps < t.cell_count() && !t.is_infinite(cell); ++steps) {
+    int i = 0;
+    while (i < 4 && (t.neighbors[cell][i] == last || !is_beyond(points, t, {cell, i}, x))) ++i;
+    if (i == 4) break;
+    last = cell;
+    cell = t.neighbors[cell][i];
   }
-  return sum;
+  return cell;
 }
 
 }  // namespace
@@ -69,22 +78,34 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
                              const Triangulation& t, const Voronoi& voronoi, const Run& run) {
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
+  const auto samples = static_cast<int32_t>(normals.size());
   parallel_for(t.finite_cells, run, [&](int64_t c) {
-    if (vote(points, normals, t.cells[c], voronoi.centre[c]) < 0)
-      sides[c] = static_cast<uint8_t>(Side::inner);
+    double vote = 0;
+    for (const int32_t p : t.cells[c]) {
+      if (p < samples) vote += dot(normals[p], normalized(voronoi.centre[c] - points[p]));
+    }
+    if (vote < 0) sides[c] = static_cast<uint8_t>(Side::inner);
   });
   share_sides(t, voronoi, sides, run);
   return sides;
 }
 
-CellSides sides_in_solid(std::span<const Vec3> points, std::span<const Vec3> normals,
-                         const CellSides& solid, const Triangulation& t, const Voronoi& voronoi,
-                         const Run& run) {
+CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
+                         const Triangulation& t, const Voronoi& voronoi, const Run& run) {
+  const auto inner = static_cast<uint8_t>(Side::inner);
   CellSides sides(solid);
-  parallel_for(t.finite_cells, run, [&](int64_t c) {
-    const bool inner = solid[c] == static_cast<uint8_t>(Side::inner);
-    if (inner && vote(points, normals, t.cells[c], voronoi.centre[c]) > 0)
-      sides[c] = static_cast<uint8_t>(Side::outer);
+  parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
+    // The cell in which each Voronoi vertex of the chunk lies; that of the one before, or better of
+    // a neighbour, is near.
+    std::vector<int32_t> found;
+    for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
+      found.push_back(c);
+      if (solid[c] != inner) continue;
+      const int32_t known = nearest_decided(c, begin, t, voronoi);
+      const int32_t near = found[(known < 0 ? std::max<int64_t>(c - 1, begin) : known) - begin];
+      found.back() = cell_of(points, voronoi.centre[c], t.is_infinite(near) ? c : near, t);
+      sides[c] = solid[found.back()];
+    }
   });
   return sides;
 }

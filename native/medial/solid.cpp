@@ -70,14 +70,4 @@ SolidBoundary solid_boundary(const Triangulation& t, const Csr<int32_t>& inciden
   return result;
 }
 
-std::vector<Vec3> boundary_normals(std::span<const Vec3> points, const SolidBoundary& boundary) {
-  std::vector<Vec3> normals(boundary.on_surface.size());
-  for (const auto& [i, j, k] : boundary.triangles) {
-    const Vec3 area = cross(points[j] - points[i], points[k] - points[i]);
-    for (const int32_t p : {i, j, k}) normals[p] = normals[p] + area;
-  }
-  for (Vec3& n : normals) n = normalized(n);
-  return normals;
-}
-
 }  // namespace medial

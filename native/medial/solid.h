@@ -14,10 +14,6 @@ struct SolidBoundary {
   int64_t inner_cells = 0;
 };
 
-// Outward unit normals of the boundary at the samples, its triangles weighted by area; zero off the
-// boundary.
-std::vector<Vec3> boundary_normals(std::span<const Vec3> points, const SolidBoundary& boundary);
-
 // Every edge is in an even number of triangles.
 SolidBoundary solid_boundary(const Triangulation& triangulation, const Csr<int32_t>& incident,
                              const CellSides& sides, const Run& run);
