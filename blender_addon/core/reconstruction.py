@@ -76,7 +76,7 @@ def reconstruct(points: NDArray[np.float64], progress: Any | None = None) -> Rec
     start = time.perf_counter()
     with native.own_errors() as module:
         found = module.TightCocone(points, progress=progress)
-    if found.inner_cells == 0:
+    if not found.encloses:
         raise DegenerateInputError(
             "Expected points that lie densely on a closed surface, found nothing enclosed by "
             "them; use more points, or fewer that lie inside"

@@ -88,8 +88,8 @@ def cocone_warnings(found: Any) -> Iterator[str]:
     ----------
     found : _medial.TightCocone
     """
-    if found.inner_cells == 0:
-        yield "the points enclose nothing, so no facet is an inner one; more points may help"
+    if not found.encloses:
+        yield "the points enclose nothing, so inner and outer facets mean little; more points may help"
         return
     samples, off = len(found.samples), int(np.count_nonzero(~found.on_surface))
     if off:

@@ -26,10 +26,12 @@ void require_sides(SidesFrom from, const WatertightSurface* tight_cocone) {
         "Expected an analysis that told inside from outside, found one with sides NONE; choose "
         "other sides, or side BOTH.");
   }
-  if (tight_cocone && tight_cocone->inner_cells == 0) {
+  if (tight_cocone && !tight_cocone->encloses()) {
     throw DegenerateInputError(
-        "Expected samples of a closed surface, found none that Tight Cocone could close: nothing "
-        "is enclosed; sample more densely and evenly, or choose side Both.");
+        "Expected samples of a closed surface, found " +
+        std::to_string(tight_cocone->left_outside) + " of " +
+        std::to_string(tight_cocone->samples.size()) +
+        " that enclose nothing; sample more densely and evenly, or choose side Both.");
   }
 }
 

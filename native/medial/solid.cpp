@@ -66,7 +66,13 @@ SolidBoundary solid_boundary(const Triangulation& t, const Csr<int32_t>& inciden
   const auto bad = nonmanifold(t, incident, outer, run);
   result.nonmanifold_vertices = std::count(bad.begin(), bad.end(), 1);
   result.nonmanifold_edges = count_nonmanifold_edges(result.triangles, bad);
-  result.inner_cells = std::count(sides.begin(), sides.end(), static_cast<uint8_t>(Side::inner));
+  const auto inner = static_cast<uint8_t>(Side::inner);
+  for (int64_t p = 0; p < incident.size(); ++p) {
+    const auto cells = incident[p];
+    result.left_outside += std::none_of(cells.begin(), cells.end(),
+                                        [&](int32_t cell) { return sides[cell] == inner; });
+  }
+  result.inner_cells = std::count(sides.begin(), sides.end(), inner);
   return result;
 }
 

@@ -12,6 +12,7 @@ struct SolidBoundary {
   int64_t nonmanifold_edges = 0;     // in more than two triangles
   int64_t nonmanifold_vertices = 0;  // the triangles round it are not one disc
   int64_t inner_cells = 0;
+  int64_t left_outside = 0;  // samples without an inner cell
 };
 
 // Every edge is in an even number of triangles.

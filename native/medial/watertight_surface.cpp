@@ -39,6 +39,7 @@ WatertightSurface describe(TightCocone found, SolidBoundary boundary, const Samp
   result.nonmanifold_edges = boundary.nonmanifold_edges;
   result.nonmanifold_vertices = boundary.nonmanifold_vertices;
   result.inner_cells = boundary.inner_cells;
+  result.left_outside = boundary.left_outside;
   result.cavities = found.cavities;
   result.duplicates = static_cast<int64_t>(samples.sample_of_row.size() - samples.row.size());
   result.sides = std::move(found.sides);

@@ -13,9 +13,13 @@ struct WatertightSurface {
   CellSides sides;                              // per Delaunay cell
   std::vector<int32_t> samples;                 // rows of the distinct points, ascending
   std::vector<uint8_t> flat, good, on_surface;  // per sample, in the order of `samples`
-  int64_t nonmanifold_edges = 0, nonmanifold_vertices = 0, cavities = 0, inner_cells = 0;
+  int64_t nonmanifold_edges = 0, nonmanifold_vertices = 0, cavities = 0, inner_cells = 0,
+          left_outside = 0;
   int64_t duplicates = 0;
   Timings timings;
+
+  // Otherwise the solid is empty, or pinched to pieces, and says nothing about the shape.
+  bool encloses() const { return 2 * left_outside <= static_cast<int64_t>(samples.size()); }
 };
 
 // In terms of the rows.

@@ -173,6 +173,13 @@ class TightCocone:
     def inner_cells(self) -> int:
         """Delaunay cells inside; 0 when the samples enclose nothing."""
     @property
+    def left_outside(self) -> int:
+        """Samples without an inner cell: outliers, or parts that could not be closed."""
+    @property
+    def encloses(self) -> bool:
+        """At most half of the samples are left outside. Otherwise the solid is empty, or pinched to pieces, and says
+        nothing about the shape: INNER and OUTER cannot be extracted."""
+    @property
     def duplicates(self) -> int:
         """Rows merged into an earlier row with the same coordinates."""
     @property
@@ -352,7 +359,7 @@ class MedialAnalysis:
         ------
         InvalidInputError, Cancelled
         DegenerateInputError
-            INNER or OUTER, and Tight Cocone found nothing enclosed by the samples.
+            INNER or OUTER, and `TightCocone.encloses` is false.
         """
 
 # The stages by themselves, for study and tests. Every one starts from the points.

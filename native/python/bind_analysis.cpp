@@ -56,8 +56,7 @@ constexpr const char* kExtractDoc =
     "off.\n"
     "progress : Progress, optional\n\n"
     "Raises\n------\nInvalidInputError, Cancelled\n"
-    "DegenerateInputError\n    INNER or OUTER, and Tight Cocone found nothing enclosed by the "
-    "samples.";
+    "DegenerateInputError\n    INNER or OUTER, and `TightCocone.encloses` is false.";
 
 constexpr const char* kSelectDoc =
     "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and "

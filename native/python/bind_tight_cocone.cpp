@@ -111,6 +111,11 @@ void bind_tight_cocone(py::module_& m) {
                     "reach: closed inner\ncavities, most likely, which are filled.")
       .def_readonly("inner_cells", &Surface::inner_cells,
                     "Delaunay cells inside; 0 when the samples enclose nothing.")
+      .def_readonly("left_outside", &Surface::left_outside,
+                    "Samples without an inner cell: outliers, or parts that could not be closed.")
+      .def_property_readonly("encloses", &Surface::encloses,
+                             "At most half of the samples are left outside. Otherwise the solid is "
+                             "empty, or pinched to\npieces, and says nothing about the shape.")
       .def_readonly("duplicates", &Surface::duplicates,
                     "Rows merged into an earlier row with the same coordinates.")
       .def_property_readonly(

@@ -410,3 +410,24 @@ def test_noise_breaks_no_promise(medial, spacings):
     surface = medial.TightCocone(points)
     assert_watertight(points, surface)
     assert_between_inner_and_outer_cells(medial, points, surface)
+
+
+def test_a_solid_in_pieces_encloses_nothing(medial):
+    """Dust: some cells stay inside by chance, most samples do not."""
+    dust = np.random.default_rng(2).normal(size=(300, 3))
+    surface = medial.TightCocone(dust)
+    assert_watertight(dust, surface)
+    used = np.isin(surface.samples, medial.delaunay(dust)[0][surface.cell_side == 1])
+    assert surface.left_outside == (~used).sum() > 150 and not surface.encloses
+    analysis = medial.MedialAnalysis(dust)
+    for side in (medial.Side.INNER, medial.Side.OUTER):
+        with pytest.raises(medial.DegenerateInputError, match="that enclose nothing"):
+            analysis.extract(side=side)
+    assert len(analysis.extract().generators) > 0
+
+
+def test_half_of_the_samples_may_be_outliers(medial):
+    ball = samples("sphere", 2000)
+    far = np.random.default_rng(8).uniform(-9, 9, (500, 3))
+    surface = medial.TightCocone(np.concatenate((ball, far[np.linalg.norm(far, axis=1) > 3])))
+    assert surface.encloses and surface.on_surface[: len(ball)].mean() > 0.99
