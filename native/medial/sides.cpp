@@ -36,11 +36,13 @@ bool is_beyond(std::span<const Vec3> points, const Triangulation& t, const Facet
   return dot(cross(points[j] - points[i], points[k] - points[i]), x - points[i]) < 0;
 }
 
-// The cell that contains a point, or an infinite one; found by walking towards it.
+// The cell that contains a point, or an infinite one; found by walking towards it. In exact
+// arithmetic the walk ends; rounding may turn it in a circle about flat cells, until it meets a
+// cell again that it remembers.
 int32_t cell_of(std::span<const Vec3> points, const Vec3& x, int32_t from, const Triangulation& t) {
-  int32_t cell = from, last = from;
-  // In exact arithmetic the walk ends; rounding may turn it in a circle round the point.
-  for (int32_t steps = 0; steps < t.cell_count() && !t.is_infinite(cell); ++steps) {
+  int32_t cell = from, last = from, remembered = -1;
+  for (int64_t steps = 0; cell != remembered && !t.is_infinite(cell); ++steps) {
+    if ((steps & (steps - 1)) == 0) remembered = cell;  // at the powers of two
     int i = 0;
     while (i < 4 && (t.neighbors[cell][i] == last || !is_beyond(points, t, {cell, i}, x))) ++i;
     if (i == 4) break;
