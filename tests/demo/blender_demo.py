@@ -210,4 +210,5 @@ def render(folder, name):
     return path
 
 
-main()
+if __name__ == "__main__":
+    main()
