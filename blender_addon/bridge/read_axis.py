@@ -13,7 +13,7 @@ from ..core.analysis import MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes
 from .made import is_gone
-from .results import UNBOUNDED, is_result, result_of
+from .results import UNBOUNDED, ZERO_AREA, is_result, result_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -44,7 +44,7 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
         face_offsets=offsets,
         face_vertices=corners,
         unbounded=int(result.get(UNBOUNDED, 0)),
-        zero_area=0,  # what was left out of the mesh is not known to it
+        zero_area=int(result.get(ZERO_AREA, 0)),
         **fields,
     )
 

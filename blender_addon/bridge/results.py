@@ -22,6 +22,7 @@ SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"
 INSIDE = "ma_inside"  # what told inside from outside, and why: a sentence
 UNBOUNDED = "ma_unbounded"
+ZERO_AREA = "ma_zero_area"
 
 
 def is_result(thing: bpy.types.Object) -> bool:
@@ -117,6 +118,7 @@ def _remember_settings(result: bpy.types.Object, settings: Settings) -> None:
 
 def _remember_axis(result: bpy.types.Object, axis: MedialAxis) -> None:
     result[UNBOUNDED] = axis.unbounded
+    result[ZERO_AREA] = axis.zero_area
     result[RADIUS_MIN] = float(axis.radius.min())
     result[RADIUS_MAX] = float(axis.radius.max())
     result.update_tag()

@@ -160,7 +160,7 @@ def _warnings(
             "number of the open surface is above one half"
         )
     if settings.sides is SidesFrom.TIGHT_COCONE:
-        yield from cocone_warnings(analysis.tight_cocone)
+        yield from cocone_warnings(analysis.tight_cocone, shape.points)
     if shape.normals is not None and look_inward(shape.points, shape.normals):
         yield (
             "the normals point inward, so inside and outside are exchanged; turn them round, "

@@ -91,6 +91,6 @@ def reconstruct(points: NDArray[np.float64], progress: Any | None = None) -> Rec
         nonmanifold_edges=found.nonmanifold_edges,
         nonmanifold_vertices=found.nonmanifold_vertices,
         cavities=found.cavities,
-        warnings=tuple(cocone_warnings(found)),
+        warnings=tuple(cocone_warnings(found, points)),
         seconds=time.perf_counter() - start,
     )

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 # Share of samples that are not flat; clean scans stay below 0.06, sharp edges included.
 _UNEVEN = 0.1
+# A triangle so many times as wide as the median one spans an opening.
+_WIDE = 10.0
 
 
 @dataclass(frozen=True)
@@ -81,12 +83,14 @@ def look_inward(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bo
     return bool(high.sum() < low.sum())
 
 
-def cocone_warnings(found: Any) -> Iterator[str]:
+def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
     """What looks wrong with a surface that Tight Cocone found.
 
     Parameters
     ----------
     found : _medial.TightCocone
+    points : (n, 3) float64
+        What it was made of.
     """
     if not found.encloses:
         yield "the points enclose nothing, so inner and outer facets mean little; more points may help"
@@ -103,6 +107,11 @@ def cocone_warnings(found: Any) -> Iterator[str]:
             f"the surface that Tight Cocone found touches itself at {edges:,} edges and "
             f"{vertices:,} points: noise, or too few points for thin parts"
         )
+    if wide := _wide_triangles(points, found.triangles):
+        yield (
+            f"Tight Cocone closed openings, by {wide:,} triangles more than {_WIDE:g} times as wide "
+            "as most: inside is a guess near them"
+        )
     if found.cavities:
         yield (
             f"{found.cavities:,} patches of points lie inside like walls of closed cavities, "
@@ -114,3 +123,9 @@ def cocone_warnings(found: Any) -> Iterator[str]:
             f"{uneven:.0%} of the points do not look like samples of a smooth surface: too few, "
             "too noisy, or many sharp edges; inside may be wrong there"
         )
+
+
+def _wide_triangles(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
+    corners = points[triangles]
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    return int(np.count_nonzero(edges > _WIDE * np.median(edges)))

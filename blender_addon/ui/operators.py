@@ -50,7 +50,8 @@ class OBJECT_OT_medial_axis(Watched, bpy.types.Operator):
         axis = computation.axis
         return (
             f"{computation.points:,} points, {axis.facets:,} facets, duplicates merged "
-            f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}; {computation.sides}"
+            f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}, facets "
+            f"without area {axis.zero_area:,}; {computation.sides}"
         )
 
 

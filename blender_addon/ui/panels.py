@@ -118,6 +118,7 @@ def _draw_figures(context, layout, result):
             "Facets": f"{len(result.data.polygons):,}",
             "Vertices": f"{len(result.data.vertices):,}",
             "Unbounded": f"{result.get(results.UNBOUNDED, 0):,}",
+            "Without Area": f"{result.get(results.ZERO_AREA, 0):,}",
             "Radius": "{:.3g} to {:.3g}".format(*results.radius_range(result)),
         },
     )

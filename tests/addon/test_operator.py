@@ -208,7 +208,7 @@ def test_several_selected_objects_give_one_result_each(capfd):
     infos = [text for kind, text in reports(capfd) if kind == "Info" and "points" in text]
     assert len(infos) == 2
     assert "162 points" in infos[0] and "facets" in infos[0] and "duplicates merged 0" in infos[0]
-    assert "unbounded facets 0" in infos[0] and infos[0].endswith(" s")
+    assert "unbounded facets 0, facets without area " in infos[0] and infos[0].endswith(" s")
     assert "; Inside from Surface: the faces are closed; " in infos[0]
 
 

@@ -242,6 +242,24 @@ def test_closed_cavity_is_noticed():
     assert "closed cavities, which Tight Cocone fills" in result_of(source)["ma_warnings"]
 
 
+def test_closed_openings_are_noticed(capfd):
+    points, _ = on_ellipsoid(6000)
+    source = scan(points=points[points[:, 2] > -0.2])
+    compute()
+    (text,) = [text for text in warnings(capfd) if "openings" in text]
+    assert "more than 10 times as wide as most" in text
+    assert "Tight Cocone closed openings" in result_of(source)["ma_warnings"]
+
+
+def test_facets_without_area_are_counted():
+    """On a torus of rings most of the axis is a line."""
+    bpy.ops.mesh.primitive_torus_add(major_segments=96, minor_segments=24)
+    compute()
+    result = bpy.context.object
+    axis = addon("bridge.read_axis").read_axis(result)
+    assert result["ma_zero_area"] == axis.zero_area > 0
+
+
 def test_faces_do_not_matter_to_tight_cocone():
     source, bare = ellipsoid(), None
     compute(sides="TIGHT_COCONE")
