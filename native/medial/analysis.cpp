@@ -126,7 +126,7 @@ void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> no
     TightCocone found =
         medial::tight_cocone(points, triangulation_, voronoi_, incident, poles, options, run);
     SolidBoundary boundary = solid_boundary(triangulation_, incident, found.sides, run);
-    sides_ = sides_in_solid(points, found.sides, triangulation_, voronoi_, run);
+    sides_ = sides_in_solid(points, found.sides, boundary.triangles, triangulation_, voronoi_, run);
     found.sides = {};
     tight_cocone_ = std::make_shared<WatertightSurface>(
         describe(std::move(found), std::move(boundary), samples_, run));

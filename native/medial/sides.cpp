@@ -1,5 +1,6 @@
 #include "sides.h"
 
+#include "circumcentre.h"
 #include "facet_set.h"
 #include "winding_number.h"
 
@@ -52,6 +53,34 @@ int32_t cell_of(std::span<const Vec3> points, const Vec3& x, int32_t from, const
   return cell;
 }
 
+double largest_squared_circumradius(std::span<const Vec3> points,
+                                    std::span<const Triangle> triangles, const Run& run) {
+  std::vector<double> largest(run.threads, 0);
+  parallel_chunks(
+      static_cast<int64_t>(triangles.size()), run, [&](int64_t begin, int64_t end, int worker) {
+        for (int64_t i = begin; i < end; ++i) {
+          const auto [p, q, r] = triangles[i];
+          largest[worker] =
+              std::max(largest[worker], squared_circumradius(points[p], points[q], points[r]));
+        }
+      });
+  return *std::max_element(largest.begin(), largest.end());
+}
+
+// The least distance, squared, of the Voronoi edge dual to a facet to the samples. A triangle of
+// samples that crosses the edge has a circumradius of at least that.
+double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
+                           const Voronoi& voronoi, const Facet& f) {
+  const auto [i, j, k] = corners(t, f);
+  const Vec3 normal = cross(points[j] - points[i], points[k] - points[i]);
+  const Vec3 a = voronoi.centre[f.cell] - points[i];
+  const Vec3 b = voronoi.centre[t.neighbors[f.cell][f.slot]] - points[i];
+  if ((dot(normal, a) > 0) == (dot(normal, b) > 0)) {
+    return std::min(squared_length(a), squared_length(b));
+  }
+  return squared_circumradius(points[i], points[j], points[k]);
+}
+
 }  // namespace
 
 CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface,
@@ -93,20 +122,30 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
 }
 
 CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
-                         const Triangulation& t, const Voronoi& voronoi, const Run& run) {
+                         std::span<const Triangle> boundary, const Triangulation& t,
+                         const Voronoi& voronoi, const Run& run) {
   const auto inner = static_cast<uint8_t>(Side::inner);
+  const double widest = largest_squared_circumradius(points, boundary, run);
   CellSides sides(solid);
   parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
-    // The cell in which each Voronoi vertex of the chunk lies; that of the one before, or better of
-    // a neighbour, is near.
-    std::vector<int32_t> found;
+    // A decided neighbour from whose Voronoi vertex no boundary parts that of the cell; -1: none.
+    const auto like_neighbour = [&](int32_t c) {
+      const double ball = squared_length(voronoi.centre[c] - points[t.cells[c][0]]);
+      for (int i = 0; i < 4 && ball > widest; ++i) {
+        const int32_t n = t.neighbors[c][i];
+        const bool decided = n >= begin && n < c && solid[n] == inner;
+        if (decided && distance_to_samples(points, t, voronoi, {c, i}) > widest) return n;
+      }
+      return -1;
+    };
+    int32_t last = -1;  // where the last walk ended: near, for cells are in spatial order
     for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
-      found.push_back(c);
       if (solid[c] != inner) continue;
-      const int32_t known = nearest_decided(c, begin, t, voronoi);
-      const int32_t near = found[(known < 0 ? std::max<int64_t>(c - 1, begin) : known) - begin];
-      found.back() = cell_of(points, voronoi.centre[c], t.is_infinite(near) ? c : near, t);
-      sides[c] = solid[found.back()];
+      const int32_t like = like_neighbour(c);
+      if (like < 0) {
+        last = cell_of(points, voronoi.centre[c], last < 0 || t.is_infinite(last) ? c : last, t);
+      }
+      sides[c] = like < 0 ? solid[last] : sides[like];
     }
   });
   return sides;

@@ -30,10 +30,11 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
                              const Run& run);
 
 // Inner where the cell is part of the solid and its Voronoi vertex lies in the solid as well: a
-// flat cell beneath the surface may have its Voronoi vertex far outside.
+// flat cell beneath the surface may have its Voronoi vertex far outside. `boundary` holds the
+// triangles between the solid and the rest.
 CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
-                         const Triangulation& triangulation, const Voronoi& voronoi,
-                         const Run& run);
+                         std::span<const Triangle> boundary, const Triangulation& triangulation,
+                         const Voronoi& voronoi, const Run& run);
 
 // inner: every cell of the ring is; outer: none is; crossing: some are; both: not known.
 Side facet_side(std::span<const int32_t> ring, const CellSides& sides);

@@ -3,14 +3,10 @@
 #include <queue>
 #include <tuple>
 
+#include "circumcentre.h"
+
 namespace medial {
 namespace {
-
-double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a;
-  return squared_length(u) * squared_length(v) * squared_length(c - b) /
-         squared_length(cross(u, v));
-}
 
 // The facets of least circumradius, a bit each: more than one where single precision, in which most
 // points are stored, cannot tell them apart.
