@@ -35,24 +35,28 @@ void require_sides(SidesFrom from, const WatertightSurface* tight_cocone) {
   }
 }
 
-SidesFrom resolve(SidesFrom wanted, const Surface& surface, std::span<const Vec3> normals) {
+SidesFrom resolve(SidesFrom wanted, const Surface& surface, bool has_normals) {
   if (wanted == SidesFrom::surface && surface.triangles.empty()) {
     throw InvalidInputError(
         "Expected triangles for sides SURFACE, found none; pass the faces, or choose "
         "TIGHT_COCONE.");
   }
-  if (wanted == SidesFrom::normals && normals.empty()) {
+  if (wanted == SidesFrom::normals && !has_normals) {
     throw InvalidInputError(
         "Expected normals for sides NORMALS, found none; pass them, or choose TIGHT_COCONE.");
   }
   if (wanted != SidesFrom::automatic) return wanted;
   if (surface.closed()) return SidesFrom::surface;
-  return normals.empty() ? SidesFrom::tight_cocone : SidesFrom::normals;
+  return has_normals ? SidesFrom::normals : SidesFrom::tight_cocone;
 }
 
-// Finite, and not all zero; or none.
-void require_normals(std::span<const Vec3> normals) {
-  if (normals.empty()) return;
+// One per row, finite, and not all zero.
+void require_normals(std::span<const Vec3> normals, size_t rows) {
+  if (normals.size() != rows) {
+    throw InvalidInputError("Expected one normal per point, found " +
+                            std::to_string(normals.size()) + " for " + std::to_string(rows) +
+                            " points; pass all of them or none.");
+  }
   require_finite(normals, "normal");
   if (std::all_of(normals.begin(), normals.end(), [](const Vec3& n) { return n == Vec3{}; })) {
     throw InvalidInputError(
@@ -70,14 +74,14 @@ std::vector<Vec3> unit_normals(std::span<const Vec3> normals, const Samples& sam
 }  // namespace
 
 MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
-                               std::span<const Vec3> normals, const AnalysisOptions& options,
-                               Progress* progress)
+                               std::optional<std::span<const Vec3>> normals,
+                               const AnalysisOptions& options, Progress* progress)
     : threads_(thread_count(options.threads)) {
   const Run run{threads_, progress}, quiet{threads_, nullptr};
   Stopwatch watch(timings_);
   begin_stage(progress, "Samples", 0, 0.02);
   require_corners(triangles, rows.size());
-  require_normals(normals);
+  if (normals) require_normals(*normals, rows.size());
   samples_ = make_samples(rows, quiet);
   const int32_t count = samples_.count();
   duplicates_ = static_cast<int64_t>(rows.size()) - count;
@@ -85,7 +89,7 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   const Surface surface = make_surface(triangles, samples_.sample_of_row, count, quiet);
   closed_ = surface.closed();
   boundary_edges_ = surface.open_edges();
-  sides_from_ = resolve(options.sides, surface, normals);
+  sides_from_ = resolve(options.sides, surface, normals.has_value());
   if (options.bounding_sphere) add_bounding_sphere(samples_);
   const std::vector<Vec3>& points = samples_.points;
   watch.lap("samples");
@@ -105,7 +109,7 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
     significance_ = medial::significance(points, edges_, u, run);
     watch.lap("significance");
   }
-  tell_sides(surface, normals, incident, p, options.cocone, run);
+  tell_sides(surface, normals.value_or(std::span<const Vec3>()), incident, p, options.cocone, run);
   watch.lap("sides");
   begin_stage(progress, "Order of the edges", 0.99, 1);
   sort_edges(run);

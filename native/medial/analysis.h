@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "medial_mesh.h"
 #include "watertight_surface.h"
@@ -25,10 +26,11 @@ struct Extraction {
 class MedialAnalysis {
  public:
   // `rows` are the samples, `triangles` the outward faces of the surface as ids of rows, `normals`
-  // the outward normals of the rows, one each; both may be empty. Throws InvalidInputError,
+  // the outward normals of the rows, one each, if there are any. Throws InvalidInputError,
   // DegenerateInputError, Cancelled.
   MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
-                 std::span<const Vec3> normals, const AnalysisOptions& options, Progress* progress);
+                 std::optional<std::span<const Vec3>> normals, const AnalysisOptions& options,
+                 Progress* progress);
 
   // Ids of the selected edges: the set F of the paper, facets without area or end included.
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;

@@ -5,10 +5,8 @@
 namespace medial {
 namespace {
 
-// Where a Voronoi vertex lies as seen from a sample. The zones above and below are convex: a
-// Voronoi edge misses the cocone exactly when both its ends are above, or both below.
-enum class Zone : uint8_t { in_cocone, above, below };
-
+// The zones above and below are convex: a Voronoi edge misses the cocone exactly when both its ends
+// are above, or both below.
 using Zones = std::vector<std::array<Zone, 4>>;  // per cell and corner
 
 // Per cell and facet (opposite to each of its corners): bit i says that the dual Voronoi edge meets
@@ -38,11 +36,7 @@ Zones zones(const Stage& s, const Run& run) {
     for (int i = 0; i < 4; ++i) {
       const int32_t p = s.t.cells[c][i];
       if (!s.is_sample(p)) continue;
-      const Vec3 d = s.towards(p, static_cast<int32_t>(c));
-      const double height = dot(d, s.normal[p]);
-      if (std::abs(height) > sine * length(d)) {
-        result[c][i] = height > 0 ? Zone::above : Zone::below;
-      }
+      result[c][i] = zone_of(s.towards(p, static_cast<int32_t>(c)), s.normal[p], sine);
     }
   });
   return result;
@@ -213,7 +207,7 @@ Cocone cocone(std::span<const Vec3> points, const Triangulation& t, const Vorono
   Stage s{points, t, voronoi, incident, options, poles.vector};
   parallel_for(s.samples(), run, [&](int64_t p) { s.normal[p] = normalized(s.normal[p]); });
   const auto samples = static_cast<size_t>(s.samples());
-  Cocone result{std::vector<uint8_t>(samples), std::vector<uint8_t>(samples), FacetSet(t)};
+  Cocone result{{}, std::vector<uint8_t>(samples), std::vector<uint8_t>(samples), FacetSet(t)};
   const Meetings m = meetings(s, zones(s, run), run);
   grow(agreement(s, m, result, run), result.flat);
   parallel_for(t.cell_count(), run, [&](int64_t c) {
@@ -222,6 +216,7 @@ Cocone cocone(std::span<const Vec3> points, const Triangulation& t, const Vorono
       if (is_candidate(f, s, m, result.flat)) result.candidates.insert(f);
     }
   });
+  result.normal = std::move(s.normal);
   return result;
 }
 

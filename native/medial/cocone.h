@@ -20,7 +20,18 @@ struct CoconeOptions {
 // Throws InvalidInputError.
 void require_valid(const CoconeOptions& options);
 
+// Where a Voronoi vertex lies as seen from a sample.
+enum class Zone : uint8_t { in_cocone, above, below };
+
+// `towards`: from the sample to the Voronoi vertex; `normal`: its unit pole vector.
+inline Zone zone_of(const Vec3& towards, const Vec3& normal, double sine_of_cocone_angle) {
+  const double height = dot(towards, normal);
+  if (!(std::abs(height) > sine_of_cocone_angle * length(towards))) return Zone::in_cocone;
+  return height > 0 ? Zone::above : Zone::below;
+}
+
 struct Cocone {
+  std::vector<Vec3> normal;  // per sample: its unit pole vector
   // Per sample. Thin: flatness_ratio times the distance of the farthest crossing of the Voronoi
   // cell's edges with the tangent plane is at most that of both poles. Flat: thin, and the normal
   // line agrees with those of all cocone neighbours; or with one that is flat.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace medial {
+
 FacetSet from_both_sides(const Triangulation& t, const FacetSet& set, const Run& run) {
   FacetSet both(t);
   parallel_for(t.cell_count(), run, [&](int64_t c) {

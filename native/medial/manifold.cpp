@@ -265,16 +265,17 @@ class Walk {
 }  // namespace
 
 FacetSet manifold(std::span<const Vec3> points, const Triangulation& t,
-                  const Csr<int32_t>& incident, Cocone cocone, const CoconeOptions& options,
+                  const Csr<int32_t>& incident, const Cocone& cocone, const CoconeOptions& options,
                   const Run& run) {
   begin_stage(run.progress, "Manifold extraction", 0.93, 0.95);
   const Stage s{points, t, incident, std::cos(options.sharp_angle)};
+  FacetSet candidates = cocone.candidates;
   Umbrellas umbrellas{FacetSet(t), std::vector<uint8_t>(cocone.flat.size())};
-  search_umbrellas(s, cocone.candidates, umbrellas, run,
+  search_umbrellas(s, candidates, umbrellas, run,
                    [](UmbrellaSearch& search, int32_t p) { search.find_simple(p); });
   // Where all is clear already, no triangle is lost to the pruning of its neighbours.
-  prune(s, cocone.candidates, FacetSet(umbrellas.triangles), cocone.flat, run);
-  search_umbrellas(s, cocone.candidates, umbrellas, run,
+  prune(s, candidates, umbrellas.triangles, cocone.flat, run);
+  search_umbrellas(s, candidates, umbrellas, run,
                    [](UmbrellaSearch& search, int32_t p) { search.find_all(p); });
   Walk walk(s, std::move(umbrellas), run.progress);
   // From outside, where the hull tells it: the front of a stack of triangles is another surface

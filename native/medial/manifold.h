@@ -9,7 +9,7 @@ namespace medial {
 // The triangles of the surface, each once: seen from the cell on its front side. Neighbours on the
 // surface have their fronts on the same side of it.
 FacetSet manifold(std::span<const Vec3> points, const Triangulation& triangulation,
-                  const Csr<int32_t>& incident, Cocone cocone, const CoconeOptions& options,
+                  const Csr<int32_t>& incident, const Cocone& cocone, const CoconeOptions& options,
                   const Run& run);
 
 }  // namespace medial

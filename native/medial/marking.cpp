@@ -73,10 +73,8 @@ class Marker {
  private:
   Face& at(int32_t cell, int32_t p) { return marks_.face[cell][slot_of(t_.cells[cell], p)]; }
   Face above_plane(int32_t cell, int32_t p, const Vec3& normal) const {
-    const Vec3 d = towards(points_[p], t_, voronoi_, cell);
-    const double height = dot(d, normal);
-    if (!(std::abs(height) > sine_ * length(d))) return Face::none;
-    return height > 0 ? Face::front : Face::back;
+    const Zone zone = zone_of(towards(points_[p], t_, voronoi_, cell), normal, sine_);
+    return zone == Zone::above ? Face::front : zone == Zone::below ? Face::back : Face::none;
   }
 
   std::span<const Vec3> points_;
@@ -100,15 +98,14 @@ struct Agreement {
 
 // Of samples that share a candidate triangle, best first. Two good samples are left to the surface.
 std::vector<Agreement> agreements(const Triangulation& t, const Cocone& cocone,
-                                  std::span<const Vec3> normal, std::span<const uint8_t> good,
-                                  double least, const Run& run) {
+                                  std::span<const uint8_t> good, double least, const Run& run) {
   auto found = parallel_append<Agreement>(t.finite_cells, run, [&](int64_t c, auto& out, int) {
     for_facets_of(static_cast<int32_t>(c), cocone.candidates, [&](const Facet& f) {
       const Triangle ids = corners(t, f);
       for (const int32_t x : ids) {
         const auto [p, q] = link_of(ids, x);
         if (p > q || !cocone.flat[p] || !cocone.flat[q] || (good[p] && good[q])) continue;
-        const double cosine = dot(normal[p], normal[q]);
+        const double cosine = dot(cocone.normal[p], cocone.normal[q]);
         if (std::abs(cosine) >= least) out.push_back({cosine, p, q});
       }
     });
@@ -125,7 +122,6 @@ struct Stage {
   const Csr<int32_t>& incident;
   const Cocone& cocone;
   const FacetSet& front;
-  std::vector<Vec3> normal;  // unit pole vectors
 
   int64_t samples() const { return incident.size(); }
 };
@@ -144,7 +140,7 @@ void mark_cells(const Stage& s, const Marker& marker, Marks& marks, const Run& r
     if (marks.good[p]) {
       own.split_by_umbrella(p);
     } else if (s.cocone.flat[p]) {
-      own.split_by_plane(p, s.normal[p]);
+      own.split_by_plane(p, s.cocone.normal[p]);
     }
   });
 }
@@ -156,7 +152,7 @@ std::vector<uint8_t> facing_poles(const Stage& s, const Marker& marker,
   std::vector<uint8_t> result(marks.good.size(), 1), asked(marks.good.size(), 0);
   for (const auto& [cosine, p, q] : agreements) asked[p] = asked[q] = 1;
   for_samples(s, marker, run, [&](Marker& own, int32_t p) {
-    if (asked[p] && marks.good[p]) result[p] = own.faces_pole(p, s.normal[p]);
+    if (asked[p] && marks.good[p]) result[p] = own.faces_pole(p, s.cocone.normal[p]);
   });
   return result;
 }
@@ -203,13 +199,12 @@ void find_closed(const Stage& s, Marks& marks) {
 }  // namespace
 
 Marks mark(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
-           const Csr<int32_t>& incident, const Poles& poles, const Cocone& cocone,
-           const FacetSet& front, const CoconeOptions& options, const Run& run) {
+           const Csr<int32_t>& incident, const Cocone& cocone, const FacetSet& front,
+           const CoconeOptions& options, const Run& run) {
   begin_stage(run.progress, "Marking", 0.95, 0.97);
-  Stage s{points, t, incident, cocone, front, poles.vector};
-  parallel_for(s.samples(), run, [&](int64_t p) { s.normal[p] = normalized(s.normal[p]); });
+  const Stage s{points, t, incident, cocone, front};
   Marks marks;
-  marks.good.resize(poles.vector.size());
+  marks.good.resize(cocone.flat.size());
   marks.face.resize(t.cells.size());
   const FacetSet surface = from_both_sides(t, front, run);
   const Marker marker(points, t, voronoi, incident, front, surface, std::sin(options.cocone_angle),
@@ -217,8 +212,7 @@ Marks mark(std::span<const Vec3> points, const Triangulation& t, const Voronoi& 
   mark_cells(s, marker, marks, run);
   OrientedUnionFind patches(marks.good.size());
   unite_on_surface(s, marks.good, patches);
-  const auto agreeing =
-      agreements(t, cocone, s.normal, marks.good, std::cos(options.flatness_angle), run);
+  const auto agreeing = agreements(t, cocone, marks.good, std::cos(options.flatness_angle), run);
   const auto facing = facing_poles(s, marker, agreeing, marks, run);
   for (const auto& [cosine, p, q] : agreeing) {
     patches.unite(p, q, (cosine < 0) != (facing[p] != facing[q]));

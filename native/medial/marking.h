@@ -21,7 +21,7 @@ struct Marks {
 // well above or below their tangent plane. Patches: good samples that the surface connects, then
 // flat ones whose normals agree, the best agreement first.
 Marks mark(std::span<const Vec3> points, const Triangulation& triangulation, const Voronoi& voronoi,
-           const Csr<int32_t>& incident, const Poles& poles, const Cocone& cocone,
-           const FacetSet& front, const CoconeOptions& options, const Run& run);
+           const Csr<int32_t>& incident, const Cocone& cocone, const FacetSet& front,
+           const CoconeOptions& options, const Run& run);
 
 }  // namespace medial

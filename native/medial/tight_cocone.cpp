@@ -159,7 +159,7 @@ TightCocone tight_cocone(std::span<const Vec3> points, const Triangulation& t,
                          const CoconeOptions& options, const Run& run) {
   const Cocone c = cocone(points, t, voronoi, incident, poles, options, run);
   const FacetSet front = manifold(points, t, incident, c, options, run);
-  Marks marks = mark(points, t, voronoi, incident, poles, c, front, options, run);
+  Marks marks = mark(points, t, voronoi, incident, c, front, options, run);
   begin_stage(run.progress, "Peeling", 0.97, 0.99);
   Peeling peeling(points, t, marks, run);
   peeling.run(run.progress);

@@ -74,12 +74,8 @@ std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::obje
                                 thread_argument(threads)};
   const auto row_span = rows.span();
   const auto face_span = faces.span();
-  if (oriented && oriented->span().size() != row_span.size()) {
-    throw InvalidInputError("Expected one normal per point, found " +
-                            std::to_string(oriented->span().size()) + " for " +
-                            std::to_string(row_span.size()) + " points; pass all of them or none.");
-  }
-  const auto normal_span = oriented ? oriented->span() : std::span<const Vec3>();
+  std::optional<std::span<const Vec3>> normal_span;
+  if (oriented) normal_span = oriented->span();
   const py::gil_scoped_release release;
   return std::make_unique<MedialAnalysis>(row_span, face_span, normal_span, options, progress);
 }

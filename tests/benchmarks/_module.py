@@ -1,5 +1,6 @@
 """Lets the benchmarks find the compiled module and the shapes of the tests from a plain checkout."""
 
+import argparse
 import importlib.util
 import os
 import sys
@@ -34,3 +35,18 @@ def markdown(header: list[str], rows: list[list[str]]) -> str:
         )
         + "\n"
     )
+
+
+def parser(description: str) -> argparse.ArgumentParser:
+    """Of a script that prints a table, with the option to write it to a file."""
+    made = argparse.ArgumentParser(
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    made.add_argument("--output", type=Path, help="also write the table to this file")
+    return made
+
+
+def publish(text: str, output: Path | None) -> None:
+    print(text)
+    if output:
+        output.write_text(text)

@@ -6,9 +6,7 @@ o->t: from area-weighted points of the output to the true axis; t->o: from point
 h: median over the samples of the largest circumradius in the umbrella. All sizes up to 64,000 take about ten minutes.
 """
 
-import argparse
 import sys
-from pathlib import Path
 
 import _module
 import numpy as np
@@ -73,18 +71,13 @@ def table(names: list[str], sizes: list[int], seed: int) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--output", type=Path, help="also write the table to this file")
+    parser = _module.parser(__doc__)
     parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
     parser.add_argument("--shapes", nargs="+", default=list(SHAPES), choices=list(SHAPES))
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     text = table(options.shapes, options.sizes, options.seed)
-    print(text)
-    if options.output:
-        options.output.write_text(text)
+    _module.publish(text, options.output)
 
 
 if __name__ == "__main__":

@@ -8,9 +8,7 @@ surface are those of the reconstruction; errors those of the inner facets of the
 output to the true axis (o->t) and back (t->o), in percent of the diagonal. Every figure is the median of the seeds.
 """
 
-import argparse
 import sys
-from pathlib import Path
 
 import _module
 import numpy as np
@@ -96,10 +94,7 @@ def row(name: str, percent: float, count: int, seeds: int) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--output", type=Path, help="also write the table to this file")
+    parser = _module.parser(__doc__)
     parser.add_argument("--samples", type=int, default=8000)
     parser.add_argument("--seeds", type=int, default=3)
     options = parser.parse_args()
@@ -108,10 +103,7 @@ def main() -> None:
         for name in SHAPES_AND_EULER
         for percent in PERCENT
     ]
-    text = _module.markdown(HEADER, rows)
-    print(text)
-    if options.output:
-        options.output.write_text(text)
+    _module.publish(_module.markdown(HEADER, rows), options.output)
 
 
 if __name__ == "__main__":

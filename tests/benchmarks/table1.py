@@ -150,10 +150,7 @@ def rows(threads: int, largest: int) -> list[list[str]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--output", type=Path, help="also write the table to this file")
+    parser = _module.parser(__doc__)
     parser.add_argument("--threads", type=int, default=0, help="0: all")
     parser.add_argument(
         "--largest", type=int, default=1_000_000, help="leave larger ellipsoids out"
@@ -164,9 +161,7 @@ def main() -> None:
         print(json.dumps(run_one(options.child, options.threads)))
         return
     text = _module.markdown(HEADER, rows(options.threads, options.largest))
-    print(text)
-    if options.output:
-        options.output.write_text(text)
+    _module.publish(text, options.output)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ machine does can only raise it. Sides: the cocone, the manifold, the peeling and
 lion needs the optional data folder (MEDIAL_AXIS_TEST_DATA).
 """
 
-import argparse
 import os
 import subprocess
 import sys
@@ -69,10 +68,7 @@ def row(name: str, points: np.ndarray, program: Path, threads: int, repeats: int
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--output", type=Path, help="also write the table to this file")
+    parser = _module.parser(__doc__)
     parser.add_argument("--threads", type=int, default=0, help="0: all")
     parser.add_argument("--repeats", type=int, default=3)
     options = parser.parse_args()
@@ -84,10 +80,7 @@ def main() -> None:
             row(name, points, program, options.threads, options.repeats)
             for name, points in inputs()
         ]
-    text = _module.markdown(HEADER, rows)
-    print(text)
-    if options.output:
-        options.output.write_text(text)
+    _module.publish(_module.markdown(HEADER, rows), options.output)
 
 
 if __name__ == "__main__":

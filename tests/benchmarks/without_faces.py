@@ -7,9 +7,7 @@ Tight Cocone; missing and extra: those of one side alone. The figures after that
 the mesh itself stands in brackets. Needs the optional data folder (MEDIAL_AXIS_TEST_DATA).
 """
 
-import argparse
 import sys
-from pathlib import Path
 
 import _module
 import numpy as np
@@ -82,20 +80,14 @@ def row(file: str) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("--output", type=Path, help="also write the table to this file")
+    parser = _module.parser(__doc__)
     parser.add_argument("--files", nargs="+", default=FILES)
     options = parser.parse_args()
     rows = []
     for file in options.files:
         rows.append(row(file))
         print(" | ".join(rows[-1]), file=sys.stderr, flush=True)
-    text = _module.markdown(HEADER, rows)
-    print(text)
-    if options.output:
-        options.output.write_text(text)
+    _module.publish(_module.markdown(HEADER, rows), options.output)
 
 
 if __name__ == "__main__":

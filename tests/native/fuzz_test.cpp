@@ -1,7 +1,6 @@
 // 10,000 small inputs, most of them degenerate: no crash, no broken invariant.
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
 
 #include "medial/analysis.h"
@@ -71,14 +70,8 @@ void expect_sound(const MedialMesh& mesh, std::span<const Vec3> points, int inpu
 
 // Every edge in an even number of triangles.
 void expect_closed(const WatertightSurface& surface, int input) {
-  std::map<Edge, int> uses;
-  for (const Triangle& t : surface.triangles) {
-    for (const int32_t corner : t) {
-      const auto [p, q] = link_of(t, corner);
-      ++uses[{std::min(p, q), std::max(p, q)}];
-    }
-  }
-  for (const auto& [edge, count] : uses) ASSERT_EQ(count % 2, 0) << input;
+  for (const auto& [edge, count] : test::edge_uses(surface.triangles))
+    ASSERT_EQ(count % 2, 0) << input;
 }
 
 TEST(Fuzz, TenThousandSmallInputs) {

@@ -1,9 +1,11 @@
-// Seeded inputs for the native tests.
+// Seeded inputs for the native tests, and what they ask of triangles.
 #pragma once
 
 #include <array>
+#include <map>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "medial/boundary.h"
@@ -66,6 +68,18 @@ inline Mesh torus(int major, int minor) {
     }
   }
   return mesh;
+}
+
+// How many triangles use each edge.
+inline std::map<Edge, int> edge_uses(std::span<const Triangle> triangles) {
+  std::map<Edge, int> uses;
+  for (const Triangle& t : triangles) {
+    for (const int32_t corner : t) {
+      const auto [p, q] = link_of(t, corner);
+      ++uses[{std::min(p, q), std::max(p, q)}];
+    }
+  }
+  return uses;
 }
 
 }  // namespace medial::test

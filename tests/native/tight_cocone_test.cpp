@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <map>
 #include <thread>
 
 #include "medial/analysis.h"
@@ -11,17 +10,6 @@ namespace {
 
 WatertightSurface surface_of(std::span<const Vec3> points, int threads = 2) {
   return watertight_surface(points, {}, {threads, nullptr});
-}
-
-std::map<Edge, int> edge_uses(std::span<const Triangle> triangles) {
-  std::map<Edge, int> uses;
-  for (const Triangle& t : triangles) {
-    for (const int32_t corner : t) {
-      const auto [p, q] = link_of(t, corner);
-      ++uses[{std::min(p, q), std::max(p, q)}];
-    }
-  }
-  return uses;
 }
 
 double volume(std::span<const Vec3> points, std::span<const Triangle> triangles) {
@@ -82,7 +70,7 @@ TEST(TightCocone, ClosesASampledTorusAndAnEllipsoid) {
   for (const auto& [rows, euler] :
        {std::pair{torus.vertices, 0}, std::pair{std::vector<Vec3>(points), 2}}) {
     const WatertightSurface surface = surface_of(rows);
-    const auto uses = edge_uses(surface.triangles);
+    const auto uses = test::edge_uses(surface.triangles);
     for (const auto& [edge, count] : uses) ASSERT_EQ(count, 2) << edge[0] << " " << edge[1];
     EXPECT_EQ(static_cast<int>(rows.size() + surface.triangles.size() - uses.size()), euler);
     EXPECT_EQ(std::count(surface.on_surface.begin(), surface.on_surface.end(), 0), 0);
