@@ -102,6 +102,37 @@ def torus(big: float = 1.0, small: float = 0.4, around: int = 48, across: int = 
     ).astype(np.int32)
 
 
+def lathe(profile: NDArray[np.float64], around: int = 64) -> Mesh:
+    """A profile (rho, z), upward from the z axis back to it, turned round that axis."""
+    turn = np.arange(around) * 2 * np.pi / around
+    rho, z = profile[:, :1], np.repeat(profile[:, 1:], around, axis=1)
+    rings = np.stack((rho * np.cos(turn), rho * np.sin(turn), z), axis=-1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(len(profile) - 1), np.arange(around), indexing="ij")
+    a, b = (i * around + j).ravel(), (i * around + (j + 1) % around).ravel()
+    quads = (np.column_stack((a, b, b + around)), np.column_stack((a, b + around, a + around)))
+    return weld((rings, np.concatenate(quads).astype(np.int32)))
+
+
+def rectangle(along: int, across: int) -> Mesh:
+    """(n, 2) vertices of a grid over |x| <= 1, |y| <= 1 and its triangles, counter-clockwise."""
+    x, y = np.meshgrid(np.linspace(-1, 1, along + 1), np.linspace(-1, 1, across + 1), indexing="ij")
+    i, j = np.meshgrid(np.arange(along), np.arange(across), indexing="ij")
+    a = (i * (across + 1) + j).ravel()
+    b, c, d = a + across + 1, a + across + 2, a + 1
+    triangles = np.concatenate((np.column_stack((a, b, c)), np.column_stack((a, c, d))))
+    return np.column_stack((x.ravel(), y.ravel())), triangles.astype(np.int32)
+
+
+def weld(mesh: Mesh) -> Mesh:
+    """Vertices closer than a billionth of the size become one; triangles that lose a corner go."""
+    vertices, triangles = mesh
+    grid = np.round(vertices / np.ptp(vertices) * 1e9).astype(np.int64)
+    _, first, row = np.unique(grid, axis=0, return_index=True, return_inverse=True)
+    triangles = row.reshape(-1)[triangles].astype(np.int32)
+    whole = np.all(triangles != np.roll(triangles, 1, axis=1), axis=1)
+    return vertices[first], np.ascontiguousarray(triangles[whole])
+
+
 def box(
     counts: tuple[int, int, int] = (8, 6, 4), half: tuple[float, float, float] = (1.0, 0.7, 0.4)
 ) -> Mesh:
