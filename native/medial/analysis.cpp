@@ -73,23 +73,26 @@ std::vector<Vec3> unit_normals(std::span<const Vec3> normals, const Samples& sam
 
 }  // namespace
 
-MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
-                               std::optional<std::span<const Vec3>> normals,
-                               const AnalysisOptions& options, Progress* progress)
+MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options,
+                               Progress* progress)
     : threads_(thread_count(options.threads)) {
   const Run run{threads_, progress}, quiet{threads_, nullptr};
   Stopwatch watch(timings_);
   begin_stage(progress, "Samples", 0, 0.02);
-  require_corners(triangles, rows.size());
-  if (normals) require_normals(*normals, rows.size());
-  samples_ = make_samples(rows, quiet);
+  require_corners(input.triangles, input.vertices.value_or(input.points).size());
+  if (input.normals) require_normals(*input.normals, input.points.size());
+  samples_ = make_samples(input.points, quiet);
   const int32_t count = samples_.count();
-  duplicates_ = static_cast<int64_t>(rows.size()) - count;
+  duplicates_ = static_cast<int64_t>(input.points.size()) - count;
   require_volume(samples_.points);
-  const Surface surface = make_surface(triangles, samples_.sample_of_row, count, quiet);
+  const Samples apart =
+      input.vertices ? distinct_rows(*input.vertices, "vertex", quiet) : Samples{};
+  const Samples& corners = input.vertices ? apart : samples_;
+  const Surface surface =
+      make_surface(input.triangles, corners.sample_of_row, corners.count(), quiet);
   closed_ = surface.closed();
   boundary_edges_ = surface.open_edges();
-  sides_from_ = resolve(options.sides, surface, normals.has_value());
+  sides_from_ = resolve(options.sides, surface, input.normals.has_value());
   if (options.bounding_sphere) add_bounding_sphere(samples_);
   const std::vector<Vec3>& points = samples_.points;
   watch.lap("samples");
@@ -109,7 +112,8 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
     significance_ = medial::significance(points, edges_, u, run);
     watch.lap("significance");
   }
-  tell_sides(surface, normals.value_or(std::span<const Vec3>()), incident, p, options.cocone, run);
+  tell_sides(surface, corners.points, input.normals.value_or(std::span<const Vec3>()), incident, p,
+             options.cocone, run);
   watch.lap("sides");
   begin_stage(progress, "Order of the edges", 0.99, 1);
   sort_edges(run);
@@ -117,12 +121,12 @@ MedialAnalysis::MedialAnalysis(std::span<const Vec3> rows, std::span<const Trian
   advance(progress, 1);
 }
 
-void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> normals,
-                                const Csr<int32_t>& incident, const Poles& poles,
-                                const CoconeOptions& options, const Run& run) {
+void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> vertices,
+                                std::span<const Vec3> normals, const Csr<int32_t>& incident,
+                                const Poles& poles, const CoconeOptions& options, const Run& run) {
   const std::vector<Vec3>& points = samples_.points;
   if (sides_from_ == SidesFrom::surface) {
-    sides_ = sides_from_surface(points, surface, triangulation_, voronoi_, run);
+    sides_ = sides_from_surface(vertices, surface, triangulation_, voronoi_, run);
   } else if (sides_from_ == SidesFrom::normals) {
     sides_ =
         sides_from_normals(points, unit_normals(normals, samples_), triangulation_, voronoi_, run);

@@ -10,6 +10,13 @@
 
 namespace medial {
 
+struct AnalysisInput {
+  std::span<const Vec3> points;                        // samples of the surface
+  std::span<const Triangle> triangles = {};            // its outward faces, as rows of `vertices`
+  std::optional<std::span<const Vec3>> normals = {};   // outward, one per point
+  std::optional<std::span<const Vec3>> vertices = {};  // none: `points`
+};
+
 struct AnalysisOptions {
   SidesFrom sides = SidesFrom::automatic;
   CoconeOptions cocone = {};
@@ -25,12 +32,8 @@ struct Extraction {
 
 class MedialAnalysis {
  public:
-  // `rows` are the samples, `triangles` the outward faces of the surface as ids of rows, `normals`
-  // the outward normals of the rows, one each, if there are any. Throws InvalidInputError,
-  // DegenerateInputError, Cancelled.
-  MedialAnalysis(std::span<const Vec3> rows, std::span<const Triangle> triangles,
-                 std::optional<std::span<const Vec3>> normals, const AnalysisOptions& options,
-                 Progress* progress);
+  // Throws InvalidInputError, DegenerateInputError, Cancelled.
+  MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options, Progress* progress);
 
   // Ids of the selected edges: the set F of the paper, facets without area or end included.
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
@@ -55,9 +58,9 @@ class MedialAnalysis {
   const Timings& timings() const { return timings_; }
 
  private:
-  void tell_sides(const Surface& surface, std::span<const Vec3> normals,
-                  const Csr<int32_t>& incident, const Poles& poles, const CoconeOptions& options,
-                  const Run& run);
+  void tell_sides(const Surface& surface, std::span<const Vec3> vertices,
+                  std::span<const Vec3> normals, const Csr<int32_t>& incident, const Poles& poles,
+                  const CoconeOptions& options, const Run& run);
   void sort_edges(const Run& run);
   // Of the facets dual to edge_of(0), ..., edge_of(count - 1).
   template <typename EdgeOf>

@@ -24,15 +24,9 @@ std::string text(const Vec3& p) {
 
 bool in_range(double x) { return std::abs(x) <= kLargestCoordinate; }  // false for NaN
 
-Box checked_box(std::span<const Vec3> rows) {
-  require_finite(rows, "point");
+Box box_of(std::span<const Vec3> rows) {
   Box box;
   for (const Vec3& p : rows) box.add(p);
-  const double extent = max_abs(box.extent());
-  if (rows.size() >= 4 && extent > 0 && extent < kSmallestExtent) {
-    throw InvalidInputError(
-        "Expected points that spread over more than 1e-50, found less; scale them up.");
-  }
   return box;
 }
 
@@ -66,9 +60,10 @@ uint64_t hilbert_key(std::array<uint32_t, 3> x) {
   return key;
 }
 
-std::vector<Keyed> along_hilbert_curve(std::span<const Vec3> rows, const Box& box, const Run& run) {
+std::vector<Keyed> along_hilbert_curve(std::span<const Vec3> rows, const Run& run) {
+  const Box box = box_of(rows);
   const double extent = max_abs(box.extent());
-  const double scale = extent > 0 ? 2097151 / extent : 0;
+  const double scale = extent >= kSmallestExtent ? 2097151 / extent : 0;  // finite
   std::vector<Keyed> order(rows.size());
   parallel_for(static_cast<int64_t>(rows.size()), run, [&](int64_t i) {
     const Vec3 p = scale * (rows[i] - box.low);
@@ -100,19 +95,29 @@ void require_finite(std::span<const Vec3> rows, const char* what) {
   }
 }
 
-Samples make_samples(std::span<const Vec3> rows, const Run& run) {
-  const Box box = checked_box(rows);
+Samples distinct_rows(std::span<const Vec3> rows, const char* what, const Run& run) {
+  require_finite(rows, what);
   Samples samples;
   samples.points.reserve(rows.size() + 200);
   samples.row.reserve(rows.size());
   samples.sample_of_row.resize(rows.size());
-  for (const Keyed& next : along_hilbert_curve(rows, box, run)) {
+  for (const Keyed& next : along_hilbert_curve(rows, run)) {
     const Vec3& p = rows[next.row];
     if (samples.points.empty() || samples.points.back() != p) {
       samples.points.push_back(p);
       samples.row.push_back(next.row);
     }
     samples.sample_of_row[next.row] = samples.count() - 1;
+  }
+  return samples;
+}
+
+Samples make_samples(std::span<const Vec3> rows, const Run& run) {
+  Samples samples = distinct_rows(rows, "point", run);
+  const double extent = max_abs(box_of(rows).extent());
+  if (rows.size() >= 4 && extent > 0 && extent < kSmallestExtent) {
+    throw InvalidInputError(
+        "Expected points that spread over more than 1e-50, found less; scale them up.");
   }
   if (samples.count() < 4) {
     throw DegenerateInputError("Expected at least 4 distinct points, found " +
@@ -133,9 +138,7 @@ std::vector<int32_t> samples_by_row(const Samples& samples) {
 
 void add_bounding_sphere(Samples& samples) {
   constexpr int kPoints = 200;
-  Box box;
-  for (const Vec3& p : samples.points) box.add(p);
-  const Vec3 centre = box.centre();
+  const Vec3 centre = box_of(samples.points).centre();
   double radius = 0;
   for (const Vec3& p : samples.points) radius = std::max(radius, distance(p, centre));
   // A Fibonacci lattice: equal steps in height, golden-angle steps round the axis.

@@ -24,9 +24,12 @@ struct Samples {
 // to be squared often.
 void require_finite(std::span<const Vec3> rows, const char* what);
 
-// The order depends on the coordinates alone, so that permuted rows give the same samples.
-// Throws InvalidInputError for a coordinate that is not finite, DegenerateInputError for fewer than
-// 4 distinct rows.
+// The distinct rows; their order depends on the coordinates alone, so that permuted rows give the
+// same samples. Throws InvalidInputError as require_finite does.
+Samples distinct_rows(std::span<const Vec3> rows, const char* what, const Run& run);
+
+// The same for a triangulation: throws also InvalidInputError when the rows lie too close together,
+// DegenerateInputError for fewer than 4 distinct ones.
 Samples make_samples(std::span<const Vec3> rows, const Run& run);
 
 // The samples in ascending order of their rows.

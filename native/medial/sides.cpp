@@ -83,10 +83,10 @@ double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
 
 }  // namespace
 
-CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface,
+CellSides sides_from_surface(std::span<const Vec3> vertices, const Surface& surface,
                              const Triangulation& t, const Voronoi& voronoi, const Run& run) {
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
-  const WindingNumber winding(points, surface.triangles, surface.boundary, run.progress);
+  const WindingNumber winding(vertices, surface.triangles, surface.boundary, run.progress);
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
   // Along a Voronoi edge there is little to cross: most vertices are told from a neighbour of the
   // same chunk.

@@ -19,7 +19,8 @@ using CellSides = std::vector<uint8_t>;
 enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none };
 
 // Inner exactly where the winding number of the surface at the Voronoi vertex exceeds 1/2.
-CellSides sides_from_surface(std::span<const Vec3> points, const Surface& surface,
+// `vertices` are those of the surface.
+CellSides sides_from_surface(std::span<const Vec3> vertices, const Surface& surface,
                              const Triangulation& triangulation, const Voronoi& voronoi,
                              const Run& run);
 

@@ -15,16 +15,16 @@ void require_corners(std::span<const Triangle> triangles, size_t rows) {
   }
 }
 
-Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> sample_of_row,
-                     int32_t samples, const Run& run) {
+Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> vertex_of_row,
+                     int32_t vertices, const Run& run) {
   Surface surface;
   surface.triangles.reserve(triangles.size());
   for (const auto& [i, j, k] : triangles) {
-    const Triangle t{sample_of_row[i], sample_of_row[j], sample_of_row[k]};
+    const Triangle t{vertex_of_row[i], vertex_of_row[j], vertex_of_row[k]};
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) surface.triangles.push_back(t);
   }
   const auto fans =
-      rows_containing(std::span<const Triangle>(surface.triangles), samples, run.progress);
+      rows_containing(std::span<const Triangle>(surface.triangles), vertices, run.progress);
   surface.boundary = boundary_edges(surface.triangles, fans, run);
   return surface;
 }

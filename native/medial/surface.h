@@ -1,4 +1,4 @@
-// The triangles of the sampled surface, as ids of samples.
+// The triangles of the sampled surface, as ids of its distinct vertices.
 #pragma once
 
 #include "boundary.h"
@@ -18,8 +18,9 @@ struct Surface {
 // Throws InvalidInputError for a corner outside [0, rows).
 void require_corners(std::span<const Triangle> triangles, size_t rows);
 
-// `triangles` holds input rows. Rows with the same coordinates are one sample, so seams close.
-Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> sample_of_row,
-                     int32_t samples, const Run& run);
+// `triangles` holds rows, `vertex_of_row` the first `vertices` ids. Rows with the same coordinates
+// are one vertex, so seams close.
+Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> vertex_of_row,
+                     int32_t vertices, const Run& run);
 
 }  // namespace medial

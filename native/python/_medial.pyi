@@ -235,8 +235,11 @@ class MedialAnalysis:
         Samples of the surface: finite, below 1e50, spread over more than 1e-50. Float32 is accepted and converted;
         other types are refused.
     triangles : (m, 3) int32, optional
-        Outward-facing triangles of the surface as rows of `points`: they tell inside from outside.
-        Rows that no triangle uses are samples all the same.
+        Outward-facing triangles of the surface as rows of `vertices`: they tell inside from outside.
+    vertices : (v, 3) float64, optional
+        What the rows of `triangles` mean; none: `points`, and rows that no triangle uses are samples all the same.
+        Rows with the same coordinates are one vertex. Given, the vertices are no samples, and rows that no triangle
+        uses count for nothing.
     normals : (n, 3) float64, optional
         Outward normals of the samples, of any length; a zero normal has no vote.
     sides : SidesFrom
@@ -260,6 +263,7 @@ class MedialAnalysis:
         points: NDArray[np.float64],
         triangles: NDArray[np.int32] | None = None,
         *,
+        vertices: NDArray[np.float64] | None = None,
         normals: NDArray[np.float64] | None = None,
         sides: SidesFrom = ...,
         cocone: CoconeOptions | None = None,

@@ -29,8 +29,10 @@ constexpr const char* kAnalysisDoc =
     "points : (n, 3) float64\n    Samples of the surface, finite. Float32 is converted; other "
     "types are refused.\n"
     "triangles : (m, 3) int32, optional\n    Outward-facing triangles of the surface as rows of "
-    "`points`: they tell\n"
-    "    inside from outside. Rows that no triangle uses are samples all the same.\n"
+    "`vertices`: they tell\n"
+    "    inside from outside.\n"
+    "vertices : (v, 3) float64, optional\n    What the rows of `triangles` mean; none: `points`. "
+    "Rows with the same\n    coordinates are one vertex. They are no samples.\n"
     "normals : (n, 3) float64, optional\n    Outward normals of the samples, of any length; a zero "
     "normal has no vote.\n"
     "sides : SidesFrom\n    What tells inside from outside; default AUTOMATIC.\n"
@@ -63,21 +65,25 @@ constexpr const char* kSelectDoc =
     "zero-area\n"
     "facets included. Parameters as in `extract`.\n\nReturns\n-------\nids : (s,) int32";
 
+std::optional<Points> optional_points(const py::object& rows, const char* name) {
+  return rows.is_none() ? std::optional<Points>() : Points(rows, name);
+}
+
 std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles,
-                                        const py::object& normals, SidesFrom sides,
-                                        const CoconeOptions* cocone, bool bounding_sphere,
-                                        Progress* progress, int threads) {
+                                        const py::object& vertices, const py::object& normals,
+                                        SidesFrom sides, const CoconeOptions* cocone,
+                                        bool bounding_sphere, Progress* progress, int threads) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
-  const auto oriented = normals.is_none() ? std::optional<Points>() : Points(normals, "normals");
+  const auto oriented = optional_points(normals, "normals");
+  const auto corners = optional_points(vertices, "vertices");
   const AnalysisOptions options{sides, cocone ? *cocone : CoconeOptions{}, bounding_sphere,
                                 thread_argument(threads)};
-  const auto row_span = rows.span();
-  const auto face_span = faces.span();
-  std::optional<std::span<const Vec3>> normal_span;
-  if (oriented) normal_span = oriented->span();
+  AnalysisInput input{rows.span(), faces.span()};
+  if (oriented) input.normals = oriented->span();
+  if (corners) input.vertices = corners->span();
   const py::gil_scoped_release release;
-  return std::make_unique<MedialAnalysis>(row_span, face_span, normal_span, options, progress);
+  return std::make_unique<MedialAnalysis>(input, options, progress);
 }
 
 Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria criteria,
@@ -172,9 +178,10 @@ void bind_analysis(py::module_& m) {
   const Thresholds paper;
   py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final())
       .def(py::init(&analyse), py::arg("points"), py::arg("triangles") = py::none(), py::kw_only(),
-           py::arg("normals") = py::none(), py::arg("sides") = SidesFrom::automatic,
-           py::arg("cocone") = py::none(), py::arg("bounding_sphere") = false,
-           py::arg("progress") = nullptr, py::arg("threads") = 0)
+           py::arg("vertices") = py::none(), py::arg("normals") = py::none(),
+           py::arg("sides") = SidesFrom::automatic, py::arg("cocone") = py::none(),
+           py::arg("bounding_sphere") = false, py::arg("progress") = nullptr,
+           py::arg("threads") = 0)
       .def_property_readonly(
           "samples", [](const MedialAnalysis& a) { return array_of<int32_t>(a.sample_rows()); },
           "(k,) int32: rows of the distinct points, ascending.")

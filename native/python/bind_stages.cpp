@@ -196,7 +196,7 @@ int64_t open_edges(const py::object& points, const py::object& triangles) {
   const auto face_span = faces.span();
   const py::gil_scoped_release release;
   require_corners(face_span, row_span.size());
-  const Samples samples = make_samples(row_span, all_cores());
+  const Samples samples = distinct_rows(row_span, "point", all_cores());
   return make_surface(face_span, samples.sample_of_row, samples.count(), all_cores()).open_edges();
 }
 

@@ -10,13 +10,13 @@ namespace medial {
 namespace {
 
 MedialMesh axis(std::span<const Vec3> points, int threads) {
-  return MedialAnalysis(points, {}, {}, {.threads = threads}, nullptr).extract({});
+  return MedialAnalysis({points}, {.threads = threads}, nullptr).extract({});
 }
 
 TEST(MedialAnalysis, GivesTheSameBytesForEveryThreadCount) {
   const auto mesh = test::torus(120, 60);
   const auto extracted = [&](int threads) {
-    return MedialAnalysis(mesh.vertices, mesh.triangles, {}, {.threads = threads}, nullptr)
+    return MedialAnalysis({mesh.vertices, mesh.triangles}, {.threads = threads}, nullptr)
         .extract({.side = Side::inner});
   };
   const MedialMesh one = extracted(1), four = extracted(4);
@@ -54,7 +54,7 @@ TEST(MedialAnalysis, CancelsFromAnotherThread) {
     while (progress.fraction() < 0.1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     progress.cancel();
   });
-  EXPECT_THROW(MedialAnalysis(points, {}, {}, {.threads = 2}, &progress), Cancelled);
+  EXPECT_THROW(MedialAnalysis({points}, {.threads = 2}, &progress), Cancelled);
   EXPECT_LT(progress.fraction(), 1);
 }
 
@@ -67,7 +67,7 @@ TEST(MedialAnalysis, CancelsInEveryStage) {
       progress.cancel();
     });
     try {
-      MedialAnalysis(mesh.vertices, mesh.triangles, {}, {.threads = 2}, &progress);
+      MedialAnalysis({mesh.vertices, mesh.triangles}, {.threads = 2}, &progress);
     } catch (const Cancelled&) {
     }
   }
@@ -77,7 +77,7 @@ TEST(MedialAnalysis, ReportsWhatIsWrong) {
   const auto message = [](std::span<const Vec3> rows,
                           std::span<const Triangle> triangles = {}) -> std::string {
     try {
-      MedialAnalysis(rows, triangles, {}, {}, nullptr);
+      MedialAnalysis({rows, triangles}, {}, nullptr);
     } catch (const std::exception& error) {
       return error.what();
     }
@@ -101,23 +101,21 @@ TEST(MedialAnalysis, ReportsWhatIsWrong) {
 TEST(MedialAnalysis, BoundingSphereDoesNotHideThatSamplesAreFlat) {
   auto flat = test::random_points(50, 7);
   for (Vec3& p : flat) p.z = 0.5;
-  EXPECT_THROW(MedialAnalysis(flat, {}, {}, {.bounding_sphere = true}, nullptr),
-               DegenerateInputError);
+  EXPECT_THROW(MedialAnalysis({flat}, {.bounding_sphere = true}, nullptr), DegenerateInputError);
 }
 
 TEST(MedialAnalysis, AFlippedTriangleOpensItsThreeEdges) {
   auto mesh = test::torus(24, 12);
   std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
-  const MedialAnalysis analysis(mesh.vertices, mesh.triangles, {}, {}, nullptr);
+  const MedialAnalysis analysis({mesh.vertices, mesh.triangles}, {}, nullptr);
   EXPECT_FALSE(analysis.closed());
   EXPECT_EQ(analysis.boundary_edges(), 3);
 }
 
 TEST(MedialAnalysis, BoundingSphereBoundsEveryFacet) {
   const auto mesh = test::torus(60, 30);
-  const MedialAnalysis bare(mesh.vertices, mesh.triangles, {}, {}, nullptr);
-  const MedialAnalysis bounded(mesh.vertices, mesh.triangles, {}, {.bounding_sphere = true},
-                               nullptr);
+  const MedialAnalysis bare({mesh.vertices, mesh.triangles}, {}, nullptr);
+  const MedialAnalysis bounded({mesh.vertices, mesh.triangles}, {.bounding_sphere = true}, nullptr);
   EXPECT_GT(bare.extract({.side = Side::outer}).unbounded, 0);
   const MedialMesh outer = bounded.extract({.side = Side::outer});
   EXPECT_EQ(outer.unbounded, 0);

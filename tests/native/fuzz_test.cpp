@@ -83,7 +83,7 @@ TEST(Fuzz, TenThousandSmallInputs) {
     for (int32_t i = 0; i + 2 < static_cast<int32_t>(points.size()) && input % 3 == 0; ++i)
       triangles.push_back({i, i + 1, i + 2});
     try {
-      const MedialAnalysis analysis(points, triangles, {},
+      const MedialAnalysis analysis({points, triangles},
                                     {.bounding_sphere = input % 7 == 0, .threads = 1 + input % 2},
                                     nullptr);
       expect_sound(analysis.extract({.thresholds = {.theta = 0, .rho = 0}}), points, input);

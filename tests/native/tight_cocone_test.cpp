@@ -108,7 +108,7 @@ TEST(TightCocone, CancelsInEveryStage) {
 
 TEST(TightCocone, AnEmptySolidIsAnErrorOnlyWhereItIsAskedFor) {
   const std::vector<Vec3> corners{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}};
-  const MedialAnalysis analysis(corners, {}, {}, {}, nullptr);
+  const MedialAnalysis analysis({corners}, {}, nullptr);
   ASSERT_EQ(analysis.sides_from(), SidesFrom::tight_cocone);
   EXPECT_EQ(analysis.tight_cocone()->inner_cells, 0);
   EXPECT_TRUE(analysis.tight_cocone()->triangles.empty());

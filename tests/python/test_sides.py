@@ -118,12 +118,12 @@ def circumcentres(medial, points):
     return cells[finite], centres[finite]
 
 
-def expected_sides(medial, points, triangles, analysis):
+def expected_sides(medial, points, surface, analysis):
     """(e,) side by brute force, (6 c, 2) pairs of an edge and a cell of its ring, (c, 3) circumcentres."""
     cells, centres = circumcentres(medial, points)
     near = np.linalg.norm(centres - points.mean(axis=0), axis=1) < 1e3 * np.ptp(points)
     inside = np.zeros(len(cells), dtype=bool)
-    inside[near] = reference.winding_number(centres[near], points, triangles) > 0.5
+    inside[near] = reference.winding_number(centres[near], *surface) > 0.5
     row = {tuple(edge): i for i, edge in enumerate(analysis.edges.tolist())}
     count, inner = np.zeros(len(row), dtype=int), np.zeros(len(row), dtype=int)
     incident = []
@@ -140,8 +140,11 @@ def expected_sides(medial, points, triangles, analysis):
 def test_sides_equal_brute_force(medial, name):
     """Where they differ, a Voronoi vertex of the facet lies on the surface, up to rounding."""
     points, triangles = ALL[name]
-    analysis = analyse(medial, points, triangles)
-    wanted, incident, centres = expected_sides(medial, points, triangles, analysis)
+    assert_brute_force(medial, points, ALL[name], analyse(medial, points, triangles))
+
+
+def assert_brute_force(medial, points, surface, analysis):
+    wanted, incident, centres = expected_sides(medial, points, surface, analysis)
     wrong = np.flatnonzero(analysis.side != wanted)
     if len(wrong) == 0:
         return
@@ -149,10 +152,82 @@ def test_sides_equal_brute_force(medial, name):
     cells, where = np.unique(rows[:, 1], return_inverse=True)
     radius = cKDTree(points).query(centres[cells])[0]
     reach = 1e-6 * np.minimum(radius, np.ptp(points))
-    on_surface = distance.to_triangles(centres[cells], points[triangles]) < reach
+    on_surface = distance.to_triangles(centres[cells], surface[0][surface[1]]) < reach
     excused = np.unique(rows[on_surface[where], 0])
     assert np.array_equal(excused, wrong)
     assert len(wrong) < 0.5 * len(wanted)
+
+
+# ---- a surface that is not made of the samples
+
+
+def samples_on(mesh, count=600, seed=4):
+    """Points of the triangles, none of them a vertex."""
+    return distance.points_on_triangles(mesh[0][mesh[1]], count, np.random.default_rng(seed))
+
+
+def soup(mesh):
+    """Every triangle has corners of its own."""
+    return mesh[0][mesh[1].ravel()], np.arange(mesh[1].size, dtype=np.int32).reshape(-1, 3)
+
+
+def with_unused_vertices(mesh):
+    """Rows that no triangle uses before, between and after the others."""
+    vertices = np.full((2 * len(mesh[0]) + 1, 3), 40.0)
+    vertices[1::2] = mesh[0]
+    return vertices, 2 * mesh[1] + 1
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_sides_of_a_separate_surface_equal_brute_force(medial, name):
+    """The vertices are no samples, and the samples are no vertices."""
+    vertices, triangles = ALL[name]
+    if name == "one triangle":  # whose samples span no volume
+        return
+    points = samples_on(ALL[name])
+    analysis = analyse(medial, points, triangles, vertices=vertices)
+    assert np.array_equal(analysis.samples, np.arange(len(points)))
+    assert analysis.boundary_edges == reference.boundary_edges(triangles)
+    assert analysis.closed == (name in CLOSED)
+    assert_brute_force(medial, points, ALL[name], analysis)
+
+
+@pytest.mark.parametrize("name", ["torus", "exact icosphere", "bowl", "flipped faces", "cube"])
+def test_vertices_that_are_the_points_change_nothing(medial, name):
+    points, triangles = ALL[name]
+    plain = analyse(medial, points, triangles)
+    for surface in (ALL[name], soup(ALL[name]), with_unused_vertices(ALL[name])):
+        apart = analyse(medial, points, surface[1], vertices=surface[0])
+        assert apart.side.tobytes() == plain.side.tobytes()
+        assert (apart.closed, apart.boundary_edges) == (plain.closed, plain.boundary_edges)
+        assert medial.open_edges(*surface) == plain.boundary_edges
+
+
+def test_a_separate_surface_decides_automatic(medial):
+    """It may be smaller than any sample needs to be: one triangle is open, two back to back are closed."""
+    points, triangle = samples_on(ALL["sphere"]), np.array([[0, 1, 2]], np.int32)
+    both = np.concatenate((triangle, triangle[:, ::-1]))
+    source = lambda faces: medial.MedialAnalysis(points, faces, vertices=np.eye(3)).sides_from
+    assert source(triangle) == medial.SidesFrom.TIGHT_COCONE
+    assert source(both) == medial.SidesFrom.SURFACE
+    assert (medial.open_edges(np.eye(3), triangle), medial.open_edges(np.eye(3), both)) == (3, 0)
+
+
+@pytest.mark.parametrize(
+    "vertices, triangles, word",
+    [
+        (np.eye(3), np.array([[0, 1, 3]], np.int32), "below 3, found 3"),
+        (np.eye(3)[:0], np.array([[0, 1, 2]], np.int32), "below 0, found 0"),
+        (np.eye(3)[:, :2], np.array([[0, 1, 2]], np.int32), "vertices"),
+        (np.eye(3).astype(int), np.array([[0, 1, 2]], np.int32), "vertices"),
+        (np.diag([1, np.nan, 1]), np.array([[0, 1, 2]], np.int32), "row 1; .* vertex"),
+        (np.diag([1, 1, np.inf]), np.array([[0, 1, 2]], np.int32), "row 2; .* vertex"),
+    ],
+    ids=["beyond", "none", "two columns", "int", "nan", "inf"],
+)
+def test_vertices_that_are_not_valid(medial, vertices, triangles, word):
+    with pytest.raises(medial.InvalidInputError, match=rf"^Expected .*{word}"):
+        medial.MedialAnalysis(ALL["sphere"][0], triangles, vertices=vertices)
 
 
 @pytest.mark.parametrize("name", ALL)
