@@ -366,6 +366,111 @@ class MedialAnalysis:
             INNER or OUTER, and `TightCocone.encloses` is false.
         """
 
+class SampleKind:
+    """What a sample lies on; the values of `SurfaceSamples.kind`."""
+
+    CORNER: SampleKind  # 0: a vertex that ends other than two creases, a sharp turn of a chain, or the tip of a cone
+    SHARP: SampleKind  # 1: a sharp edge
+    BOUNDARY: SampleKind  # 2: an edge of one triangle
+    VERTEX: SampleKind  # 3: a kept vertex away from creases
+    SURFACE: SampleKind  # 4: anywhere
+
+@final
+class SurfaceSamples:
+    """Samples of a triangulated surface, as made by `sample_surface`.
+
+    Corners come first, then places along sharp edges, along boundary edges, kept vertices, and the surface.
+    """
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(n, 3) float64: the samples."""
+    @property
+    def normals(self) -> NDArray[np.float64]:
+        """(n, 3) float64: outward unit normals; where sides meet their mean; zero where there is none."""
+    @property
+    def triangle(self) -> NDArray[np.int32]:
+        """(n,) int32: row of the triangle that the sample lies on."""
+    @property
+    def barycentric(self) -> NDArray[np.float64]:
+        """(n, 3) float64: where on its triangle."""
+    @property
+    def kind(self) -> NDArray[np.int32]:
+        """(n,) int32: values of `SampleKind`, ascending."""
+    @property
+    def radius(self) -> NDArray[np.float64]:
+        """(n,) float64: radius of the sample's disc, 0.727 of the spacing there. No SURFACE sample is nearer to any
+        other sample than the smaller of their radii, unless their normals are a right angle or more apart."""
+    @property
+    def sharp_edges(self) -> NDArray[np.int32]:
+        """(e, 2) int32: rows p < q of the ends of the sharp edges, sorted; of equal vertices the lowest row."""
+    @property
+    def area(self) -> float:
+        """Area of the sampled surface."""
+
+def sample_surface(
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    count: int | None = None,
+    spacing: float | None = None,
+    sizing: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None,
+    sharp_angle: float = ...,
+    sharp_edges: NDArray[np.int32] | None = None,
+    smooth: bool = False,
+    keep_vertices: bool = False,
+    seed: int = 0,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> SurfaceSamples:
+    """Blue-noise samples of a triangulated surface, its corners and sharp edges among them.
+
+    Corners, creases (sharp and boundary edges) and kept vertices come first and stay; then discs are thrown on the
+    surface until there is no room for one more (maximal Poisson-disk sampling: Cook 1986; Ebeida et al. 2012).
+    Holes are hardly wider than the discs: the farthest place is about 1.2 radii from its nearest sample.
+
+    The same input gives the same samples, whatever the number of threads.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+        Finite, below 1e50. Those with the same coordinates are one; those that no triangle uses are passed over.
+    triangles : (m, 3) int32
+        Rows of vertices, outward. A triangle repeated, either way round, counts once; those without area get no
+        samples.
+    count : int, optional
+        Wanted number of samples, met within about 1 % where corners, creases and kept vertices leave room; with
+        `sizing` the most that are allowed.
+    spacing : float, optional
+        Distance of neighbours in a hexagonal lattice of the same density, s = sqrt(2 A / (sqrt(3) n)).
+    sizing : ((k, 3) float64, (k,) float64), optional
+        Sites and the spacings there; elsewhere that of the nearest site counts. A spacing is first lowered to a
+        neighbouring site's plus 0.3 of its distance. If more samples than `count` would be needed, all spacings
+        are made larger alike.
+    sharp_angle : float
+        Edges whose triangles' normals are at least this far apart are sharp, radians; default pi/6. So are edges of
+        more than two triangles and edges that two triangles pass in the same direction. A chain of creases that
+        turns by more than this has a corner there; so has the tip of a cone.
+    sharp_edges : (e, 2) int32, optional
+        Rows of the ends of further sharp edges; pairs that are no edge of a triangle are passed over.
+    smooth : bool
+        Samples lie on PN triangles (Vlachos et al. 2001): cubic patches whose normals are averages over smooth fans,
+        weighted by angle. Sharp edges are curves tangent to both sides, so there are no cracks. Default: flat.
+    keep_vertices : bool
+        Every used vertex is a sample, too.
+    seed : int
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError
+        Besides wrong shapes and types: not exactly one of count, spacing and sizing (a count may go with sizing), a
+        value out of range, a corner that is no row, no triangle with an area, or more than 268 million samples.
+    Cancelled
+    """
+
 # The stages by themselves, for study and tests. Every one starts from the points.
 
 def delaunay(

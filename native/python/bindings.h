@@ -7,6 +7,7 @@ namespace medial::python {
 
 void bind_analysis(pybind11::module_& module);
 void bind_tight_cocone(pybind11::module_& module);
+void bind_sampling(pybind11::module_& module);
 void bind_stages(pybind11::module_& module);
 
 }  // namespace medial::python

@@ -23,5 +23,6 @@ PYBIND11_MODULE(_medial, m) {
       "Progress.cancel was called; nothing was computed.";
   medial::python::bind_tight_cocone(m);
   medial::python::bind_analysis(m);
+  medial::python::bind_sampling(m);
   medial::python::bind_stages(m);
 }

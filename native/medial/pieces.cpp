@@ -1,0 +1,98 @@
+#include "pieces.h"
+
+#include <bit>
+
+namespace medial {
+namespace {
+
+constexpr int kMostCuts = 15;  // as many as a path holds
+
+Barycentric middle(const Barycentric& p, const Barycentric& q) {
+  return {0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
+}
+
+// Three quarters at the corners, and the one between them.
+std::array<Barycentric, 3> quarter(const std::array<Barycentric, 3>& c, uint32_t which) {
+  if (which == 3) return {middle(c[1], c[2]), middle(c[2], c[0]), middle(c[0], c[1])};
+  const Barycentric& kept = c[which];
+  return {kept, middle(kept, c[(which + 1) % 3]), middle(kept, c[(which + 2) % 3])};
+}
+
+Barycentric centre(const std::array<Barycentric, 3>& c) {
+  return {(c[0].a + c[1].a + c[2].a) / 3, (c[0].b + c[1].b + c[2].b) / 3,
+          (c[0].c + c[1].c + c[2].c) / 3};
+}
+
+class Cutter {
+ public:
+  Cutter(const CurvedSurface& surface, int cuts, const Spacing& spacing, std::vector<Piece>& out)
+      : surface_(surface), cuts_(cuts), spacing_(spacing), out_(out) {}
+
+  void cut(int32_t triangle, uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
+    const double spacing = spacing_(surface_.point(triangle, centre(corners)));
+    if (depth < cuts_ ||
+        (spacing_.field && depth < kMostCuts && wider(triangle, corners, spacing))) {
+      for (uint32_t i = 0; i < 4; ++i) {
+        cut(triangle, path << 2 | i, quarter(corners, i), depth + 1);
+      }
+      return;
+    }
+    const double area = surface_.area(triangle, corners);
+    if (area > 0) out_.push_back({triangle, path, area, spacing});
+  }
+
+ private:
+  bool wider(int32_t triangle, const std::array<Barycentric, 3>& corners, double spacing) const {
+    const Vec3 p = surface_.point(triangle, corners[0]), q = surface_.point(triangle, corners[1]),
+               r = surface_.point(triangle, corners[2]);
+    return std::max({distance(p, q), distance(q, r), distance(r, p)}) > 2 * spacing;
+  }
+
+  const CurvedSurface& surface_;
+  int cuts_;
+  const Spacing& spacing_;
+  std::vector<Piece>& out_;
+};
+
+}  // namespace
+
+std::array<Barycentric, 3> Piece::corners() const {
+  std::array<Barycentric, 3> corners{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (int shift = std::bit_width(path) - 3; shift >= 0; shift -= 2) {
+    corners = quarter(corners, path >> shift & 3u);
+  }
+  return corners;
+}
+
+std::vector<Piece> cut_into_pieces(const CurvedSurface& surface, int cuts, const Spacing& spacing,
+                                   const Run& run) {
+  const auto count = static_cast<int64_t>(surface.mesh().triangles.size());
+  return parallel_append<Piece>(
+      count, run,
+      [&](int64_t t, std::vector<Piece>& out, int) {
+        Cutter(surface, cuts, spacing, out)
+            .cut(static_cast<int32_t>(t), 1, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 0);
+      },
+      64);
+}
+
+Place place_in(const Piece& piece, const std::array<Barycentric, 3>& corners, int64_t k,
+               const std::array<double, 2>& shift) {
+  // The R2 sequence (M. Roberts 2018): steps of the powers of the plastic number.
+  const double x = shift[0] + 0.7548776662466927 * static_cast<double>(k);
+  const double y = shift[1] + 0.5698402909980532 * static_cast<double>(k);
+  double u = x - std::floor(x), v = y - std::floor(y);
+  // Square to triangle with little distortion (E. Heitz 2019).
+  if (v > u) {
+    u *= 0.5;
+    v -= u;
+  } else {
+    v *= 0.5;
+    u -= v;
+  }
+  const auto& [p, q, r] = corners;
+  return {piece.triangle, static_cast<float>(p.b + u * (q.b - p.b) + v * (r.b - p.b)),
+          static_cast<float>(p.c + u * (q.c - p.c) + v * (r.c - p.c))};
+}
+
+}  // namespace medial

@@ -1,0 +1,138 @@
+// sample_surface for Python.
+#include <pybind11/stl.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "medial/sampling.h"
+
+namespace medial::python {
+namespace {
+
+constexpr const char* kSamplesDoc =
+    "Samples of a triangulated surface, as made by `sample_surface`: corners first, then along "
+    "sharp edges, along\nboundary edges, kept vertices, and the surface.";
+
+constexpr const char* kSampleDoc =
+    "Blue-noise samples of a triangulated surface, its corners and sharp edges among them.\n\n"
+    "One of `count`, `spacing` and `sizing` says how dense; `count` with `sizing` is the most that "
+    "is allowed. The\nfull description stands in _medial.pyi.\n\n"
+    "Parameters\n----------\n"
+    "vertices : (v, 3) float64\ntriangles : (m, 3) int32\n    Rows of vertices, outward.\n"
+    "count : int, optional\nspacing : float, optional\n"
+    "sizing : ((k, 3) float64, (k,) float64), optional\n    Sites and the spacings there.\n"
+    "sharp_angle : float\n    Radians; default pi/6.\n"
+    "sharp_edges : (e, 2) int32, optional\nsmooth : bool\nkeep_vertices : bool\nseed : int\n"
+    "progress : Progress, optional\nthreads : int\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+using FloatArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using IntArray = py::array_t<int32_t, py::array::c_style | py::array::forcecast>;
+
+// Sites and their spacings; keeps what the options look at.
+class Sizing {
+ public:
+  explicit Sizing(const py::object& object) {
+    if (object.is_none()) return;
+    if (!py::isinstance<py::tuple>(object) || py::len(object) != 2) {
+      throw InvalidInputError("Expected sizing as a pair of sites and spacings, found " +
+                              describe(object) + "; give both.");
+    }
+    const py::object spacings = object[py::int_(1)];
+    const bool array = py::isinstance<py::array>(spacings);
+    const auto view = array ? py::reinterpret_borrow<py::array>(spacings) : py::array();
+    if (!array || view.ndim() != 1 || view.dtype().kind() != 'f') {
+      throw InvalidInputError("Expected spacings of the sites as a (k,) float64 array, found " +
+                              describe(spacings) + "; convert it.");
+    }
+    sites_.emplace(object[py::int_(0)], "sites");
+    spacings_ = FloatArray::ensure(view);
+  }
+
+  void put_into(SamplingOptions& options) const {
+    if (!sites_) return;
+    options.sites = sites_->span();
+    options.site_spacings = {spacings_.data(), static_cast<size_t>(spacings_.size())};
+  }
+
+ private:
+  std::optional<Points> sites_;
+  FloatArray spacings_;
+};
+
+IntArray marked_rows(const py::object& object) {
+  if (object.is_none()) return IntArray(std::vector<py::ssize_t>{0, 2});
+  const py::array view = checked_rows(object, "sharp_edges", 2, "iu", "an (e, 2) int32 array");
+  if (view.size() > 0 && !py::isinstance<py::array_t<int32_t>>(view)) {
+    const auto low = view.attr("min")().cast<long long>();
+    const auto high = view.attr("max")().cast<long long>();
+    if (low < 0 || high > INT_MAX) {
+      throw InvalidInputError("Expected rows of sharp_edges that fit an int32, found " +
+                              std::to_string(low < 0 ? low : high) + "; mark the edges again.");
+    }
+  }
+  return IntArray::ensure(view);
+}
+
+std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::object& triangles,
+                                       std::optional<int64_t> count, std::optional<double> spacing,
+                                       const py::object& sizing, double sharp_angle,
+                                       const py::object& sharp_edges, bool smooth,
+                                       bool keep_vertices, int64_t seed, Progress* progress,
+                                       int threads) {
+  const Points points(vertices, "vertices");
+  const Triangles faces(py::reinterpret_borrow<py::object>(triangles));
+  const Sizing sizes(sizing);
+  const IntArray marked = marked_rows(sharp_edges);
+  SamplingOptions options;
+  options.count = count;
+  options.spacing = spacing;
+  sizes.put_into(options);
+  options.sharp_angle = sharp_angle;
+  options.sharp_edges = {reinterpret_cast<const Edge*>(marked.data()),
+                         static_cast<size_t>(marked.shape(0))};
+  options.smooth = smooth;
+  options.keep_vertices = keep_vertices;
+  options.seed = static_cast<uint64_t>(seed);
+  const Run run{thread_count(thread_argument(threads)), progress};
+  const auto point_span = points.span();
+  const auto face_span = faces.span();
+  const py::gil_scoped_release release;
+  return std::make_shared<SurfaceSamples>(sample_surface(point_span, face_span, options, run));
+}
+
+}  // namespace
+
+void bind_sampling(py::module_& m) {
+  py::enum_<SampleKind>(m, "SampleKind", "What a sample lies on.")
+      .value("CORNER", SampleKind::kCorner)
+      .value("SHARP", SampleKind::kSharp)
+      .value("BOUNDARY", SampleKind::kBoundary)
+      .value("VERTEX", SampleKind::kVertex)
+      .value("SURFACE", SampleKind::kSurface);
+  using S = SurfaceSamples;
+  py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", kSamplesDoc, py::is_final())
+      .def_property_readonly("points", view_property<double>(&S::points),
+                             "(n, 3) float64: the samples.")
+      .def_property_readonly("normals", view_property<double>(&S::normals),
+                             "(n, 3) float64: outward unit normals; where sides meet their mean; "
+                             "zero where there is none.")
+      .def_property_readonly("triangle", view_property<int32_t>(&S::triangle),
+                             "(n,) int32: row of the triangle that the sample lies on.")
+      .def_property_readonly("barycentric", view_property<double>(&S::barycentric),
+                             "(n, 3) float64: where on its triangle.")
+      .def_property_readonly("kind", view_property<int32_t>(&S::kind),
+                             "(n,) int32: values of `SampleKind`, ascending.")
+      .def_property_readonly("radius", view_property<double>(&S::radius),
+                             "(n,) float64: radius of the sample's disc.")
+      .def_property_readonly("sharp_edges", view_property<int32_t>(&S::sharp_edges),
+                             "(e, 2) int32: rows p < q of the ends of the sharp edges, sorted.")
+      .def_readonly("area", &S::area, "Area of the sampled surface.");
+  m.def("sample_surface", &sample, kSampleDoc, py::arg("vertices"), py::arg("triangles"),
+        py::kw_only(), py::arg("count") = py::none(), py::arg("spacing") = py::none(),
+        py::arg("sizing") = py::none(), py::arg("sharp_angle") = SamplingOptions{}.sharp_angle,
+        py::arg("sharp_edges") = py::none(), py::arg("smooth") = false,
+        py::arg("keep_vertices") = false, py::arg("seed") = 0, py::arg("progress") = nullptr,
+        py::arg("threads") = 0);
+}
+
+}  // namespace medial::python
