@@ -79,7 +79,7 @@ def _crossings(queries: Array, corners: Array, triangles: Ints) -> Ints:
         [_turn(queries, corners, triangles[:, i], triangles[:, (i + 1) % 3]) for i in range(3)]
     )
     left = turns >= 0.0
-    reverse = triangles.T > np.roll(triangles.T, -1, axis=0)
+    reverse = np.roll(triangles.T, -1, axis=0) < triangles.T
     left = np.where(reverse, ~left, left)
     sign = np.where(left.all(axis=0), 1, np.where(left.any(axis=0), 0, -1))
     weights = np.abs(np.roll(turns, -1, axis=0))  # each corner's: the turn about the opposite edge

@@ -1,0 +1,317 @@
+"""Judges of the sampling that know nothing of how it is done: even, apart, without holes, blind to the triangulation.
+
+White noise, as areas alone would give, has chi-square 1 per degree of freedom and a flat spectrum of 1; blue noise
+stays far below both at long range, and above the disc's radius at short range.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import distance
+import meshes
+import numpy as np
+import pytest
+import resampled
+import shape_meshes
+from scipy.spatial import cKDTree
+
+CORNER, SHARP, BOUNDARY, VERTEX, SURFACE = range(5)
+
+
+def needles(around: int = 700) -> meshes.Mesh:
+    """A cylinder as CAD programs make it: triangles as long as the whole."""
+    return meshes.lathe(np.array([[0, -1.0], [0.5, -1.0], [0.5, 1.0], [0, 1.0]]), around)
+
+
+def uneven_box() -> meshes.Mesh:
+    """Two large triangles on most faces, 3,200 tiny ones on one."""
+    vertices, triangles = meshes.box((1, 1, 1))
+    fine, cells = meshes.rectangle(40, 40)
+    lid = vertices[triangles][:, :, 2].min(axis=1) > 0.39
+    top = np.column_stack((fine * (1.0, 0.7), np.full(len(fine), 0.4)))
+    return meshes.join((vertices, triangles[~lid]), (top, cells))
+
+
+MESHES = {
+    name: shape_meshes.MESHED[name][1]
+    for name in ("ellipsoid", "box", "cylinder", "torus", "spherical shell", "cone", "slab")
+} | {"needles": needles(), "uneven box": uneven_box(), "grid box": meshes.box((12, 9, 6))}
+
+
+@pytest.fixture(scope="module")
+def sampled(medial):
+    cache = {}
+
+    def sample(name, count=6000, **options):
+        key = (name, count, *sorted(options.items()))
+        if key not in cache:
+            cache[key] = medial.sample_surface(*MESHES[name], count=count, **options)
+        return cache[key]
+
+    return sample
+
+
+def areas(mesh):
+    a, b, c = (mesh[0][mesh[1][:, i]] for i in range(3))
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
+def spacing(samples):
+    return resampled.spacing(samples.area, len(samples.points))
+
+
+# --- even
+
+
+def unevenness(mesh, points):
+    """Chi-square per degree of freedom over patches of the surface, each of about 60 samples."""
+    vertices, triangles = mesh
+    rng = np.random.default_rng(3)
+    dense = distance.points_on_triangles(vertices[triangles], 400_000, rng)
+    centres = cKDTree(dense[:: len(dense) // 100])
+    share = np.bincount(centres.query(dense)[1], minlength=centres.n) / len(dense)
+    count = np.bincount(centres.query(points)[1], minlength=centres.n)
+    wanted = share * len(points)
+    return np.mean((count - wanted) ** 2 / wanted)
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_counts_follow_the_area(sampled, name):
+    assert unevenness(MESHES[name], sampled(name).points) < 0.5
+
+
+@pytest.mark.parametrize(
+    "name, count",
+    [(n, c) for n in ("ellipsoid", "torus") for c in (1500, 12_000)]
+    + [(n, c) for n in ("grid box", "uneven box", "cone") for c in (12_000, 40_000)],
+)
+def test_counts_do_not_see_the_triangles(sampled, name, count):
+    """Inside triangles and at their borders there are as many as the area says: by the least barycentric coordinate,
+    whose shares of every triangle's area are 1 - (1 - 3 t)^2, for samples on the faces away from creases."""
+    samples = sampled(name, count)
+    creases = samples.points[samples.kind < VERTEX]
+    rows = samples.kind == SURFACE
+    if len(creases):
+        keep = clear_triangles(MESHES[name], creases, 2 * spacing(samples))
+        rows &= keep[samples.triangle]
+    least = samples.barycentric[rows].min(axis=1)
+    bins = 1 - (1 - 3 * least) ** 2  # uniform on [0, 1] for uniform samples
+    found, _ = np.histogram(bins, 5, (0, 1))
+    assert rows.sum() > 300
+    assert (
+        (found - rows.sum() / 5) ** 2 / (rows.sum() / 5)
+    ).sum() < 18.5  # p = 0.001 of white noise
+
+
+def clear_triangles(mesh, creases, reach):
+    """(m,) triangles all of which is farther from creases than `reach`."""
+    gap, _ = cKDTree(creases).query(mesh[0])
+    return (gap[mesh[1]] > reach).all(axis=1)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_spectrum_has_no_long_waves(medial, seed):
+    """The square of two triangles, waves that fit into it, up to half of the spacing's frequency."""
+    face, triangles = meshes.rectangle(1, 1)
+    vertices = np.column_stack((face, np.zeros(4)))
+    samples = medial.sample_surface(vertices, triangles, count=4000, seed=seed)
+    assert long_waves(samples.points[:, :2], spacing(samples)) < 0.3
+
+
+def long_waves(x, spacing):
+    """Mean power over that of independent points."""
+    top = int(0.5 * 2.0 / spacing)
+    waves = np.array([(i, j) for i in range(top) for j in range(top) if 0 < np.hypot(i, j) < top])
+    power = np.abs(np.exp(1j * np.pi * (x @ waves.T)).sum(axis=0)) ** 2 / len(x)
+    return power.mean()
+
+
+def test_white_noise_fails_these_judges():
+    rng = np.random.default_rng(0)
+    mesh = MESHES["ellipsoid"]
+    assert unevenness(mesh, distance.points_on_triangles(mesh[0][mesh[1]], 6000, rng)) > 0.7
+    assert long_waves(rng.uniform(-1, 1, (4000, 2)), resampled.spacing(4.0, 4000)) > 0.7
+
+
+# --- apart
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+@pytest.mark.parametrize("name", MESHES)
+def test_samples_are_apart(sampled, name, smooth):
+    """No sample of a face is nearer than 0.7 spacings to one whose surface looks the same way."""
+    samples = sampled(name, smooth=smooth)
+    surface = np.flatnonzero(samples.kind == SURFACE)
+    tree = cKDTree(samples.points)
+    pairs = tree.query_pairs(0.7 * spacing(samples), output_type="ndarray")
+    pairs = pairs[np.isin(pairs, surface).any(axis=1)]
+    facing = np.einsum("ij,ij->i", *(samples.normals[pairs[:, k]] for k in (0, 1)))
+    assert not (facing > 1e-9).any()
+
+
+@pytest.mark.parametrize("name", ["grid box", "uneven box", "ellipsoid", "cylinder"])
+def test_no_clusters_at_borders_of_triangles(sampled, name):
+    """A sample's nearest neighbour is as far when it lies on another triangle as when it lies on the same one."""
+    samples = sampled(name, 12_000)
+    tree = cKDTree(samples.points)
+    away, nearest = tree.query(samples.points, k=2)
+    rows = np.flatnonzero(samples.kind == SURFACE)
+    rows = rows[samples.kind[nearest[rows, 1]] == SURFACE]
+    same = samples.triangle[rows] == samples.triangle[nearest[rows, 1]]
+    assert same.sum() > 100 and (~same).sum() > 100
+    within, across = np.median(away[rows[same], 1]), np.median(away[rows[~same], 1])
+    assert across == pytest.approx(within, rel=0.06)
+
+
+def test_walls_of_a_thin_sheet_do_not_see_each_other(medial):
+    """Each has the density that it would have alone, though the other is much nearer than the spacing."""
+    thin = meshes.box((1, 1, 1), (1.0, 1.0, 1e-4))
+    samples = medial.sample_surface(*thin, count=4000)
+    sides = [np.sum((samples.kind == SURFACE) & (samples.normals[:, 2] * s > 0.9)) for s in (1, -1)]
+    assert min(sides) > 0.45 * len(samples.points)
+
+
+# --- no holes
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_no_holes(sampled, name):
+    """Every place of the flat faces is within 1.3 discs of a sample whose surface looks the same way."""
+    vertices, triangles = MESHES[name]
+    samples = sampled(name)
+    rng = np.random.default_rng(5)
+    pick = rng.choice(
+        len(triangles), 40_000, p=areas((vertices, triangles)) / areas((vertices, triangles)).sum()
+    )
+    u = np.sort(rng.random((40_000, 2)), axis=1)
+    weights = np.column_stack((u[:, 0], u[:, 1] - u[:, 0], 1 - u[:, 1]))
+    places = np.einsum("ij,ijk->ik", weights, vertices[triangles[pick]])
+    corners = vertices[triangles[pick]]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    away, near = cKDTree(samples.points).query(places, k=12)
+    facing = np.einsum("ij,ikj->ik", normal, samples.normals[near]) > 0
+    away = np.where(facing | (samples.kind[near] != SURFACE), away, np.inf).min(axis=1)
+    assert away.max() < 1.3 * samples.radius.max()
+
+
+# --- creases
+
+
+def creases_of(mesh, angle=np.pi / 6):
+    """Sharp edges and edges of one triangle, as pairs of coordinates: by a dictionary and nothing else."""
+    vertices, triangles = mesh
+    _, rows = np.unique(vertices + 0.0, axis=0, return_inverse=True)
+    rows = rows.reshape(-1)
+    corners = vertices[triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    users = {}
+    for face, corner in enumerate(rows[triangles].tolist()):
+        for a, b in zip(corner, corner[1:] + corner[:1]):
+            if a != b:
+                users.setdefault((min(a, b), max(a, b)), []).append((face, a < b))
+    first = np.zeros(rows.max() + 1, dtype=int)
+    first[rows[::-1]] = np.arange(len(rows))[::-1]
+    sharp, boundary = [], []
+    for (a, b), uses in users.items():
+        ends = (vertices[first[a]], vertices[first[b]])
+        if len(uses) == 1:
+            boundary.append(ends)
+            continue
+        (one, way), (other, back) = uses[:2]
+        if len(uses) > 2 or way == back or normal[one] @ normal[other] <= np.cos(angle):
+            sharp.append(ends)
+    return np.array(sharp).reshape(-1, 2, 3), np.array(boundary).reshape(-1, 2, 3)
+
+
+def assert_creases_are_covered(samples, mesh, doubtful=0):
+    sharp, boundary = creases_of(mesh)
+    assert len(samples.sharp_edges) == pytest.approx(len(sharp), abs=doubtful)
+    on_creases = samples.points[samples.kind <= BOUNDARY]
+    assert len(on_creases) or not len(sharp) + len(boundary)
+    edges = np.concatenate((sharp, boundary))
+    if len(edges):
+        t = np.linspace(0, 1, 41)[:, None, None]
+        along = (edges[:, 0] + t * (edges[:, 1] - edges[:, 0])).reshape(-1, 3)
+        assert cKDTree(on_creases).query(along)[0].max() <= 0.51 * spacing(samples)
+        on_edges = samples.points[(samples.kind == SHARP) | (samples.kind == BOUNDARY)]
+        assert distance.to_triangles(on_edges, edges[:, [0, 1, 1]]).max() < 1e-9 * np.ptp(mesh[0])
+    corners = samples.points[samples.kind == CORNER]
+    assert not len(corners) or cKDTree(mesh[0]).query(corners)[0].max() == 0.0
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_creases_are_covered(sampled, name):
+    assert_creases_are_covered(sampled(name), MESHES[name])
+
+
+@pytest.mark.parametrize(
+    "file", ["fandisk_large.off", "mannequin.off", "openscad-nonmanifold-crash.obj"]
+)
+def test_creases_of_real_meshes_are_covered(medial, data_file, file):
+    mesh = meshes.read(data_file(file))
+    doubtful = (
+        10 if "nonmanifold" in file else 0
+    )  # edges of four triangles, faces that cancel each other
+    assert_creases_are_covered(medial.sample_surface(*mesh, count=10_000), mesh, doubtful)
+
+
+# --- graded
+
+
+def test_counts_follow_the_sizing(medial):
+    """Spacings from 1 to 10: in slices along x as many as the integral of 2 / (sqrt(3) s^2)."""
+    mesh = MESHES["ellipsoid"]
+    x = mesh[0][:, 0]
+    wanted = 0.01 * 10.0 ** ((x - x.min()) / np.ptp(x))
+    samples = medial.sample_surface(*mesh, sizing=(mesh[0], wanted), count=20_000)
+    area = areas(mesh)
+    _, nearest = cKDTree(mesh[0]).query(mesh[0][mesh[1]].mean(axis=1))
+    density = area * 2 / np.sqrt(3) / wanted[nearest] ** 2
+    middle = mesh[0][mesh[1]].mean(axis=1)[:, 0]
+    edges = np.linspace(-1, 1, 9)
+    share = np.histogram(middle, edges, weights=density)[0] / density.sum()
+    found = np.histogram(samples.points[:, 0], edges)[0] / len(samples.points)
+    assert len(samples.points) <= 20_000
+    assert np.allclose(found, share, rtol=0.25, atol=2e-3)
+
+
+def test_graded_samples_are_apart(medial):
+    """Brute force over all pairs: never nearer than the smaller of the two discs."""
+    mesh = MESHES["box"]
+    fine, _ = meshes.box((12, 9, 6))
+    wanted = 0.02 * 10.0 ** (0.5 * (fine[:, 0] + 1))
+    samples = medial.sample_surface(*mesh, sizing=(fine, wanted), count=2000)
+    away = np.linalg.norm(samples.points[:, None] - samples.points[None], axis=2)
+    facing = samples.normals @ samples.normals.T
+    least = np.minimum(samples.radius[:, None], samples.radius[None])
+    surface = samples.kind == SURFACE
+    judged = (surface[:, None] | surface[None]) & (facing > 1e-9)
+    np.fill_diagonal(judged, False)
+    assert judged.any() and not (judged & (away < least * (1 - 1e-9))).any()
+    assert samples.radius.max() > 4 * samples.radius.min()
+
+
+# --- the same again
+
+
+PROGRAM = """
+import hashlib, sys
+sys.path.insert(0, sys.argv[1])
+import conftest, meshes
+from medial_axis.core import native
+samples = native.load().sample_surface(*meshes.torus(), count=5000, smooth=True, threads=int(sys.argv[2]))
+print(hashlib.sha256(samples.points.tobytes() + samples.radius.tobytes()).hexdigest())
+"""
+
+
+def test_another_process_gives_the_same_bytes():
+    folder = str(Path(__file__).parent)
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", PROGRAM, folder, threads], check=True, capture_output=True
+        ).stdout
+        for threads in ("1", "2", "5")
+    }
+    assert len(found) == 1

@@ -1,0 +1,53 @@
+"""From a mesh to a medial axis by way of samples of its surface, as the add-on and as the bare module do it."""
+
+from typing import Any
+
+import numpy as np
+from meshes import Mesh
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def by_the_addon(mesh: Mesh, **options: Any) -> Any:
+    """A `Computation` of the add-on, without Blender. Options are those of its settings, else the defaults."""
+    from medial_axis.core.analysis import compute
+    from medial_axis.core.settings import Settings
+
+    return compute(*mesh, Settings(**options))
+
+
+def of_surface(mesh: Mesh, count: int, **options: Any) -> Any:
+    """The same with so many samples of the surface, whatever its vertices are like."""
+    from medial_axis.core.settings import Sampling
+
+    return by_the_addon(mesh, sampling=Sampling.SURFACE, samples=count, **options)
+
+
+def graded(medial: Any, mesh: Mesh, count: int, spacings: Array) -> tuple[Any, Any]:
+    """Samples with these spacings at the mesh's vertices, up to a factor, and the inner axis, by the bare module."""
+    vertices, triangles = mesh
+    samples = medial.sample_surface(
+        vertices, triangles, sizing=(vertices, spacings), count=count, smooth=True
+    )
+    analysis = medial.MedialAnalysis(samples.points, triangles, vertices=vertices)
+    return samples, analysis.extract(side=medial.Side.INNER)
+
+
+def spacing(area: float, count: int) -> float:
+    """Distance of neighbours in a hexagonal lattice of so many points."""
+    return float(np.sqrt(2 * area / (np.sqrt(3) * count)))
+
+
+def area(mesh: Mesh) -> float:
+    a, b, c = (mesh[0][mesh[1][:, i]] for i in range(3))
+    return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+
+
+def diagonal(vertices: Array) -> float:
+    return float(np.linalg.norm(np.ptp(vertices, axis=0)))
+
+
+def turned(mesh: Mesh, frame: Array) -> Mesh:
+    """Rotated and rounded to float32, as Blender keeps it."""
+    return (mesh[0] @ frame.T).astype(np.float32).astype(float), mesh[1]
