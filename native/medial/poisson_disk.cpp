@@ -72,8 +72,8 @@ class DartReader {
 
   Place operator()(int64_t dart) {
     if (dart >= darts_.first[slot_ + 1]) {
-      do ++slot_;
-      while (dart >= darts_.first[slot_ + 1]);
+      ++slot_;
+      if (dart >= darts_.first[slot_ + 1]) slot_ = darts_.slot_of(dart);
       enter();
     }
     return place_in(piece(), corners_, dart - darts_.first[slot_], shift_);
