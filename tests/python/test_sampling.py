@@ -78,3 +78,453 @@ def test_same_bytes_for_any_threads_and_others_for_another_seed(medial, options)
     first = sample(threads=1)
     assert all(sample(threads=threads) == first for threads in (1, 2, 3, 4))
     assert sample(seed=1) != first
+
+
+# --- density
+
+
+def test_counts_follow_area_over_triangle_groups(medial):
+    """No clustering at the borders of triangles: blue noise is more even than chance, so chi-square is small."""
+    vertices, triangles = meshes.box((3, 2, 1), half=(1.5, 1.0, 0.5))
+    samples = medial.sample_surface(vertices, triangles, spacing=0.03, sharp_angle=np.pi)
+    assert (samples.kind == SURFACE).all()
+    corners = vertices[triangles]
+    area = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    thirds = np.digitize(samples.barycentric.min(axis=1), (1 / 15, 1 / 7))
+    share = np.diff((0, 1 - (4 / 5) ** 2, 1 - (4 / 7) ** 2, 1))  # rim, between, middle
+    found = np.zeros((len(triangles), 3))
+    np.add.at(found, (samples.triangle, thirds), 1)
+    expected = np.outer(area / area.sum(), share) * len(samples.points)
+    for f, e in ((found, expected), (found.sum(axis=1), expected.sum(axis=1))):
+        assert ((f - e) ** 2 / e).sum() < f.size
+    assert np.allclose(found.sum(axis=0), expected.sum(axis=0), rtol=0.03)
+
+
+def test_density_of_curved_triangles_is_even(medial):
+    """Sixteen sides of a cylinder, each bent to an arc: as many samples in the middle of a side as at its ends."""
+    samples = medial.sample_surface(*cylinder(16), count=20000, smooth=True)
+    side = (np.abs(samples.normals[:, 2]) < 0.1) & (np.abs(samples.points[:, 2]) < 0.9)
+    turn = np.arctan2(samples.points[side, 1], samples.points[side, 0]) * 16 / (2 * np.pi) % 1
+    found = np.histogram(turn, 8, (0, 1))[0]
+    assert np.allclose(found, found.mean(), rtol=0.04)
+
+
+def test_opposite_walls_do_not_repel(medial):
+    """A sheet much thinner than the spacing has as many samples on each side as a thick one."""
+    vertices, triangles = meshes.box((6, 6, 1), half=(1.0, 1.0, 0.002))
+    samples = medial.sample_surface(vertices, triangles, spacing=0.1)
+    up = (samples.normals[:, 2] > 0.9) & (samples.kind == SURFACE)
+    down = (samples.normals[:, 2] < -0.9) & (samples.kind == SURFACE)
+    inside = (1.8 * 1.8) / (0.1**2 * np.sqrt(3) / 2)
+    assert up.sum() > 0.9 * inside and down.sum() > 0.9 * inside
+    for wall, z in ((up, 0.002), (down, -0.002)):
+        grid = np.stack(np.meshgrid(*[np.linspace(-0.9, 0.9, 60)] * 2, [z]), -1).reshape(-1, 3)
+        assert cKDTree(samples.points[wall]).query(grid)[0].max() < 1.25 * samples.radius.max()
+
+
+# --- creases
+
+
+def cylinder(sides=32, radius=1.0, half=1.0):
+    turn = np.arange(sides) * 2 * np.pi / sides
+    ring = np.column_stack((np.cos(turn), np.sin(turn))) * radius
+    vertices = np.concatenate([np.column_stack((ring, np.full(sides, z))) for z in (-half, half)])
+    i, k = np.arange(sides), np.arange(1, sides - 1)
+    j, zero = (i + 1) % sides, np.zeros(sides - 2, int)
+    triangles = [np.column_stack((i, j, j + sides)), np.column_stack((i, j + sides, i + sides))]
+    triangles += [np.column_stack((zero, k + 1, k)), np.column_stack((zero, k, k + 1)) + sides]
+    return vertices, np.concatenate(triangles).astype(np.int32)
+
+
+def farthest_from_samples(samples, vertices):
+    """Largest distance of a place on a sharp edge to the samples of creases."""
+    ends = vertices[samples.sharp_edges]
+    along = ends[:, :1] + np.linspace(0, 1, 21)[:, None] * (ends[:, 1:] - ends[:, :1])
+    tree = cKDTree(samples.points[samples.kind <= BOUNDARY])
+    return tree.query(along.reshape(-1, 3))[0].max()
+
+
+def test_rims_of_a_cylinder(medial):
+    vertices, triangles = cylinder()
+    samples = medial.sample_surface(vertices, triangles, spacing=0.1)
+    assert len(samples.sharp_edges) == 64
+    assert not (samples.kind == CORNER).any()
+    assert farthest_from_samples(samples, vertices) <= 0.05 * (1 + 1e-9)
+    rim = samples.points[samples.kind == SHARP]
+    assert (vertices[0] == rim).all(axis=1).any()  # the loops start at their lowest rows
+    assert (vertices[32] == rim).all(axis=1).any()
+
+
+def test_prism_at_the_threshold_is_sharp_everywhere_or_nowhere(medial):
+    """Twelve sides turn by 30 degrees, up to rounding: rounding must not choose some of the edges."""
+    vertices, triangles = cylinder(12)
+    samples = medial.sample_surface(vertices, triangles, spacing=0.2)
+    upright = (
+        vertices[samples.sharp_edges][:, 0, 2] != vertices[samples.sharp_edges][:, 1, 2]
+    ).sum()
+    assert upright == 12
+    more = medial.sample_surface(vertices, triangles, spacing=0.2, sharp_angle=np.radians(31))
+    assert len(more.sharp_edges) == 24
+
+
+def test_creases_of_the_fandisk(medial, data_file):
+    vertices, triangles = meshes.read(data_file("fandisk_large.off"))
+    samples = medial.sample_surface(vertices, triangles, count=16000)
+    assert abs(len(samples.points) - 16000) <= 320
+    assert len(samples.sharp_edges) > 1000
+    assert farthest_from_samples(samples, vertices) <= spacing_of(samples)
+    normal = np.cross(*np.moveaxis(np.diff(vertices[triangles], axis=1), 1, 0))
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    owners = {}
+    for t, corners in enumerate(triangles):
+        for i in range(3):
+            owners.setdefault(frozenset((corners[i], corners[i - 1])), []).append(t)
+    sharp = {
+        tuple(sorted(edge))
+        for edge, (s, t) in owners.items()
+        if normal[s] @ normal[t] <= np.cos(np.pi / 6)
+    }
+    assert {tuple(edge) for edge in samples.sharp_edges} == sharp
+
+
+def test_marked_edges_are_sharp_in_either_direction(medial):
+    vertices, triangles = meshes.icosphere(3)
+    plain = medial.sample_surface(vertices, triangles, spacing=0.2)
+    assert len(plain.sharp_edges) == 0
+    edge = np.sort(triangles[5][:2])
+    for marked in (edge, edge[::-1]):
+        pairs = np.array([marked, [0, 1]], dtype=np.int32)  # 0, 1 is no edge
+        samples = medial.sample_surface(vertices, triangles, spacing=0.2, sharp_edges=pairs)
+        assert samples.sharp_edges.tolist() == [edge.tolist()]
+        assert (samples.kind == CORNER).sum() == 2
+
+
+def test_tip_of_a_cone_is_kept(medial):
+    turn = np.arange(64) * 2 * np.pi / 64
+    vertices = np.column_stack((np.cos(turn), np.sin(turn), np.zeros(64)))
+    vertices = np.concatenate((vertices, [[0, 0, 2.0], [0, 0, 0]]))
+    i, j = np.arange(64), (np.arange(64) + 1) % 64
+    triangles = np.concatenate(
+        (np.column_stack((i, j, 0 * i + 64)), np.column_stack((j, i, 0 * i + 65)))
+    )
+    samples = medial.sample_surface(vertices, triangles, spacing=0.2)
+    assert samples.points[samples.kind == CORNER].tolist() == [[0, 0, 2]]
+
+
+def test_boundary_of_an_open_mesh(medial):
+    vertices, triangles = meshes.box((4, 4, 1))
+    top = vertices[triangles][:, :, 2].min(axis=1) == vertices[:, 2].max()
+    samples = medial.sample_surface(vertices, triangles[top], spacing=0.1)
+    assert len(samples.sharp_edges) == 0
+    assert (samples.kind == CORNER).sum() == 4
+    rim = samples.points[samples.kind == BOUNDARY]
+    assert np.allclose(np.abs(rim[:, :2] / (1.0, 0.7)).max(axis=1), 1)
+    assert len(rim) == 2 * (20 + 14) - 4
+    assert np.allclose(samples.normals, (0, 0, 1))
+
+
+def test_vertices_are_kept_when_asked(medial):
+    for vertices, triangles in (meshes.box(), meshes.icosphere(2)):
+        samples = medial.sample_surface(vertices, triangles, spacing=0.1, keep_vertices=True)
+        assert cKDTree(samples.points).query(vertices)[0].max() == 0
+        assert len(np.unique(samples.points, axis=0)) == len(samples.points)
+        kept = samples.points[samples.kind == VERTEX]
+        assert cKDTree(vertices).query(kept)[0].max() == 0 and len(kept) > 100
+        surface = samples.points[samples.kind == SURFACE]
+        assert cKDTree(kept).query(surface)[0].min() >= samples.radius[-1] * (1 - 1e-12)
+
+
+def test_slivers_along_an_edge_leave_it_sharp(medial):
+    """A triangle without area between two faces of a cube: the edge stays sharp, and nothing else becomes so."""
+    vertices, triangles = meshes.box((1, 1, 1))
+    p, q = medial.sample_surface(vertices, triangles, spacing=0.5).sharp_edges[0]
+    t = next(i for i, x in enumerate(triangles) if {p, q} <= set(x))
+    a, b, c = np.roll(triangles[t], -next(i for i in range(3) if triangles[t][i] not in (p, q)))
+    middle = len(vertices)
+    vertices = np.concatenate((vertices, [(vertices[b] + vertices[c]) / 2]))
+    extra = [(a, b, middle), (a, middle, c), (b, c, middle)]
+    triangles = np.concatenate((np.delete(triangles, t, axis=0), extra))
+    samples = medial.sample_surface(vertices, triangles, spacing=0.1)
+    assert farthest_from_samples(samples, vertices) <= 0.05 + 1e-9
+    assert {tuple(x) for x in samples.points[samples.kind == CORNER]} == {
+        tuple(x) for x in vertices[:8]
+    }
+
+
+# --- invariance
+
+
+def test_power_of_two_scale_changes_nothing_else(medial):
+    vertices, triangles = meshes.torus()
+    samples = medial.sample_surface(vertices, triangles, count=2000, smooth=True)
+    larger = medial.sample_surface(vertices * 2.0**40, triangles, count=2000, smooth=True)
+    assert (larger.points == samples.points * 2.0**40).all()
+    assert (larger.kind == samples.kind).all()
+
+
+@pytest.mark.parametrize("scale", [1e-30, 1.0, 1e30])
+def test_rotated_and_scaled(medial, scale):
+    vertices, triangles = meshes.box((1, 1, 1))
+    turn, _ = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))
+    turn *= np.sign(np.linalg.det(turn))
+    samples = medial.sample_surface(vertices @ turn.T * scale, triangles, count=2000)
+    assert abs(len(samples.points) - 2000) <= 40
+    assert np.bincount(samples.kind)[CORNER] == 8 and len(samples.sharp_edges) == 12
+    back = samples.points / scale @ turn
+    assert np.allclose(np.abs(back / (1.0, 0.7, 0.4)).max(axis=1), 1)
+
+
+def test_seams_close(medial):
+    """Every triangle with three vertices of its own is the same surface as with shared ones."""
+    vertices, triangles = meshes.box()
+    samples = medial.sample_surface(vertices, triangles, spacing=0.1)
+    torn = medial.sample_surface(
+        vertices[triangles.ravel()], np.arange(triangles.size).reshape(-1, 3), spacing=0.1
+    )
+    assert np.bincount(torn.kind).tolist() == np.bincount(samples.kind).tolist()
+    assert np.bincount(torn.kind, minlength=5)[BOUNDARY] == 0
+
+
+def test_repeated_triangles_count_once(medial):
+    vertices, triangles = meshes.icosphere(3)
+    twice = np.concatenate((triangles, triangles[:, [1, 2, 0]], triangles[:, ::-1]))
+    samples = medial.sample_surface(vertices, triangles, count=1000)
+    again = medial.sample_surface(vertices, twice, count=1000)
+    assert (samples.points == again.points).all()
+    assert again.area == samples.area and len(again.sharp_edges) == 0
+
+
+# --- smooth
+
+
+def off_sphere(points):
+    return np.abs(np.linalg.norm(points, axis=1) - 1)
+
+
+def off_torus(points):
+    return np.abs(np.hypot(np.hypot(points[:, 0], points[:, 1]) - 1, points[:, 2]) - 0.4)
+
+
+def off_cylinder(points):
+    cap = np.abs(np.abs(points[:, 2]) - 1) < 1e-9
+    return np.where(cap, 0, np.abs(np.hypot(points[:, 0], points[:, 1]) - 1))
+
+
+# Measured: 12.8, 37.4 and 34.4.
+@pytest.mark.parametrize(
+    "mesh, off, better",
+    [
+        (meshes.icosphere(2), off_sphere, 10),
+        (meshes.torus(), off_torus, 30),
+        (cylinder(16), off_cylinder, 30),
+    ],
+    ids=["icosphere", "torus", "cylinder"],
+)
+def test_smooth_samples_are_nearer_to_the_smooth_shape(medial, mesh, off, better):
+    flat = medial.sample_surface(*mesh, count=8000, sharp_angle=0.6)
+    smooth = medial.sample_surface(*mesh, count=8000, sharp_angle=0.6, smooth=True)
+    assert off(smooth.points).max() * better <= off(flat.points).max()
+    assert abs(len(smooth.points) - 8000) <= 160
+    spacing, surface = spacing_of(smooth), smooth.kind == SURFACE
+    nearest = cKDTree(smooth.points).query(smooth.points[surface], k=2)[0][:, 1]
+    assert nearest.min() >= 0.7 * spacing
+
+
+def test_smooth_normals_are_those_of_the_smooth_shape(medial):
+    samples = medial.sample_surface(*meshes.icosphere(2), count=4000, smooth=True)
+    outward = samples.points / np.linalg.norm(samples.points, axis=1)[:, None]
+    assert np.einsum("ij,ij->i", outward, samples.normals).min() > np.cos(0.02)
+    samples = medial.sample_surface(*cylinder(16), count=4000, smooth=True)
+    surface = samples.kind == SURFACE
+    upright = np.abs(samples.normals[surface, 2])
+    assert ((upright < 1e-12) | (upright > 1 - 1e-12)).all()
+
+
+def test_sharp_edges_have_one_curve_for_both_sides(medial):
+    """The rim of a smooth cylinder is a circle in the plane of its cap, and both sides reach it without a gap."""
+    samples = medial.sample_surface(*cylinder(16), count=20000, smooth=True)
+    rim = samples.points[samples.kind == SHARP]
+    assert np.abs(np.abs(rim[:, 2]) - 1).max() < 1e-12
+    assert off_cylinder(rim * (1, 1, 0)).max() < 1e-3
+    surface = samples.kind == SURFACE
+    cap = surface & (np.abs(samples.normals[:, 2]) > 0.5)
+    spacing = spacing_of(samples)
+    assert np.abs(np.abs(samples.points[cap, 2]) - 1).max() < 1e-12
+    assert np.hypot(*samples.points[cap, :2].T).max() > 1 - 1.2 * spacing
+    assert np.hypot(*samples.points[cap, :2].T).max() <= 1 + 1e-3
+    side = samples.points[surface & ~cap]
+    assert 1 - 1.2 * spacing < np.abs(side[:, 2]).max() <= 1 + 1e-12
+
+
+def test_smooth_plane_stays_plane(medial):
+    vertices, triangles = meshes.box((3, 2, 1))
+    samples = medial.sample_surface(vertices, triangles, count=3000, smooth=True)
+    half = vertices.max(axis=0)
+    assert np.allclose(np.abs(samples.points / half).max(axis=1), 1, atol=1e-12)
+
+
+# --- sizing
+
+
+def graded(places):
+    """Spacing from 0.02 at the top of the unit sphere to 0.2 at its bottom."""
+    return 0.02 * 10 ** ((1 - places[:, 2]) / 2)
+
+
+@pytest.mark.parametrize("most", [None, 3000])
+def test_sizes_are_followed(medial, most):
+    vertices, triangles = meshes.icosphere(4)
+    sites = meshes.icosphere(5)[0]
+    samples = medial.sample_surface(vertices, triangles, sizing=(sites, graded(sites)), count=most)
+    assert most is None or 0.95 * most <= len(samples.points) <= most
+    points, radius = samples.points, samples.radius
+    tree = cKDTree(points)
+    pairs = tree.query_pairs(radius.max(), output_type="ndarray")
+    apart = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
+    assert (apart >= radius[pairs].min(axis=1) * (1 - 1e-12)).all()
+    scale = (radius / graded(points)).mean()
+    assert np.allclose(radius / graded(points), scale, rtol=0.15)
+    assert most is not None or 0.7 < scale < 0.75
+    everywhere = distance.points_on_triangles(vertices[triangles], 100000, np.random.default_rng(0))
+    gap, nearest = tree.query(everywhere)
+    assert (gap <= 1.4 * np.maximum(radius[nearest], scale * graded(everywhere))).all()
+
+
+def test_a_step_of_the_sizes_is_graded(medial):
+    vertices, triangles = meshes.icosphere(4)
+    sites = meshes.icosphere(5)[0]
+    sizes = np.where(sites[:, 2] > 0, 0.02, 0.2)
+    samples = medial.sample_surface(vertices, triangles, sizing=(sites, sizes))
+    depth = np.maximum(0, -samples.points[:, 2])
+    spacing = samples.radius / samples.radius.min() * 0.02
+    assert (spacing <= 0.02 + 0.3 * 1.4 * (depth + 0.1)).all()
+    assert spacing.max() == pytest.approx(0.2, rel=0.01)
+
+
+def test_one_site_is_a_uniform_spacing(medial):
+    vertices, triangles = meshes.torus()
+    one = (np.zeros((1, 3)), np.array([0.1]))
+    samples = medial.sample_surface(vertices, triangles, sizing=one)
+    uniform = medial.sample_surface(vertices, triangles, spacing=0.1)
+    assert np.unique(samples.radius) == np.unique(uniform.radius)
+    assert len(samples.points) == pytest.approx(len(uniform.points), rel=0.03)
+
+
+# --- any mesh
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 10])
+def test_tiny_counts(medial, count):
+    assert len(medial.sample_surface(*meshes.icosphere(3), count=count).points) == count
+
+
+def test_one_triangle(medial):
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]])
+    samples = medial.sample_surface(vertices, np.array([[0, 1, 2]]), count=100)
+    assert np.bincount(samples.kind)[CORNER] == 3
+    assert abs(len(samples.points) - 100) <= 3
+    assert samples.area == 0.5
+
+
+def test_needles_and_flat_triangles(medial):
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1e-5, 0], [0, 1e-5, 0], [0.5, 0, 0]])
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [0, 4, 1], [4, 4, 1]])
+    samples = medial.sample_surface(vertices, triangles, spacing=0.01)
+    assert cKDTree(samples.points).query(np.linspace(vertices[0], vertices[1], 500))[0].max() < 0.01
+    assert not np.isin(samples.triangle[samples.kind == SURFACE], (2, 3)).any()
+
+
+SOUPS = range(12)
+
+
+def soup(seed):
+    rng = np.random.default_rng(seed)
+    n, m = rng.integers(3, 60), rng.integers(1, 120)
+    vertices = rng.normal(size=(n, 3)) * 10.0 ** rng.integers(-20, 20)
+    if seed % 2:
+        vertices = np.round(vertices / np.abs(vertices).max() * 3)  # repeated and collinear points
+    return vertices, rng.integers(0, n, size=(m, 3))
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+@pytest.mark.parametrize("seed", SOUPS)
+def test_soups(medial, seed, smooth):
+    vertices, triangles = soup(seed)
+    area = np.linalg.norm(
+        np.cross(*np.moveaxis(np.diff(vertices[triangles], axis=1), 1, 0)), axis=1
+    )
+    spacing = np.sqrt(area.sum() / 500)
+    options = {"spacing": spacing, "smooth": smooth, "keep_vertices": seed % 3 == 0}
+    samples = medial.sample_surface(vertices, triangles, threads=1, **options)
+    again = medial.sample_surface(vertices, triangles, threads=3, **options)
+    assert (samples.points == again.points).all()
+    for x in (samples.points, samples.normals, samples.barycentric, samples.radius):
+        assert np.isfinite(x).all()
+    length = np.linalg.norm(samples.normals, axis=1)
+    assert ((length == 0) | np.isclose(length, 1)).all()
+    assert np.allclose(samples.barycentric.sum(axis=1), 1) and samples.barycentric.min() >= 0
+    used = vertices[np.unique(triangles[samples.triangle])]
+    room = 1 if smooth else 1e-9
+    size = np.ptp(used, axis=0).max()
+    assert (samples.points >= used.min(axis=0) - room * size).all()
+    assert (samples.points <= used.max(axis=0) + room * size).all()
+    if not smooth:
+        everywhere = distance.points_on_triangles(
+            vertices[triangles], 20000, np.random.default_rng(0)
+        )
+        assert cKDTree(samples.points).query(everywhere)[0].max() <= 1.4 * spacing
+
+
+TRIANGLE = (np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]]))
+SITES = (np.zeros((2, 3)), np.ones(2))
+
+
+@pytest.mark.parametrize(
+    "message, vertices, triangles, options",
+    [
+        ("without", np.zeros((3, 3)), [[0, 1, 2]], {"count": 9}),
+        ("without", np.eye(3), np.empty((0, 3), int), {"count": 9}),
+        ("without", np.empty((0, 3)), np.empty((0, 3), int), {"count": 9}),
+        ("corners below 3, found 3", np.eye(3), [[0, 1, 3]], {"count": 9}),
+        ("corners below 3, found -1", np.eye(3), [[0, 1, -1]], {"count": 9}),
+        ("finite coordinates", np.diag((1, np.nan, 1)), [[0, 1, 2]], {"count": 9}),
+        ("one of count", *TRIANGLE, {}),
+        ("one of count", *TRIANGLE, {"count": 9, "spacing": 1.0}),
+        ("one of count", *TRIANGLE, {"sizing": SITES, "spacing": 1.0}),
+        ("count of 1 to", *TRIANGLE, {"count": 0}),
+        ("count of 1 to", *TRIANGLE, {"count": 2**40}),
+        ("positive spacing", *TRIANGLE, {"spacing": 0.0}),
+        ("positive spacing", *TRIANGLE, {"spacing": np.nan}),
+        ("positive spacing", *TRIANGLE, {"spacing": np.inf}),
+        ("at most 268435455 samples", *TRIANGLE, {"spacing": 1e-9}),
+        ("sharp_angle of 0 to pi", *TRIANGLE, {"count": 9, "sharp_angle": 4.0}),
+        ("sharp_edges below 3, found 5", *TRIANGLE, {"count": 9, "sharp_edges": [[0, 5]]}),
+        ("sharp_edges as", *TRIANGLE, {"count": 9, "sharp_edges": [[0.0, 1]]}),
+        ("sizing as a pair", *TRIANGLE, {"sizing": np.ones(3)}),
+        ("spacings of the sites as", *TRIANGLE, {"sizing": (np.zeros((2, 3)), np.ones((2, 1)))}),
+        ("one spacing for each", *TRIANGLE, {"sizing": (np.zeros((2, 3)), np.ones(3))}),
+        ("one spacing for each", *TRIANGLE, {"sizing": (np.zeros((0, 3)), np.ones(0))}),
+        ("spacings of the sites, found -1", *TRIANGLE, {"sizing": (np.eye(3), -np.ones(3))}),
+        ("found (nan", *TRIANGLE, {"sizing": (np.full((2, 3), np.nan), np.ones(2))}),
+        ("0 to 1024 threads", *TRIANGLE, {"count": 9, "threads": -1}),
+    ],
+)
+def test_bad_arguments(medial, message, vertices, triangles, options):
+    if "sharp_edges" in options:
+        options = options | {"sharp_edges": np.array(options["sharp_edges"])}
+    with pytest.raises(medial.InvalidInputError) as error:
+        medial.sample_surface(vertices, np.array(triangles), **options)
+    assert message in str(error.value)
+    assert str(error.value).endswith(".") and "\n" not in str(error.value)
+
+
+def test_cancel_and_progress(medial):
+    progress = medial.Progress()
+    medial.sample_surface(*meshes.icosphere(4), count=20000, progress=progress)
+    assert 0.5 < progress.fraction <= 1 and progress.stage == "Sampling"
+    progress = medial.Progress()
+    progress.cancel()
+    with pytest.raises(medial.Cancelled):
+        medial.sample_surface(*meshes.icosphere(4), count=20000, progress=progress)
