@@ -23,35 +23,44 @@ Barycentric centre(const std::array<Barycentric, 3>& c) {
           (c[0].c + c[1].c + c[2].c) / 3};
 }
 
+// Of a curved part that of its chord triangle.
+double area_of(const std::array<Vec3, 3>& p) {
+  return 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
+}
+
 class Cutter {
  public:
-  Cutter(const CurvedSurface& surface, int cuts, const Spacing& spacing, std::vector<Piece>& out)
-      : surface_(surface), cuts_(cuts), spacing_(spacing), out_(out) {}
+  Cutter(const CurvedSurface& surface, int cuts, const Spacing& spacing, std::vector<Piece>& out,
+         int32_t triangle)
+      : patch_(surface.patch(triangle)),
+        cuts_(cuts),
+        spacing_(spacing),
+        out_(out),
+        triangle_(triangle) {}
 
-  void cut(int32_t triangle, uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
-    const double spacing = spacing_(surface_.point(triangle, centre(corners)));
-    if (depth < cuts_ ||
-        (spacing_.field && depth < kMostCuts && wider(triangle, corners, spacing))) {
-      for (uint32_t i = 0; i < 4; ++i) {
-        cut(triangle, path << 2 | i, quarter(corners, i), depth + 1);
-      }
+  void cut(uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
+    const double spacing =
+        spacing_.field ? spacing_(patch_.point(centre(corners))) : spacing_.scale;
+    const std::array<Vec3, 3> at{patch_.point(corners[0]), patch_.point(corners[1]),
+                                 patch_.point(corners[2])};
+    if (depth < cuts_ || (spacing_.field && depth < kMostCuts && wider(at, 2 * spacing))) {
+      for (uint32_t i = 0; i < 4; ++i) cut(path << 2 | i, quarter(corners, i), depth + 1);
       return;
     }
-    const double area = surface_.area(triangle, corners);
-    if (area > 0) out_.push_back({triangle, path, area, spacing});
+    const double area = area_of(at);
+    if (area > 0) out_.push_back({triangle_, path, area, spacing});
   }
 
  private:
-  bool wider(int32_t triangle, const std::array<Barycentric, 3>& corners, double spacing) const {
-    const Vec3 p = surface_.point(triangle, corners[0]), q = surface_.point(triangle, corners[1]),
-               r = surface_.point(triangle, corners[2]);
-    return std::max({distance(p, q), distance(q, r), distance(r, p)}) > 2 * spacing;
+  static bool wider(const std::array<Vec3, 3>& p, double width) {
+    return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])}) > width;
   }
 
-  const CurvedSurface& surface_;
+  Patch patch_;
   int cuts_;
   const Spacing& spacing_;
   std::vector<Piece>& out_;
+  int32_t triangle_;
 };
 
 }  // namespace
@@ -70,8 +79,8 @@ std::vector<Piece> cut_into_pieces(const CurvedSurface& surface, int cuts, const
   return parallel_append<Piece>(
       count, run,
       [&](int64_t t, std::vector<Piece>& out, int) {
-        Cutter(surface, cuts, spacing, out)
-            .cut(static_cast<int32_t>(t), 1, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 0);
+        Cutter(surface, cuts, spacing, out, static_cast<int32_t>(t))
+            .cut(1, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 0);
       },
       64);
 }

@@ -25,6 +25,23 @@ Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
 
 }  // namespace
 
+// The control point in the middle: a quarter of the handles less a sixth of the corners.
+Patch::Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles)
+    : corners_{p, q, r}, flat_(false), handles_(handles), centre_((-1.0 / 6) * (p + q + r)) {
+  for (const Vec3& handle : handles) centre_ = centre_ + 0.25 * handle;
+}
+
+Vec3 Patch::point(const Barycentric& at) const {
+  const auto& [p, q, r] = corners_;
+  const auto& [a, b, c] = at;
+  if (flat_) return p + b * (q - p) + c * (r - p);
+  const auto& [pq, qp, qr, rq, rp, pr] = handles_;
+  const Vec3 corners = a * a * a * p + b * b * b * q + c * c * c * r;
+  const Vec3 edges =
+      a * b * (a * pq + b * qp) + b * c * (b * qr + c * rq) + c * a * (c * rp + a * pr);
+  return corners + 3 * edges + 6 * a * b * c * centre_;
+}
+
 CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth,
                              const Run& run)
     : mesh_(mesh) {
@@ -95,31 +112,21 @@ const Vec3& CurvedSurface::handle(int32_t triangle, int from, int to) const {
   return handles_[edge][t[from] < t[to] ? 0 : 1];
 }
 
-Vec3 CurvedSurface::point(int32_t triangle, const Barycentric& at) const {
+Patch CurvedSurface::patch(int32_t triangle) const {
   const Triangle& t = mesh_.triangles[triangle];
   const Vec3 &p = mesh_.points[t[0]], &q = mesh_.points[t[1]], &r = mesh_.points[t[2]];
-  const auto& [a, b, c] = at;
-  if (!smooth()) return p + b * (q - p) + c * (r - p);
-  const Vec3 &pq = handle(triangle, 0, 1), &qp = handle(triangle, 1, 0);
-  const Vec3 &qr = handle(triangle, 1, 2), &rq = handle(triangle, 2, 1);
-  const Vec3 &rp = handle(triangle, 2, 0), &pr = handle(triangle, 0, 2);
-  // The inner control point: a quarter of the handles less a sixth of the corners.
-  const Vec3 centre = 0.25 * (pq + qp + qr + rq + rp + pr) - (1.0 / 6) * (p + q + r);
-  const Vec3 corners = a * a * a * p + b * b * b * q + c * c * c * r;
-  const Vec3 edges =
-      a * b * (a * pq + b * qp) + b * c * (b * qr + c * rq) + c * a * (c * rp + a * pr);
-  return corners + 3 * edges + 6 * a * b * c * centre;
+  if (!smooth()) return {p, q, r};
+  return {p,
+          q,
+          r,
+          {handle(triangle, 0, 1), handle(triangle, 1, 0), handle(triangle, 1, 2),
+           handle(triangle, 2, 1), handle(triangle, 2, 0), handle(triangle, 0, 2)}};
 }
 
 Vec3 CurvedSurface::normal(int32_t triangle, const Barycentric& at) const {
   if (!smooth()) return mesh_.normal[triangle];
   const auto& [i, j, k] = fan_of_[triangle];
   return normalized(at.a * fan_normals_[i] + at.b * fan_normals_[j] + at.c * fan_normals_[k]);
-}
-
-double CurvedSurface::area(int32_t triangle, const std::array<Barycentric, 3>& part) const {
-  const Vec3 p = point(triangle, part[0]);
-  return 0.5 * length(cross(point(triangle, part[1]) - p, point(triangle, part[2]) - p));
 }
 
 }  // namespace medial

@@ -10,6 +10,22 @@ struct Barycentric {
   double a, b, c;
 };
 
+// A triangle, flat or cubic.
+class Patch {
+ public:
+  Patch(const Vec3& p, const Vec3& q, const Vec3& r) : corners_{p, q, r} {}
+  // The inner control points of the edges: pq, qp, qr, rq, rp, pr, named by the nearer corner.
+  Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles);
+
+  Vec3 point(const Barycentric& at) const;
+
+ private:
+  std::array<Vec3, 3> corners_;
+  bool flat_ = true;
+  std::array<Vec3, 6> handles_;
+  Vec3 centre_;
+};
+
 class CurvedSurface {
  public:
   // Both outlive the surface. Normals are averages over smooth fans, weighted by angle.
@@ -17,11 +33,10 @@ class CurvedSurface {
 
   bool smooth() const { return !handles_.empty(); }
   const TriangleMesh& mesh() const { return mesh_; }
-  Vec3 point(int32_t triangle, const Barycentric& at) const;
+  Patch patch(int32_t triangle) const;
+  Vec3 point(int32_t triangle, const Barycentric& at) const { return patch(triangle).point(at); }
   // Unit, or zero where there is none.
   Vec3 normal(int32_t triangle, const Barycentric& at) const;
-  // Area of the part of a triangle between three places; of a curved part that of the chords.
-  double area(int32_t triangle, const std::array<Barycentric, 3>& part) const;
 
  private:
   // Inner control points of an edge, next to p and next to q.

@@ -1,6 +1,6 @@
 #include "poisson_disk.h"
 
-#include <string>
+#include <optional>
 
 namespace medial {
 namespace {
@@ -78,11 +78,14 @@ class DartReader {
     }
     return place_in(piece(), corners_, dart - darts_.first[slot_], shift_);
   }
+  // Of the dart that was read last.
   const Piece& piece() const { return darts_.pieces[darts_.of[slot_]]; }
+  Vec3 point(const Place& place) const { return patch_->point(place.barycentric()); }
 
  private:
   void enter() {
     corners_ = piece().corners();
+    patch_ = darts_.surface.patch(piece().triangle);
     const uint64_t hash = mixed(darts_.seed ^ mixed(static_cast<uint64_t>(darts_.of[slot_])));
     shift_ = {unit(hash), unit(mixed(hash))};
   }
@@ -90,6 +93,7 @@ class DartReader {
   const Darts& darts_;
   size_t slot_;
   std::array<Barycentric, 3> corners_;
+  std::optional<Patch> patch_;
   std::array<double, 2> shift_;
 };
 
@@ -117,7 +121,7 @@ std::vector<BlockKey> dart_keys(const Darts& darts, const Grid& grid, const Run&
     DartReader read(darts, begin);
     for (int64_t i = begin; i < end; ++i) {
       const Place place = read(i);
-      keys[i] = grid.block(darts.surface.point(place.triangle, place.barycentric()));
+      keys[i] = grid.block(read.point(place));
     }
   });
   return keys;
@@ -277,8 +281,7 @@ void read_darts(const Darts& darts, std::span<const uint32_t> ids, double scale,
   DartReader read(darts, ids.front());
   for (const uint32_t id : ids) {
     const Place place = read(id);
-    out.push_back({place, scale * read.piece().spacing,
-                   darts.surface.point(place.triangle, place.barycentric())});
+    out.push_back({place, scale * read.piece().spacing, read.point(place)});
   }
 }
 

@@ -245,7 +245,7 @@ struct Turn {
 int cuts_for(const Model& model, double expected) {
   if (!model.surface->smooth()) return 0;
   const double per_triangle = kDarts * expected / static_cast<double>(model.mesh.triangles.size());
-  return per_triangle < 4 ? 0 : per_triangle < 16 ? 1 : per_triangle < 64 ? 2 : kMostCuts;
+  return per_triangle < 16 ? 0 : per_triangle < 64 ? 1 : per_triangle < 256 ? 2 : kMostCuts;
 }
 
 double crease_length(const Model& model) {
