@@ -1,4 +1,4 @@
-"""Points from files: `.xyz`, `.xyzn` and `.off` (docs/formats.md)."""
+"""Points from files, with normals and polygons where a file has them (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -7,15 +7,33 @@ from collections.abc import Callable
 from pathlib import Path
 
 from .errors import OutOfMemoryError, ReadError
+from .import_arrays import read_npy, read_npz
+from .import_obj import read_obj
 from .import_off import read_off
+from .import_ply import read_ply
 from .import_result import ImportedPoints
+from .import_stl import read_stl
 from .import_text import Lines, open_lines
 from .import_xyz import read_xyz, read_xyzn
 
-READERS: dict[str, Callable[[Lines], ImportedPoints]] = {
-    ".xyz": read_xyz,
-    ".xyzn": read_xyzn,
-    ".off": read_off,
+
+def _of_lines(read: Callable[[Lines], ImportedPoints]) -> Callable[[Path], ImportedPoints]:
+    def read_file(path: Path) -> ImportedPoints:
+        with open_lines(path) as lines:
+            return read(lines)
+
+    return read_file
+
+
+READERS: dict[str, Callable[[Path], ImportedPoints]] = {
+    ".xyz": _of_lines(read_xyz),
+    ".xyzn": _of_lines(read_xyzn),
+    ".off": _of_lines(read_off),
+    ".ply": read_ply,
+    ".obj": read_obj,
+    ".stl": read_stl,
+    ".npy": read_npy,
+    ".npz": read_npz,
 }
 
 
@@ -28,17 +46,17 @@ def import_points(path: str | os.PathLike) -> ImportedPoints:
         Unknown extension, the system refuses, or the file is not what it says; all or nothing is read.
     OutOfMemoryError
     """
-    suffix = Path(path).suffix.lower()
+    path = Path(path)
+    suffix = path.suffix.lower()
     if suffix not in READERS:
         raise ReadError(
-            f"Expected a file name that ends in {', '.join(READERS)}, found '{Path(path).name}'; "
+            f"Expected a file name that ends in {', '.join(READERS)}, found '{path.name}'; "
             "choose another file"
         )
     try:
-        with open_lines(path) as lines:
-            return READERS[suffix](lines)
+        return READERS[suffix](path)
     except MemoryError as error:
         raise OutOfMemoryError(
-            f"Expected enough memory for the points of '{Path(path).name}', found too little; "
+            f"Expected enough memory for the points of '{path.name}', found too little; "
             "close other programs or use fewer points"
         ) from error

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .errors import ReadError
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -46,6 +48,58 @@ class ImportedPoints:
     @property
     def faces(self) -> int:
         return len(self.face_offsets) - 1
+
+
+def checked(
+    name: str,
+    vertices: NDArray,
+    normals: NDArray | None = None,
+    sizes: NDArray | None = None,
+    corners: NDArray | None = None,
+) -> ImportedPoints:
+    """What a file holds, after a look at all that the file may have got wrong.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for messages.
+    vertices, normals : (n, 3)
+    sizes : (f,)
+        Corners of each face; faces of fewer than three are left out.
+    corners : (sum of sizes,)
+        Face after face.
+    """
+    if len(vertices) == 0:
+        raise ReadError(f"Expected points, found none in '{name}'; choose another file")
+    _check_finite(name, "point", vertices)
+    _check_finite(name, "normal", vertices[:0] if normals is None else normals)
+    sizes = np.zeros(0, np.int64) if sizes is None else sizes.astype(np.int64)
+    corners = np.zeros(0, np.int64) if corners is None else corners.astype(np.int64)
+    kept = sizes >= 3
+    corners = corners[np.repeat(kept, sizes)]
+    bad = np.flatnonzero((corners < 0) | (corners >= len(vertices)))
+    if len(bad):
+        raise ReadError(
+            f"Expected corners from 0 to {len(vertices) - 1} in '{name}', found "
+            f"{corners[bad[0]]}; take the file from its source again"
+        )
+    left = int(np.count_nonzero(~kept))
+    return ImportedPoints(
+        np.ascontiguousarray(vertices, np.float64),
+        None if normals is None else np.ascontiguousarray(normals, np.float64),
+        np.concatenate([[0], np.cumsum(sizes[kept])]).astype(np.int32),
+        corners.astype(np.int32),
+        (f"Left out faces of fewer than three corners: {left:,}",) if left else (),
+    )
+
+
+def _check_finite(name: str, what: str, rows: NDArray) -> None:
+    bad = np.flatnonzero(~np.isfinite(rows).all(axis=1))
+    if len(bad):
+        raise ReadError(
+            f"Expected finite numbers in '{name}', found {rows[bad[0]].tolist()} as {what} "
+            f"{bad[0]}, counted from 0; mend or remove it"
+        )
 
 
 def are_normals(vectors: NDArray[np.float64]) -> bool:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import IO, TYPE_CHECKING, TextIO
 
 import numpy as np
 
@@ -176,13 +176,13 @@ class Lines:
 
 
 @contextmanager
-def open_lines(path: str | os.PathLike) -> Iterator[Lines]:
-    """The lines of a file; what the system refuses becomes a ReadError."""
+def open_file(path: str | os.PathLike, mode: str = "rb", **options: str) -> Iterator[IO]:
+    """A file to read; what the system refuses becomes a ReadError."""
     if not os.path.isfile(path):
         raise ReadError(f"Expected a file, found none at '{path}'; choose another one")
     try:
-        with open(path, encoding="latin-1") as stream:
-            yield Lines(stream, Path(path).name)
+        with open(path, mode, **options) as stream:
+            yield stream
     except ReadError:
         raise
     except OSError as error:
@@ -190,6 +190,13 @@ def open_lines(path: str | os.PathLike) -> Iterator[Lines]:
             f"Expected to read '{path}', but the system says '{error.strerror or error}'; "
             "choose another file"
         ) from error
+
+
+@contextmanager
+def open_lines(path: str | os.PathLike) -> Iterator[Lines]:
+    """The lines of a text file."""
+    with open_file(path, "r", encoding="latin-1") as stream:
+        yield Lines(stream, Path(path).name)
 
 
 def is_number(word: str | bytes) -> bool:

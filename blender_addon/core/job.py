@@ -80,6 +80,11 @@ class Job:
         """'Suzanne, 1 of 2: Poles, 42 %'."""
         return f"{', '.join((self.names[self._current], self.stage))}, {100 * self.fraction:.0f} %"
 
+    def wait(self, seconds: float) -> bool:
+        """Wait so long at most; whether it is done."""
+        self._thread.join(seconds)
+        return self.done
+
     def cancel(self) -> None:
         """Ask the thread to end; it does within 0.3 s."""
         self._cancelled = True

@@ -1,4 +1,4 @@
-"""Convex planar polygons as triangles, without new vertices and without triangles of no area.
+"""Planar polygons as triangles, without new vertices and, where they are convex, without triangles of no area.
 
 A fan from a fixed corner degenerates where that corner lies on a straight side (Voronoi facets of nearly
 cospherical samples have such corners). Here ears are cut one by one so that neither the ear nor what remains
@@ -18,7 +18,10 @@ _CHUNK = 1 << 15  # polygons cut at once; bounds the memory
 
 
 def triangulate(
-    vertices: NDArray[np.float64], face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]
+    vertices: NDArray[np.float64],
+    face_offsets: NDArray[np.int32],
+    face_vertices: NDArray[np.int32],
+    convex: bool = True,
 ) -> NDArray[np.int32]:
     """Triangulate polygons.
 
@@ -27,6 +30,8 @@ def triangulate(
     vertices : (v, 3) float64
     face_offsets : (f + 1,) int32
     face_vertices : (c,) int32
+    convex : bool
+        All polygons are; others take longer.
 
     Returns
     -------
@@ -38,15 +43,18 @@ def triangulate(
     triangles = np.empty((max(len(face_vertices) - 2 * len(counts), 0), 3), np.int32)
     for count in np.unique(counts):
         alike = np.flatnonzero(counts == count)
-        for start in range(0, len(alike), _CHUNK):
-            ids = alike[start : start + _CHUNK]
+        chunk = _CHUNK if convex else max(1, _CHUNK // int(count) ** 2)
+        for start in range(0, len(alike), chunk):
+            ids = alike[start : start + chunk]
             corners = face_vertices[face_offsets[ids][:, None] + np.arange(count)]
             places = first_triangle[ids][:, None] + np.arange(count - 2)
-            triangles[places] = _cut_ears(vertices[corners], corners)
+            triangles[places] = _cut_ears(vertices[corners], corners, convex)
     return triangles
 
 
-def _cut_ears(points: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int32]:
+def _cut_ears(
+    points: NDArray[np.float64], corners: NDArray[np.int32], convex: bool
+) -> NDArray[np.int32]:
     """Triangulate polygons.
 
     Parameters
@@ -62,7 +70,7 @@ def _cut_ears(points: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArra
     rows = np.arange(len(corners))
     ears = []
     while (size := corners.shape[1]) > 3:
-        tip = _best_ear(x, y)
+        tip = _best_ear(x, y, convex)
         ears.append(np.stack([corners[rows, (tip + step) % size] for step in (-1, 0, 1)], axis=1))
         kept = np.arange(size) != tip[:, None]
         x, y, corners = (values[kept].reshape(len(rows), size - 1) for values in (x, y, corners))
@@ -81,11 +89,35 @@ def _flattened(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
     return around[rows, :, (across + 1) % 3], around[rows, :, (across + 2) % 3]
 
 
-def _best_ear(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.intp]:
-    """(m,) the corner of each (m, k) polygon where the smaller of ear and remainder is largest."""
+def _best_ear(x: NDArray[np.float64], y: NDArray[np.float64], convex: bool) -> NDArray[np.intp]:
+    """(m,) the corner of each (m, k) polygon where the smaller of ear and remainder is largest.
+
+    Of polygons that are not convex the ear must not hold another corner. One that crosses itself may
+    have no such ear; the triangles then still have the boundary of the polygon.
+    """
     x_next, y_next = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
     x_last, y_last = np.roll(x, 1, axis=1), np.roll(y, 1, axis=1)
     ear = (x - x_last) * (y_next - y) - (y - y_last) * (x_next - x)
     whole = (x * y_next - y * x_next).sum(axis=1, keepdims=True)
     turn = np.where(whole < 0.0, -1.0, 1.0)
-    return np.minimum(turn * ear, turn * (whole - ear)).argmax(axis=1)
+    quality = np.minimum(turn * ear, turn * (whole - ear))
+    if not convex:
+        quality[_holds_corner(x, y, turn)] = -np.inf
+    return quality.argmax(axis=1)
+
+
+def _holds_corner(
+    x: NDArray[np.float64], y: NDArray[np.float64], turn: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(m, k) whether the ear at a corner holds or touches another corner, at another place than its own three."""
+    count = x.shape[1]
+    around = [(np.arange(count) + step) % count for step in (-1, 0, 1)]
+    inside = np.ones((*x.shape, count), bool)
+    apart = np.ones_like(inside)
+    for first, second in zip(around, around[1:] + around[:1], strict=True):
+        ax, ay = x[:, first, None], y[:, first, None]
+        bx, by = x[:, second, None], y[:, second, None]
+        px, py = x[:, None, :], y[:, None, :]
+        inside &= turn[..., None] * ((bx - ax) * (py - ay) - (by - ay) * (px - ax)) >= 0.0
+        apart &= (px != ax) | (py != ay)
+    return (inside & apart).any(axis=2)

@@ -6,9 +6,29 @@ from types import ModuleType
 
 
 def _modules() -> tuple[ModuleType, ...]:
-    from . import export, import_points, menus, operators, panels, properties, running
+    from . import (
+        command,
+        export,
+        import_points,
+        menus,
+        operators,
+        panels,
+        properties,
+        running,
+        sequence,
+    )
 
-    return (properties, operators, export, import_points, panels, menus, running)
+    return (
+        properties,
+        operators,
+        export,
+        import_points,
+        panels,
+        sequence,
+        menus,
+        running,
+        command,
+    )
 
 
 def register() -> None:

@@ -1,0 +1,51 @@
+"""Runs the command line: `python3 -m medial_axis ...`, `python3 FOLDER ...`, and inside any Blender
+`blender --background [FILE] --python FOLDER/__main__.py -- ...`, where FOLDER is this package's.
+"""
+
+import importlib
+import importlib.util
+import sys
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent
+
+
+def package() -> str:
+    """The name under which this folder is loaded; it is loaded where it is not.
+
+    Never twice under two names, for the compiled module can be loaded only once.
+    """
+    if __package__:
+        return __package__
+    front = str(FOLDER / "__init__.py")
+    for name, module in list(sys.modules.items()):
+        if str(getattr(module, "__file__", "")) == front:
+            return name
+    name = "medial_axis"
+    spec = importlib.util.spec_from_file_location(
+        name, front, submodule_search_locations=[str(FOLDER)]
+    )
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return name
+
+
+def main() -> int:
+    try:
+        cli = importlib.import_module(f"{package()}.cli")
+    except ModuleNotFoundError as error:
+        if error.name != "numpy":
+            raise
+        print(
+            f"medial_axis: Expected NumPy for {sys.executable}, found none; install it",
+            file=sys.stderr,
+        )
+        return 1
+    if cli.inside_blender():
+        return cli.run()
+    return cli.main(sys.argv[1:])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

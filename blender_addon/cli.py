@@ -1,0 +1,288 @@
+"""The command line (docs/command_line.md): files in, medial axes as files out.
+
+The same in three places: `blender --command medial_axis` from 4.2, `blender --background --python .../__main__.py --`
+in every version, and `python3 -m medial_axis` without Blender.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from . import __version__
+from .core import native
+from .core.batch import Item, begin, failure, finish
+from .core.errors import (
+    Cancelled,
+    DegenerateInputError,
+    InvalidInputError,
+    MedialAxisError,
+    ReadError,
+)
+from .core.export import FORMATS, format_of
+from .core.frames import at_frame, has_number, output_path, parse_frames
+from .core.import_points import READERS
+from .core.job import Job, Outcome, Task
+from .core.mesh_file import read_shape
+from .core.option_words import add_options, settings_from
+
+DONE, FAILED, USAGE, INPUT, CANCELLED = range(5)
+
+_EXAMPLES = """\
+INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend and what Blender imports.
+          Without INPUT, inside Blender: the file that is open.
+OUTPUT    a file (.ma .ply .obj .off .npz), or a folder; {name} is the object or the file, {file} the
+          file, #### the frame.
+
+examples:
+  medial_axis bunny.ply bunny.ma
+  medial_axis bunny.ply hand.obj axes/ --format ply --theta 30 --side both
+  medial_axis cloth_####.obj axes/cloth_####.npz --frames 1-250
+  medial_axis walk.blend axes/{name}_####.npz --frames 1-250 --object Body --json
+
+exit codes:
+  0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
+"""
+
+
+def main(words: Sequence[str]) -> int:
+    """Run a command line; returns its exit code."""
+    try:
+        wanted = _parse(words)
+    except SystemExit as end:  # of argparse, which has said why
+        return DONE if end.code in (None, 0) else USAGE
+    teller = _Teller(wanted.json, wanted.quiet)
+    if problem := native.problem():
+        teller.complain(problem)
+        return FAILED
+    with _interruptible():
+        try:
+            return _run(_items(wanted), wanted, teller)
+        except KeyboardInterrupt:
+            teller.complain("cancelled")
+            return CANCELLED
+
+
+def run() -> None:
+    """Run the words behind `--` and end Blender with the exit code; for `--python-expr`."""
+    words = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    code = main(words)
+    sys.stdout.flush()
+    sys.exit(code)
+
+
+def inside_blender() -> bool:
+    return "bpy" in sys.modules
+
+
+# --- what is asked for
+
+
+def _parse(words: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="medial_axis",
+        usage="medial_axis INPUT [INPUT ...] OUTPUT [options]",
+        description="The medial axis of meshes and point clouds, with radii.",
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("paths", nargs="+", metavar="PATH", help="INPUT ... OUTPUT, see below")
+    add_options(parser.add_argument_group("method"))
+    files = parser.add_argument_group("files")
+    files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
+    files.add_argument(
+        "--object",
+        action="append",
+        metavar="NAME",
+        help="of a file with objects, can be repeated (default: all visible meshes and point clouds)",
+    )
+    files.add_argument(
+        "--format",
+        choices=[suffix[1:] for suffix in FORMATS],
+        default="ma",
+        help="of files in a folder OUTPUT (default: ma)",
+    )
+    files.add_argument("--force", action="store_true", help="compute also what is finished")
+    files.add_argument("--json", action="store_true", help="one line of JSON per result")
+    files.add_argument("--quiet", action="store_true", help="no progress and no warnings")
+    parser.add_argument("--version", action="version", version=f"medial_axis {__version__}")
+    wanted = parser.parse_intermixed_args(words)
+    try:
+        _complete(wanted)
+    except (MedialAxisError, ValueError) as error:
+        parser.error(str(error))
+    return wanted
+
+
+def _complete(wanted: argparse.Namespace) -> None:
+    """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
+    *wanted.inputs, output = wanted.paths
+    wanted.settings = settings_from(wanted)
+    wanted.frames = None if wanted.frames is None else parse_frames(wanted.frames)
+    if output.endswith(("/", "\\")) or Path(output).is_dir():
+        number = "" if wanted.frames is None else "_####"
+        output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
+    format_of(output)
+    wanted.output = output
+    if not wanted.inputs and not inside_blender():
+        raise ValueError("Expected INPUT and OUTPUT, found one path; add the other")
+    if has_number(Path(output).name) != (wanted.frames is not None):
+        raise ValueError(
+            "Expected --frames together with #### in OUTPUT, found one without the other"
+        )
+    if wanted.frames is not None and (still := list(filter(_is_still, wanted.inputs))):
+        raise ValueError(
+            f"Expected #### in INPUT with --frames, found none in '{still[0]}'; add it"
+        )
+    if len(wanted.inputs) > 1 and not ("{name}" in output or "{file}" in output):
+        raise ValueError(
+            f"Expected a folder or {{name}} in OUTPUT for several inputs, found '{output}'; add it"
+        )
+
+
+def _is_still(path: str) -> bool:
+    """A file without frames of its own, and no number in its name."""
+    return Path(path).suffix.lower() in READERS and not has_number(Path(path).name)
+
+
+# --- what there is to do
+
+
+def _items(wanted: argparse.Namespace) -> Iterator[Item]:
+    """One after the other, for frames and files of Blender have to be loaded in between."""
+    if not wanted.inputs:
+        yield from _items_of_blender(None, wanted)
+    for path in wanted.inputs:
+        if Path(path).suffix.lower() in READERS or not inside_blender():
+            yield from _items_of_file(path, wanted)
+        else:
+            yield from _items_of_blender(path, wanted)
+
+
+def _items_of_file(pattern: str, wanted: argparse.Namespace) -> Iterator[Item]:
+    for frame in wanted.frames or (None,):
+        path = pattern if frame is None else at_frame(pattern, frame)
+        stem = Path(pattern).stem.rstrip("#").rstrip("_.-")
+        output = output_path(wanted.output, stem, stem, frame)
+        yield Item(path, None, frame, output, partial(read_shape, path))
+
+
+def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[Item]:
+    """The objects of a file that Blender loads, frame by frame; None: of the file that is open."""
+    from .bridge import read_scene
+
+    stem = Path(path or read_scene.open_file() or "scene").stem
+    try:
+        if path is not None:
+            read_scene.load(path)
+        names = read_scene.names(wanted.object)
+        if len(names) > 1 and "{name}" not in wanted.output:
+            raise InvalidInputError(
+                f"Expected {{name}} in OUTPUT for {len(names)} objects, found '{wanted.output}'; "
+                "add it, or choose one with --object"
+            )
+    except MedialAxisError as error:
+        output = output_path(wanted.output, stem, stem, None)
+        yield Item(path or stem, None, None, output, partial(_raise, error))
+        return
+    for frame in wanted.frames or (None,):
+        for name in names:
+            output = output_path(wanted.output, name, stem, frame)
+            read = partial(read_scene.read, name, frame)
+            yield Item(path or stem, name, frame, output, read)
+
+
+def _raise(error: MedialAxisError) -> Any:
+    raise error
+
+
+# --- doing it
+
+
+def _run(items: Iterable[Item], wanted: argparse.Namespace, teller: _Teller) -> int:
+    """All items; one that fails does not stop the others."""
+    code, outputs = DONE, set()
+    for item in items:
+        try:
+            if item.output in outputs:
+                raise InvalidInputError(
+                    f"Expected another output for each input, found '{item.output}' again; put "
+                    "{file} or {name} in OUTPUT"
+                )
+            outputs.add(item.output)
+            begun = begin(item, wanted.settings, wanted.force)
+            teller.tell(begun.kept or finish(begun, _watch(begun.task, teller.show)))
+        except (KeyboardInterrupt, Cancelled):
+            teller.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
+            return CANCELLED
+        except MedialAxisError as error:
+            teller.tell(failure(item, error))
+            of_input = isinstance(error, (ReadError, InvalidInputError, DegenerateInputError))
+            code = INPUT if of_input and code in (DONE, INPUT) else FAILED
+    return code
+
+
+def _watch(task: Task, show: Callable[[str], None]) -> Outcome:
+    """Run a task in a thread, so that Ctrl-C stops it at once."""
+    job = Job([task])
+    try:
+        while not job.wait(0.1):
+            show(job.text)
+        return job.outcomes()[0]
+    except BaseException:
+        job.stop()
+        raise
+    finally:
+        show("")
+
+
+@contextmanager
+def _interruptible() -> Iterator[None]:
+    """Ctrl-C and a polite kill raise KeyboardInterrupt, which Blender's own handlers do not."""
+    kept = {}
+    for number in (signal.SIGINT, signal.SIGTERM):
+        kept[number] = signal.getsignal(number)
+        signal.signal(number, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        for number, handler in kept.items():
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)
+
+
+class _Teller:
+    """What is said: results on standard output, all else on standard error."""
+
+    def __init__(self, json_lines: bool, quiet: bool) -> None:
+        self._json, self._quiet = json_lines, quiet
+        self._terminal = sys.stderr.isatty() and not quiet
+
+    def show(self, text: str) -> None:
+        """Progress, in one line of a terminal."""
+        if self._terminal:
+            sys.stderr.write(f"\r\x1b[K{text}")
+            sys.stderr.flush()
+
+    def complain(self, text: str) -> None:
+        print(f"medial_axis: {text}", file=sys.stderr, flush=True)
+
+    def tell(self, report: dict[str, Any]) -> None:
+        if self._json:
+            print(json.dumps(report, ensure_ascii=False), flush=True)
+        name = report["object"] or Path(report["input"]).name
+        if not self._quiet:
+            for warning in report.get("warnings", ()):
+                self.complain(f"{name}: {warning}")
+        if report["status"] in ("failed", "cancelled"):
+            self.complain(f"{name}: {report['error']}")
+        elif not self._json:
+            what = f"{report['facets']:,} facets, {report['status']}"
+            print(f"{report['output']}: {what} in {report['seconds']:.2f} s", flush=True)

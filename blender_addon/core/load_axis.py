@@ -1,0 +1,42 @@
+"""`.npz` files that the export wrote -> medial axes."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from .analysis import MedialAxis
+from .errors import ReadError
+from .import_arrays import read_arrays
+
+_FIELDS = tuple(MedialAxis.__dataclass_fields__)
+
+
+def load_axis(path: str | os.PathLike) -> MedialAxis:
+    """Read a medial axis back, exactly as it was written.
+
+    Raises
+    ------
+    ReadError
+    """
+    arrays = read_arrays(path, _FIELDS)
+    missing = [name for name in _FIELDS if name not in arrays]
+    if missing or not _fit(arrays):
+        raise ReadError(
+            f"Expected the arrays of a medial axis in '{Path(path).name}', found "
+            f"{'no ' + missing[0] if missing else 'lengths that contradict each other'}; "
+            "export it again"
+        )
+    counts = {name: int(arrays.pop(name)) for name in ("unbounded", "zero_area")}
+    return MedialAxis(**arrays, **counts)
+
+
+def _fit(arrays: dict[str, np.ndarray]) -> bool:
+    """Whether the lengths agree; what corners mean is looked at where they are used."""
+    points, faces = len(arrays["radius"]), len(arrays["side"])
+    shapes = {"vertices": (points, 3), "generators": (faces, 2), "face_offsets": (faces + 1,)}
+    shapes |= dict.fromkeys(("theta", "rho", "side"), (faces,))
+    shapes |= dict.fromkeys(("unbounded", "zero_area"), ())
+    return faces > 0 and all(arrays[name].shape == shape for name, shape in shapes.items())
