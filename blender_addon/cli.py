@@ -246,11 +246,16 @@ def _watch(task: Task, show: Callable[[str], None]) -> Outcome:
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """Ctrl-C and a polite kill raise KeyboardInterrupt, which Blender's own handlers do not."""
-    kept = {}
-    for number in (signal.SIGINT, signal.SIGTERM):
-        kept[number] = signal.getsignal(number)
-        signal.signal(number, signal.default_int_handler)
+    """The first Ctrl-C or polite kill raises KeyboardInterrupt, inside Blender, too; more are ignored."""
+    kept = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def stop(_number: int, _frame: object) -> None:
+        for number in kept:
+            signal.signal(number, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for number in kept:
+        signal.signal(number, stop)
     try:
         yield
     finally:

@@ -74,6 +74,8 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
     _remove(list(collection.objects))
     for thing in made:
         collection.objects.link(thing)
+    scene = bpy.context.scene
+    scene.frame_set(scene.frame_current)  # shows the right one
     return collection
 
 

@@ -48,6 +48,7 @@ class Job:
         self._cancelled = False
         self._outcomes: list[Outcome] = []
         self._failure: BaseException | None = None
+        self._ended = threading.Event()
         self._thread = threading.Thread(
             target=self._run, args=(tuple(tasks),), name="medial axis", daemon=True
         )
@@ -81,9 +82,11 @@ class Job:
         return f"{', '.join((self.names[self._current], self.stage))}, {100 * self.fraction:.0f} %"
 
     def wait(self, seconds: float) -> bool:
-        """Wait so long at most; whether it is done."""
-        self._thread.join(seconds)
-        return self.done
+        """Wait so long at most; whether it is done.
+
+        Not by joining the thread: a Ctrl-C in `Thread.join` makes Python 3.11 believe that it ended.
+        """
+        return self._ended.wait(seconds)
 
     def cancel(self) -> None:
         """Ask the thread to end; it does within 0.3 s."""
@@ -123,3 +126,5 @@ class Job:
             self._cancelled = True
         except BaseException as failure:  # raised where the outcomes are asked for
             self._failure = failure
+        finally:
+            self._ended.set()

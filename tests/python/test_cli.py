@@ -1,0 +1,477 @@
+"""The command line without Blender: what is written, what is said, and with which exit code it ends."""
+
+import json
+import os
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PACKAGE
+from medial_axis import cli
+from medial_axis.core import batch, option_words
+from medial_axis.core.analysis import compute
+from medial_axis.core.errors import ExportError
+from medial_axis.core.export import export_axis
+from medial_axis.core.frames import at_frame, output_path, parse_frames
+from medial_axis.core.import_points import import_points
+from medial_axis.core.load_axis import load_axis
+from medial_axis.core.settings import OPTIONS, Choice, Settings, Side, Switch
+
+ROOT = Path(__file__).resolve().parents[2]
+GOLDEN = np.pi * (1 + 5**0.5)
+
+
+def egg(stretch=1.0, count=400):
+    """(n, 6) points and normals of an ellipsoid."""
+    height = 1 - (2 * np.arange(count) + 1) / count
+    angle, level = GOLDEN * np.arange(count), np.sqrt(1 - height**2)
+    sphere = np.column_stack([level * np.cos(angle), level * np.sin(angle), height])
+    axes = np.array([1.0, 0.7, 0.5 * stretch])
+    normals = sphere / axes
+    return np.column_stack([sphere * axes, normals / np.linalg.norm(normals, axis=1)[:, None]])
+
+
+def write_egg(path, *arguments):
+    np.savetxt(path, egg(*arguments), fmt="%.17g")
+    return path
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """A folder with an egg, which is the working folder."""
+    monkeypatch.chdir(tmp_path)
+    write_egg(tmp_path / "egg.xyz")
+    return tmp_path
+
+
+@pytest.fixture
+def run(capsys):
+    """(words) -> exit code, reports of --json, standard error."""
+
+    def run_words(*words):
+        code = cli.main([*map(str, words), "--json"])
+        said = capsys.readouterr()
+        return code, [json.loads(line) for line in said.out.splitlines()], said.err
+
+    return run_words
+
+
+@pytest.fixture(scope="session")
+def program(tmp_path_factory):
+    """(words, **options) -> the finished process of `python3 -m medial_axis`."""
+    folder = tmp_path_factory.mktemp("installed")
+    (folder / "medial_axis").symlink_to(PACKAGE, target_is_directory=True)
+    environment = {**os.environ, "PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def start(*words, popen=False, **options):
+        command = [sys.executable, "-m", "medial_axis", *map(str, words)]
+        options = {"env": environment, "text": True, "stderr": subprocess.PIPE, **options}
+        options.setdefault("stdout", subprocess.PIPE)
+        return subprocess.Popen(command, **options) if popen else subprocess.run(command, **options)
+
+    return start
+
+
+def files(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+# --- one file
+
+
+def test_output_is_what_compute_and_export_make(here, run):
+    code, (report,), said = run("egg.xyz", "egg.ma", "--theta", "30", "--side", "both")
+    assert (code, said) == (cli.DONE, "")
+    found = import_points("egg.xyz")
+    settings = Settings(theta=np.pi / 6, side=Side.BOTH)
+    expected = compute(
+        found.vertices, np.zeros((0, 3), np.int32), settings, normals=found.normals
+    ).axis
+    export_axis(expected, "expected.ma")
+    assert Path("egg.ma").read_bytes() == Path("expected.ma").read_bytes()
+    assert report["status"] == "done" and report["facets"] == expected.facets > 0
+    assert report["radius"] == [expected.radius.min(), expected.radius.max()]
+    assert report["settings"]["theta"] == 30 and report["settings"]["side"] == "both"
+    assert (report["input"], report["object"], report["frame"]) == ("egg.xyz", None, None)
+    assert json.loads(Path("egg.ma.json").read_text()) == report
+
+
+@pytest.mark.parametrize("suffix", ["ma", "ply", "obj", "off", "npz"])
+def test_every_format(here, run, suffix):
+    code, (report,), _ = run("egg.xyz", f"egg.{suffix}")
+    assert code == cli.DONE and Path(report["output"]).stat().st_size > 1000
+
+
+def test_npz_comes_back(here, run):
+    _, (report,), _ = run("egg.xyz", "egg.npz")
+    axis = load_axis("egg.npz")
+    assert axis.facets == report["facets"] and len(axis.radius) == report["vertices"]
+    with np.load("egg.npz") as arrays:
+        for name in arrays:
+            np.testing.assert_array_equal(getattr(axis, name), arrays[name])
+
+
+def test_lines_for_people(here, capsys):
+    assert cli.main(["egg.xyz", "egg.ma"]) == cli.DONE
+    said = capsys.readouterr()
+    assert re.fullmatch(r"egg\.ma: [\d,]+ facets, done in \d+\.\d\d s\n", said.out)
+    assert said.err == ""
+
+
+# --- options
+
+
+def test_options_are_those_of_settings(capsys):
+    assert cli.main(["--help"]) == cli.DONE
+    text = capsys.readouterr().out
+    flags = set(re.findall(r"^  --([a-z-]+)", text, re.MULTILINE))
+    assert {name.replace("_", "-") for name in OPTIONS} <= flags
+    assert "medial_axis bunny.ply bunny.ma" in text and "exit codes:" in text
+
+
+def test_defaults_are_those_of_settings():
+    wanted = cli._parse(["a.off", "a.ma"])
+    assert wanted.settings == Settings()
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_every_option_arrives(name):
+    option = OPTIONS[name]
+    if isinstance(option, Switch):
+        word = f"--{name}".replace("_", "-")
+        values = {word: True, word.replace("--", "--no-", 1): False}
+        words = {key: [key] for key in values}
+    else:
+        if isinstance(option, Choice):
+            members = {option_words._word(member): member for member in option.items}
+        else:
+            members = {str(option_words._outward(option, option.minimum)): option.minimum}
+        words = {key: [f"--{name}".replace("_", "-"), key] for key in members}
+        values = members
+    for key, value in values.items():
+        settings = cli._parse(["a.off", *words[key], "a.ma"]).settings
+        assert getattr(settings, name) == value
+        assert getattr(option_words.settings_from(argparse_of(settings)), name) == value
+
+
+def argparse_of(settings):
+    """A namespace of the words of settings, as a report holds them."""
+    import argparse
+
+    return argparse.Namespace(**option_words.as_words(settings))
+
+
+def test_degrees_are_exact_where_it_matters():
+    for degrees, radians in ((22.5, np.pi / 8), (90, np.pi / 2), (0, 0.0)):
+        assert cli._parse(["a.off", "a.ma", f"--theta={degrees}"]).settings.theta == radians
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        ([], "required"),
+        (["a.off"], "found one path"),
+        (["a.off", "a.ma", "--theta", "x"], "invalid float"),
+        (["a.off", "a.ma", "--theta", "200"], "Expected theta from"),
+        (["a.off", "a.ma", "--side", "left"], "invalid choice"),
+        (["a.off", "a.ma", "--nonsense"], "unrecognized"),
+        (["a.off", "a.txt"], "ends in .ma"),
+        (["a.off", "folder"], "ends in .ma"),
+        (["a.off", "b.off", "a.ma"], "{name} in OUTPUT"),
+        (["a_##.off", "a.ma", "--frames", "1-3"], "--frames together with ####"),
+        (["a.off", "a_####.ma"], "--frames together with ####"),
+        (["a.off", "a_####.ma", "--frames", "1-3"], "#### in INPUT"),
+        (["a_#.off", "a_####.ma", "--frames", "3-1"], "Expected frames such as"),
+        (["a_#.off", "a_####.ma", "--frames", "1..3"], "Expected frames such as"),
+    ],
+)
+def test_wrong_usage(here, words, said, capsys):
+    assert cli.main(words) == cli.USAGE
+    text = capsys.readouterr()
+    assert said in text.err and text.out == ""
+    assert files(here) == ["egg.xyz"]
+
+
+# --- many files
+
+
+def test_a_failing_item_does_not_stop_the_others(here, run):
+    Path("bad.off").write_text("OFF\n3 x\n")
+    Path("flat.xyz").write_text("".join(f"{i} {i * i} 0\n" for i in range(50)))
+    names = ["none.ply", "bad.off", "egg.xyz", "flat.xyz"]
+    code, reports, said = run(*names, "out/")
+    assert code == cli.INPUT
+    assert [report["status"] for report in reports] == ["failed", "failed", "done", "failed"]
+    assert [report["input"] for report in reports] == names
+    assert files(here / "out") == ["egg.ma", "egg.ma.json"]
+    kinds = [report["kind"] for report in reports if "kind" in report]
+    assert kinds == ["ReadError", "ReadError", "DegenerateInputError"]
+    assert len(said.splitlines()) == 3 and "flat.xyz: " in said
+
+
+def test_what_fails_without_fault_of_the_input_is_another_code(here, run, monkeypatch):
+    code, (report,), _ = run("egg.xyz", "egg.ma", "--criteria", "ratio", "--rho", "1e9")
+    assert code == cli.FAILED and "no facet passes" in report["error"]
+    assert files(here) == ["egg.xyz"]
+
+    def refuse(*_):
+        raise ExportError("Expected room, found none; make some")
+
+    monkeypatch.setattr(batch, "export_axis", refuse)
+    assert run("egg.xyz", "none.off", "out/")[0] == cli.FAILED
+    assert run("none.off", "egg.xyz", "out/")[0] == cli.FAILED
+
+
+def test_two_results_never_share_a_file(here, run):
+    (here / "other").mkdir()
+    write_egg(here / "other" / "egg.xyz", 1.5)
+    code, reports, _ = run("egg.xyz", "other/egg.xyz", "out/")
+    assert code == cli.INPUT and [r["status"] for r in reports] == ["done", "failed"]
+    assert "found 'out/egg.ma' again" in reports[1]["error"]
+
+
+def test_numbered_files(here, run):
+    for frame in (8, 9, 10):
+        write_egg(here / f"egg_{frame:03d}.xyz", 1 + frame / 10)
+    code, reports, _ = run("egg_###.xyz", "axes/{name}.#####.npz", "--frames", "8-10")
+    assert code == cli.DONE
+    assert [r["frame"] for r in reports] == [8, 9, 10]
+    names = [f"egg.{frame:05d}.npz" for frame in (8, 9, 10)]
+    assert [r["output"] for r in reports] == [f"axes/{name}" for name in names]
+    assert len({r["digest"] for r in reports}) == 3
+    assert run("egg_###.xyz", "axes/", "--frames", "9-11", "--format", "off")[0] == cli.INPUT
+    assert {"egg_0009.off", "egg_0010.off"} <= set(files(here / "axes"))
+
+
+def test_frames():
+    assert parse_frames("1-4") == [1, 2, 3, 4]
+    assert parse_frames("7") == [7]
+    assert parse_frames("1-10:4, 3,2-3") == [1, 2, 3, 5, 9]
+    assert parse_frames("-3--1") == [-3, -2, -1]
+    for text in ("", "a", "1-", "4-1", "1-4:0", "1-4:", "1;2", "1e9"):
+        with pytest.raises(ValueError, match="Expected frames such as"):
+            parse_frames(text)
+    assert at_frame("a_####/b_##.ply", 123) == "a_0123/b_123.ply"
+    assert output_path("{file}/{name}_##.ma", "A/b: #1", "x", 3) == Path("x/A_b_ #1_03.ma")
+
+
+# --- resuming
+
+
+def test_finished_outputs_are_kept(here, run):
+    first = run("egg.xyz", "egg.ma")[1][0]
+    written = os.stat("egg.ma").st_mtime_ns, os.stat("egg.ma.json").st_mtime_ns
+    second = run("egg.xyz", "egg.ma")[1][0]
+    assert second == {**first, "status": "kept"}
+    assert (os.stat("egg.ma").st_mtime_ns, os.stat("egg.ma.json").st_mtime_ns) == written
+    assert run("egg.xyz", "egg.ma", "--force")[1][0]["status"] == "done"
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda: write_egg("egg.xyz", 1.01),
+        lambda: Path("egg.ma").unlink(),
+        lambda: Path("egg.ma.json").unlink(),
+        lambda: Path("egg.ma").write_bytes(Path("egg.ma").read_bytes()[:-1]),
+        lambda: Path("egg.ma.json").write_text("{"),
+        lambda: Path("egg.ma.json").write_text("[1]"),
+    ],
+    ids=["input", "no output", "no report", "output", "broken report", "other report"],
+)
+def test_what_changed_is_computed_again(here, run, change):
+    run("egg.xyz", "egg.ma")
+    change()
+    assert run("egg.xyz", "egg.ma")[1][0]["status"] == "done"
+    assert run("egg.xyz", "egg.ma")[1][0]["status"] == "kept"
+
+
+def test_other_settings_are_computed_again(here, run):
+    run("egg.xyz", "egg.ma")
+    assert run("egg.xyz", "egg.ma", "--rho", "9")[1][0]["status"] == "done"
+    assert run("egg.xyz", "egg.ma")[1][0]["status"] == "done"
+
+
+def test_stamp_names_all_that_matters(here):
+    shape = cli.read_shape("egg.xyz")[0]
+    stamps = {
+        batch.stamp_of(shape, settings, suffix)
+        for settings in (Settings(), Settings(rho=9.0), Settings(limit_set=True))
+        for suffix in (".ma", ".ply")
+    }
+    assert len(stamps) == 6
+
+
+# --- as a program
+
+
+def test_program_and_function_write_the_same_bytes(here, run, program):
+    run("egg.xyz", "a.npz")
+    done = program("egg.xyz", "b.npz")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert Path("a.npz").read_bytes() == Path("b.npz").read_bytes()
+
+
+def test_folder_of_the_package_is_a_program(here):
+    done = subprocess.run(
+        [sys.executable, str(PACKAGE), "egg.xyz", "egg.ma"], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (0, "") and Path("egg.ma").is_file()
+
+
+def test_program_says_usage_and_version(program):
+    assert program().returncode == cli.USAGE
+    assert program("--version").stdout.startswith("medial_axis ")
+    assert "Traceback" not in program("a.off", "b.ma", "--nonsense").stderr
+
+
+def test_blend_files_need_blender(here, run):
+    Path("a.blend").write_bytes(b"BLENDER")
+    code, (report,), _ = run("a.blend", "a.ma")
+    assert code == cli.INPUT and "found 'a.blend'" in report["error"]
+
+
+def wait_for(condition, seconds=60):
+    until = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < until, "it did not happen"
+        time.sleep(0.005)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_cancelled(here, program, number):
+    """The second of three is stopped in the middle of its computation; the first is there."""
+    np.save("big.npy", egg(count=300_000))
+    process = program("egg.xyz", "big.npy", "egg.xyz", "out/{name}.ma", "--json", popen=True)
+    assert json.loads(process.stdout.readline())["status"] == "done"
+    time.sleep(0.5)
+    process.send_signal(number)
+    out, said = process.communicate(timeout=60)
+    assert process.returncode == cli.CANCELLED and "Traceback" not in said
+    assert json.loads(out)["status"] == "cancelled"
+    assert files(here / "out") == ["egg.ma", "egg.ma.json"]
+
+
+def test_killed_while_writing_leaves_the_old_file(here, program):
+    """kill -9 as soon as the new file begins to grow beside the old one."""
+    Path("out").mkdir()
+    np.save("big.npy", egg(count=60_000))
+    assert program("big.npy", "out/big.off", "--rho", "20").returncode == 0
+    old = Path("out/big.off").read_bytes(), Path("out/big.off.json").read_bytes()
+    process = program("big.npy", "out/big.off", popen=True)
+
+    def is_writing():
+        assert process.poll() is None, "it was written before it could be killed"
+        return any(path.stat().st_size > 0 for path in Path("out").glob(".medial_axis_*.tmp"))
+
+    wait_for(is_writing)
+    process.kill()
+    process.communicate()
+    assert (Path("out/big.off").read_bytes(), Path("out/big.off.json").read_bytes()) == old
+    again = program("big.npy", "out/big.off", "--json")
+    assert json.loads(again.stdout)["status"] == "done"
+    assert Path("out/big.off").read_bytes() != old[0]
+
+
+def test_two_at_once_in_one_folder(here, program):
+    """The same work twice and other work beside it: every file is whole and as if made alone."""
+    names = []
+    for i in range(6):
+        np.save(f"egg{i}.npy", egg(1 + i / 5, 3000))
+        names.append(f"egg{i}.npy")
+    assert program(*names, "alone/").returncode == 0
+    both = [program(*order, "out/", popen=True) for order in (names, names[::-1])]
+    assert [(p.communicate()[1], p.returncode) for p in both] == [("", 0)] * 2
+    assert files(here / "out") == files(here / "alone")
+    for name in names:
+        output = Path(name).with_suffix(".ma")
+        assert (here / "out" / output).read_bytes() == (here / "alone" / output).read_bytes()
+    kept = program(*names, "out/", "--json")
+    assert [json.loads(x)["status"] for x in kept.stdout.splitlines()] == ["kept"] * 6
+
+
+def test_no_progress_in_a_pipe(here, program):
+    np.save("big.npy", egg(count=40_000))
+    done = program("big.npy", "big.ma")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_progress_on_a_terminal(here, program):
+    import pty
+
+    np.save("big.npy", egg(count=150_000))
+    ours, theirs = pty.openpty()
+    process = program("big.npy", "big.ma", popen=True, stderr=theirs)
+    os.close(theirs)
+    shown = b""
+    try:
+        while piece := os.read(ours, 4096):
+            shown += piece
+    except OSError:  # how a terminal ends
+        pass
+    os.close(ours)
+    process.communicate()
+    assert process.returncode == 0
+    assert re.search(rb"\r\x1b\[Kbig\.npy: [A-Z][a-z ]+, \d+ %|big.npy, [A-Z]", shown), shown[-300:]
+
+
+# --- documentation
+
+
+def documented(name):
+    """The commands of the fenced blocks `sh` of a page that run without Blender."""
+    text = (ROOT / "docs" / name).read_text(encoding="utf-8")
+    lines = "\n".join(re.findall(r"```sh\n(.*?)```", text, re.DOTALL)).replace("\\\n", " ")
+    return [line for line in lines.splitlines() if line.startswith("python3 -m medial_axis")]
+
+
+def test_documented_commands(here, program):
+    """Every command of the page ends well, in the order of the page."""
+    for name in ("bunny.ply", "hand.obj", "scan.xyz"):
+        write_input(here / name)
+    for frame in range(1, 6):
+        write_egg(here / f"cloth_{frame:04d}.xyz", 1 + frame / 10)
+    commands = documented("command_line.md")
+    assert len(commands) >= 5
+    for command in commands:
+        words = shlex.split(command.partition("#!")[0])[3:]
+        done = program(*words)
+        assert done.returncode == 0, f"{command}: {done.stderr}"
+
+
+def write_input(path):
+    table = egg()
+    if path.suffix == ".obj":
+        text = "".join(
+            "vn {} {} {}\nv {} {} {}\n".format(*n, *p)
+            for p, n in zip(table[:, :3].tolist(), table[:, 3:].tolist())
+        )
+    elif path.suffix == ".ply":
+        axes = "".join(f"property double {axis}\n" for axis in ("x", "y", "z", "nx", "ny", "nz"))
+        rows = "".join(" ".join(map(repr, row)) + "\n" for row in table.tolist())
+        text = f"ply\nformat ascii 1.0\nelement vertex {len(table)}\n{axes}end_header\n{rows}"
+    else:
+        write_egg(path)
+        return
+    path.write_text(text)
+
+
+def test_documented_options_are_all():
+    """The table of the page names every option, with its default."""
+    text = (ROOT / "docs" / "command_line.md").read_text(encoding="utf-8")
+    table = dict(re.findall(r"^\| `--([a-z-]+)[^`]*` \| ([^|]+?) \|", text, re.MULTILINE))
+    for name, option in OPTIONS.items():
+        shown = option_words._outward(option, option.default)
+        if isinstance(option, Switch):
+            shown = "on" if shown else "off"
+        elif not isinstance(option, Choice):
+            shown = f"{shown:g}"
+        assert table.get(name.replace("_", "-")) == shown, name
+    for flag in ("frames", "object", "format", "force", "json", "quiet"):
+        assert flag in table

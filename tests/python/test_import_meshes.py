@@ -1,0 +1,374 @@
+"""PLY, OBJ, STL and arrays of NumPy: the same cube comes out of each, and nothing wrong goes in."""
+
+import io
+import itertools
+import struct
+
+import numpy as np
+import pytest
+from medial_axis.core.errors import MedialAxisError, ReadError
+from medial_axis.core.import_points import READERS, import_points
+from medial_axis.core.mesh_file import read_shape
+from medial_axis.core.triangulate import triangulate
+
+POINTS = np.array(list(itertools.product((0.0, 1.0), repeat=3)))
+QUADS = np.array(
+    [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+)
+NORMALS = (POINTS - 0.5) / np.sqrt(0.75)
+TRIANGLES = QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+# A pyramid over the first side, so that faces of 3 and 4 corners follow each other.
+MIXED = [[0, 1, 3, 2], [0, 4, 1], [1, 4, 3], [3, 4, 2], [2, 4, 0]]
+ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+
+
+def ply(kind="ascii", faces=QUADS.tolist(), normals=None, extra=False):
+    """A PLY file; `extra` adds what has to be passed over."""
+    axes = [*"xyz"] + (["nx", "ny", "nz"] if normals is not None else [])
+    header = ["ply", f"format {kind} 1.0", "comment made by hand"]
+    if extra:
+        header += ["element camera 2", "property list uchar int view", "property float f"]
+    header += [f"element vertex {len(POINTS)}", *[f"property double {axis}" for axis in axes]]
+    header += ["property uchar red"] if extra else []
+    header += [f"element face {len(faces)}"] + (["property short tag"] if extra else [])
+    header += ["property list uchar int vertex_indices"]
+    header += ["property list uchar float uv"] if extra else []
+    rows = [[("B", n), *[("i", 7)] * n, ("f", 0.5)] for n in (1, 2)] if extra else []
+    for i, point in enumerate(POINTS):
+        values = [*point, *(normals[i] if normals is not None else ())]
+        rows.append([("d", x) for x in values] + ([("B", 200)] if extra else []))
+    for face in faces:
+        row = [("h", -4)] if extra else []
+        row += [("B", len(face)), *[("i", corner) for corner in face]]
+        rows.append(row + ([("B", 1), ("f", 0.25)] if extra else []))
+    text = "\n".join([*header, "end_header"]).encode() + b"\n"
+    if kind == "ascii":
+        return text + "".join(" ".join(f"{v:.17g}" for _, v in r) + "\n" for r in rows).encode()
+    return text + b"".join(struct.pack(ORDERS[kind] + c, v) for row in rows for c, v in row)
+
+
+def obj(faces=QUADS.tolist()):
+    lines = [f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in POINTS]
+    return "\n".join([*lines, *["f " + " ".join(str(i + 1) for i in face) for face in faces], ""])
+
+
+def stl_text():
+    facets = []
+    for triangle in POINTS[TRIANGLES]:
+        corners = "".join("    vertex {:g} {:g} {:g}\n".format(*corner) for corner in triangle)
+        facets.append(f"facet normal 0 0 0\n  outer loop\n{corners}  endloop\nendfacet\n")
+    return "solid cube\n" + "".join(facets) + "endsolid cube\n"
+
+
+def stl_binary(header=b"not solid"):
+    count = struct.pack("<I", len(TRIANGLES))
+    rows = [struct.pack("<12fH", 0, 0, 0, *POINTS[triangle].ravel(), 0) for triangle in TRIANGLES]
+    return header.ljust(80, b" ") + count + b"".join(rows)
+
+
+def npz(**arrays):
+    stream = io.BytesIO()
+    np.savez(stream, **arrays)
+    return stream.getvalue()
+
+
+def npy(array):
+    stream = io.BytesIO()
+    np.save(stream, array)
+    return stream.getvalue()
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read_content(name, content):
+        path = tmp_path / name
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return import_points(path)
+
+    return read_content
+
+
+@pytest.fixture
+def refuse(read):
+    def check(name, content, words):
+        with pytest.raises(ReadError, match=words) as error:
+            read(name, content)
+        text = str(error.value)
+        assert "\n" not in text and not text.endswith(".") and text.startswith("Expected ")
+
+    return check
+
+
+def faces_of(found):
+    return [row.tolist() for row in np.split(found.face_vertices, found.face_offsets[1:-1])]
+
+
+def assert_cube(found, normals=None, faces=QUADS.tolist()):
+    np.testing.assert_array_equal(found.vertices, POINTS)
+    assert found.vertices.dtype == np.float64 and found.face_vertices.dtype == np.int32
+    assert faces_of(found) == faces and found.warnings == ()
+    if normals is None:
+        assert found.normals is None
+    else:
+        np.testing.assert_array_equal(found.normals, normals)
+
+
+# --- PLY
+
+
+@pytest.mark.parametrize("extra", [False, True], ids=["plain", "extra"])
+@pytest.mark.parametrize("faces", [QUADS.tolist(), TRIANGLES.tolist(), MIXED, []])
+@pytest.mark.parametrize("kind", ORDERS)
+def test_ply(read, kind, faces, extra):
+    found = read("a.ply", ply(kind, faces, NORMALS, extra))
+    if faces:
+        assert_cube(found, NORMALS, faces)
+    else:
+        assert found.faces == 0
+
+
+def test_ply_without_faces(read):
+    text = ply(normals=NORMALS).split(b"element face")[0] + b"end_header\n"
+    rows = ply(normals=NORMALS).split(b"end_header\n")[1].splitlines()[: len(POINTS)]
+    found = read("a.ply", text + b"\n".join(rows))
+    np.testing.assert_array_equal(found.normals, NORMALS)
+    assert found.faces == 0
+
+
+def test_ply_of_floats_and_other_names_of_types(read):
+    content = ply("binary_little_endian").replace(b"property double", b"property float64")
+    assert_cube(read("a.ply", content.replace(b"list uchar int ", b"list uint8 uint32 ")))
+
+
+def test_ply_leaves_lines_and_points_of_faces(read):
+    found = read("a.ply", ply("binary_little_endian", [*MIXED, [0, 1], [5]]))
+    assert faces_of(found) == MIXED
+    assert found.warnings == ("Left out faces of fewer than three corners: 2",)
+
+
+@pytest.mark.parametrize(
+    "content, words",
+    [
+        (b"", "'ply' as the first line"),
+        (b"ply\nformat ascii 1.0\n", "line 3 of 'a.ply'"),
+        (b"ply\nformat text 1.0\nend_header\n", "line 2"),
+        (b"ply\nend_header\n", "line 'format'"),
+        (b"ply\nformat ascii 1.0\nelement face 0\nend_header\n", "element 'vertex'"),
+        (ply()[:-20], "12 rows|6 rows|corners in line"),
+        (ply("binary_little_endian")[:-1], "6 rows of 'face'"),
+        (ply("binary_little_endian").replace(b"vertex 8", b"vertex 999999999999"), "rows of 'vert"),
+        (ply(faces=[[0, 1, 8]]), "corners from 0 to 7"),
+        (ply("binary_big_endian", faces=[[0, 1, -1]]), "corners from 0 to 7"),
+        (ply().replace(b"\n1 1 1\n", b"\n1 nan 1\n"), "finite numbers in line 18"),
+        (ply("binary_little_endian", normals=NORMALS * np.nan), "finite numbers .* normal 0"),
+        (ply().replace(b"4 0 1 3 2", b"4 0 1 3"), "as many corners in line 19"),
+        (ply().replace(b"vertex_indices", b"strips"), "list vertex_indices"),
+    ],
+)
+def test_ply_refused(refuse, content, words):
+    refuse("a.ply", content, words)
+
+
+# --- OBJ
+
+
+def test_obj(read):
+    assert_cube(read("a.obj", obj()))
+    assert_cube(read("a.obj", obj(MIXED)), faces=MIXED)
+
+
+def test_obj_as_others_write_it(read):
+    points = "".join(f"v {x:g} {y:g} {z:g} 1.0 0.5 0.5 # c\r\n" for x, y, z in POINTS)
+    faces = "".join("f " + " ".join(f"{i - 8}/1/2" for i in face) + "\n" for face in QUADS)
+    faces = faces.replace("/1/2 ", "/1/2 \\\n", 1).replace("/1/2", "//3", 5)
+    text = "# m\nmtllib a.mtl\no Cube\nvt 0 0\nvn 0 0 1\n" + points + "usemtl x\ns off\n" + faces
+    assert_cube(read("a.obj", text))
+
+
+def test_obj_of_points_with_normals(read):
+    text = "".join(
+        "vn {:.17g} {:.17g} {:.17g}\nv {:g} {:g} {:g}\n".format(*n, *p)
+        for n, p in zip(NORMALS, POINTS)
+    )
+    found = read("a.obj", text)
+    np.testing.assert_array_equal(found.normals, NORMALS)
+    assert found.faces == 0
+
+
+@pytest.mark.parametrize(
+    "content, words",
+    [
+        ("", "points, found none"),
+        ("v 1 2\n", "after 'v' in line 1"),
+        ("v 1 2 x\n", "after 'v' in line 1"),
+        ("v 1 2 inf\n", "finite"),
+        (obj() + "f 1 2 9\n", "corners from 0 to 7"),
+        (obj() + "f 0 1 2\n", "corners from 0 to 7"),
+        (obj() + "f 1 2 -9\n", "corners from 0 to 7"),
+        (obj() + "f a b c\n", "after 'f' in line 15"),
+    ],
+)
+def test_obj_refused(refuse, content, words):
+    refuse("a.obj", content, words)
+
+
+# --- STL
+
+
+@pytest.mark.parametrize("content", [stl_text(), stl_binary(), stl_binary(b"solid it is not")])
+def test_stl(read, content):
+    found = read("a.stl", content)
+    assert len(found.vertices) == 8 and found.faces == 12
+    np.testing.assert_array_equal(
+        found.vertices[found.face_vertices.reshape(-1, 3)], POINTS[TRIANGLES]
+    )
+    first = [tuple(p) for p in found.vertices]
+    seen = list(dict.fromkeys(map(tuple, POINTS[TRIANGLES].reshape(-1, 3))))
+    assert first == seen, "points come in the order of the file"
+
+
+@pytest.mark.parametrize(
+    "content, words",
+    [
+        (b"", "'solid' at the start"),
+        (stl_binary()[:-1], "12 triangles as its header says"),
+        (stl_text().replace("    vertex 0 0 0\n", "", 1), "three corners of each facet"),
+        (stl_text().replace("vertex 0 0 0", "vertex 0 a 0", 1), "three numbers after"),
+        ("solid\nendsolid\n", "points, found none"),
+    ],
+)
+def test_stl_refused(refuse, content, words):
+    refuse("a.stl", content, words)
+
+
+# --- NumPy
+
+
+def test_arrays(read):
+    assert_cube(read("a.npz", npz(points=POINTS, triangles=TRIANGLES)), faces=TRIANGLES.tolist())
+    found = read("a.npz", npz(points=POINTS.astype("f4"), normals=NORMALS, other=np.zeros(3)))
+    np.testing.assert_array_equal(found.normals, NORMALS)
+    found = read("a.npy", npy(np.column_stack([POINTS, NORMALS])))
+    np.testing.assert_array_equal(found.vertices, POINTS)
+    np.testing.assert_array_equal(found.normals, NORMALS)
+    assert read("b.npy", npy(POINTS.astype(int))).normals is None
+
+
+@pytest.mark.parametrize(
+    "name, content, words",
+    [
+        ("a.npy", b"", "arrays of NumPy"),
+        ("a.npy", npy(POINTS)[:-1], "arrays of NumPy"),
+        ("a.npy", npy(POINTS[:, :2]), r"\(n, 3\) or \(n, 6\)"),
+        ("a.npy", npy(np.array([object()])), "arrays of NumPy"),
+        ("a.npy", npy(POINTS + np.inf), "finite"),
+        ("a.npz", npz(points=POINTS)[:-30], "arrays of NumPy"),
+        ("a.npz", npz(vertices=POINTS), "array 'points'"),
+        ("a.npz", npz(points=POINTS, triangles=QUADS), r"triangles \(n, 3\)"),
+        ("a.npz", npz(points=POINTS, triangles=POINTS), r"triangles \(n, 3\)"),
+        ("a.npz", npz(points=POINTS, normals=NORMALS[:5]), "as many normals"),
+        ("a.npz", npy(POINTS), "single array"),
+    ],
+)
+def test_arrays_refused(refuse, name, content, words):
+    refuse(name, content, words)
+
+
+# --- damaged files
+
+FUZZED = {
+    "a.ply": ply(normals=NORMALS, extra=True),
+    "b.ply": ply("binary_little_endian", MIXED, NORMALS, extra=True),
+    "c.ply": ply("binary_big_endian"),
+    "d.obj": obj().encode(),
+    "e.stl": stl_text().encode(),
+    "f.stl": stl_binary(),
+    "g.npy": npy(POINTS),
+    "h.npz": npz(points=POINTS, triangles=TRIANGLES),
+}
+
+
+@pytest.mark.parametrize("name", FUZZED)
+def test_damaged_files_are_read_or_refused(name, read):
+    random = np.random.default_rng(11)
+    refused = 0
+    for _ in range(400):
+        data = bytearray(FUZZED[name])
+        for place in random.integers(0, len(data), random.integers(1, 6)):
+            data[place] = random.integers(0, 256)
+        if random.random() < 0.3:
+            del data[random.integers(0, len(data)) :]
+        try:
+            found = read(name, bytes(data))
+        except MedialAxisError as error:
+            assert str(error).startswith("Expected ")
+            refused += 1
+        else:
+            assert np.isfinite(found.vertices).all() and len(found.vertices)
+            assert (np.diff(found.face_offsets) >= 3).all()
+            if found.faces:
+                assert found.face_vertices.min() >= 0
+                assert found.face_vertices.max() < len(found.vertices)
+    assert refused > 20
+
+
+def test_every_kind_has_a_damaged_file():
+    assert {".ply", ".obj", ".stl", ".npy", ".npz"} <= READERS.keys()
+    assert {"." + name.partition(".")[2] for name in FUZZED} | {".xyz", ".xyzn", ".off"} == set(
+        READERS
+    )
+
+
+# --- polygons of any shape
+
+
+def signed_areas(points, triangles):
+    a, b, c = (points[triangles[:, i], :2] for i in range(3))
+    u, v = b - a, c - a
+    return (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize(
+    "outline",
+    [
+        [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)],
+        [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)],
+        [(0, 0), (1, 0), (2, 0), (2, 2), (0, 2)],
+        [(0, 0), (3, 0.1), (0, 0.2), (0.5, 0.1)],
+        [(0, 0), (6, 0), (6, 6), (0, 6), (0, 1), (1, 1), (1, 5), (5, 5), (5, 1), (0.5, 0.5)],
+    ],
+    ids=["L", "M", "straight", "dart", "spiral"],
+)
+def test_concave_polygons_are_cut_inside(outline, turned):
+    points = np.column_stack([np.array(outline, float), np.zeros(len(outline))])
+    if turned:
+        points = points[::-1].copy()
+    count = len(points)
+    triangles = triangulate(
+        points, np.array([0, count], np.int32), np.arange(count, dtype=np.int32), convex=False
+    )
+    areas = signed_areas(points, triangles)
+    ring = np.roll(points, -1, axis=0)
+    whole = (points[:, 0] * ring[:, 1] - points[:, 1] * ring[:, 0]).sum() / 2
+    assert len(triangles) == count - 2 and np.sign(areas).tolist() == [np.sign(whole)] * (count - 2)
+    assert areas.sum() == pytest.approx(whole)
+
+
+def test_convex_polygons_are_cut_alike():
+    angles = np.linspace(0, 2 * np.pi, 9, endpoint=False)
+    points = np.column_stack([np.cos(angles), 2 * np.sin(angles), np.zeros(9)])
+    offsets, corners = np.array([0, 9], np.int32), np.arange(9, dtype=np.int32)
+    np.testing.assert_array_equal(
+        triangulate(points, offsets, corners), triangulate(points, offsets, corners, convex=False)
+    )
+
+
+def test_shape_of_a_file(tmp_path):
+    (tmp_path / "a.obj").write_text(obj())
+    shape, warnings = read_shape(tmp_path / "a.obj")
+    assert shape.triangles.shape == (12, 3) and shape.triangles.dtype == np.int32
+    a, b, c = (shape.points[shape.triangles[:, i]] for i in range(3))
+    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(1.0)
+    assert warnings == () and shape.normals is None
+    np.testing.assert_array_equal(shape.frame, np.identity(4))
