@@ -179,7 +179,8 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
     """The objects of a file that Blender loads, frame by frame; None: of the file that is open."""
     from .bridge import read_scene
 
-    stem = Path(path or read_scene.open_file() or "scene").stem
+    source = path or read_scene.open_file() or "unsaved.blend"
+    stem = Path(source).stem
     try:
         if path is not None:
             read_scene.load(path)
@@ -191,13 +192,13 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
             )
     except MedialAxisError as error:
         output = output_path(wanted.output, stem, stem, None)
-        yield Item(path or stem, None, None, output, partial(_raise, error))
+        yield Item(source, None, None, output, partial(_raise, error))
         return
     for frame in wanted.frames or (None,):
         for name in names:
             output = output_path(wanted.output, name, stem, frame)
             read = partial(read_scene.read, name, frame)
-            yield Item(path or stem, name, frame, output, read)
+            yield Item(source, name, frame, output, read)
 
 
 def _raise(error: MedialAxisError) -> Any:
@@ -281,7 +282,8 @@ class _Teller:
 
     def tell(self, report: dict[str, Any]) -> None:
         if self._json:
-            print(json.dumps(report, ensure_ascii=False), flush=True)
+            start = "\n" if inside_blender() else ""  # Blender may have left a line unfinished
+            print(start + json.dumps(report, ensure_ascii=False), flush=True)
         name = report["object"] or Path(report["input"]).name
         if not self._quiet:
             for warning in report.get("warnings", ()):

@@ -1,0 +1,213 @@
+"""Sequences: files of every frame, and objects that play them in viewport and render."""
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, ellipsoid, link, positions, reports, select, torus
+
+
+@pytest.fixture
+def growing():
+    """An ellipsoid that grows from frame 1 to 4, selected."""
+    source = ellipsoid("Body")
+    for frame, size in ((1, 1.0), (4, 2.0)):
+        source.scale = (size, size, size)
+        source.keyframe_insert("scale", frame=frame)
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 1, 4
+    scene.frame_set(2)
+    return source
+
+
+def play(name="Body"):
+    return next(c for c in bpy.data.collections if c.get("ma_sequence") == name)
+
+
+def shown(name="Body"):
+    """{frame: names of the objects that viewport and render show}."""
+    found = {}
+    for frame in range(-1, 8):
+        bpy.context.scene.frame_set(frame)
+        things = play(name).all_objects
+        assert all(thing.hide_viewport == thing.hide_render for thing in things)
+        found[frame] = [thing.name for thing in things if not thing.hide_render]
+    return found
+
+
+def test_files_and_playback(growing, tmp_path):
+    before = [thing.name for thing in bpy.data.objects]
+    assert bpy.ops.object.medial_axis_sequence(directory=str(tmp_path)) == {"FINISHED"}
+    assert sorted(path.name for path in tmp_path.glob("*.npz")) == [
+        f"Body_{frame:04d}.npz" for frame in range(1, 5)
+    ]
+    assert bpy.context.scene.frame_current == 2, "the frame is as before"
+    things = play().objects
+    assert len(things) == 4 == len(bpy.data.objects) - len(before)
+    sizes = [np.ptp(positions(thing.data)[:, 0]) for thing in things]
+    assert sizes == sorted(sizes) and sizes[3] / sizes[0] == pytest.approx(2.0, rel=1e-3)
+    names = [f"Body {frame:04d}" for frame in (1, 1, 1, 2, 3, 4, 4, 4, 4)]
+    assert list(shown().values()) == [[name] for name in names]
+    ranges = {(thing["ma_radius_min"], thing["ma_radius_max"]) for thing in things}
+    assert len(ranges) == 1, "the same colours mean the same radius in all frames"
+
+
+def test_attributes_come_from_the_file(growing, tmp_path):
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="3")
+    axis = addon("core.load_axis").load_axis(tmp_path / "Body_0003.npz")
+    back = addon("bridge.read_axis").read_axis(play().objects[0])
+    for name in ("radius", "theta", "rho"):
+        np.testing.assert_allclose(getattr(back, name), getattr(axis, name), rtol=1e-6)
+    np.testing.assert_array_equal(back.generators, axis.generators)
+    np.testing.assert_allclose(back.vertices, axis.vertices, rtol=1e-6, atol=1e-7)
+
+
+def test_again_keeps_files_and_replaces_objects(growing, tmp_path, capfd):
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
+    reports(capfd)
+    counts = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.actions)]
+    analyses = addon("core.cache").CACHE.analyses
+    select(growing)
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
+    assert ("Info", "4 of 4 frames are there, 4 were before") in reports(capfd)
+    assert addon("core.cache").CACHE.analyses == analyses
+    assert counts == [len(d) for d in (bpy.data.objects, bpy.data.meshes, bpy.data.actions)]
+    assert len(bpy.data.collections) == 1
+
+
+def test_panel_settings_are_used_and_the_command_line_agrees(growing, tmp_path, capfd):
+    bpy.context.scene.medial_axis.rho = 6.0
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="2-3", playback=False)
+    assert len(bpy.data.collections) == 0
+    reports(capfd)
+    words = [f"{tmp_path}/", "--frames", "2-3", "--format", "npz", "--rho", "6"]
+    assert addon("cli").main(words) == 0
+    out = capfd.readouterr().out
+    assert out.count(", kept in ") == 2
+
+
+def test_several_objects_and_a_frame_that_fails(growing, tmp_path, capfd):
+    other = torus("Ring")
+    other.scale = (1, 1, 0)
+    other.keyframe_insert("scale", frame=1)
+    other.scale = (1, 1, 1)
+    other.keyframe_insert("scale", frame=2)
+    select(growing, other)
+    assert bpy.ops.object.medial_axis_sequence(directory=str(tmp_path)) == {"FINISHED"}
+    said = reports(capfd)
+    assert ("Warning", "7 of 8 frames are there, 0 were before") in said
+    assert any(text.startswith("'Ring, frame 1': Expected") for _, text in said)
+    assert [len(play(name).objects) for name in ("Body", "Ring")] == [4, 3]
+
+
+def test_refused(growing, tmp_path):
+    with pytest.raises(RuntimeError, match="Expected a saved file"):
+        bpy.ops.object.medial_axis_sequence(directory="//axes")
+    with pytest.raises(RuntimeError, match="Expected frames such as"):
+        bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="x")
+    flat = link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [(0, 1, 3, 2)])
+    select(flat)
+    with pytest.raises(RuntimeError, match="Expected medial axes of 4 frames, found none"):
+        bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
+    assert list(tmp_path.iterdir()) == [] and len(bpy.data.collections) == 0
+    select()
+    assert not bpy.ops.object.medial_axis_sequence.poll()
+
+
+def test_folder_beside_the_file(growing, tmp_path):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    select(bpy.data.objects["Body"])
+    bpy.ops.object.medial_axis_sequence(frames="1")
+    assert (tmp_path / "medial_axis" / "Body_0001.npz").is_file()
+
+
+def test_saved_file_plays_without_the_addon(growing, tmp_path):
+    """Keys, not handlers: the file plays where the add-on is disabled, and it leaves no handler."""
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path / "axes"))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
+    for path in (tmp_path / "axes").iterdir():
+        path.unlink()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
+    names = [f"Body {frame:04d}" for frame in (1, 1, 1, 2, 3, 4, 4, 4, 4)]
+    assert list(shown().values()) == [[name] for name in names]
+    module = addon().__name__
+    for handlers in (bpy.app.handlers.frame_change_pre, bpy.app.handlers.frame_change_post):
+        assert not [h for h in handlers if h.__module__.startswith(module)]
+
+
+def test_render_shows_the_right_frame(growing, tmp_path):
+    """The extent of what Workbench draws grows as the axis does."""
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
+    growing.hide_render = True
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.data.type, camera.data.ortho_scale, camera.location = "ORTHO", 4.5, (0, 0, 10)
+    scene = bpy.context.scene
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.engine = "BLENDER_WORKBENCH"
+    scene.render.resolution_x = scene.render.resolution_y = 64
+    scene.render.film_transparent = True
+    scene.render.filepath = str(tmp_path / "render_")
+    scene.render.image_settings.file_format = "PNG"
+    bpy.ops.render.render(animation=True)
+    drawn = []
+    for frame in range(1, 5):
+        image = bpy.data.images.load(str(tmp_path / f"render_{frame:04d}.png"))
+        pixels = np.array(image.pixels[:]).reshape(64, 64, 4)
+        drawn.append(int((pixels[..., 3] > 0.5).sum()))
+    assert 0 < drawn[0] < drawn[1] < drawn[2] < drawn[3]
+    assert drawn[3] == pytest.approx(4 * drawn[0], rel=0.25)
+
+
+def test_files_of_a_farm_are_imported(growing, tmp_path, capfd):
+    words = [f"{tmp_path}/", "--frames", "1-4", "--format", "npz"]
+    assert addon("cli").main(words) == 0
+    assert len(bpy.data.collections) == 0
+    files = [{"name": path.name} for path in sorted(tmp_path.glob("*.npz"))]
+    done = bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files[::-1])
+    assert done == {"FINISHED"} and len(play().objects) == 4
+    assert shown()[3] == ["Body 0003"]
+
+
+@pytest.mark.parametrize("broken", ["text", "other arrays", "wrong lengths", "wrong corners"])
+def test_nothing_is_left_of_files_that_are_broken(growing, tmp_path, broken):
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), playback=False, frames="1-2")
+    path = tmp_path / "Body_0002.npz"
+    with np.load(path) as archive:
+        arrays = dict(archive)
+    if broken == "text":
+        path.write_text("no archive")
+    else:
+        if broken == "other arrays":
+            del arrays["theta"]
+        elif broken == "wrong lengths":
+            arrays["radius"] = arrays["radius"][1:]
+        else:
+            arrays["face_vertices"] = arrays["face_vertices"] + 10**6
+        np.savez(path, **arrays)
+    counts = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.collections)]
+    files = [{"name": f"Body_{frame:04d}.npz"} for frame in (1, 2)]
+    with pytest.raises(RuntimeError, match="Expected"):
+        bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)
+    now = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.collections)]
+    assert now == counts
+
+
+def test_names_of_files():
+    by_frame = addon("bridge.sequence").by_frame
+    paths = [Path(f"{name}.npz") for name in ("a_0002", "a_0010", "b.001", "c-0005", "d_-03", "e7")]
+    found = {name: list(frames) for name, frames in by_frame(paths).items()}
+    assert found == {"a": [2, 10], "b": [1], "c": [5], "d": [-3], "e": [7]}
+    with pytest.raises(addon("core.errors").InvalidInputError, match="'axis.npz'"):
+        by_frame([Path("axis.npz")])
+
+
+def test_no_leftovers(growing, tmp_path):
+    """Undoing or deleting the collection takes everything along that was made."""
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    assert [thing.name for thing in bpy.data.objects] == ["Body"]
+    assert len(bpy.data.collections) == 0
