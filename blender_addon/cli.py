@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import shlex
 import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -110,12 +111,17 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
         default="ma",
         help="of files in a folder OUTPUT (default: ma)",
     )
+    files.add_argument(
+        "--options", metavar="TEXT", default="", help="more options in one word, as farms pass them"
+    )
     files.add_argument("--force", action="store_true", help="compute also what is finished")
     files.add_argument("--json", action="store_true", help="one line of JSON per result")
     files.add_argument("--quiet", action="store_true", help="no progress and no warnings")
     parser.add_argument("--version", action="version", version=f"medial_axis {__version__}")
     wanted = parser.parse_intermixed_args(words)
     try:
+        if more := shlex.split(wanted.options):
+            wanted = parser.parse_intermixed_args([*words, *more])
         _complete(wanted)
     except (MedialAxisError, ValueError) as error:
         parser.error(str(error))
@@ -184,7 +190,7 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
     try:
         if path is not None:
             read_scene.load(path)
-        names = read_scene.names(wanted.object)
+        names = read_scene.names(list(filter(None, wanted.object or ())))
         if len(names) > 1 and "{name}" not in wanted.output:
             raise InvalidInputError(
                 f"Expected {{name}} in OUTPUT for {len(names)} objects, found '{wanted.output}'; "

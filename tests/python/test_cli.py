@@ -167,6 +167,12 @@ def argparse_of(settings):
     return argparse.Namespace(**option_words.as_words(settings))
 
 
+def test_options_in_one_word():
+    wanted = cli._parse(["a.off", "--options", "--rho 9 --side 'both' --json", "a.ma", "--rho=7"])
+    assert (wanted.settings.rho, wanted.settings.side, wanted.json) == (9.0, Side.BOTH, True)
+    assert cli._parse(["a.off", "a.ma", "--options="]).settings == Settings()
+
+
 def test_degrees_are_exact_where_it_matters():
     for degrees, radians in ((22.5, np.pi / 8), (90, np.pi / 2), (0, 0.0)):
         assert cli._parse(["a.off", "a.ma", f"--theta={degrees}"]).settings.theta == radians
@@ -181,6 +187,8 @@ def test_degrees_are_exact_where_it_matters():
         (["a.off", "a.ma", "--theta", "200"], "Expected theta from"),
         (["a.off", "a.ma", "--side", "left"], "invalid choice"),
         (["a.off", "a.ma", "--nonsense"], "unrecognized"),
+        (["a.off", "a.ma", "--options", "--nonsense"], "unrecognized"),
+        (["a.off", "a.ma", "--options", "'"], "No closing quotation"),
         (["a.off", "a.txt"], "ends in .ma"),
         (["a.off", "folder"], "ends in .ma"),
         (["a.off", "b.off", "a.ma"], "{name} in OUTPUT"),
@@ -473,5 +481,5 @@ def test_documented_options_are_all():
         elif not isinstance(option, Choice):
             shown = f"{shown:g}"
         assert table.get(name.replace("_", "-")) == shown, name
-    for flag in ("frames", "object", "format", "force", "json", "quiet"):
+    for flag in ("frames", "object", "format", "options", "force", "json", "quiet"):
         assert flag in table
