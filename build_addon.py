@@ -65,7 +65,7 @@ TEST_NEEDS = {
 
 # Symbols and libraries that a module inside Blender's process must not bring along.
 FORBIDDEN_LIBRARIES = re.compile(r"lib(tbb|gmp|mpfr|python)")
-ZIPPED_SUFFIXES = {".py", ".toml", ".so", ".png", ".svg"}
+ZIPPED_SUFFIXES = {".py", ".toml", ".so", ".png", ".svg", ".js", ".yaml"}
 
 
 class Failure(Exception):

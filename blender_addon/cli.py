@@ -224,9 +224,9 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, teller: _Teller) -> 
                     f"Expected another output for each input, found '{item.output}' again; put "
                     "{file} or {name} in OUTPUT"
                 )
-            outputs.add(item.output)
             begun = begin(item, wanted.settings, wanted.force)
             teller.tell(begun.kept or finish(begun, _watch(begun.task, teller.show)))
+            outputs.add(item.output)
         except (KeyboardInterrupt, Cancelled):
             teller.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
             return CANCELLED

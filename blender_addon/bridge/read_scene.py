@@ -49,7 +49,7 @@ def load(path: str) -> None:
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         operator(filepath=path)
     except RuntimeError as error:
-        said = str(error).strip().removeprefix("Error: ").splitlines()[0]
+        said = _reason(str(error))
         raise ReadError(
             f"Expected to read '{path}', but Blender says '{said}'; choose another file"
         ) from error
@@ -98,6 +98,12 @@ def read(name: str, frame: int | None) -> tuple[Shape, tuple[str, ...]]:
     if thing is None:
         raise InvalidInputError(f"Expected the object '{name}', found it gone; start again")
     return read_object(thing, bpy.context.evaluated_depsgraph_get()), ()
+
+
+def _reason(text: str) -> str:
+    """What an operator failed of: its message, or the last line of a traceback."""
+    lines = [line for line in text.strip().splitlines() if not line.startswith("Location:")]
+    return lines[-1].removeprefix("Error: ") if lines else "nothing"
 
 
 def _importer(path: str) -> object:

@@ -142,14 +142,14 @@ def test_objects_that_cannot_be_used(here, run):
 
 def test_files_that_blender_imports(here, run):
     source = ellipsoid()
-    bpy.ops.export_scene.gltf(filepath=str(here / "other.glb"), export_apply=True)
+    bpy.ops.export_scene.fbx(filepath=str(here / "other.fbx"))
     bpy.ops.wm.save_as_mainfile(filepath=str(here / "egg.blend"))
     points = len(source.data.vertices)
-    code, reports = run("other.glb", "none.fbx", "egg.txt", "egg.blend", "{file}.ma")
+    code, reports = run("other.fbx", "none.glb", "egg.txt", "egg.blend", "{file}.ma")
     assert code == 3
     assert [r["status"] for r in reports] == ["done", "failed", "failed", "done"], reports
     assert reports[0]["points"] - reports[0]["duplicates"] == points == reports[3]["points"]
-    assert "found none at 'none.fbx'" in reports[1]["error"]
+    assert "found none at 'none.glb'" in reports[1]["error"]
 
 
 def test_broken_file(here, run):
