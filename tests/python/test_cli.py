@@ -187,7 +187,7 @@ def test_degrees_are_exact_where_it_matters():
         (["a.off", "a.ma", "--theta", "200"], "Expected theta from"),
         (["a.off", "a.ma", "--side", "left"], "invalid choice"),
         (["a.off", "a.ma", "--nonsense"], "unrecognized"),
-        (["a.off", "a.ma", "--options", "--nonsense"], "unrecognized"),
+        (["a.off", "a.ma", "--options=--nonsense"], "unrecognized"),
         (["a.off", "a.ma", "--options", "'"], "No closing quotation"),
         (["a.off", "a.txt"], "ends in .ma"),
         (["a.off", "folder"], "ends in .ma"),
