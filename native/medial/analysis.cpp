@@ -20,12 +20,16 @@ void check(const Extraction& x) {
   }
 }
 
-void require_sides(SidesFrom from, const WatertightSurface* tight_cocone) {
+void require_sides(SidesFrom from) {
   if (from == SidesFrom::none) {
     throw InvalidInputError(
         "Expected an analysis that told inside from outside, found one with sides NONE; choose "
         "other sides, or side BOTH.");
   }
+}
+
+void require_solid(SidesFrom from, const WatertightSurface* tight_cocone) {
+  require_sides(from);
   if (tight_cocone && !tight_cocone->encloses()) {
     throw DegenerateInputError(
         "Expected samples of a closed surface, found " +
@@ -69,6 +73,20 @@ std::vector<Vec3> unit_normals(std::span<const Vec3> normals, const Samples& sam
   result.reserve(samples.row.size());
   for (const int32_t row : samples.row) result.push_back(normalized(normals[row]));
   return result;
+}
+
+std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& samples) {
+  const auto end = static_cast<int64_t>(samples.sample_of_row.size());
+  std::vector<int32_t> ids;
+  ids.reserve(rows.size());
+  for (const int32_t row : rows) {
+    if (row < 0 || row >= end) {
+      throw InvalidInputError("Expected rows below " + std::to_string(end) + ", found " +
+                              std::to_string(row) + "; name rows of the points.");
+    }
+    ids.push_back(samples.sample_of_row[row]);
+  }
+  return ids;
 }
 
 }  // namespace
@@ -177,7 +195,7 @@ bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds,
 
 std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
   check(x);
-  if (x.side != Side::both) require_sides(sides_from_, tight_cocone_.get());
+  if (x.side != Side::both) require_solid(sides_from_, tight_cocone_.get());
   const Run run{threads_, progress};
   std::vector<int32_t> ids = medial::select(significance_, x.thresholds, run);
   if (x.side == Side::both && !x.limit_set) return ids;
@@ -233,6 +251,40 @@ MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) cons
   }
   advance(progress, 1);
   return std::move(mesh);
+}
+
+std::vector<double> MedialAnalysis::spacing() const {
+  std::vector<double> result;
+  result.reserve(samples_.row.size());
+  for (const int32_t id : samples_by_row(samples_)) result.push_back(significance_.spacing[id]);
+  return result;
+}
+
+std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
+                                                 std::optional<std::span<const int32_t>> rows,
+                                                 Progress* progress) const {
+  begin_stage(progress, "Feature size", 0, 1);
+  const auto at = rows ? samples_of(*rows, samples_) : samples_by_row(samples_);
+  const auto ids = select({.thresholds = thresholds}, progress);
+  auto sizes = medial::feature_size(samples_.points, at, triangulation_, voronoi_, edges_, ids,
+                                    {threads_, progress});
+  advance(progress, 1);
+  return sizes;
+}
+
+std::vector<Triangle> MedialAnalysis::solid_triangles() const {
+  require_sides(sides_from_);
+  if (tight_cocone_) return tight_cocone_->triangles;
+  const Run run{threads_, nullptr};
+  CellSides sides(sides_);
+  // The points of a bounding sphere are no samples, and what touches them lies outside.
+  parallel_for(triangulation_.cell_count(), run, [&](int64_t c) {
+    const Cell& cell = triangulation_.cells[c];
+    if (*std::max_element(cell.begin(), cell.end()) >= samples_.count()) {
+      sides[c] = static_cast<uint8_t>(Side::outer);
+    }
+  });
+  return in_rows(boundary_triangles(triangulation_, sides, run), samples_, run);
 }
 
 std::vector<Edge> MedialAnalysis::edge_rows() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "feature_size.h"
 #include "medial_mesh.h"
 #include "watertight_surface.h"
 
@@ -39,6 +40,17 @@ class MedialAnalysis {
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
   // The closure of F.
   MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
+
+  // Per sample, ascending by row: the largest circumradius in its umbrella, infinite for an empty
+  // one.
+  std::vector<double> spacing() const;
+  // At the samples of `rows`, of all in ascending order when there are none: the distance to the
+  // facets of either side that the thresholds select, as feature_size.h has it.
+  std::vector<double> feature_size(const Thresholds& thresholds,
+                                   std::optional<std::span<const int32_t>> rows = {},
+                                   Progress* progress = nullptr) const;
+  // The boundary between inner cells and others, as rows. Throws InvalidInputError for sides none.
+  std::vector<Triangle> solid_triangles() const;
 
   // All Delaunay edges as input rows p < q in lexicographic order; significance and side in the
   // same order.

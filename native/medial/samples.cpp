@@ -95,6 +95,13 @@ void require_finite(std::span<const Vec3> rows, const char* what) {
   }
 }
 
+std::vector<int32_t> hilbert_order(std::span<const Vec3> rows, const Run& run) {
+  std::vector<int32_t> order;
+  order.reserve(rows.size());
+  for (const Keyed& next : along_hilbert_curve(rows, run)) order.push_back(next.row);
+  return order;
+}
+
 Samples distinct_rows(std::span<const Vec3> rows, const char* what, const Run& run) {
   require_finite(rows, what);
   Samples samples;

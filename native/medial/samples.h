@@ -24,6 +24,9 @@ struct Samples {
 // to be squared often.
 void require_finite(std::span<const Vec3> rows, const char* what);
 
+// The rows along a Hilbert curve; the order depends on the coordinates alone but for equal rows.
+std::vector<int32_t> hilbert_order(std::span<const Vec3> rows, const Run& run);
+
 // The distinct rows; their order depends on the coordinates alone, so that permuted rows give the
 // same samples. Throws InvalidInputError as require_finite does.
 Samples distinct_rows(std::span<const Vec3> rows, const char* what, const Run& run);

@@ -8,7 +8,7 @@ namespace {
 // Unit normals of all umbrella triangles, and the largest circumradius in each umbrella.
 struct Shapes {
   std::vector<Vec3> normal;
-  std::vector<double> radius;
+  std::vector<double> radius;  // infinite for an empty umbrella
 };
 
 double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -20,8 +20,9 @@ double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
 Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Run& run) {
   Shapes result;
   result.normal.resize(umbrellas.items.size());
-  result.radius.assign(static_cast<size_t>(umbrellas.size()), 0);
+  result.radius.assign(static_cast<size_t>(umbrellas.size()), HUGE_VAL);
   parallel_for(umbrellas.size(), run, [&](int64_t p) {
+    if (!umbrellas[p].empty()) result.radius[p] = 0;
     for (int64_t i = umbrellas.offsets[p]; i < umbrellas.offsets[p + 1]; ++i) {
       const auto& [a, b] = umbrellas.items[i];
       result.normal[i] = unit_normal(points[p], points[a], points[b]).direction;
@@ -69,7 +70,7 @@ uint8_t untried(const End& p, const End& q) {
 Significance significance(std::span<const Vec3> points, const Edges& edges,
                           const Umbrellas& umbrellas, const Run& run) {
   begin_stage(run.progress, "Angles and ratios", 0.8, 0.88);
-  const Shapes s = shapes(points, umbrellas, {run.threads, nullptr});
+  Shapes s = shapes(points, umbrellas, {run.threads, nullptr});
   const auto count = static_cast<size_t>(edges.count());
   Significance result;
   for (auto* values : {&result.theta, &result.rho, &result.theta_both, &result.rho_both})
@@ -88,6 +89,7 @@ Significance significance(std::span<const Vec3> points, const Edges& edges,
     result.rho_both[e] = std::min(at_p.ratio, at_q.ratio);
     result.untried[e] = untried(at_p, at_q);
   });
+  result.spacing = std::move(s.radius);
   return result;
 }
 

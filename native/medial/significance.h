@@ -14,6 +14,8 @@ struct Significance {
   std::vector<double> theta, rho;
   std::vector<double> theta_both, rho_both;
   std::vector<uint8_t> untried;  // bits of Untried
+  // Per sample: the largest circumradius in its umbrella, infinite for an empty one.
+  std::vector<double> spacing;
 };
 
 // Step 5 of MEDIAL tries pq from p only when pq is not in U_p: which end that rules out, as seen

@@ -16,6 +16,12 @@ FacetSet outer_facets(const Triangulation& t, const CellSides& sides, const Run&
   return result;
 }
 
+std::vector<Triangle> triangles_of(const Triangulation& t, const FacetSet& outer) {
+  std::vector<Triangle> triangles;
+  for_facets(t, outer, [&](const Facet& f) { triangles.push_back(corners(t, f)); });
+  return triangles;
+}
+
 // Per sample: the triangles round it are not one disc.
 std::vector<uint8_t> nonmanifold(const Triangulation& t, const Csr<int32_t>& incident,
                                  const FacetSet& outer, const Run& run) {
@@ -54,15 +60,20 @@ int64_t count_nonmanifold_edges(std::span<const Triangle> triangles,
 
 }  // namespace
 
+std::vector<Triangle> boundary_triangles(const Triangulation& t, const CellSides& sides,
+                                         const Run& run) {
+  return triangles_of(t, outer_facets(t, sides, run));
+}
+
 SolidBoundary solid_boundary(const Triangulation& t, const Csr<int32_t>& incident,
                              const CellSides& sides, const Run& run) {
   const FacetSet outer = outer_facets(t, sides, run);
   SolidBoundary result;
   result.on_surface.assign(static_cast<size_t>(incident.size()), 0);
-  for_facets(t, outer, [&](const Facet& f) {
-    result.triangles.push_back(corners(t, f));
-    for (const int32_t p : result.triangles.back()) result.on_surface[p] = 1;
-  });
+  result.triangles = triangles_of(t, outer);
+  for (const Triangle& triangle : result.triangles) {
+    for (const int32_t p : triangle) result.on_surface[p] = 1;
+  }
   const auto bad = nonmanifold(t, incident, outer, run);
   result.nonmanifold_vertices = std::count(bad.begin(), bad.end(), 1);
   result.nonmanifold_edges = count_nonmanifold_edges(result.triangles, bad);

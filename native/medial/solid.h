@@ -15,6 +15,10 @@ struct SolidBoundary {
   int64_t left_outside = 0;  // samples without an inner cell
 };
 
+// Its triangles alone.
+std::vector<Triangle> boundary_triangles(const Triangulation& triangulation, const CellSides& sides,
+                                         const Run& run);
+
 // Every edge is in an even number of triangles.
 SolidBoundary solid_boundary(const Triangulation& triangulation, const Csr<int32_t>& incident,
                              const CellSides& sides, const Run& run);

@@ -5,6 +5,15 @@
 namespace medial {
 namespace {
 
+std::vector<uint8_t> in_order(const std::vector<uint8_t>& values, std::span<const int32_t> order) {
+  std::vector<uint8_t> result;
+  result.reserve(order.size());
+  for (const int32_t id : order) result.push_back(values[id]);
+  return result;
+}
+
+}  // namespace
+
 std::vector<Triangle> in_rows(std::vector<Triangle> triangles, const Samples& samples,
                               const Run& run) {
   parallel_for(static_cast<int64_t>(triangles.size()), run, [&](int64_t i) {
@@ -17,15 +26,6 @@ std::vector<Triangle> in_rows(std::vector<Triangle> triangles, const Samples& sa
   reorder(triangles, order, run);
   return triangles;
 }
-
-std::vector<uint8_t> in_order(const std::vector<uint8_t>& values, std::span<const int32_t> order) {
-  std::vector<uint8_t> result;
-  result.reserve(order.size());
-  for (const int32_t id : order) result.push_back(values[id]);
-  return result;
-}
-
-}  // namespace
 
 WatertightSurface describe(TightCocone found, SolidBoundary boundary, const Samples& samples,
                            const Run& run) {

@@ -22,6 +22,10 @@ struct WatertightSurface {
   bool encloses() const { return 2 * left_outside <= static_cast<int64_t>(samples.size()); }
 };
 
+// Triangles of samples as triangles of rows: lowest row first, in lexicographic order.
+std::vector<Triangle> in_rows(std::vector<Triangle> triangles, const Samples& samples,
+                              const Run& run);
+
 // In terms of the rows.
 WatertightSurface describe(TightCocone result, SolidBoundary boundary, const Samples& samples,
                            const Run& run);

@@ -36,7 +36,9 @@ class SidesFrom:
 
     AUTOMATIC: SidesFrom  # 0: SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE
     SURFACE: SidesFrom  # 1: the winding number of the triangles
-    NORMALS: SidesFrom  # 2: a vote of the outward normals of the samples nearest to each Voronoi vertex
+    NORMALS: (
+        SidesFrom  # 2: a vote of the outward normals of the samples nearest to each Voronoi vertex
+    )
     TIGHT_COCONE: SidesFrom  # 3: the watertight surface of `TightCocone`; needs the points only
     NONE: SidesFrom  # 4: nothing; every facet has side BOTH
 
@@ -317,6 +319,43 @@ class MedialAnalysis:
     @property
     def timings(self) -> dict[str, float]:
         """Seconds of each stage, in order."""
+    @property
+    def spacing(self) -> NDArray[np.float64]:
+        """(k,) float64: largest circumradius in the umbrella U_p of each of `samples`: the hole round it; infinite
+        for an empty umbrella."""
+    def feature_size(
+        self,
+        theta: float = ...,
+        rho: float = ...,
+        rule: Rule = ...,
+        criteria: Criteria = ...,
+        *,
+        rows: NDArray[np.int32] | None = None,
+        progress: Progress | None = None,
+    ) -> NDArray[np.float64]:
+        """(k,) float64: estimated local feature size: distance of each of `samples` to the nearest Voronoi vertex of a
+        selected facet of either side; infinite when nothing is selected. Finite vertices of unbounded facets and
+        those of zero-area facets count. Of vertices closer to each other than 1/32 of the radius of their balls some
+        are left out: the distance is too large by at most 1/32 of itself. `spacing` / feature_size is the epsilon of
+        the theorem.
+
+        Parameters
+        ----------
+        theta, rho, rule, criteria
+            As in `extract`.
+        rows : (m,) int32, optional
+            Only of the samples of these rows of the points, in that order.
+        progress : Progress, optional
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
+    def solid_triangles(self) -> NDArray[np.int32]:
+        """(f, 3) int32: rows of the facets between inner and outer cells, outward, lowest row first, in lexicographic
+        order: the surface as the samples see it. A cell is inner when its Voronoi vertex is; by Tight Cocone, when it
+        is part of the solid, as in `TightCocone.triangles`. Every edge is in an even number of them. Raises
+        InvalidInputError for `SidesFrom.NONE`."""
     def select(
         self,
         theta: float = ...,
@@ -557,4 +596,43 @@ def winding_number(
     -------
     winding : (q,) float64
         Sum of the solid angles over 4 pi, up to rounding.
+    """
+
+def buried(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    offset: float,
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> NDArray[np.bool_]:
+    """Where closed triangles are no boundary of the solid: overlapping shells, walls inside, sheets without thickness.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        On the surface.
+    normals : (n, 3) float64
+        Of the surface there.
+    offset : float
+        How far to step off it, times the length of the normals; positive.
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        Rows of `vertices`; rows with the same coordinates are one vertex.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Returns
+    -------
+    buried : (n,) bool
+        The winding number is above 1/2 at both of points +- offset * normals, or at neither. False for a zero normal.
+
+    Raises
+    ------
+    InvalidInputError
+        Also when the triangles are not closed.
+    Cancelled
     """

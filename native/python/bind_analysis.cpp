@@ -44,6 +44,10 @@ constexpr const char* kAnalysisDoc =
     "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
     "Raises\n------\nInvalidInputError, DegenerateInputError, Cancelled";
 
+constexpr const char* kSolidDoc =
+    "(f, 3) int32: rows of the facets between inner and outer cells, outward, lowest row first, in "
+    "lexicographic order:\nthe surface as the samples see it.";
+
 constexpr const char* kExtractDoc =
     "The closure of the selected facets, as a MedialMesh.\n\n"
     "Parameters\n----------\n"
@@ -60,6 +64,12 @@ constexpr const char* kExtractDoc =
     "Raises\n------\nInvalidInputError, Cancelled\n"
     "DegenerateInputError\n    INNER or OUTER, and `TightCocone.encloses` is false.";
 
+constexpr const char* kFeatureSizeDoc =
+    "(k,) float64: estimated local feature size: distance of each of `samples` to the nearest "
+    "Voronoi vertex of a selected\nfacet of either side, too large by at most 1/32 of itself; "
+    "infinite when nothing is selected. With `rows`, (m,) int32,\nof these samples alone. Other "
+    "parameters as in `extract`.";
+
 constexpr const char* kSelectDoc =
     "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and "
     "zero-area\n"
@@ -67,6 +77,18 @@ constexpr const char* kSelectDoc =
 
 std::optional<Points> optional_points(const py::object& rows, const char* name) {
   return rows.is_none() ? std::optional<Points>() : Points(rows, name);
+}
+
+// A view of the caller's rows; an array of int32 alone needs no copy, and others have no use.
+std::optional<std::span<const int32_t>> optional_rows(const py::object& rows) {
+  if (rows.is_none()) return {};
+  using Rows = py::array_t<int32_t, py::array::c_style>;
+  if (!py::isinstance<Rows>(rows) || py::cast<Rows>(rows).ndim() != 1) {
+    throw InvalidInputError("Expected rows as a contiguous (m,) int32 array, found " +
+                            describe(rows) + "; convert it.");
+  }
+  const auto view = py::reinterpret_borrow<Rows>(rows);
+  return std::span<const int32_t>(view.data(), static_cast<size_t>(view.size()));
 }
 
 std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles,
@@ -227,6 +249,36 @@ void bind_analysis(py::module_& m) {
       .def_property_readonly(
           "timings", [](const MedialAnalysis& a) { return seconds(a.timings()); },
           "Seconds of each stage, in order.")
+      .def_property_readonly(
+          "spacing", [](const MedialAnalysis& a) { return array_of<double>(a.spacing()); },
+          "(k,) float64: largest circumradius in the umbrella of each of `samples`: the hole round "
+          "it; infinite for an empty one.")
+      .def(
+          "feature_size",
+          [](const MedialAnalysis& a, double theta, double rho, Rule rule, Criteria criteria,
+             const py::object& rows, Progress* progress) {
+            const auto chosen = optional_rows(rows);
+            std::vector<double> sizes;
+            {
+              const py::gil_scoped_release release;
+              sizes = a.feature_size({theta, rho, rule, criteria}, chosen, progress);
+            }
+            return array_of<double>(std::move(sizes));
+          },
+          kFeatureSizeDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho,
+          py::arg("rule") = paper.rule, py::arg("criteria") = paper.criteria, py::kw_only(),
+          py::arg("rows") = py::none(), py::arg("progress") = nullptr)
+      .def(
+          "solid_triangles",
+          [](const MedialAnalysis& a) {
+            std::vector<Triangle> triangles;
+            {
+              const py::gil_scoped_release release;
+              triangles = a.solid_triangles();
+            }
+            return array_of<int32_t>(std::move(triangles));
+          },
+          kSolidDoc)
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,

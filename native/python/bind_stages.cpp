@@ -2,6 +2,7 @@
 // input rows.
 #include "arrays.h"
 #include "bindings.h"
+#include "medial/buried.h"
 #include "medial/cocone.h"
 #include "medial/samples.h"
 #include "medial/surface.h"
@@ -63,6 +64,16 @@ constexpr const char* kWindingDoc =
     "queries : (q, 3) float64\nvertices : (v, 3) float64\ntriangles : (m, 3) "
     "int32\n\nReturns\n-------\n"
     "winding : (q,) float64\n    Sum of the solid angles over 4 pi, up to rounding.";
+
+constexpr const char* kBuriedDoc =
+    "Where closed triangles are no boundary of the solid: overlapping shells, walls inside, sheets "
+    "without thickness.\n\n"
+    "Parameters\n----------\npoints : (n, 3) float64\nnormals : (n, 3) float64\noffset : "
+    "float\nvertices : (v, 3) float64\n"
+    "triangles : (m, 3) int32\nprogress : Progress, optional\nthreads : int\n\n"
+    "Returns\n-------\nburied : (n,) bool\n    The winding number is above 1/2 on both sides of "
+    "the surface, at points +- offset * normals, or on\n    neither. False for a zero normal.\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
 
 Run all_cores() { return {thread_count(0), nullptr}; }
 
@@ -222,6 +233,24 @@ py::array winding_numbers(const py::object& queries, const py::object& vertices,
   return array_of<double>(std::move(result));
 }
 
+py::array buried_points(const py::object& points, const py::object& normals, double offset,
+                        const py::object& vertices, const py::object& triangles, Progress* progress,
+                        int threads) {
+  const Points rows(points, "points"), directions(normals, "normals"),
+      corners(vertices, "vertices");
+  const Triangles faces(triangles);
+  const Run run{thread_count(thread_argument(threads)), progress};
+  std::vector<uint8_t> result;
+  {
+    const auto row_span = rows.span(), direction_span = directions.span();
+    const auto corner_span = corners.span();
+    const auto face_span = faces.span();
+    const py::gil_scoped_release release;
+    result = buried(row_span, direction_span, offset, corner_span, face_span, run);
+  }
+  return array_of<uint8_t>(std::move(result)).attr("view")("bool");
+}
+
 }  // namespace
 
 void bind_stages(py::module_& m) {
@@ -232,6 +261,9 @@ void bind_stages(py::module_& m) {
   m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
   m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"),
         py::arg("triangles"));
+  m.def("buried", &buried_points, kBuriedDoc, py::arg("points"), py::arg("normals"),
+        py::arg("offset"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
+        py::arg("progress") = nullptr, py::arg("threads") = 0);
 }
 
 }  // namespace medial::python

@@ -129,9 +129,13 @@ def test_cgal_has_one_home():
     assert users_of("CGAL/") == [NATIVE / "medial" / "triangulation.cpp"]
 
 
-def test_boost_has_one_home():
-    """Exact integers of the exact circumcentres; what CGAL itself includes does not count."""
-    assert users_of("boost/") == [NATIVE / "medial" / "circumcentre.cpp"]
+def test_each_part_of_boost_has_one_home():
+    """Exact integers of the exact circumcentres, and the tree of points; what CGAL itself includes does not count."""
+    assert users_of("boost/multiprecision/") == [NATIVE / "medial" / "circumcentre.cpp"]
+    assert users_of("boost/geometry/") == [NATIVE / "medial" / "nearest.cpp"]
+    assert users_of("boost/") == [
+        NATIVE / "medial" / f"{unit}.cpp" for unit in ("circumcentre", "nearest")
+    ]
 
 
 def test_pybind_and_python_have_one_home():

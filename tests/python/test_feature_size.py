@@ -1,0 +1,236 @@
+"""How densely the samples lie: their spacing, the local feature size, and the quotient that the theorem speaks of."""
+
+import re
+
+import inputs
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+from scipy.spatial.distance import cdist
+from shapes import SHAPES
+
+THINNING = (
+    1 / 32
+)  # of vertices closer together than that, in radii of their balls, some are left out
+CLOUD = np.random.default_rng(0).random((60, 3))
+
+
+def analysis_of(medial, points, **options):
+    return medial.MedialAnalysis(points, sides=medial.SidesFrom.NONE, **options)
+
+
+def vertices_of_selected(medial, analysis, points, **thresholds):
+    """Voronoi vertices, by the cells, of the selected facets: those that are finite."""
+    cells, _, centres = medial.delaunay(points)
+    selected = set(map(tuple, analysis.edges[analysis.select(**thresholds)].tolist()))
+    finite = (cells >= 0).all(axis=1)
+    pairs = np.sort(cells[finite][:, [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]], axis=2)
+    chosen = [any(tuple(pair) in selected for pair in cell) for cell in pairs.tolist()]
+    return centres[finite][chosen]
+
+
+CASES = {
+    "ellipsoid": SHAPES["ellipsoid"].sample(1000, 3),
+    "random": np.random.default_rng(3).random((1500, 3)),
+    "graded": inputs.generic("graded", 1500, 3),
+    "clusters": inputs.generic("clusters", 1500, 3),
+    "grid": inputs.hollow((8, 6, 5)),
+    "turned grid": inputs.hollow((8, 6, 5)) @ inputs.rotation(1).T,
+    "box": SHAPES["box"].random_sample(1500, 3),
+}
+
+
+@pytest.mark.parametrize("theta, rho", [(np.pi / 8, 8.0), (0.8, 100.0), (0.0, 0.0)])
+@pytest.mark.parametrize("name", CASES)
+def test_distance_to_the_selected_vertices(medial, name, theta, rho):
+    """By brute force: never nearer, and too far by the thinning at most; unbounded facets' finite vertices count."""
+    points = CASES[name]
+    analysis = analysis_of(medial, points)
+    vertices = vertices_of_selected(medial, analysis, points, theta=theta, rho=rho)
+    wanted = cKDTree(vertices).query(points[analysis.samples])[0]
+    found = analysis.feature_size(theta, rho)
+    assert (found >= wanted * (1 - 1e-9)).all()
+    assert (found <= wanted * (1 + THINNING + 1e-9)).all()
+
+
+def test_vertices_of_unbounded_facets_count(medial):
+    """Two close sheets: what lies between them is nearly all in facets that reach infinity or border on them."""
+    points = inputs.generic("sheets", 40, 1)
+    analysis = analysis_of(medial, points)
+    selected = analysis.select(0.0, 0.0)
+    assert (~analysis.bounded[selected]).any()
+    only = analysis.extract(0.0, 0.0).vertices
+    every = vertices_of_selected(medial, analysis, points, theta=0.0, rho=0.0)
+    assert len(every) > len(only)
+    wanted = cKDTree(every).query(points[analysis.samples])[0]
+    assert (cKDTree(only).query(points[analysis.samples])[0] > 1.1 * wanted).any()
+    assert (analysis.feature_size(0.0, 0.0) <= wanted * (1 + THINNING + 1e-9)).all()
+
+
+# Largest relative error at 2,000, 8,000 and 20,000 samples; measured, and a quarter more. The walls of the shell are
+# nearly as thin as the samples of 2,000 are apart.
+ERRORS = {
+    "ellipsoid": (0.18, 0.13, 0.052),
+    "oblate": (0.13, 0.077, 0.029),
+    "slab": (0.15, 0.037, 0.045),
+    "torus": (0.061, 0.042, 0.073),
+    "capsule": (0.034, 0.042, 0.05),
+    "shell": (0.61, 0.2, 0.082),
+}
+
+
+def exact_feature_size(name, points):
+    """Distance to the axis of either side; the outer one of a convex shape is empty."""
+    shape = SHAPES[name]
+    inner = shape.axis_distance(points)
+    if name == "torus":
+        return np.minimum(inner, shape.outer_axis_distance(points))
+    if name == "shell":  # in its cavity is the axis of the middle surface
+        cavity = np.where(shape.middle.inside(points), shape.middle.axis_distance(points), np.inf)
+        return np.minimum(inner, cavity)
+    return inner
+
+
+@pytest.mark.parametrize("density", range(3))
+@pytest.mark.parametrize("name", ERRORS)
+def test_feature_size_of_exact_shapes(medial, name, density):
+    points = SHAPES[name].sample((2000, 8000, 20000)[density], 1)
+    analysis = analysis_of(medial, points)
+    wanted = exact_feature_size(name, points)[analysis.samples]
+    error = np.abs(analysis.feature_size() / wanted - 1)
+    assert error.max() < ERRORS[name][density]
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "slab", "torus", "capsule"])
+def test_epsilon_halves_when_the_sample_is_four_times_as_dense(medial, name):
+    coarse, fine = (analysis_of(medial, SHAPES[name].sample(n, 1)) for n in (2000, 8000))
+    epsilon = [np.median(a.spacing / a.feature_size()) for a in (coarse, fine)]
+    assert epsilon[1] / epsilon[0] == pytest.approx(0.5, abs=0.03)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_feature_size_is_lipschitz(medial, name):
+    """It grows no faster than one walks, between any two samples."""
+    points = CASES[name]
+    analysis = analysis_of(medial, points)
+    size, at = analysis.feature_size(), points[analysis.samples]
+    slope = np.abs(size[:, None] - size) - cdist(at, at)
+    assert slope.max() <= 1e-9 * size.max()
+
+
+def test_outer_axis_counts(medial):
+    """Two balls nearly touching: between them the outer axis is nearer than the inner one."""
+    ball = SHAPES["oblate"].sample(3000, 2)
+    points = np.concatenate((ball, ball + np.array([0, 0, 1.1])))
+    size = analysis_of(medial, points).feature_size()
+    below = np.linalg.norm(points - (0, 0, 0.5), axis=1) < 0.1
+    assert below.sum() > 10 and (size[below] < 0.15).all()
+
+
+def test_bounding_sphere_has_no_feature_size(medial):
+    points = SHAPES["ellipsoid"].sample(2000, 2)
+    plain, bounded = (analysis_of(medial, points, bounding_sphere=b) for b in (False, True))
+    assert len(bounded.feature_size()) == len(bounded.spacing) == len(points)
+    assert np.allclose(bounded.feature_size(), plain.feature_size(), rtol=THINNING, atol=0)
+    assert np.median(bounded.spacing / plain.spacing) == 1.0
+
+
+def test_nothing_selected_is_infinitely_far(medial):
+    assert np.isposinf(analysis_of(medial, CLOUD).feature_size(np.pi / 2, np.inf)).all()
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "random", "turned grid", "box"])
+def test_spacing_is_the_largest_circumradius_of_the_umbrella(medial, name):
+    points = CASES[name]
+    analysis = analysis_of(medial, points)
+    offsets, triangles = medial.umbrellas(points)
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    sides = [np.linalg.norm(u - v, axis=1) for u, v in ((a, b), (b, c), (c, a))]
+    radius = np.prod(sides, axis=0) / (2 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
+    wanted = np.maximum.reduceat(radius, offsets[:-1])
+    assert (np.diff(offsets) > 0).all()
+    assert np.allclose(analysis.spacing, wanted, rtol=1e-6, atol=0)
+
+
+def test_order_is_that_of_the_samples(medial):
+    """Permuted rows and repeated ones: every value stays with its point."""
+    points = CASES["ellipsoid"]
+    order = np.random.default_rng(1).permutation(np.repeat(np.arange(len(points)), 2))
+    plain, mixed = analysis_of(medial, points), analysis_of(medial, points[order])
+    assert mixed.duplicates == len(points)
+    for values in (lambda a: a.spacing, lambda a: a.feature_size()):
+        assert np.array_equal(values(mixed), values(plain)[order[mixed.samples]])
+
+
+def test_chosen_rows(medial):
+    """In their order, twice where they come twice; of merged rows the sample counts."""
+    points = np.concatenate((CASES["random"], CASES["random"][:50]))
+    analysis = analysis_of(medial, points)
+    every = analysis.feature_size()
+    rows = np.array([7, 1510, 0, 7, 1499], np.int32)
+    chosen = analysis.feature_size(rows=rows)
+    assert np.array_equal(chosen, every[[7, 10, 0, 7, 1499]])
+    assert len(analysis.feature_size(rows=rows[:0])) == 0
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_threads_change_no_byte(medial, threads):
+    points = SHAPES["torus"].random_sample(40_000, 0)
+    one, more = (analysis_of(medial, points, threads=n) for n in (1, threads))
+    assert one.feature_size().tobytes() == more.feature_size().tobytes()
+    assert one.spacing.tobytes() == more.spacing.tobytes()
+
+
+@pytest.mark.parametrize("exponent", [-40, 30])
+def test_scale_by_a_power_of_two_changes_no_bit(medial, exponent):
+    for points in (CASES["ellipsoid"], CASES["graded"]):
+        plain, scaled = analysis_of(medial, points), analysis_of(medial, points * 2.0**exponent)
+        assert np.array_equal(plain.feature_size() * 2.0**exponent, scaled.feature_size())
+        assert np.array_equal(plain.spacing * 2.0**exponent, scaled.spacing)
+
+
+def test_thinning_leaves_few_of_many(medial):
+    """Where vertices lie dense, more of them are selected than the thinning keeps; the result stays within it."""
+    shape = SHAPES["ellipsoid"]
+    analysis = analysis_of(medial, shape.random_sample(60_000, 0))
+    points, vertices = shape.random_sample(60_000, 0), analysis.extract().vertices
+    wanted = cKDTree(vertices).query(points[analysis.samples])[0]
+    ratio = analysis.feature_size() / wanted
+    assert 1 + 1e-6 < ratio.max() <= 1 + THINNING and ratio.min() > 1 - 1e-9
+
+
+@pytest.mark.parametrize(
+    "thresholds", [{"theta": -1.0}, {"theta": 2.0}, {"rho": -1.0}, {"rho": np.nan}]
+)
+def test_thresholds_out_of_range(medial, thresholds):
+    with pytest.raises(medial.InvalidInputError, match=f"^Expected {next(iter(thresholds))}"):
+        analysis_of(medial, CLOUD).feature_size(**thresholds)
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        np.array([0, 60], np.int32),
+        np.array([-1], np.int32),
+        np.array([0, 1]),
+        np.array([0.5]),
+        np.zeros((1, 2), np.int32),
+        np.arange(8, dtype=np.int32)[::2],
+        [0, 1],
+    ],
+    ids=["beyond", "negative", "int64", "float", "two axes", "strided", "list"],
+)
+def test_rows_that_are_not_valid(medial, rows):
+    with pytest.raises(medial.InvalidInputError) as error:
+        analysis_of(medial, CLOUD).feature_size(rows=rows)
+    assert re.match(r"^Expected rows .+found.+;", str(error.value))
+
+
+def test_cancel(medial):
+    progress = medial.Progress()
+    analysis = analysis_of(medial, CLOUD)
+    analysis.feature_size(progress=progress)
+    assert progress.fraction == 1.0 and progress.stage == "Feature size"
+    progress.cancel()
+    with pytest.raises(medial.Cancelled):
+        analysis.feature_size(progress=progress)
