@@ -84,9 +84,16 @@ std::vector<double> feature_size(std::span<const Vec3> points, std::span<const i
                                  std::span<const int32_t> edge_ids, const Run& run) {
   const auto marked = cells_round(edge_ids, t, edges, run);
   const Nearest nearest(sites(points, t, voronoi, marked, run));
-  std::vector<double> result(at.size());
-  parallel_for(static_cast<int64_t>(at.size()), run,
-               [&](int64_t i) { result[i] = nearest.distance(points[at[i]]); });
+  // In the order of the points, which is spatial: neighbours meet the same part of the tree.
+  std::vector<uint8_t> wanted(points.size(), 0);
+  for (const int32_t p : at) wanted[p] = 1;
+  std::vector<double> size(points.size());
+  parallel_for(static_cast<int64_t>(points.size()), run, [&](int64_t p) {
+    if (wanted[p]) size[p] = nearest.distance(points[p]);
+  });
+  std::vector<double> result;
+  result.reserve(at.size());
+  for (const int32_t p : at) result.push_back(size[p]);
   return result;
 }
 

@@ -20,8 +20,9 @@ Nearest::Nearest(std::span<const Vec3> sites)
 Nearest::~Nearest() = default;
 
 double Nearest::distance(const Vec3& query) const {
-  const auto found = tree_->qbegin(boost::geometry::index::nearest(query, 1));
-  return found == tree_->qend() ? HUGE_VAL : medial::distance(query, *found);
+  Vec3 site;
+  const auto found = tree_->query(boost::geometry::index::nearest(query, 1), &site);
+  return found == 0 ? HUGE_VAL : medial::distance(query, site);
 }
 
 }  // namespace medial

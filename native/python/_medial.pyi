@@ -36,9 +36,7 @@ class SidesFrom:
 
     AUTOMATIC: SidesFrom  # 0: SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE
     SURFACE: SidesFrom  # 1: the winding number of the triangles
-    NORMALS: (
-        SidesFrom  # 2: a vote of the outward normals of the samples nearest to each Voronoi vertex
-    )
+    NORMALS: SidesFrom  # 2: a vote of outward normals of the samples nearest to a Voronoi vertex
     TIGHT_COCONE: SidesFrom  # 3: the watertight surface of `TightCocone`; needs the points only
     NONE: SidesFrom  # 4: nothing; every facet has side BOTH
 

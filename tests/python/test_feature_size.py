@@ -54,8 +54,8 @@ def test_distance_to_the_selected_vertices(medial, name, theta, rho):
 
 
 def test_vertices_of_unbounded_facets_count(medial):
-    """Two close sheets: what lies between them is nearly all in facets that reach infinity or border on them."""
-    points = inputs.generic("sheets", 40, 1)
+    """Of few points nearly all facets reach infinity."""
+    points = inputs.generic("cube", 8, 1)
     analysis = analysis_of(medial, points)
     selected = analysis.select(0.0, 0.0)
     assert (~analysis.bounded[selected]).any()
@@ -123,8 +123,8 @@ def test_outer_axis_counts(medial):
     ball = SHAPES["oblate"].sample(3000, 2)
     points = np.concatenate((ball, ball + np.array([0, 0, 1.1])))
     size = analysis_of(medial, points).feature_size()
-    below = np.linalg.norm(points - (0, 0, 0.5), axis=1) < 0.1
-    assert below.sum() > 10 and (size[below] < 0.15).all()
+    below = np.linalg.norm(points - (0, 0, 0.5), axis=1) < 0.15
+    assert below.sum() > 20 and (size[below] < 0.15).all()
 
 
 def test_bounding_sphere_has_no_feature_size(medial):
