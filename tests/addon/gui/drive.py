@@ -22,6 +22,8 @@ SCENES = {  # name -> whether the compiled module is installed
     "undo_while_running": True,
     "file_loaded": True,
     "edit_mode": True,
+    "sequence": True,
+    "cancel_sequence_with_escape": True,
     "quit_while_running": True,
     "missing_module": False,
 }

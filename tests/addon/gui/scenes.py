@@ -384,6 +384,60 @@ def scene_edit_mode():
     look("undone")
 
 
+def start_sequence(folder):
+    region = next(region for region in viewport().regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window(), area=viewport(), region=region):
+        begun = bpy.ops.object.medial_axis_sequence("INVOKE_DEFAULT", directory=str(folder))
+    assert begun == {"RUNNING_MODAL"}
+
+
+def played():
+    return [thing for thing in bpy.data.objects if "ma_frame" in thing]
+
+
+def scene_sequence():
+    """Frames are computed while Blender stays usable; one undo takes the playback away, not the files."""
+    source = monkey()
+    for frame in (1, 3):
+        source.scale = (1, 1, frame)
+        source.keyframe_insert("scale", frame=frame)
+    bpy.context.scene.frame_end = 3
+    bpy.ops.ed.undo_push(message="Scene is animated")
+    folder = Path(FOLDER) / "sequence"
+    yield from open_tab()
+    start_sequence(folder)
+    yield played
+    yield 0.5
+    look("computed")
+    assert len(list(folder.glob("Suzanne_000?.npz"))) == 3 == len(played())
+    assert bpy.context.scene.frame_current == 1 and no_job()
+    yield from key("ctrl+z")
+    assert played() == [] and len(bpy.data.collections) == 1
+    start_sequence(folder)  # of files that are finished
+    yield played
+    for frame in (1, 2, 3):
+        bpy.context.scene.frame_set(frame)
+        shown = [thing["ma_frame"] for thing in played() if thing.visible_get()]
+        assert shown == [frame]
+    yield 0.5
+    look("played")
+
+
+def scene_cancel_sequence_with_escape():
+    cloud()
+    bpy.context.scene.frame_end = 3
+    folder = Path(FOLDER) / "cancelled sequence"
+    yield from open_tab()
+    start_sequence(folder)
+    yield job_runs
+    look("running")
+    yield from key("Escape")
+    yield no_job
+    yield 0.5
+    nothing_is_left()
+    assert played() == [] and not folder.exists()
+
+
 def scene_quit_while_running():
     cloud()
     yield from start_long_run()
