@@ -1,4 +1,4 @@
-"""Attributes in Blender: one table of those of a medial axis, and the normals of oriented points."""
+"""Attributes in Blender: tables of those of a medial axis and of samples, and the normals of oriented points."""
 
 from __future__ import annotations
 
@@ -12,18 +12,19 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.analysis import MedialAxis
+    from ..core.report import SamplingReport
 
 
 @dataclass(frozen=True)
 class Attribute:
-    """One attribute of the result mesh.
+    """One attribute of a mesh that is made.
 
     Parameters
     ----------
     name : str
         In Blender.
     field, column : str, int or None
-        Of `MedialAxis`; `column` picks one where Blender has no type for pairs.
+        Of `MedialAxis` or `SamplingReport`; `column` picks one where Blender has no type for pairs.
     domain, type : str
         Blender's identifiers.
     dtype : type
@@ -37,7 +38,7 @@ class Attribute:
     dtype: type
     column: int | None = None
 
-    def values(self, axis: MedialAxis) -> NDArray:
+    def values(self, axis: MedialAxis | SamplingReport) -> NDArray:
         """The flat array that `foreach_set("value", ...)` wants."""
         array = getattr(axis, self.field)
         if self.column is not None:
@@ -55,6 +56,13 @@ _PAIR = (Attribute("ma_generators", "generators", "FACE", "INT32_2D", np.int32),
 _TWO_INTS = (
     Attribute("ma_generator_a", "generators", "FACE", "INT", np.int32, column=0),
     Attribute("ma_generator_b", "generators", "FACE", "INT", np.int32, column=1),
+)
+
+EPSILON = Attribute("ma_epsilon", "epsilon", "POINT", "FLOAT", np.float32)
+SAMPLE_ATTRIBUTES = (
+    EPSILON,
+    Attribute("ma_feature_size", "feature_size", "POINT", "FLOAT", np.float32),
+    Attribute("ma_spacing", "spacing", "POINT", "FLOAT", np.float32),
 )
 
 

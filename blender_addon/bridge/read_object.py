@@ -1,4 +1,4 @@
-"""A mesh or point cloud as the artist sees it -> points, triangles and normals in its rigid frame.
+"""An object as the artist sees it -> points, triangles and normals in its rigid frame.
 
 The medial axis is not affine invariant. So the world matrix L is split into a rigid frame R
 (rotation and translation) and the linear rest A = R^-1 L (scale, shear, mirror), and A is applied
@@ -9,61 +9,44 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
+from ..core.shape import Shape
 from .attributes import read_normals, read_vectors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-SOURCE_TYPES = ("MESH", "POINTCLOUD")
-
-
-@dataclass(frozen=True, eq=False)
-class Shape:
-    """What an object is to the method.
-
-    Parameters
-    ----------
-    points : (n, 3) float64
-        All vertices with modifiers applied, world lengths, in `frame`.
-    triangles : (m, 3) int32
-        Faces, outward also where the object is mirrored; none in a point cloud.
-    normals : (n, 3) float64 or None
-        The attribute of the points, in `frame`; of any length, None when there is none.
-    frame : (4, 4) float64
-        Rotation and translation from `points` to the world.
-    """
-
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    normals: NDArray[np.float64] | None
-    frame: NDArray[np.float64]
+SAMPLED_TYPES = ("MESH", "POINTCLOUD")
+SOURCE_TYPES = (*SAMPLED_TYPES, "CURVE", "SURFACE", "FONT", "META")
 
 
 def read_object(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
-    """Read the evaluated mesh or point cloud of an object; edit mode is flushed first.
+    """Read an object as Blender evaluates it; edit mode is flushed first.
+
+    Modifiers are applied, lengths are those of the world, faces are outward also where it is mirrored.
 
     Raises
     ------
     InvalidInputError
-        Neither of the two, not in the view layer, its modifiers leave nothing, or its transform is not
+        Of another type, not in the view layer, its modifiers leave nothing, or its transform is not
         finite.
     """
     evaluated = _evaluate(source, depsgraph)
     frame, rest = split_transform(np.array(evaluated.matrix_world, np.float64))
-    points, triangles, normals = _read_data(evaluated, depsgraph)
+    shape = _read_data(evaluated, depsgraph)
+    points, triangles, normals = shape.points, shape.triangles, shape.normals
     if not np.array_equal(rest, np.identity(3)):
         points = points @ rest.T
         normals = None if normals is None else normals @ _of_normals(rest).T
     if np.linalg.det(rest) < 0.0:
         triangles = np.ascontiguousarray(triangles[:, ::-1])
-    return Shape(points, triangles, normals, frame)
+    return replace(shape, points=points, triangles=triangles, normals=normals, frame=frame)
 
 
 def split_transform(
@@ -120,8 +103,8 @@ def _of_normals(rest: NDArray[np.float64]) -> NDArray[np.float64]:
 def _evaluate(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bpy.types.Object:
     if source.type not in SOURCE_TYPES:
         raise InvalidInputError(
-            f"Expected a mesh or a point cloud, found an object of type {source.type.capitalize()}; "
-            "select one of those, or convert the object to a mesh (Object > Convert)"
+            "Expected a mesh, point cloud, curve, surface, text or metaball, found an object of type "
+            f"{source.type.capitalize()}; select one of those"
         )
     if source.mode == "EDIT":
         source.update_from_editmode()
@@ -135,27 +118,35 @@ def _evaluate(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bpy.t
     return evaluated
 
 
-def _read_data(
-    evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64] | None]:
+def _read_data(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
     """Points, triangles and normals, as they are stored."""
-    if evaluated.type == "MESH":
+    if evaluated.type != "POINTCLOUD":
         with _evaluated_mesh(evaluated) as mesh:
-            if len(mesh.vertices):
-                points = read_vectors(mesh.vertices, "co")
-                return points, _read_triangles(mesh), read_normals(mesh.attributes)
+            if mesh is not None and len(mesh.vertices):
+                return Shape(
+                    points=read_vectors(mesh.vertices, "co"),
+                    triangles=_read_triangles(mesh),
+                    normals=read_normals(mesh.attributes),
+                    sharp_edges=_read_sharp_edges(mesh),
+                    shaded_smooth=_is_shaded_smooth(mesh),
+                    of_samples=evaluated.type in SAMPLED_TYPES,
+                )
     cloud = _evaluated_cloud(evaluated, depsgraph)
     if cloud is None or len(cloud.points) == 0:
         raise InvalidInputError(
             "Expected points, found none; add some, or change the modifiers that remove them"
         )
     points = read_vectors(cloud.attributes["position"].data, "vector")
-    return points, np.zeros((0, 3), np.int32), read_normals(cloud.attributes)
+    return Shape(points, np.zeros((0, 3), np.int32), read_normals(cloud.attributes))
 
 
 @contextmanager
-def _evaluated_mesh(evaluated: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
-    mesh = evaluated.to_mesh()
+def _evaluated_mesh(evaluated: bpy.types.Object) -> Iterator[bpy.types.Mesh | None]:
+    """None where Blender makes none, as of a metaball that belongs to the surface of another."""
+    try:
+        mesh = evaluated.to_mesh()
+    except RuntimeError:
+        mesh = None
     try:
         yield mesh
     finally:
@@ -183,3 +174,22 @@ def _read_triangles(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
     mesh.loop_triangles.foreach_get("vertices", triangles)
     return triangles.reshape(-1, 3)
+
+
+def _read_sharp_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32] | None:
+    """(e, 2) the edges that are marked sharp; None where there is none."""
+    marked = np.zeros(len(mesh.edges), bool)
+    if "use_edge_sharp" in bpy.types.MeshEdge.bl_rna.properties:
+        mesh.edges.foreach_get("use_edge_sharp", marked)
+    if not marked.any():
+        return None
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    return ends.reshape(-1, 2)[marked]
+
+
+def _is_shaded_smooth(mesh: bpy.types.Mesh) -> bool:
+    """Every face, and without the automatic sharp edges that Blender had up to 4.0."""
+    smooth = np.zeros(len(mesh.polygons), bool)
+    mesh.polygons.foreach_get("use_smooth", smooth)
+    return len(smooth) > 0 and bool(smooth.all()) and not getattr(mesh, "use_auto_smooth", False)

@@ -8,8 +8,9 @@ from pathlib import Path
 import bpy
 
 from ..core.errors import InvalidInputError, ReadError
+from ..core.shape import Shape
 from .made import VERSION
-from .read_object import SOURCE_TYPES, Shape, read_object
+from .read_object import SAMPLED_TYPES, SOURCE_TYPES, read_object
 
 # Extension -> operators that import it, the first one that this Blender has.
 _IMPORTERS = {
@@ -75,7 +76,7 @@ def names(wanted: Sequence[str] | None) -> list[str]:
     found = [
         thing.name
         for thing in there
-        if thing.type in SOURCE_TYPES and thing.visible_get() and VERSION not in thing
+        if thing.type in SAMPLED_TYPES and thing.visible_get() and VERSION not in thing
     ]
     if not found:
         raise InvalidInputError(

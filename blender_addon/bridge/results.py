@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.settings import OPTIONS, Choice, Settings
+from ..core.settings import OPTIONS, Choice, Integer, Settings, Switch
 from .attributes import attributes
 from .made import check_mode, made_of, new_object, place, remember, replace_mesh
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"
 INSIDE = "ma_inside"  # what told inside from outside, and why: a sentence
+SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
+DENSITY = "ma_density"  # how densely that lies: a sentence
 UNBOUNDED = "ma_unbounded"
 ZERO_AREA = "ma_zero_area"
 
@@ -86,7 +88,8 @@ def settings_of(result: bpy.types.Object) -> Settings:
         value = result.get(f"ma_{name}", option.default)
         if isinstance(option, Choice) and isinstance(value, str):
             value = type(option.default)[value]
-        values[name] = bool(value) if isinstance(option.default, bool) else value
+        exact = isinstance(option, (Switch, Integer))
+        values[name] = type(option.default)(value) if exact else value
     return Settings(**values)
 
 
@@ -106,6 +109,8 @@ def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: C
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
     result[ANALYSIS] = computation.key
     result[INSIDE] = str(computation.sides)
+    result[SAMPLED] = computation.sampled.reason
+    result[DENSITY] = str(computation.density)
     _remember_settings(result, computation.settings)
     _remember_axis(result, computation.axis)
 

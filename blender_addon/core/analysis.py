@@ -1,4 +1,4 @@
-"""From points to a medial axis: `_medial.MedialAnalysis`, typed, with a memory of the last ones."""
+"""From an object to its medial axis: what is analysed, what of it is selected, and what has to be said about it."""
 
 from __future__ import annotations
 
@@ -10,12 +10,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import native
-from .cache import CACHE, key_of
-from .settings import Settings, Side, SidesFrom
-from .sides import Sides, cocone_warnings, look_inward, resolve_sides
+from .cache import CACHE
+from .progress import Progress
+from .sampling import Sampled, sample, sampling_warnings
+from .settings import Sampling, Settings, Side, SidesFrom
+from .shape import Shape
+from .sides import cocone_warnings, look_inward
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from .density import Density
+    from .sides import Sides
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,13 +70,9 @@ class Computation:
     ----------
     axis : MedialAxis
     settings : Settings
-        `side` and `sides` are never AUTOMATIC here.
-    sides : Sides
-        What told inside from outside, and why.
-    key : str
-        Names the analysis for `refilter`.
-    points, duplicates : int
-        Rows of the input, and those of them merged into an earlier row with the same coordinates.
+        `side`, `sides` and `sampling` are never AUTOMATIC here.
+    sampled : Sampled
+        What was analysed, why, and how densely it lies; what told inside from outside.
     warnings : tuple of str
         What was assumed or looks wrong, a sentence each.
     seconds : float
@@ -78,101 +80,112 @@ class Computation:
 
     axis: MedialAxis
     settings: Settings
-    sides: Sides
-    key: str
-    points: int
-    duplicates: int
+    sampled: Sampled
     warnings: tuple[str, ...]
     seconds: float
+
+    @property
+    def sides(self) -> Sides:
+        return self.sampled.sides
+
+    @property
+    def density(self) -> Density:
+        return self.sampled.samples.density
+
+    @property
+    def key(self) -> str:
+        """Names the analysis for `refilter`."""
+        return self.sampled.samples.key
+
+    @property
+    def points(self) -> int:
+        """Rows that were analysed, duplicates included."""
+        return len(self.sampled.samples.points)
+
+    @property
+    def duplicates(self) -> int:
+        """Those of them that were merged into an earlier row with the same coordinates."""
+        return self.sampled.samples.analysis.duplicates
 
 
 def compute(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],
     settings: Settings,
-    progress: Any | None = None,
+    progress: Progress | None = None,
     normals: NDArray[np.float64] | None = None,
 ) -> Computation:
-    """The medial axis of samples of a surface.
+    """As `compute_axis`, of arrays."""
+    return compute_axis(Shape(points, triangles, normals), settings, progress)
+
+
+def compute_axis(shape: Shape, settings: Settings, progress: Progress | None = None) -> Computation:
+    """The medial axis of a shape, by its vertices or by samples of its faces.
 
     Parameters
     ----------
-    points : (n, 3) float64
-    triangles : (m, 3) int32
-        Outward faces of the surface as rows of `points`; (0, 3) for a cloud of points.
+    shape : Shape
     settings : Settings
-    progress : _medial.Progress, optional
-    normals : (n, 3) float64, optional
-        Outward, of any length; a zero normal says nothing.
+    progress : Progress, optional
 
     Raises
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     start = time.perf_counter()
-    gaps = _open_edges(points, triangles)
-    sides = resolve_sides(settings.sides, triangles, gaps, normals)
+    progress = progress or Progress()
     side = Side.INNER if settings.side is Side.AUTOMATIC else settings.side
-    chosen = replace(settings, side=side, sides=sides.source)
-    shape = _Shape(
-        points,
-        triangles if sides.source is SidesFrom.SURFACE else None,
-        normals if sides.source is SidesFrom.NORMALS else None,
-    )
-    key, analysis = _analyse(shape, chosen, progress)
-    axis = _extract(analysis, chosen, progress)
+    settings = replace(settings, side=side)
+    sampled = sample(shape, settings, progress)
+    settings = replace(settings, sides=sampled.sides.source, sampling=sampled.sampling)
+    axis = _extract(sampled.samples.analysis, settings, progress.part())
     return Computation(
         axis=axis,
-        settings=chosen,
-        sides=sides,
-        key=key,
-        points=len(points),
-        duplicates=analysis.duplicates,
-        warnings=tuple(_warnings(shape, chosen, gaps, analysis, axis)),
+        settings=settings,
+        sampled=sampled,
+        warnings=tuple(_warnings(shape, settings, sampled, axis)),
         seconds=time.perf_counter() - start,
     )
 
 
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
     """The axis for other thresholds of a kept analysis; None when it is no longer kept."""
-    analysis = CACHE.get(key)
-    return None if analysis is None else _extract(analysis, settings, None)
-
-
-@dataclass(frozen=True, eq=False)
-class _Shape:
-    """The samples, and what tells inside from outside: one of the others, or for Tight Cocone none."""
-
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32] | None
-    normals: NDArray[np.float64] | None
+    samples = CACHE.get(key)
+    return None if samples is None else _extract(samples.analysis, settings, None)
 
 
 # --- warnings
 
 
 def _warnings(
-    shape: _Shape, settings: Settings, gaps: int, analysis: Any, axis: MedialAxis
+    shape: Shape, settings: Settings, sampled: Sampled, axis: MedialAxis
 ) -> Iterator[str]:
-    if shape.triangles is not None and gaps and settings.side is not Side.BOTH:
+    yield from sampling_warnings(shape, sampled)
+    samples, sides = sampled.samples, settings.sides
+    if sides is SidesFrom.SURFACE and sampled.gaps and settings.side is not Side.BOTH:
         yield (
-            f"the surface is open at {gaps:,} edges: inside was taken to be where the winding "
-            "number of the open surface is above one half"
+            f"the surface is open at {sampled.gaps:,} edges: inside was taken to be where the "
+            "winding number of the open surface is above one half"
         )
-    if settings.sides is SidesFrom.TIGHT_COCONE:
-        yield from cocone_warnings(analysis.tight_cocone, shape.points)
-    if shape.normals is not None and look_inward(shape.points, shape.normals):
+    if sides is SidesFrom.NORMALS and sampled.sampling is not Sampling.VERTICES and sampled.gaps:
+        yield (
+            f"the surface is open at {sampled.gaps:,} edges: inside was taken to be behind its "
+            "faces; do not trust the axis near the openings"
+        )
+    if sides is SidesFrom.TIGHT_COCONE:
+        yield from cocone_warnings(samples.analysis.tight_cocone, samples.points)
+    if sides is SidesFrom.NORMALS and look_inward(samples.points, samples.normals):
         yield (
             "the normals point inward, so inside and outside are exchanged; turn them round, "
             "or choose Inside From Tight Cocone, and compute again"
         )
     elif axis.facets == 0:
-        yield _why_empty(shape, settings, gaps)
+        yield _why_empty(shape, settings, sampled)
 
 
-def _why_empty(shape: _Shape, settings: Settings, gaps: int) -> str:
-    closed = shape.triangles is not None and gaps == 0
-    if closed and settings.side is Side.INNER and _volume(shape.points, shape.triangles) < 0:
+def _why_empty(shape: Shape, settings: Settings, sampled: Sampled) -> str:
+    closed = settings.sides is SidesFrom.SURFACE and sampled.gaps == 0
+    if closed and settings.side is Side.INNER and shape.volume < 0:
         return (
             "no facet lies inside because the faces point inward; recalculate their normals "
             "(Mesh > Normals > Recalculate Outside) and compute again"
@@ -185,35 +198,7 @@ def _why_empty(shape: _Shape, settings: Settings, gaps: int) -> str:
     return "no facet passes the conditions; lower theta or rho, or choose another side"
 
 
-def _volume(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
-    a, b, c = (points[triangles[:, corner]] - points[0] for corner in range(3))
-    return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
-
-
 # --- the compiled module
-
-
-def _analyse(shape: _Shape, settings: Settings, progress: Any | None) -> tuple[str, Any]:
-    sphere = settings.side is not Side.INNER
-    key = key_of(sphere, settings.sides.name, shape.points, shape.triangles, shape.normals)
-    analysis = CACHE.get(key)
-    if analysis is None:
-        with native.own_errors() as module:
-            analysis = module.MedialAnalysis(
-                shape.points,
-                shape.triangles,
-                normals=shape.normals,
-                sides=getattr(module.SidesFrom, settings.sides.name),
-                bounding_sphere=sphere,
-                progress=progress,
-            )
-        CACHE.put(key, analysis, len(shape.points))
-    return key, analysis
-
-
-def _open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
-    with native.own_errors() as module:
-        return module.open_edges(points, triangles) if len(triangles) else 0
 
 
 def _extract(analysis: Any, settings: Settings, progress: Any | None) -> MedialAxis:

@@ -15,13 +15,14 @@ from pathlib import Path
 from typing import Any
 
 from .. import __version__
-from .analysis import Computation, compute
+from .analysis import Computation, compute_axis
 from .cache import CACHE, key_of
 from .errors import ExportError, MedialAxisError
 from .export import export_axis
 from .job import Outcome, Task
 from .option_words import as_words
 from .settings import Settings
+from .shape import Shape
 from .whole_file import write_whole
 
 
@@ -38,14 +39,14 @@ class Item:
     frame : int or None
     output : Path
     read : callable
-        The shape (`core.mesh_file.Shape` or `bridge.read_object.Shape`), and warnings.
+        The shape, and warnings.
     """
 
     input: str
     object: str | None
     frame: int | None
     output: Path
-    read: Callable[[], tuple[Any, tuple[str, ...]]]
+    read: Callable[[], tuple[Shape, tuple[str, ...]]]
 
     @property
     def name(self) -> str:
@@ -62,7 +63,7 @@ class Begun:
     ----------
     item : Item
     settings : Settings
-    shape : object
+    shape : Shape
     warnings : tuple of str
     stamp : str
     kept : dict or None
@@ -71,7 +72,7 @@ class Begun:
 
     item: Item
     settings: Settings
-    shape: Any
+    shape: Shape
     warnings: tuple[str, ...]
     stamp: str
     kept: dict[str, Any] | None
@@ -79,9 +80,7 @@ class Begun:
     @property
     def task(self) -> Task:
         """What is left to compute."""
-        points, triangles, normals = self.shape.points, self.shape.triangles, self.shape.normals
-        work = partial(compute, points, triangles, self.settings, normals=normals)
-        return Task(self.item.name, work)
+        return Task(self.item.name, partial(compute_axis, self.shape, self.settings))
 
 
 def begin(item: Item, settings: Settings, force: bool = False) -> Begun:
@@ -136,10 +135,10 @@ def failure(item: Item, error: BaseException) -> dict[str, Any]:
     return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": str(error)}
 
 
-def stamp_of(shape: Any, settings: Settings, suffix: str) -> str:
-    """Names all that an output depends on: every array of the shape, every setting, format, version."""
-    arrays = (getattr(shape, part.name) for part in fields(shape))
-    return key_of(*arrays, repr(settings), suffix, __version__)
+def stamp_of(shape: Shape, settings: Settings, suffix: str) -> str:
+    """Names all that an output depends on: the whole shape, every setting, format, version."""
+    parts = (getattr(shape, part.name) for part in fields(shape))
+    return key_of(*parts, repr(settings), suffix, __version__)
 
 
 def finished(output: Path, stamp: str) -> dict[str, Any] | None:
@@ -172,6 +171,8 @@ def _figures(computation: Computation) -> dict[str, Any]:
         "unbounded": axis.unbounded,
         "zero_area": axis.zero_area,
         "radius": [float(axis.radius.min()), float(axis.radius.max())],
+        "sampled": computation.sampled.reason,
+        "density": str(computation.density),
         "inside": str(computation.sides),
     }
 

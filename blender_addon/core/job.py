@@ -8,16 +8,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import native
 from .errors import Cancelled, MedialAxisError
+from .progress import Progress
 
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Work on one shape, called with a `_medial.Progress` or None; `name` is for messages."""
+    """Work on one shape, called with a `Progress` or None; `name` is for messages."""
 
     name: str
-    work: Callable[[Any | None], Any]
+    work: Callable[[Progress | None], Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +28,7 @@ class Outcome:
     error: MedialAxisError | None
 
 
-def run_task(task: Task, progress: Any | None = None) -> Outcome:
+def run_task(task: Task, progress: Progress | None = None) -> Outcome:
     """Do the work; of our errors only `Cancelled` leaves as an exception."""
     try:
         return Outcome(task.work(progress), None)
@@ -43,7 +43,7 @@ class Job:
 
     def __init__(self, tasks: Sequence[Task]) -> None:
         self.names = tuple(task.name for task in tasks)
-        self._progress = tuple(native.load().Progress() for _ in tasks)
+        self._progress = tuple(Progress() for _ in tasks)
         self._current = 0
         self._cancelled = False
         self._outcomes: list[Outcome] = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from .sides import cocone_warnings
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from .progress import Progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,13 +61,13 @@ class Reconstruction:
         return self.triangles.ravel()
 
 
-def reconstruct(points: NDArray[np.float64], progress: Any | None = None) -> Reconstruction:
+def reconstruct(points: NDArray[np.float64], progress: Progress | None = None) -> Reconstruction:
     """The watertight surface through samples (Dey & Goswami 2003).
 
     Parameters
     ----------
     points : (n, 3) float64
-    progress : _medial.Progress, optional
+    progress : Progress, optional
 
     Raises
     ------
@@ -75,7 +77,8 @@ def reconstruct(points: NDArray[np.float64], progress: Any | None = None) -> Rec
     """
     start = time.perf_counter()
     with native.own_errors() as module:
-        found = module.TightCocone(points, progress=progress)
+        part = None if progress is None else progress.part()
+        found = module.TightCocone(points, progress=part)
     if not found.encloses:
         raise DegenerateInputError(
             "Expected points that lie densely on a closed surface, found nothing enclosed by "

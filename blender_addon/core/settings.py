@@ -30,6 +30,15 @@ class SidesFrom(Enum):
     TIGHT_COCONE = "TIGHT_COCONE"
 
 
+class Sampling(Enum):
+    """Which points of the surface are analysed."""
+
+    AUTOMATIC = "AUTOMATIC"
+    VERTICES = "VERTICES"
+    SURFACE = "SURFACE"
+    ADAPTIVE = "ADAPTIVE"
+
+
 class Rule(Enum):
     """Which ends of a Delaunay edge must pass a condition."""
 
@@ -55,7 +64,21 @@ class Number:
     minimum: float
     maximum: float
     soft_maximum: float
-    unit: str  # "rad", or "" for a pure number
+    unit: str  # "rad", "%", or "" for a pure number
+
+
+@dataclass(frozen=True)
+class Integer:
+    """A whole number in [minimum, maximum]; `soft_minimum` to `soft_maximum` is where a slider goes."""
+
+    label: str
+    description: str
+    default: int
+    minimum: int
+    maximum: int
+    soft_minimum: int
+    soft_maximum: int
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -77,7 +100,7 @@ class Switch:
     default: bool
 
 
-OPTIONS: dict[str, Number | Choice | Switch] = {
+OPTIONS: dict[str, Number | Integer | Choice | Switch] = {
     "theta": Number(
         label="Theta",
         description="Angle condition: keep a facet when the line between its two samples leaves "
@@ -165,12 +188,127 @@ OPTIONS: dict[str, Number | Choice | Switch] = {
         "are too close for the size of the shape there: removes fins on tubes",
         default=False,
     ),
+    "sampling": Choice(
+        label="Sampling",
+        description="Which points of the surface are analysed",
+        default=Sampling.AUTOMATIC,
+        items={
+            Sampling.AUTOMATIC: (
+                "Automatic",
+                "The vertices where they lie densely enough, or when there are no faces; else "
+                "samples of the faces",
+            ),
+            Sampling.VERTICES: ("Vertices", "The vertices of the object and nothing else"),
+            Sampling.SURFACE: (
+                "Surface",
+                "Evenly spread samples of the faces; sharp edges and corners are sampled first",
+            ),
+            Sampling.ADAPTIVE: (
+                "Adaptive",
+                "Samples of the faces, closer together where the shape is thin, until Epsilon is "
+                "reached or Budget is spent",
+            ),
+        },
+    ),
+    "samples": Integer(
+        label="Samples",
+        description="How many samples of the faces are wanted; Adaptive starts from so many",
+        default=16_000,
+        minimum=100,
+        maximum=5_000_000,
+        soft_minimum=1_000,
+        soft_maximum=200_000,
+    ),
+    "spacing": Number(
+        label="Spacing",
+        description="Distance between samples in percent of the diagonal of the bounding box; "
+        "0: as the number of samples says",
+        default=0.0,
+        minimum=0.0,
+        maximum=10.0,
+        soft_maximum=5.0,
+        unit="%",
+    ),
+    "epsilon": Number(
+        label="Epsilon",
+        description="The largest hole between samples that is dense enough, as a share of the "
+        "distance to the medial axis there",
+        default=0.25,
+        minimum=0.02,
+        maximum=1.0,
+        soft_maximum=0.5,
+        unit="",
+    ),
+    "budget": Integer(
+        label="Budget",
+        description="The most samples that Adaptive may take",
+        default=200_000,
+        minimum=100,
+        maximum=5_000_000,
+        soft_minimum=10_000,
+        soft_maximum=1_000_000,
+    ),
+    "sharp_angle": Number(
+        label="Sharp Angle",
+        description="Edges are sharp where the directions of their faces differ by at least this "
+        "angle, or twice this where all faces are shaded smooth; so are edges that are marked sharp",
+        default=math.pi / 6,
+        minimum=math.radians(1.0),
+        maximum=math.pi,
+        soft_maximum=math.pi,
+        unit="rad",
+    ),
+    "smooth": Switch(
+        label="Smooth",
+        description="Samples follow the smooth surface that the faces approximate, which is "
+        "creased at sharp edges only; off: they lie on the flat faces",
+        default=True,
+    ),
+    "keep_vertices": Switch(
+        label="Keep Vertices",
+        description="The vertices of the faces are samples, too",
+        default=False,
+    ),
+    "seed": Integer(
+        label="Seed",
+        description="Another number gives other samples; the same number always the same",
+        default=0,
+        minimum=0,
+        maximum=2**31 - 1,
+        soft_minimum=0,
+        soft_maximum=100,
+    ),
 }
+
+# What needs another analysis; the other options only select facets of the one that is there.
+ANALYSED = ("side", "sides", "sampling")
+# What a choice of Sampling listens to.
+SAMPLING_OPTIONS = (
+    "samples",
+    "spacing",
+    "epsilon",
+    "budget",
+    "sharp_angle",
+    "smooth",
+    "keep_vertices",
+    "seed",
+)
+
+
+def applies(name: str, sampling: Sampling, spacing: float) -> bool:
+    """Whether an option changes anything for a choice of Sampling and a Spacing."""
+    if name == "epsilon" or name not in SAMPLING_OPTIONS:
+        return True
+    if sampling is Sampling.VERTICES:
+        return False
+    if name == "samples":
+        return spacing == 0.0
+    return name != "budget" or sampling is not Sampling.SURFACE
 
 
 @dataclass(frozen=True)
 class Settings:
-    """What to select; the defaults are the paper's.
+    """What to analyse and what to select; the thresholds' defaults are the paper's.
 
     Parameters
     ----------
@@ -183,6 +321,14 @@ class Settings:
     rule : Rule
     criteria : Criteria
     limit_set : bool
+    sampling : Sampling
+    samples, budget, seed : int
+    spacing : float
+        Percent of the diagonal of the bounding box.
+    epsilon : float
+    sharp_angle : float
+        Radians.
+    smooth, keep_vertices : bool
 
     Raises
     ------
@@ -197,18 +343,29 @@ class Settings:
     rule: Rule = OPTIONS["rule"].default
     criteria: Criteria = OPTIONS["criteria"].default
     limit_set: bool = OPTIONS["limit_set"].default
+    sampling: Sampling = OPTIONS["sampling"].default
+    samples: int = OPTIONS["samples"].default
+    spacing: float = OPTIONS["spacing"].default
+    epsilon: float = OPTIONS["epsilon"].default
+    budget: int = OPTIONS["budget"].default
+    sharp_angle: float = OPTIONS["sharp_angle"].default
+    smooth: bool = OPTIONS["smooth"].default
+    keep_vertices: bool = OPTIONS["keep_vertices"].default
+    seed: int = OPTIONS["seed"].default
 
     def __post_init__(self) -> None:
         for name, option in OPTIONS.items():
-            if isinstance(option, Number):
+            if isinstance(option, (Number, Integer)):
                 _check_range(name, option, getattr(self, name))
 
 
-def _check_range(name: str, option: Number, value: float) -> None:
+def _check_range(name: str, option: Number | Integer, value: float) -> None:
     if not option.minimum <= value <= option.maximum:
-        limits = f"at least {option.minimum:g}"
+        style = "," if isinstance(option, Integer) else ".6g"
+        limits = f"at least {option.minimum:{style}}"
         if math.isfinite(option.maximum):
-            limits = f"from {option.minimum:g} to {option.maximum:.6g} {option.unit}"
+            limits = f"from {option.minimum:{style}} to {option.maximum:{style}} {option.unit}"
         raise InvalidInputError(
-            f"Expected {name} {limits}, found {value:g}; the default is {option.default:.6g}"
+            f"Expected {name} {limits.strip()}, found {value:{style}}; "
+            f"the default is {option.default:{style}}"
         )

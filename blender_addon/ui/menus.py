@@ -9,6 +9,8 @@ def _compute(self, context):
     self.layout.separator()
     button = self.layout.operator("object.medial_axis", icon="OUTLINER_DATA_MESH")
     copy_settings(context.scene.medial_axis, button)
+    button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
+    copy_settings(context.scene.medial_axis, button)
     self.layout.operator("object.tight_cocone_surface", icon="MESH_ICOSPHERE")
 
 

@@ -1,4 +1,4 @@
-"""Compute Medial Axis, Reconstruct Surface, and Cancel."""
+"""Compute Medial Axis, Report Sampling, Reconstruct Surface, and Cancel."""
 
 from functools import partial
 
@@ -6,17 +6,24 @@ import bpy
 
 from ..bridge.made import is_gone, source_of
 from ..bridge.results import check_writable, write_result
+from ..bridge.sampling_report import (
+    check_report_writable,
+    check_source_writable,
+    write_on_source,
+    write_report,
+)
 from ..bridge.surfaces import check_surface_writable, is_surface, write_surface
-from ..core.analysis import compute
+from ..core.analysis import compute_axis
 from ..core.reconstruction import reconstruct
-from ..core.settings import OPTIONS
+from ..core.report import report
+from ..core.settings import OPTIONS, SAMPLING_OPTIONS
 from . import running
-from .properties import choice, number, settings_from, switch
+from .properties import SamplingProperties, choice, draw_sampling, number, settings_from, switch
 from .watched import Watched
 
 
-class OBJECT_OT_medial_axis(Watched, bpy.types.Operator):
-    """Compute the medial axis of the selected meshes and point clouds, with the radius at every point"""
+class OBJECT_OT_medial_axis(Watched, SamplingProperties, bpy.types.Operator):
+    """Compute the medial axis of the selected objects, with the radius at every point"""
 
     bl_idname = "object.medial_axis"
     bl_label = "Compute Medial Axis"
@@ -36,12 +43,12 @@ class OBJECT_OT_medial_axis(Watched, bpy.types.Operator):
     def draw(self, _context):
         self.layout.use_property_split = True
         for name in OPTIONS:
-            self.layout.prop(self, name)
+            if name not in SAMPLING_OPTIONS:
+                self.layout.prop(self, name)
+        draw_sampling(self.layout.box(), self)
 
     def work(self, shape):
-        return partial(
-            compute, shape.points, shape.triangles, settings_from(self), normals=shape.normals
-        )
+        return partial(compute_axis, shape, settings_from(self))
 
     def write(self, thing, computation, frame):
         return write_result(thing, computation, frame) if computation.axis.facets else None
@@ -51,15 +58,65 @@ class OBJECT_OT_medial_axis(Watched, bpy.types.Operator):
         return (
             f"{computation.points:,} points, {axis.facets:,} facets, duplicates merged "
             f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}, facets "
-            f"without area {axis.zero_area:,}; {computation.sides}"
+            f"without area {axis.zero_area:,}; {computation.sides}; {computation.sampled.reason}; "
+            f"{computation.density}"
         )
+
+
+class OBJECT_OT_medial_axis_sampling_report(Watched, SamplingProperties, bpy.types.Operator):
+    bl_idname = "object.medial_axis_sampling_report"
+    bl_label = "Report Sampling"
+    bl_description = (
+        "Show how densely the selected objects are sampled for their shape: the samples as a mesh, "
+        "coloured by epsilon"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    product = "report"
+
+    side: choice("side")
+    sides: choice("sides")
+    target: bpy.props.EnumProperty(
+        name="Write To",
+        description="Where the attribute ma_epsilon is written",
+        items=[
+            ("COPY", "Copy", "A new object, or the one that was made before, of the samples"),
+            (
+                "SOURCE",
+                "Source",
+                "The vertices of the object itself: the largest epsilon of the samples to which "
+                "each is nearest",
+            ),
+        ],
+        default="COPY",
+    )
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        for name in ("target", "side", "sides", "sampling"):
+            self.layout.prop(self, name)
+        draw_sampling(self.layout.box(), self)
+
+    def check_writable(self, thing):
+        check_report_writable(thing) if self.target == "COPY" else check_source_writable(thing)
+
+    def work(self, shape):
+        return partial(report, shape, settings_from(self))
+
+    def write(self, thing, found, frame):
+        if self.target == "SOURCE":
+            return write_on_source(thing, found)
+        return write_report(thing, found, frame)
+
+    def summary(self, found):
+        return f"{found.sampled.reason}; {found.density}"
 
 
 class OBJECT_OT_tight_cocone_surface(Watched, bpy.types.Operator):
     bl_idname = "object.tight_cocone_surface"
     bl_label = "Reconstruct Surface (Tight Cocone)"
     bl_description = (
-        "Make a watertight surface through the points of the selected meshes and point clouds; "
+        "Make a watertight surface through the points of the selected objects; "
         "faces and normals are not used"
     )
     bl_options = {"REGISTER", "UNDO"}
@@ -108,7 +165,12 @@ def _made_anew(thing):
     return thing if is_gone(source) else source
 
 
-CLASSES = (OBJECT_OT_medial_axis, OBJECT_OT_tight_cocone_surface, OBJECT_OT_medial_axis_cancel)
+CLASSES = (
+    OBJECT_OT_medial_axis,
+    OBJECT_OT_medial_axis_sampling_report,
+    OBJECT_OT_tight_cocone_surface,
+    OBJECT_OT_medial_axis_cancel,
+)
 
 
 def register():

@@ -4,10 +4,11 @@ import textwrap
 
 import bpy
 
-from ..bridge import made, results, surfaces
+from ..bridge import made, results, sampling_report, surfaces
+from ..bridge.material import LIMIT
 from ..core import native
 from . import running
-from .properties import copy_settings, shown_result, shown_surface
+from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
 from .sources import obstacle
 
 _CHARACTER = 7  # pixels of an average character; only decides where lines break
@@ -33,6 +34,28 @@ class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
         _draw_compute(context, layout)
         for note in context.scene.medial_axis.note.splitlines():
             _sentence(context, layout, note, "INFO")
+
+
+class VIEW3D_PT_medial_axis_sampling(_Tab, bpy.types.Panel):
+    """What Sampling listens to, and the report"""
+
+    bl_label = "Sampling"
+    bl_idname = "VIEW3D_PT_medial_axis_sampling"
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        settings = context.scene.medial_axis
+        column = self.layout.column()
+        column.use_property_split = True
+        column.use_property_decorate = False
+        draw_sampling(column, settings)
+        row = self.layout.row()
+        row.enabled = running.job() is None
+        copy_settings(settings, row.operator("object.medial_axis_sampling_report", icon="VIEWZOOM"))
+        report = shown_report(context)
+        if report is not None:
+            _draw_report(context, self.layout, report)
 
 
 class VIEW3D_PT_medial_axis_result(_Tab, bpy.types.Panel):
@@ -74,7 +97,7 @@ def _draw_settings(context, layout):
     column.use_property_decorate = False
     for name in ("theta", "rho"):
         column.prop(panel, name, slider=True)
-    for name in ("side", "sides", "rule", "criteria", "limit_set"):
+    for name in ("side", "sides", "sampling", "rule", "criteria", "limit_set"):
         column.prop(panel, name)
 
 
@@ -122,8 +145,9 @@ def _draw_figures(context, layout, result):
             "Radius": "{:.3g} to {:.3g}".format(*results.radius_range(result)),
         },
     )
-    if inside := result.get(results.INSIDE):
-        _sentence(context, layout, inside, "INFO")
+    for name in (results.SAMPLED, results.DENSITY, results.INSIDE):
+        if sentence := result.get(name):
+            _sentence(context, layout, sentence, "INFO")
     _draw_warnings(context, layout, result)
 
 
@@ -142,6 +166,25 @@ def _draw_surface(context, layout, surface):
         },
     )
     _draw_warnings(context, layout, surface)
+
+
+def _draw_report(context, layout, report):
+    limit = report.get(LIMIT, 0.0)
+    worst = report.get(sampling_report.WORST) or [0.0]
+    _draw_table(
+        layout,
+        report,
+        {
+            "Samples": f"{report.get(made.POINTS, 0):,}",
+            "Epsilon": f"{report.get(sampling_report.MEDIAN, 0.0):.2f} (median)",
+            "95 % Below": f"{report.get(sampling_report.P95, 0.0):.2f}",
+            f"Above {limit:g}": f"{100 * report.get(sampling_report.SHARE, 0.0):.1f} %",
+            "And at Edges": f"{100 * report.get(sampling_report.SHARE_OF_ALL, 0.0):.1f} %",
+            "Worst": f"{worst[0]:.2g}",
+        },
+    )
+    _sentence(context, layout, report.get(sampling_report.SAMPLED, ""), "INFO")
+    _draw_warnings(context, layout, report)
 
 
 def _draw_table(layout, thing, figures):
@@ -169,6 +212,7 @@ def _sentence(context, layout, text, icon):
 
 CLASSES = (
     VIEW3D_PT_medial_axis,
+    VIEW3D_PT_medial_axis_sampling,
     VIEW3D_PT_medial_axis_result,
     VIEW3D_PT_medial_axis_surface,
 )

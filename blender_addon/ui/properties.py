@@ -5,15 +5,25 @@ import math
 from dataclasses import replace
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, PointerProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
 from ..bridge.made import is_gone
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.results import ANALYSIS, is_result, result_of, settings_of, update_result
+from ..bridge.sampling_report import is_report, report_of
 from ..bridge.surfaces import is_surface, surface_of
 from ..core.analysis import refilter
 from ..core.errors import MedialAxisError
-from ..core.settings import OPTIONS, Choice, Number, Settings
+from ..core.settings import (
+    ANALYSED,
+    OPTIONS,
+    SAMPLING_OPTIONS,
+    Choice,
+    Number,
+    Sampling,
+    Settings,
+    applies,
+)
 from . import running
 
 
@@ -25,12 +35,28 @@ def number(name, update=None):
         limits["max"] = option.maximum
     if option.unit == "rad":
         limits |= {"subtype": "ANGLE", "step": 100, "precision": 3}
+    if option.unit == "%":
+        limits |= {"subtype": "PERCENTAGE", "precision": 2}
     return FloatProperty(
         name=option.label,
         description=option.description,
         default=option.default,
         update=update,
         **limits,
+    )
+
+
+def integer(name):
+    """An IntProperty for an option."""
+    option = OPTIONS[name]
+    return IntProperty(
+        name=option.label,
+        description=option.description,
+        default=option.default,
+        min=option.minimum,
+        max=option.maximum,
+        soft_min=option.soft_minimum,
+        soft_max=option.soft_maximum,
     )
 
 
@@ -54,17 +80,46 @@ def switch(name, update=None):
     )
 
 
+class SamplingProperties:
+    """The options of the sampling, which all that computes from a surface has."""
+
+    sampling: choice("sampling")
+    samples: integer("samples")
+    spacing: number("spacing")
+    epsilon: number("epsilon")
+    budget: integer("budget")
+    sharp_angle: number("sharp_angle")
+    smooth: switch("smooth")
+    keep_vertices: switch("keep_vertices")
+    seed: integer("seed")
+
+
+def draw_sampling(layout, properties):
+    """What a choice of Sampling listens to; what does not apply is grey."""
+    chosen = Sampling[properties.sampling]
+    for name in SAMPLING_OPTIONS:
+        row = layout.row()
+        row.active = applies(name, chosen, properties.spacing)
+        row.prop(properties, name)
+
+
 def settings_from(properties) -> Settings:
-    """Properties of an operator or of the panel -> Settings, raising InvalidInputError."""
+    """Properties of an operator or of the panel -> Settings, raising InvalidInputError; what an operator does not
+    have is the default."""
     return Settings(
-        **{name: _value(option, getattr(properties, name)) for name, option in OPTIONS.items()}
+        **{
+            name: _value(option, getattr(properties, name))
+            for name, option in OPTIONS.items()
+            if hasattr(properties, name)
+        }
     )
 
 
 def copy_settings(source, target) -> None:
     """Set the properties of an operator button to those of the panel."""
     for name in OPTIONS:
-        setattr(target, name, getattr(source, name))
+        if hasattr(target, name):
+            setattr(target, name, getattr(source, name))
 
 
 def _value(option, value):
@@ -93,6 +148,11 @@ def shown_surface(context):
     return _shown(context, is_surface, surface_of)
 
 
+def shown_report(context):
+    """The report that the panel speaks of: the active object, or that of the active object."""
+    return _shown(context, is_report, report_of)
+
+
 def _shown(context, is_kind, of_source):
     active = getattr(context, "object", None)
     if active is None or active.type not in SOURCE_TYPES:
@@ -115,7 +175,8 @@ def _refilter(panel, context):
 def _refilter_result(result, panel) -> str:
     kept = settings_of(result)
     wanted = settings_from(panel)
-    wanted = replace(wanted, side=kept.side, sides=kept.sides)  # others need another analysis
+    analysed = {name: getattr(kept, name) for name in (*ANALYSED, *SAMPLING_OPTIONS)}
+    wanted = replace(wanted, **analysed)  # others need another analysis
     axis = refilter(result[ANALYSIS], wanted)
     if axis is None:
         return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
@@ -125,7 +186,7 @@ def _refilter_result(result, panel) -> str:
     return ""
 
 
-class MedialAxisPanelSettings(bpy.types.PropertyGroup):
+class MedialAxisPanelSettings(SamplingProperties, bpy.types.PropertyGroup):
     """What the sidebar panel shows; theta, rho, rule and criteria act on the result at once."""
 
     theta: number("theta", _refilter)

@@ -7,7 +7,10 @@ import bpy
 from ..bridge.made import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.results import is_result
+from ..bridge.sampling_report import is_report
 from . import running
+
+_KINDS = "a mesh, point cloud, curve, surface, text or metaball"
 
 
 @dataclass(frozen=True)
@@ -28,10 +31,11 @@ class Source:
 
 
 def sources(context) -> list:
-    """The selected meshes and point clouds and those in edit mode; instead of a medial axis, what it was made of."""
+    """The selected objects that have a surface or points, and those in edit mode; instead of a medial axis or a
+    report of samples, what it was made of."""
     found = []
     for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
-        source = source_of(thing) if is_result(thing) else thing
+        source = source_of(thing) if is_result(thing) or is_report(thing) else thing
         if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
             found.append(source)
     return list(dict.fromkeys(found))
@@ -45,16 +49,12 @@ def obstacle(context) -> str:
         return ""
     chosen = _of(context, "selected_objects")
     if not chosen:
-        return "Select a mesh or a point cloud; nothing is selected"
+        return f"Select {_KINDS}; nothing is selected"
     thing = chosen[0]
-    if is_result(thing):
-        return (
-            f"Select a mesh or a point cloud; '{thing.name}' is a medial axis whose source is gone"
-        )
-    return (
-        f"Select a mesh or a point cloud; '{thing.name}' is of type {thing.type.capitalize()} "
-        "(Object > Convert may make it a mesh)"
-    )
+    if is_result(thing) or is_report(thing):
+        kind = "a medial axis" if is_result(thing) else "a report"
+        return f"Select {_KINDS}; '{thing.name}' is {kind} whose source is gone"
+    return f"Select {_KINDS}; '{thing.name}' is of type {thing.type.capitalize()}"
 
 
 def _of(context, name) -> list:

@@ -7,6 +7,7 @@ from scene import (
     addon,
     attribute,
     compute,
+    compute_or_not,
     ellipsoid,
     link,
     medial_objects,
@@ -34,13 +35,13 @@ def sound(result):
 
 
 def test_nothing_selected():
-    refuse("Select a mesh or a point cloud; nothing is selected")
+    refuse("Select a mesh, point cloud, curve, .*; nothing is selected")
 
 
 @pytest.mark.parametrize("add", ["camera_add", "empty_add", "light_add"])
 def test_wrong_type(add):
     getattr(bpy.ops.object, add)()
-    refuse("Select a mesh or a point cloud; .* is of type")
+    refuse("Select a mesh, point cloud, curve, .*; .* is of type")
 
 
 @pytest.mark.parametrize("count", [0, 1, 2, 3])
@@ -114,7 +115,7 @@ def test_cospherical_samples(add):
     """Their axis is a point or nearly so: either sound facets, or one warning and no object."""
     getattr(bpy.ops.mesh, add)()
     source = bpy.context.object
-    answer = bpy.ops.object.medial_axis()
+    answer = compute_or_not()
     if answer == {"FINISHED"}:
         sound(result_of(source))
     else:
@@ -172,12 +173,13 @@ def test_box_of_grids(turned):
 def test_inward_faces_are_explained(capfd):
     source = ellipsoid()
     source.data.flip_normals()
-    assert bpy.ops.object.medial_axis() == {"CANCELLED"}
+    assert compute_or_not() == {"CANCELLED"}
     warnings = [text for kind, text in reports(capfd) if kind == "Warning"]
     assert (
-        len(warnings) == 1
-        and "point inward" in warnings[0]
-        and "Recalculate Outside" in warnings[0]
+        len(warnings) == 2
+        and "too sparse" in warnings[0]
+        and "point inward" in warnings[1]
+        and "Recalculate Outside" in warnings[1]
     )
     assert medial_objects() == []
 
@@ -187,7 +189,7 @@ def test_empty_result_leaves_an_older_one_untouched(capfd):
     compute()
     count = len(result_of(source).data.polygons)
     select(source)
-    assert bpy.ops.object.medial_axis(criteria="RATIO", rho=1e9) == {"CANCELLED"}
+    assert compute_or_not(criteria="RATIO", rho=1e9) == {"CANCELLED"}
     assert len(result_of(source).data.polygons) == count
     assert result_of(source)["ma_criteria"] == "ANGLE_OR_RATIO"
     assert any("no facet passes" in text for kind, text in reports(capfd) if kind == "Warning")

@@ -145,7 +145,9 @@ def test_files_that_blender_imports(here, run):
     bpy.ops.export_scene.fbx(filepath=str(here / "other.fbx"))
     bpy.ops.wm.save_as_mainfile(filepath=str(here / "egg.blend"))
     points = len(source.data.vertices)
-    code, reports = run("other.fbx", "none.glb", "egg.txt", "egg.blend", "{file}.ma")
+    code, reports = run(
+        "other.fbx", "none.glb", "egg.txt", "egg.blend", "{file}.ma", "--sampling=vertices"
+    )
     assert code == 3
     assert [r["status"] for r in reports] == ["done", "failed", "failed", "done"], reports
     assert reports[0]["points"] - reports[0]["duplicates"] == points == reports[3]["points"]

@@ -292,7 +292,7 @@ def test_bad_points_leave_an_older_surface_as_it_was():
 
 
 def test_nothing_selected():
-    refuse("Select a mesh or a point cloud", operator="tight_cocone_surface")
+    refuse("Select a mesh, point cloud, curve", operator="tight_cocone_surface")
 
 
 def test_surface_in_edit_mode_is_refused():

@@ -9,7 +9,18 @@ import bpy
 import pytest
 from scene import MODULE, addon, compute, ellipsoid, link, result_of
 
-OPTIONS = ("theta", "rho", "side", "sides", "rule", "criteria", "limit_set")
+SAMPLING = (
+    "sampling",
+    "samples",
+    "spacing",
+    "epsilon",
+    "budget",
+    "sharp_angle",
+    "smooth",
+    "keep_vertices",
+    "seed",
+)
+OPTIONS = ("theta", "rho", "side", "sides", "rule", "criteria", "limit_set", *SAMPLING)
 
 
 def menu_texts(menu):
@@ -19,6 +30,7 @@ def menu_texts(menu):
 def present():
     return {
         "operator": hasattr(bpy.types, "OBJECT_OT_medial_axis"),
+        "report": hasattr(bpy.types, "OBJECT_OT_medial_axis_sampling_report"),
         "surface": hasattr(bpy.types, "OBJECT_OT_tight_cocone_surface"),
         "cancel": hasattr(bpy.types, "OBJECT_OT_medial_axis_cancel"),
         "export": hasattr(bpy.types, "EXPORT_SCENE_OT_medial_axis"),
@@ -28,6 +40,7 @@ def present():
         "sequence folder": hasattr(bpy.types.Scene, "medial_axis_folder"),
         "sequence menu": f"{MODULE}.ui.sequence" in menu_texts(bpy.types.TOPBAR_MT_file_import),
         "panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis"),
+        "sampling panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sampling"),
         "surface panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_surface"),
         "settings": hasattr(bpy.types.Scene, "medial_axis"),
         "progress": hasattr(bpy.types.WindowManager, "medial_axis_progress"),
@@ -82,7 +95,10 @@ def test_one_version():
 @pytest.mark.parametrize("name", OPTIONS)
 def test_options_of_operator_and_panel_come_from_settings(name):
     option = addon("core.settings").OPTIONS[name]
-    for owner in (bpy.ops.object.medial_axis.get_rna_type(), bpy.context.scene.medial_axis.bl_rna):
+    owners = [bpy.ops.object.medial_axis.get_rna_type(), bpy.context.scene.medial_axis.bl_rna]
+    if name in ("side", "sides", *SAMPLING):
+        owners.append(bpy.ops.object.medial_axis_sampling_report.get_rna_type())
+    for owner in owners:
         shown = owner.properties[name]
         assert (shown.name, shown.description) == (option.label, option.description)
         if shown.type == "ENUM":
@@ -92,11 +108,26 @@ def test_options_of_operator_and_panel_come_from_settings(name):
             ]
         elif shown.type == "FLOAT":
             assert shown.default == pytest.approx(option.default, rel=1e-7)
-            assert shown.hard_min == option.minimum
+            assert shown.hard_min == pytest.approx(option.minimum, rel=1e-7)
             if math.isfinite(option.maximum):
                 assert shown.hard_max == pytest.approx(option.maximum, rel=1e-7)
             assert shown.soft_max == pytest.approx(option.soft_maximum, rel=1e-7)
             assert (shown.subtype == "ANGLE") == (option.unit == "rad")
+            assert (shown.subtype == "PERCENTAGE") == (option.unit == "%")
+        elif shown.type == "INT":
+            assert (
+                shown.default,
+                shown.hard_min,
+                shown.hard_max,
+                shown.soft_min,
+                shown.soft_max,
+            ) == (
+                option.default,
+                option.minimum,
+                option.maximum,
+                option.soft_minimum,
+                option.soft_maximum,
+            )
         else:
             assert shown.default == option.default
 
@@ -118,10 +149,28 @@ def test_defaults_are_those_of_the_compiled_module():
     assert f"limit_set: bool = {default.limit_set}," in signature
     for enum in (settings.Rule, settings.Criteria):
         assert {member.name for member in enum} == set(getattr(module, enum.__name__).__members__)
+    signature = module.sample_surface.__doc__.splitlines()[0]
+    assert f"sharp_angle: float = {default.sharp_angle!r}," in signature
+    assert f"keep_vertices: bool = {default.keep_vertices}," in signature
+    assert f"seed: int = {default.seed}," in signature
     for side in set(settings.Side) - {settings.Side.AUTOMATIC}:
         assert side.name in module.Side.__members__
     for source in settings.SidesFrom:
         assert source.name in module.SidesFrom.__members__
+
+
+def test_what_does_not_apply_is_grey():
+    settings = addon("core.settings")
+    of = {
+        name: {kind.name for kind in settings.Sampling if settings.applies(name, kind, 0.0)}
+        for name in settings.SAMPLING_OPTIONS
+    }
+    everywhere, faces = {"AUTOMATIC", "VERTICES", "SURFACE", "ADAPTIVE"}, {"AUTOMATIC", "ADAPTIVE"}
+    assert of["epsilon"] == everywhere and of["budget"] == faces
+    others = set(of) - {"epsilon", "budget"}
+    assert all(of[name] == faces | {"SURFACE"} for name in others)
+    assert not settings.applies("samples", settings.Sampling.SURFACE, 1.0)
+    assert {"sampling", *of} == set(SAMPLING)
 
 
 def test_rounded_limits_and_defaults_mean_the_exact_numbers():
@@ -137,10 +186,22 @@ def test_rounded_limits_and_defaults_mean_the_exact_numbers():
 
 
 @pytest.mark.parametrize(
-    "values", [{"theta": -0.1}, {"theta": 1.6}, {"rho": -1.0}, {"rho": math.nan}]
+    "values",
+    [
+        {"theta": -0.1},
+        {"theta": 1.6},
+        {"rho": -1.0},
+        {"rho": math.nan},
+        {"samples": 99},
+        {"spacing": 10.5},
+        {"epsilon": 0.0},
+        {"budget": 0},
+        {"sharp_angle": 0.0},
+        {"seed": -1},
+    ],
 )
 def test_settings_out_of_range_are_refused(values):
     with pytest.raises(
-        addon("core.errors").InvalidInputError, match=r"Expected (theta|rho) .*, found"
+        addon("core.errors").InvalidInputError, match=rf"Expected {next(iter(values))} .*, found"
     ):
         addon("core.settings").Settings(**values)

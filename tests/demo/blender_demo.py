@@ -142,7 +142,7 @@ def read_off(path):
 def compute(source):
     sides = "SURFACE" if source.data.polygons else "AUTOMATIC"
     start = time.perf_counter()
-    bpy.ops.object.medial_axis(sides=sides)
+    bpy.ops.object.medial_axis(sides=sides, sampling="VERTICES")
     result = bpy.context.view_layer.objects.active
     print(
         f"{result.name}: {len(result.data.polygons):,} facets after {time.perf_counter() - start:.2f} s"
@@ -165,7 +165,7 @@ def figures(package, result):
     key = result[results.ANALYSIS]
     start = time.perf_counter()
     analysis.refilter(key, results.settings_of(result))
-    seconds = dict(analysis.CACHE.get(key).timings)
+    seconds = dict(analysis.CACHE.get(key).analysis.timings)
     delaunay = seconds.pop(DELAUNAY)
     filter_seconds = sum(seconds.values()) + time.perf_counter() - start
     return {

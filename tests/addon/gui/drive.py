@@ -15,6 +15,7 @@ LIMIT = 240  # seconds for one scene, start of Blender included
 SCENES = {  # name -> whether the compiled module is installed
     "compute_drag_undo": True,
     "scan": True,
+    "sampling": True,
     "cancel_surface_with_escape": True,
     "cancel_with_escape": True,
     "cancel_with_button": True,

@@ -24,9 +24,11 @@ PATIENCE = 90.0
 # (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 draws it.
 TAB = (13, 177)
 THETA_LEFT, THETA_RIGHT = (120, 46), (50, 46)
-COMPUTE = (102, 215)
-RECONSTRUCT = (102, 246)
-CANCEL = (102, 237)
+COMPUTE = (102, 238)
+RECONSTRUCT = (102, 269)
+CANCEL = (102, 260)
+SAMPLING = (102, 302)
+REPORT = (102, 515)
 
 
 # --- hands and eyes
@@ -275,6 +277,42 @@ def scene_scan():
     look("redone")
 
 
+def scene_sampling():
+    """One click on the cube that Blender starts with; another shows how densely it was sampled."""
+    cube = bpy.data.objects["Cube"]
+    select(cube)
+    yield from open_tab()
+    look("panel")
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield 0.5
+    look("computed")
+    (result,) = medial_objects()
+    assert "samples of the surface: the vertices" in result["ma_sampled"]
+    assert abs(attribute(result.data, "ma_radius").max() - 1.0) < 0.02
+    select(cube)
+    yield from click(*at(SAMPLING))
+    look("opened")
+    yield from click(*at(REPORT))
+    yield report_exists
+    viewport().spaces.active.shading.type = "MATERIAL"
+    yield 4.0
+    look("reported")
+    (report,) = reports()
+    assert len(report.data.vertices) == result["ma_points"], "it is the same analysis"
+    yield from key("ctrl+z")
+    assert reports() == [] and len(medial_objects()) == 1, "undo must remove the report alone"
+
+
+def reports():
+    is_report = addon("bridge.sampling_report").is_report
+    return [thing for thing in bpy.data.objects if is_report(thing)]
+
+
+def report_exists():
+    return bool(reports()) and no_job()
+
+
 def frame_selected():
     area = viewport()
     region = next(region for region in area.regions if region.type == "WINDOW")
@@ -449,7 +487,7 @@ def scene_missing_module():
     look("message")
     native = addon("core.native")
     assert native.expected_abi() in native.problem() and "found none" in native.problem()
-    yield from click(*at((102, 342)))  # the button lies below the message; it is grey
+    yield from click(*at((102, 365)))  # the button lies below the message; it is grey
     yield 0.5
     with bpy.context.temp_override(window=window(), area=viewport()):
         assert not bpy.ops.object.medial_axis.poll()

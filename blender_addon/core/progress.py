@@ -1,0 +1,54 @@
+"""One bar over several calls of the compiled module, and one word that cancels them all."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any
+
+from . import native
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+
+class Progress:
+    """The progress of work that calls the compiled module several times; safe to use from two threads."""
+
+    def __init__(self) -> None:
+        self._module: ModuleType = native.load()
+        self._lock = threading.Lock()
+        self._before = 0.0  # share of the work that was done before the running call
+        self._share = 1.0  # share of the work that the running call is
+        self._running: Any = self._module.Progress()
+        self._cancelled = False
+
+    def part(self, share: float = 1.0) -> Any:
+        """A `_medial.Progress` for the next call, which is a `share` of all that is left to do."""
+        with self._lock:
+            self._before += self._share * self._running.fraction
+            self._share = share * (1.0 - self._before)
+            self._running = self._module.Progress()
+            if self._cancelled:
+                self._running.cancel()
+            return self._running
+
+    @property
+    def fraction(self) -> float:
+        """Share of the work that is done, 0 to 1, never falling."""
+        with self._lock:
+            return min(1.0, self._before + self._share * self._running.fraction)
+
+    @property
+    def stage(self) -> str:
+        """Name of the running stage, for people."""
+        return self._running.stage
+
+    @property
+    def cancelled(self) -> bool:
+        return self._cancelled
+
+    def cancel(self) -> None:
+        """Stop the running call and those that follow within 0.3 s."""
+        with self._lock:
+            self._cancelled = True
+            self._running.cancel()

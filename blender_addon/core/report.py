@@ -1,0 +1,105 @@
+"""How densely an object is sampled, sample by sample: the theorem's condition as a diagnosis."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .progress import Progress
+from .sampling import Sampled, sample, sampling_warnings
+from .settings import Settings, Side
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .density import Density
+    from .shape import Shape
+
+
+@dataclass(frozen=True, eq=False)
+class SamplingReport:
+    """The samples, the surface as they see it, and estimates for each.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        The samples, in the order in which the generators of a medial axis count them.
+    triangles : (f, 3) int32
+        Between inside and outside, outward.
+    epsilon, spacing, feature_size : (n,) float64
+        As of `density.Density`; rows with the same coordinates have the same.
+    shape : Shape
+        What was sampled.
+    sampled : Sampled
+    warnings : tuple of str
+    seconds : float
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    epsilon: NDArray[np.float64]
+    spacing: NDArray[np.float64]
+    feature_size: NDArray[np.float64]
+    shape: Shape
+    sampled: Sampled
+    warnings: tuple[str, ...]
+    seconds: float
+
+    @property
+    def density(self) -> Density:
+        return self.sampled.samples.density
+
+    @property
+    def face_offsets(self) -> NDArray[np.int32]:
+        """(f + 1,) int32, as `MedialAxis.face_offsets`."""
+        return np.arange(0, self.triangles.size + 1, 3, dtype=np.int32)
+
+    @property
+    def face_vertices(self) -> NDArray[np.int32]:
+        """(3 f,) int32, as `MedialAxis.face_vertices`."""
+        return self.triangles.ravel()
+
+
+def report(shape: Shape, settings: Settings, progress: Progress | None = None) -> SamplingReport:
+    """Sample an object as `analysis.compute` does, and estimate how dense that is.
+
+    Parameters
+    ----------
+    shape : Shape
+    settings : Settings
+    progress : Progress, optional
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
+    """
+    start = time.perf_counter()
+    side = Side.INNER if settings.side is Side.AUTOMATIC else settings.side
+    sampled = sample(shape, replace(settings, side=side), progress or Progress())
+    samples, density = sampled.samples, sampled.samples.density
+    rows = _sample_of_row(samples.points, samples.analysis.samples)
+    return SamplingReport(
+        vertices=samples.points,
+        triangles=samples.analysis.solid_triangles(),
+        epsilon=density.epsilon[rows],
+        spacing=density.spacing[rows],
+        feature_size=density.feature_size[rows],
+        shape=shape,
+        sampled=sampled,
+        warnings=tuple(sampling_warnings(shape, sampled)),
+        seconds=time.perf_counter() - start,
+    )
+
+
+def _sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> NDArray[np.int64]:
+    """(n,) which of the samples, the distinct rows, each row is."""
+    if len(samples) == len(points):
+        return np.arange(len(points))
+    _, which = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0
+    which = which.reshape(-1)
+    place = np.empty(which.max() + 1, np.int64)
+    place[which[samples]] = np.arange(len(samples))
+    return place[which]

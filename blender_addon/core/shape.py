@@ -1,0 +1,54 @@
+"""What a file or an object is to the method."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """Points, faces, and what is known of both.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        All vertices.
+    triangles : (m, 3) int32
+        Faces, outward; none in a cloud of points.
+    normals : (n, 3) float64 or None
+        Of the points, as they were given; outward, of any length, zero says nothing.
+    frame : (4, 4) float64
+        Rotation and translation from `points` to the world.
+    sharp_edges : (e, 2) int32 or None
+        Edges that are marked sharp, rows of `points`.
+    shaded_smooth : bool
+        Every face is, so that only marked edges look sharp.
+    of_samples : bool
+        The points are meant as samples. The vertices of curves, texts and metaballs are not.
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    normals: NDArray[np.float64] | None = None
+    frame: NDArray[np.float64] = field(default_factory=lambda: np.identity(4))
+    sharp_edges: NDArray[np.int32] | None = None
+    shaded_smooth: bool = False
+    of_samples: bool = True
+
+    @property
+    def volume(self) -> float:
+        """Of closed faces; negative when they point inward."""
+        a, b, c = (self.points[self.triangles[:, corner]] - self.points[0] for corner in range(3))
+        return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+
+    @property
+    def area(self) -> float:
+        """Of the faces."""
+        a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
+        return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2

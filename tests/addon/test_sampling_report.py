@@ -1,0 +1,235 @@
+"""Report Sampling: the samples and their epsilon, as an object or on the source."""
+
+import bpy
+import numpy as np
+import pytest
+from scene import (
+    addon,
+    attribute,
+    contents,
+    ellipsoid,
+    link,
+    opened,
+    positions,
+    refuse,
+    reports,
+    scan,
+    select,
+    suzanne,
+    triangles_of,
+)
+
+REPORT = "medial_axis_sampling_report"
+EVEN = {"sampling": "SURFACE", "samples": 1_500}
+
+
+def report(source, **settings):
+    """Run the operator on a source; the report, which must be there."""
+    select(source)
+    assert bpy.ops.object.medial_axis_sampling_report(**settings) == {"FINISHED"}
+    return addon("bridge.sampling_report").report_of(source)
+
+
+def cylinder():
+    bpy.ops.mesh.primitive_cylinder_add()
+    return bpy.context.object
+
+
+def test_report_is_the_samples_with_their_attributes():
+    source = cylinder()
+    found = report(source, **EVEN)
+    mesh = found.data
+    assert found.name == "Cylinder Sampling" and found["ma_source"] == source
+    assert len(mesh.vertices) == found["ma_points"] == pytest.approx(1_500, rel=0.1)
+    assert [material.name for material in mesh.materials] == ["Medial Axis Epsilon"]
+    epsilon, spacing, size = (
+        attribute(mesh, name).astype(float)
+        for name in ("ma_epsilon", "ma_spacing", "ma_feature_size")
+    )
+    known = np.isfinite(size)
+    assert known.mean() > 0.95 and (spacing > 0).all() and (size > 0).all()
+    np.testing.assert_allclose(epsilon[known], spacing[known] / size[known], rtol=1e-5)
+    # a cylinder of radius 1 and height 2: nowhere is the axis farther than 1 away
+    assert size[known].max() < 1.1
+
+
+def test_faces_of_a_report_are_the_surface_that_samples_see():
+    found = report(ellipsoid(), **EVEN)
+    mesh = found.data
+    assert mesh.validate() is False
+    winding = addon("core.native").load().winding_number
+    corners = triangles_of(mesh)
+    inside = winding(np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), positions(mesh), corners)
+    np.testing.assert_allclose(inside, [1.0, 0.0], atol=1e-6)
+    assert len(np.unique(corners)) > 0.99 * len(mesh.vertices)
+
+
+def test_figures_are_those_of_the_attribute():
+    source = ellipsoid()
+    found = report(source, **EVEN)
+    epsilon = attribute(found.data, "ma_epsilon")
+    assert found["ma_epsilon_limit"] == 0.25
+    assert found["ma_epsilon_median"] == pytest.approx(np.median(epsilon), rel=1e-2)
+    assert found["ma_epsilon_share"] == pytest.approx(np.mean(epsilon > 0.25))
+    assert found["ma_epsilon_worst"][0] == pytest.approx(epsilon.max(), rel=1e-5)
+    worst = np.reshape(found["ma_epsilon_worst_places"], (-1, 3))
+    nearest = np.linalg.norm(positions(found.data) - worst[0], axis=1).argmin()
+    assert epsilon[nearest] == pytest.approx(epsilon.max(), rel=1e-5)
+    assert len(worst) == len(found["ma_epsilon_worst"]) > 1
+    assert found["ma_density"].startswith(f"Epsilon: median {np.median(epsilon):.2f}, ")
+
+
+def test_sharp_edges_are_counted_apart():
+    found = report(cylinder(), **EVEN)
+    epsilon = attribute(found.data, "ma_epsilon")
+    assert found["ma_epsilon_share_of_all"] == pytest.approx(np.mean(epsilon > 0.25))
+    assert found["ma_epsilon_share"] < found["ma_epsilon_share_of_all"]
+    assert "; with sharp edges " in found["ma_density"]
+
+
+def test_more_samples_lower_epsilon():
+    source = ellipsoid()
+    few = report(source, sampling="SURFACE", samples=500)["ma_epsilon_median"]
+    many = report(source, sampling="SURFACE", samples=8_000)["ma_epsilon_median"]
+    assert many < 0.4 * few  # a quarter, and both are estimates
+
+
+def test_report_is_updated_in_place_and_keeps_the_artists_choices():
+    source = cylinder()
+    found = report(source, **EVEN)
+    other = bpy.data.materials.new("Mine")
+    found.data.materials[0] = other
+    found.name = "Check"
+    before = contents()
+    again = report(source, sampling="SURFACE", samples=700)
+    assert again == found and contents() == before
+    assert again.data.materials[0] == other and len(again.data.vertices) < 1_000
+
+
+def test_report_of_vertices_has_one_row_per_vertex_also_of_doubled_ones():
+    source = ellipsoid()
+    points, triangles = positions(source.data), triangles_of(source.data)
+    soup = link("Soup", points[triangles.ravel()], np.arange(triangles.size).reshape(-1, 3))
+    found = report(soup, sampling="VERTICES")
+    np.testing.assert_array_equal(positions(found.data), positions(soup.data))
+    epsilon = attribute(found.data, "ma_epsilon")
+    whole = attribute(report(source, sampling="VERTICES").data, "ma_epsilon")
+    np.testing.assert_allclose(epsilon, whole[triangles.ravel()], rtol=1e-5)
+    assert found["ma_duplicates"] == len(soup.data.vertices) - len(points)
+
+
+def test_report_of_a_cloud_of_points():
+    found = report(scan())
+    assert found["ma_epsilon_median"] < 0.25 and len(found.data.polygons) > 3_000
+
+
+def test_selected_report_stands_for_its_source():
+    source = cylinder()
+    found = report(source, **EVEN)
+    assert bpy.context.selected_objects == [found]
+    assert bpy.ops.object.medial_axis(**EVEN) == {"FINISHED"}
+    assert addon("bridge.results").result_of(source) is not None
+    assert addon("bridge.results").result_of(found) is None
+    bpy.data.objects.remove(source)
+    select(found)
+    refuse("is a report whose source is gone", operator=REPORT)
+
+
+def test_report_in_edit_mode_is_refused():
+    source = cylinder()
+    found = report(source, **EVEN)
+    count = len(found.data.vertices)
+    bpy.ops.object.mode_set(mode="EDIT")
+    refuse("'Cylinder Sampling' in object mode, found it in edit mode", operator=REPORT)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(found.data.vertices) == count
+
+
+def test_report_of_what_is_no_solid_is_one_sentence():
+    bpy.ops.mesh.primitive_plane_add()
+    refuse("'Plane': .*one plane", operator=REPORT)
+
+
+def test_report_lies_where_the_source_lies():
+    source = cylinder()
+    source.location, source.rotation_euler, source.scale = (3, 4, 5), (0.1, 0.2, 0.3), (1, 1, 3)
+    found = report(source, **EVEN)
+    matrix = np.array(found.matrix_world)
+    np.testing.assert_allclose(matrix[:3, 3], (3, 4, 5), atol=1e-6)
+    np.testing.assert_allclose(matrix[:3, :3] @ matrix[:3, :3].T, np.eye(3), atol=1e-5)
+    assert np.ptp(positions(found.data)[:, 2]) == pytest.approx(6.0, abs=0.05)
+
+
+# --- on the source
+
+
+def test_epsilon_on_the_source():
+    source = ellipsoid(segments=3)
+    select(source)
+    assert bpy.ops.object.medial_axis_sampling_report(target="SOURCE", **EVEN) == {"FINISHED"}
+    assert addon("bridge.sampling_report").report_of(source) is None
+    values = attribute(source.data, "ma_epsilon")
+    found = report(source, **EVEN)
+    samples, epsilon = positions(found.data), attribute(found.data, "ma_epsilon")
+    vertices = positions(source.data)
+    nearest = np.linalg.norm(samples[:, None] - vertices, axis=2).argmin(axis=1)
+    for row in range(len(vertices)):
+        mine = epsilon[nearest == row]
+        if len(mine):
+            assert values[row] == pytest.approx(mine.max(), rel=1e-5)
+        else:
+            closest = np.linalg.norm(samples - vertices[row], axis=1).argmin()
+            assert values[row] == pytest.approx(epsilon[closest], rel=1e-5)
+    select(source)
+    bpy.ops.object.medial_axis_sampling_report(target="SOURCE", **EVEN | {"samples": 300})
+    assert (attribute(source.data, "ma_epsilon") != values).any()
+    assert [a.name for a in source.data.attributes].count("ma_epsilon") == 1
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: suzanne(levels=1), "as many vertices with modifiers as without"),
+        (
+            lambda: bpy.ops.object.metaball_add() and bpy.context.object,
+            "found an object of type Meta",
+        ),
+    ],
+    ids=["modifier", "metaball"],
+)
+def test_source_that_cannot_take_it_is_one_sentence(make, sentence):
+    select(make())
+    refuse(sentence, operator=REPORT, target="SOURCE", **EVEN)
+
+
+def test_source_in_edit_mode_is_one_sentence():
+    source = ellipsoid()
+    bpy.ops.object.mode_set(mode="EDIT")
+    refuse("choose Write To Copy", operator=REPORT, target="SOURCE", **EVEN)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert "ma_epsilon" not in source.data.attributes
+
+
+# --- what is said
+
+
+def test_report_says_what_was_done(capfd):
+    report(cylinder(), **EVEN)
+    infos = [text for kind, text in reports(capfd) if kind == "Info"]
+    assert len(infos) == 1
+    assert "samples of the surface: as chosen; Epsilon: median " in infos[0]
+
+
+def test_sparse_samples_are_a_warning(capfd):
+    found = report(opened(), sampling="SURFACE", samples=100, epsilon=0.05)
+    assert "too sparse for what the shape has there (epsilon above 0.05)" in found["ma_warnings"]
+    assert any("too sparse" in text for kind, text in reports(capfd) if kind == "Warning")
+
+
+def test_panel_speaks_of_the_report():
+    source = cylinder()
+    found = report(source, **EVEN)
+    shown = addon("ui.properties").shown_report
+    assert shown(bpy.context) == found
+    select(source)
+    assert shown(bpy.context) == found

@@ -1,0 +1,75 @@
+"""How dense samples are: figures of made-up estimates, and nearness against brute force."""
+
+import numpy as np
+import pytest
+from medial_axis.core.density import Density, percent
+from medial_axis.core.nearness import near
+
+RNG = np.random.default_rng(5)
+
+
+def density(spacing, size, points=None, edges=None, limit=0.25, finest=0.1):
+    count = len(spacing)
+    points = RNG.normal(size=(count, 3)) if points is None else points
+    edges = np.zeros((0, 3)) if edges is None else edges
+    return Density(points, np.array(spacing, float), np.array(size, float), edges, finest, limit)
+
+
+def test_epsilon_is_spacing_by_feature_size_and_infinite_where_nothing_is_known():
+    found = density([1, 1, np.inf, 1], [4, np.inf, 1, 0])
+    np.testing.assert_array_equal(found.epsilon, [0.25, np.inf, np.inf, np.inf])
+    assert found.share == 0.75 and found.median == np.inf
+
+
+def test_figures_leave_out_what_is_at_sharp_edges():
+    points = np.array([[0.0, 0, 0], [0.3, 0, 0], [0.41, 0, 0], [5, 0, 0]])
+    found = density([1, 1, 1, 1], [1, 2, 5, 10], points, edges=np.zeros((1, 3)))
+    # finest / limit is 0.4: closer than that, 0.25 times the distance is less than 0.1
+    assert found.at_edge.tolist() == [True, True, False, False]
+    assert (found.share, found.share_of_all) == (0.0, 0.5)
+    assert found.p95 == 0.2 and found.dense_enough
+    assert str(found).endswith("95 % below 0.20, 0 % above 0.25; with sharp edges 50 %")
+
+
+def test_everything_at_sharp_edges_is_no_division_by_nothing():
+    found = density([1, 1], [1, 2], np.zeros((2, 3)), edges=np.zeros((1, 3)))
+    assert (found.share, found.share_of_all, found.worst) == (0.0, 1.0, [])
+    assert found.p95 == 1.0
+
+
+def test_worst_places_are_apart_and_in_order():
+    points = np.concatenate([RNG.normal(scale=1e-3, size=(50, 3)) + centre for centre in np.eye(3)])
+    epsilon = RNG.random(150)
+    worst = density(epsilon, np.ones(150), points).worst
+    assert len(worst) == 3
+    assert [value for _, value in worst] == sorted((value for _, value in worst), reverse=True)
+    assert worst[0] == (tuple(points[epsilon.argmax()]), epsilon.max())
+    for part, centre in zip(np.split(epsilon, 3), np.eye(3), strict=True):
+        assert any(value == part.max() and np.allclose(p, centre, atol=0.01) for p, value in worst)
+
+
+@pytest.mark.parametrize(
+    ("share", "text"),
+    [(0, "0 %"), (0.004, "0.4 %"), (0.094, "9.4 %"), (0.12, "12 %"), (1, "100 %")],
+)
+def test_percent(share, text):
+    assert percent(share) == text
+
+
+@pytest.mark.parametrize("reach", [1e-3, 0.05, 0.3, 10.0])
+@pytest.mark.parametrize("shift", [0.0, 1e4])
+def test_near_is_what_brute_force_says(reach, shift):
+    points = RNG.random((400, 3)) + shift
+    others = RNG.random((60, 3)) * (1.0, 1.0, 0.0) + shift
+    distance = np.linalg.norm(points[:, None] - others, axis=2).min(axis=1)
+    found = near(points, others, reach)
+    clear = np.abs(distance - reach) > 1e-9
+    np.testing.assert_array_equal(found[clear], (distance <= reach)[clear])
+    assert near(others, others, reach).all()
+
+
+def test_nothing_is_near_nothing():
+    points = np.zeros((3, 3))
+    assert not near(points, np.zeros((0, 3)), 1.0).any()
+    assert not near(points, points, 0.0).any()
+    assert near(np.zeros((0, 3)), points, 1.0).shape == (0,)
