@@ -59,6 +59,13 @@ def errors(
     """Two-sided distances of the inner facets."""
     offsets, corners = keep(mesh, inner_facets(mesh, shape))
     triangles = fan_triangles(mesh.vertices, offsets, corners)
+    return errors_of(triangles, shape, points, axis_points, seed)
+
+
+def errors_of(
+    triangles: Array, shape: Shape, points: int = 20000, axis_points: int = 4000, seed: int = 0
+) -> Errors:
+    """Two-sided distances of (m, 3, 3) triangles."""
     output = distance.points_on_triangles(triangles, points, np.random.default_rng(seed))
     to_truth = shape.axis_distance(output)
     truth, rim = shape.axis_points(axis_points, seed), shape.rim_points(axis_points // 4)

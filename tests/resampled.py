@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import distance
 import numpy as np
 from meshes import Mesh
 from numpy.typing import NDArray
@@ -24,11 +25,15 @@ def of_surface(mesh: Mesh, count: int, **options: Any) -> Any:
     return by_the_addon(mesh, sampling=Sampling.SURFACE, samples=count, **options)
 
 
-def graded(medial: Any, mesh: Mesh, count: int, spacings: Array) -> tuple[Any, Any]:
-    """Samples with these spacings at the mesh's vertices, up to a factor, and the inner axis, by the bare module."""
+def graded(medial: Any, mesh: Mesh, count: int, ratio: float = 10.0) -> tuple[Any, Any]:
+    """So many samples with spacings that grow by `ratio` along x, and the inner axis, by the bare module."""
     vertices, triangles = mesh
+    sites = distance.points_on_triangles(vertices[triangles], 5000, np.random.default_rng(0))
+    along = (sites[:, 0] - sites[:, 0].min()) / np.ptp(sites[:, 0])
+    wanted = ratio**along
+    wanted *= np.sqrt(area(mesh) / count * np.mean(2 / (np.sqrt(3) * wanted**2)))
     samples = medial.sample_surface(
-        vertices, triangles, sizing=(vertices, spacings), count=count, smooth=True
+        vertices, triangles, sizing=(sites, wanted), count=count, smooth=True
     )
     analysis = medial.MedialAnalysis(samples.points, triangles, vertices=vertices)
     return samples, analysis.extract(side=medial.Side.INNER)
