@@ -20,7 +20,7 @@ def spacings(samples: Any, medial: Any, places: Array) -> Array:
     return samples.radius[discs][nearest] / DISC
 
 
-def one_way(axis: Any, other: Any, points: int = 5000, seed: int = 0) -> tuple[Array, Array]:
+def one_way(axis: Any, other: Any, points: int = 2000, seed: int = 0) -> tuple[Array, Array]:
     """Area-weighted points of an axis and their distances to another."""
     ours, theirs = (
         measure.fan_triangles(x.vertices, x.face_offsets, x.face_vertices) for x in (axis, other)
