@@ -1,5 +1,6 @@
 #include "creases.h"
 
+#include <numbers>
 #include <tuple>
 
 #include "order.h"
@@ -202,7 +203,7 @@ bool is_tip(const TriangleMesh& mesh, int32_t p, double angle) {
     const auto at = std::find(corners.begin(), corners.end(), p) - corners.begin();
     mean = mean + mesh.corner_angle(t, static_cast<int>(at)) * mesh.normal[t];
   }
-  const double least = std::cos(std::min(angle, 0.5 * 3.14159265358979)) * length(mean);
+  const double least = std::cos(std::min(angle, std::numbers::pi / 2)) * length(mean);
   const auto steep = [&](int32_t t) {
     return mesh.normal[t] != Vec3{} && dot(mesh.normal[t], mean) < least;
   };
@@ -297,6 +298,7 @@ TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle>
 Creases find_creases(const TriangleMesh& mesh, double sharp_angle, std::span<const Edge> marked,
                      bool split_at_vertices, const Run& run) {
   Creases creases;
+  creases.sharp_angle = sharp_angle;
   add_edges(mesh, sharp_angle, creases, run);
   for (const auto& [p, q] : marked) {
     const int32_t edge = creases.find(p, q);

@@ -35,6 +35,7 @@ struct ChainLink {
 };
 
 struct Creases {
+  double sharp_angle = 0;
   std::vector<MeshEdge> edges;      // in lexicographic order
   std::vector<int64_t> first_edge;  // (v + 1) edges by their lower end
   std::vector<Crease> at;           // (v) of the edges there the sharpest

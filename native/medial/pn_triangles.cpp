@@ -1,5 +1,7 @@
 #include "pn_triangles.h"
 
+#include <numbers>
+
 #include "union_find.h"
 
 namespace medial {
@@ -83,6 +85,26 @@ void CurvedSurface::add_normals(const Creases& creases) {
     sum = sum + mesh_.corner_angle(t, c % 3) * mesh_.normal[t];
   }
   for (Vec3& normal : fan_normals_) normal = normalized(normal);
+  split_steep_fans(creases.sharp_angle);
+}
+
+// Round the tip of a cone no mean stands for its sides, and patches bent towards it would leave the
+// cone: there each triangle keeps its own normal, and edges leave the tip straight.
+void CurvedSurface::split_steep_fans(double sharp_angle) {
+  const double least = std::cos(std::min(sharp_angle, std::numbers::pi / 2));
+  std::vector<uint8_t> steep(fan_normals_.size(), 0);
+  for (size_t t = 0; t < fan_of_.size(); ++t) {
+    const Vec3& normal = mesh_.normal[t];
+    if (normal == Vec3{}) continue;
+    for (const int32_t fan : fan_of_[t]) steep[fan] |= dot(normal, fan_normals_[fan]) < least;
+  }
+  for (size_t t = 0; t < fan_of_.size(); ++t) {
+    for (int32_t& fan : fan_of_[t]) {
+      if (!steep[fan]) continue;
+      fan = static_cast<int32_t>(fan_normals_.size());
+      fan_normals_.push_back(mesh_.normal[t]);
+    }
+  }
 }
 
 const Vec3& CurvedSurface::fan_normal(int32_t triangle, int32_t vertex) const {

@@ -43,6 +43,7 @@ class CurvedSurface {
   using Handles = std::array<Vec3, 2>;
 
   void add_normals(const Creases& creases);
+  void split_steep_fans(double sharp_angle);
   Handles handles_of(const MeshEdge& edge) const;
   const Vec3& fan_normal(int32_t triangle, int32_t vertex) const;
   const Vec3& handle(int32_t triangle, int from, int to) const;
