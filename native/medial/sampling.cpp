@@ -4,6 +4,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "mirrored_rows.h"
 #include "poisson_disk.h"
 #include "samples.h"
 
@@ -18,6 +19,7 @@ const double kDisk = std::sqrt(kPacking / kHexagonal);
 constexpr int kMostCuts = 3;  // of a curved triangle
 constexpr size_t kManyPieces = 1 << 20;
 constexpr int kCurveSteps = 8;  // of a curved edge
+constexpr int kMostRows = 100;
 
 struct FixedSample {
   SampleKind kind;
@@ -177,30 +179,81 @@ Polyline measured(const Model& model, std::span<const ChainLink> chain, const Sp
   return line;
 }
 
-// Even steps of at most one spacing; the ends only where they are no corners.
-void sample_chain(const Model& model, std::span<const ChainLink> chain, bool closed,
-                  const Spacing& spacing, std::vector<FixedSample>& out) {
-  constexpr double kRounding = 1e-9;  // a length that is a multiple of the spacing
-  const Polyline line = measured(model, chain, spacing);
-  const double total = line.knots.back().passed;
-  const double parts = std::max(closed ? 3.0 : 1.0, std::ceil(total * (1 - kRounding)));
-  if (!(parts < kMostSamples)) return;  // the caller has counted them
-  size_t next = 1;
-  for (double i = closed ? 0 : 1; i < parts; ++i) {
-    const double wanted = total * i / parts;
-    while (next + 1 < line.knots.size() && line.knots[next].passed < wanted) ++next;
-    const auto &from = line.knots[next - 1], &to = line.knots[next];
-    const double step = to.passed - from.passed;
-    const double share = step > 0 ? (wanted - from.passed) / step : 0;
-    out.push_back(on_edge(
-        model, model.creases.edges[to.edge],
-        from.edge == to.edge ? from.share + share * (to.share - from.share) : to.share, spacing));
-  }
-}
-
 bool begins_at_corner(const Model& model, std::span<const ChainLink> chain, bool keep_vertices) {
   const MeshEdge& edge = model.creases.edges[chain.front().edge];
   return keep_vertices || model.creases.corner[edge.ends[chain.front().reversed]];
+}
+
+struct PlaceOnEdge {
+  int32_t edge;
+  double share;  // from its first end
+};
+
+// A chain cut into equal parts of at most one spacing.
+class Division {
+ public:
+  Division(const Model& model, std::span<const ChainLink> chain, bool keep_vertices,
+           const Spacing& spacing)
+      : line_(measured(model, chain, spacing)),
+        closed_(!begins_at_corner(model, chain, keep_vertices)) {
+    constexpr double kRounding = 1e-9;  // a length that is a multiple of the spacing
+    const double least = closed_ ? 3 : 1, total = line_.knots.back().passed;
+    parts_ = std::max(least, std::ceil(total * (1 - kRounding)));
+    if (!(parts_ < kMostSamples)) parts_ = 0;  // the caller has counted them
+  }
+
+  // The ends only where they are no corners.
+  std::vector<PlaceOnEdge> ends_of_parts() const { return places(closed_ ? 0 : 1); }
+  std::vector<PlaceOnEdge> middles_of_parts() const { return places(0.5); }
+
+ private:
+  std::vector<PlaceOnEdge> places(double first) const {
+    std::vector<PlaceOnEdge> found;
+    size_t next = 1;
+    for (double i = first; i < parts_; ++i) {
+      const double wanted = line_.knots.back().passed * i / parts_;
+      while (next + 1 < line_.knots.size() && line_.knots[next].passed < wanted) ++next;
+      const auto &from = line_.knots[next - 1], &to = line_.knots[next];
+      const double step = to.passed - from.passed;
+      const double share = step > 0 ? (wanted - from.passed) / step : 0;
+      const bool one_edge = from.edge == to.edge;
+      found.push_back(
+          {to.edge, one_edge ? from.share + share * (to.share - from.share) : to.share});
+    }
+    return found;
+  }
+
+  Polyline line_;
+  bool closed_;
+  double parts_;
+};
+
+struct Pair {
+  FixedSample left, right;
+};
+
+// One place on either side of an edge, as far from it.
+std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, double spacings,
+                                const Spacing& spacing) {
+  const MeshEdge& edge = model.creases.edges[place.edge];
+  if (edge.crease != Crease::kSharp || !edge.manifold) return {};
+  const Barycentric middle =
+      along(model.mesh.triangles[edge.triangles[0]], edge.ends[0], edge.ends[1], place.share);
+  const double away = spacings * spacing(model.surface->point(edge.triangles[0], middle));
+  const auto on_side = [&](int32_t triangle) -> std::optional<FixedSample> {
+    const auto found = walk_from_edge(model.mesh, model.creases, edge, triangle, place.share, away);
+    if (!found) return {};
+    const Vec3 point = model.surface->point(found->triangle, found->at);
+    return FixedSample{SampleKind::kSurface,
+                       found->triangle,
+                       found->at,
+                       point,
+                       model.surface->normal(found->triangle, found->at),
+                       kDisk * spacing(point)};
+  };
+  const auto left = on_side(edge.triangles[0]), right = on_side(edge.triangles[1]);
+  if (!left || !right) return {};
+  return Pair{*left, *right};
 }
 
 std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
@@ -216,8 +269,10 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
   const auto along_chains = parallel_append<FixedSample>(
       chains.size(), run,
       [&](int64_t i, std::vector<FixedSample>& out, int) {
-        const bool closed = !begins_at_corner(model, chains[i], keep_vertices);
-        sample_chain(model, chains[i], closed, spacing, out);
+        const Division division(model, chains[i], keep_vertices, spacing);
+        for (const auto& [edge, share] : division.ends_of_parts()) {
+          out.push_back(on_edge(model, model.creases.edges[edge], share, spacing));
+        }
       },
       16);
   samples.insert(samples.end(), along_chains.begin(), along_chains.end());
@@ -226,12 +281,46 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
   return samples;
 }
 
+// One row of a hexagonal lattice along each edge; every other row is staggered.
+std::vector<Pair> mirrored_row(const Model& model, int row, bool keep_vertices,
+                               const Spacing& spacing, const Run& run) {
+  constexpr double kFirstRow = 0.75, kNextRow = 0.85;
+  const auto& chains = model.creases.chains;
+  return parallel_append<Pair>(
+      chains.size(), run,
+      [&](int64_t i, std::vector<Pair>& out, int) {
+        const Division division(model, chains[i], keep_vertices, spacing);
+        for (const PlaceOnEdge& place :
+             row % 2 == 0 ? division.middles_of_parts() : division.ends_of_parts()) {
+          const auto pair = beside_edge(model, place, kFirstRow + kNextRow * row, spacing);
+          if (pair) out.push_back(*pair);
+        }
+      },
+      16);
+}
+
+Disk disk_of(const FixedSample& s) {
+  return {s.point, s.radius, s.kind >= SampleKind::kVertex ? s.normal : Vec3{}};
+}
+
 std::vector<Disk> disks_of(std::span<const FixedSample> samples) {
   std::vector<Disk> disks;
-  for (const FixedSample& s : samples) {
-    disks.push_back({s.point, s.radius, s.kind == SampleKind::kVertex ? s.normal : Vec3{}});
-  }
+  for (const FixedSample& s : samples) disks.push_back(disk_of(s));
   return disks;
+}
+
+// Appends the rows beside the sharp edges, as far as there is room, the nearest first.
+void add_mirrored_rows(const Model& model, const SamplingOptions& options, const Spacing& spacing,
+                       std::vector<FixedSample>& samples, const Run& run) {
+  for (int row = 0; row < options.mirrored_rows; ++row) {
+    const auto pairs = mirrored_row(model, row, options.keep_vertices, spacing, run);
+    std::vector<std::array<Disk, 2>> disks;
+    for (const auto& [left, right] : pairs) disks.push_back({disk_of(left), disk_of(right)});
+    for (const int32_t i : free_pairs(disks_of(samples), disks, run)) {
+      samples.push_back(pairs[i].left);
+      samples.push_back(pairs[i].right);
+    }
+  }
 }
 
 struct Turn {
@@ -283,6 +372,7 @@ Turn sample_once(const Model& model, const SamplingOptions& options, const Spaci
   require_countable(std::max(expected, spacing.field ? 0 : crease_length(model) / spacing.scale));
   Turn turn;
   turn.fixed = fixed_samples(model, options.keep_vertices, spacing, run);
+  add_mirrored_rows(model, options, spacing, turn.fixed, run);
   const auto pieces = cut_into_pieces(*model.surface, cuts_for(model, expected), spacing, run);
   turn.placed =
       poisson_disks(*model.surface, pieces, kDisk, disks_of(turn.fixed), kDarts, options.seed, run);
@@ -354,6 +444,10 @@ void require_valid(const SamplingOptions& options, size_t vertices) {
   if (!(options.sharp_angle >= 0 && options.sharp_angle <= std::numbers::pi)) {
     throw InvalidInputError("Expected a sharp_angle of 0 to pi, found " +
                             text(options.sharp_angle) + "; change it.");
+  }
+  if (options.mirrored_rows < 0 || options.mirrored_rows > kMostRows) {
+    throw InvalidInputError("Expected mirrored_rows of 0 to " + std::to_string(kMostRows) +
+                            ", found " + std::to_string(options.mirrored_rows) + "; change it.");
   }
   if (options.sites) require_valid_sites(options);
   for (const auto& edge : options.sharp_edges) {

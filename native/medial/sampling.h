@@ -19,6 +19,7 @@ struct SamplingOptions {
   std::span<const Edge> sharp_edges;         // rows of vertices
   bool smooth = false;
   bool keep_vertices = false;
+  int mirrored_rows = 2;  // beside each sharp edge, on either side
   uint64_t seed = 0;
 };
 

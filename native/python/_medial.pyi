@@ -456,6 +456,7 @@ def sample_surface(
     sharp_edges: NDArray[np.int32] | None = None,
     smooth: bool = False,
     keep_vertices: bool = False,
+    mirrored_rows: int = 2,
     seed: int = 0,
     progress: Progress | None = None,
     threads: int = 0,
@@ -495,6 +496,10 @@ def sample_surface(
         weighted by angle. Sharp edges are curves tangent to both sides, so there are no cracks. Default: flat.
     keep_vertices : bool
         Every used vertex is a sample, too.
+    mirrored_rows : int
+        So many rows of samples along each sharp edge of two triangles, 0.75, 1.6, 2.45, ... spacings from it, are
+        the same on both sides of the edge, where there is room: their Voronoi facets lie in the bisector of the
+        sides, and the medial axis runs straight into the edge; default 2.
     seed : int
     progress : Progress, optional
     threads : int

@@ -21,7 +21,8 @@ constexpr const char* kSampleDoc =
     "count : int, optional\nspacing : float, optional\n"
     "sizing : ((k, 3) float64, (k,) float64), optional\n    Sites and the spacings there.\n"
     "sharp_angle : float\n    Radians; default pi/6.\n"
-    "sharp_edges : (e, 2) int32, optional\nsmooth : bool\nkeep_vertices : bool\nseed : int\n"
+    "sharp_edges : (e, 2) int32, optional\nsmooth : bool\nkeep_vertices : bool\n"
+    "mirrored_rows : int\n    Beside each sharp edge; default 2.\nseed : int\n"
     "progress : Progress, optional\nthreads : int\n\n"
     "Raises\n------\nInvalidInputError, Cancelled";
 
@@ -77,8 +78,8 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
                                        std::optional<int64_t> count, std::optional<double> spacing,
                                        const py::object& sizing, double sharp_angle,
                                        const py::object& sharp_edges, bool smooth,
-                                       bool keep_vertices, int64_t seed, Progress* progress,
-                                       int threads) {
+                                       bool keep_vertices, int mirrored_rows, int64_t seed,
+                                       Progress* progress, int threads) {
   const Points points(vertices, "vertices");
   const Triangles faces(py::reinterpret_borrow<py::object>(triangles));
   const Sizing sizes(sizing);
@@ -92,6 +93,7 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
                          static_cast<size_t>(marked.shape(0))};
   options.smooth = smooth;
   options.keep_vertices = keep_vertices;
+  options.mirrored_rows = mirrored_rows;
   options.seed = static_cast<uint64_t>(seed);
   const Run run{thread_count(thread_argument(threads)), progress};
   const auto point_span = points.span();
@@ -131,8 +133,9 @@ void bind_sampling(py::module_& m) {
         py::kw_only(), py::arg("count") = py::none(), py::arg("spacing") = py::none(),
         py::arg("sizing") = py::none(), py::arg("sharp_angle") = SamplingOptions{}.sharp_angle,
         py::arg("sharp_edges") = py::none(), py::arg("smooth") = false,
-        py::arg("keep_vertices") = false, py::arg("seed") = 0, py::arg("progress") = nullptr,
-        py::arg("threads") = 0);
+        py::arg("keep_vertices") = false,
+        py::arg("mirrored_rows") = SamplingOptions{}.mirrored_rows, py::arg("seed") = 0,
+        py::arg("progress") = nullptr, py::arg("threads") = 0);
 }
 
 }  // namespace medial::python

@@ -104,7 +104,8 @@ def test_counts_follow_area_over_triangle_groups(medial):
 
 def test_density_of_curved_triangles_is_even(medial):
     """Sixteen sides of a cylinder, each bent to an arc: as many samples in the middle of a side as at its ends."""
-    samples = medial.sample_surface(*cylinder(16), count=20000, smooth=True)
+    # without rows along the rims, which are as regular as the sides and would show in the counts
+    samples = medial.sample_surface(*cylinder(16), count=20000, smooth=True, mirrored_rows=0)
     side = (np.abs(samples.normals[:, 2]) < 0.1) & (np.abs(samples.points[:, 2]) < 0.9)
     turn = np.arctan2(samples.points[side, 1], samples.points[side, 0]) * 16 / (2 * np.pi) % 1
     found = np.histogram(turn, 8, (0, 1))[0]
