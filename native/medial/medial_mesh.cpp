@@ -2,6 +2,8 @@
 
 #include <climits>
 
+#include "circumcentre.h"
+
 namespace medial {
 namespace {
 
@@ -23,15 +25,43 @@ void distinct_vertices(const std::vector<int32_t>& ring, const Voronoi& voronoi,
   }
 }
 
-void append_facet(int32_t edge, const Triangulation& t, const Voronoi& voronoi, const Edges& edges,
-                  std::vector<int32_t>& ring, std::vector<int32_t>& polygon, Polygons& out) {
+// How far rounding may have moved the centre of a cell.
+double error_of(int32_t cell, std::span<const Vec3> points, const Triangulation& t) {
+  const auto& [i, j, k, l] = t.cells[cell];
+  return circumcentre(points[i], points[j], points[k], points[l]).error;
+}
+
+// Whether the vertices of a polygon cannot be told from points of one line, as of samples that lie
+// symmetrically about it.
+bool is_on_a_line(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
+                  const Triangulation& t, const Voronoi& voronoi) {
+  const Vec3& start = voronoi.centre[polygon[0]];
+  int32_t far = polygon[1];
+  for (const int32_t v : polygon) {
+    if (distance(start, voronoi.centre[v]) > distance(start, voronoi.centre[far])) far = v;
+  }
+  const Vec3 along = normalized(voronoi.centre[far] - start);
+  const auto beside = [&](int32_t v) { return length(cross(voronoi.centre[v] - start, along)); };
+  double widest = 0;
+  for (const int32_t v : polygon) widest = std::max(widest, beside(v));
+  const double radius = distance(start, points[t.cells[polygon[0]][0]]);
+  const double largest = radius + distance(start, voronoi.centre[far]);  // of all their balls
+  if (widest > 4 * kCoarsestError * largest) return false;               // beyond all rounding
+  const double ends = error_of(polygon[0], points, t) + error_of(far, points, t);
+  return std::all_of(polygon.begin(), polygon.end(),
+                     [&](int32_t v) { return beside(v) <= ends + error_of(v, points, t); });
+}
+
+void append_facet(int32_t edge, std::span<const Vec3> points, const Triangulation& t,
+                  const Voronoi& voronoi, const Edges& edges, std::vector<int32_t>& ring,
+                  std::vector<int32_t>& polygon, Polygons& out) {
   if (t.is_infinite(edges.cell[edge])) {
     ++out.unbounded;
     return;
   }
   ring_of_cells(t, edges.ends[edge], edges.cell[edge], ring);
   distinct_vertices(ring, voronoi, polygon);
-  if (polygon.size() < 3) {
+  if (polygon.size() < 3 || is_on_a_line(polygon, points, t, voronoi)) {
     ++out.zero_area;
     return;
   }
@@ -40,14 +70,15 @@ void append_facet(int32_t edge, const Triangulation& t, const Voronoi& voronoi, 
   out.edges.push_back(edge);
 }
 
-std::vector<Polygons> polygons(std::span<const int32_t> edge_ids, const Triangulation& t,
-                               const Voronoi& voronoi, const Edges& edges, const Run& run) {
+std::vector<Polygons> polygons(std::span<const int32_t> edge_ids, std::span<const Vec3> points,
+                               const Triangulation& t, const Voronoi& voronoi, const Edges& edges,
+                               const Run& run) {
   const auto count = static_cast<int64_t>(edge_ids.size());
   std::vector<Polygons> parts(static_cast<size_t>((count + kGrain - 1) / kGrain));
   parallel_chunks(count, run, [&](int64_t begin, int64_t end, int) {
     std::vector<int32_t> ring, polygon;
     for (int64_t i = begin; i < end; ++i) {
-      append_facet(edge_ids[i], t, voronoi, edges, ring, polygon, parts[begin / kGrain]);
+      append_facet(edge_ids[i], points, t, voronoi, edges, ring, polygon, parts[begin / kGrain]);
     }
   });
   return parts;
@@ -106,7 +137,7 @@ Facets voronoi_facets(std::span<const int32_t> edge_ids, std::span<const Vec3> p
                       const Triangulation& t, const Voronoi& voronoi, const Edges& edges,
                       const Run& run) {
   Facets facets;
-  auto parts = polygons(edge_ids, t, voronoi, edges, run);
+  auto parts = polygons(edge_ids, points, t, voronoi, edges, run);
   concatenate(parts, facets);
   MedialMesh& mesh = facets.mesh;
   const auto used = number_vertices(mesh.face_vertices, t.cell_count());
