@@ -34,6 +34,9 @@ _EFFORT = {
 _SPENT = 0.97  # of the budget, which is met by scaling all spacings
 _SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning
 _OFF = 1e-3  # of the spacing: how far from the surface one looks for its two sides
+_CLEARLY = (
+    1.01  # sharper than an angle: tubes of twelve sides are round, and bent ones have 30.1 degrees
+)
 _ROUNDINGS = 4  # of float32, in which meshes are stored: a surface that is less thick is flat
 
 
@@ -224,8 +227,8 @@ class _Sampler:
             name: getattr(settings, name)
             for name in ("sharp_angle", "smooth", "keep_vertices", "seed")
         }
-        if shape.shaded_smooth:
-            options["sharp_angle"] = min(2.0 * settings.sharp_angle, math.pi)
+        wider = 2.0 if shape.shaded_smooth else _CLEARLY
+        options["sharp_angle"] = min(wider * settings.sharp_angle, math.pi)
         parts = (shape.points, shape.triangles, shape.sharp_edges, *options.values())
         amounts = (word for pair in amount.items() for word in pair)
         return self._cached(

@@ -250,8 +250,8 @@ OPTIONS: dict[str, Number | Integer | Choice | Switch] = {
     ),
     "sharp_angle": Number(
         label="Sharp Angle",
-        description="Edges are sharp where the directions of their faces differ by at least this "
-        "angle, or twice this where all faces are shaded smooth; so are edges that are marked sharp",
+        description="Edges are sharp where the directions of their faces differ by clearly more "
+        "than this angle, or by twice this where all faces are shaded smooth; so are edges that are marked sharp",
         default=math.pi / 6,
         minimum=math.radians(1.0),
         maximum=math.pi,

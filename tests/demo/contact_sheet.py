@@ -165,8 +165,14 @@ def as_mesh(source):
 
 def montage(folder, names, path):
     pictures = [word for name in names for word in ("-label", name, str(folder / f"{name}.png"))]
-    command = ["montage", *pictures, "-tile", f"{COLUMNS}x", "-geometry", "+4+4", str(path)]
-    subprocess.run(command, check=True)
+    command = ["montage", "-font", font(), *pictures, "-tile", f"{COLUMNS}x", "-geometry", "+4+4"]
+    subprocess.run([*command, str(path)], check=True)
+
+
+def font():
+    """One of Blender's own: a bare Debian has none."""
+    fonts = Path(bpy.utils.system_resource("DATAFILES", path="fonts"))
+    return str(sorted(fonts.glob("DejaVuSans*"))[0])
 
 
 if __name__ == "__main__":
