@@ -180,11 +180,16 @@ def _warnings(
             "or choose Inside From Tight Cocone, and compute again"
         )
     elif axis.facets == 0:
-        yield _why_empty(shape, settings, sampled)
+        yield _why_empty(shape, settings, sampled, axis)
 
 
-def _why_empty(shape: Shape, settings: Settings, sampled: Sampled) -> str:
+def _why_empty(shape: Shape, settings: Settings, sampled: Sampled, axis: MedialAxis) -> str:
     closed = settings.sides is SidesFrom.SURFACE and sampled.gaps == 0
+    if axis.zero_area:
+        return (
+            f"all {axis.zero_area:,} facets that pass the conditions are points or lines, as in an "
+            "exact ball; choose Sampling Surface to see where they are"
+        )
     if closed and settings.side is Side.INNER and shape.volume < 0:
         return (
             "no facet lies inside because the faces point inward; recalculate their normals "
@@ -194,6 +199,12 @@ def _why_empty(shape: Shape, settings: Settings, sampled: Sampled) -> str:
         return (
             "no facet lies inside the surface that Tight Cocone closed; the axis of an open scan "
             "may lie beyond the opening: choose side Both, or lower theta or rho"
+        )
+    spacing = sampled.samples.spacing
+    if closed and spacing > (thickness := 2.0 * shape.volume / shape.area):
+        return (
+            f"the shape is about {thickness:.2g} thick, less than its samples are apart ({spacing:.2g}); "
+            "use more samples, or a smaller Spacing"
         )
     return "no facet passes the conditions; lower theta or rho, or choose another side"
 

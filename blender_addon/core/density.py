@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # Samples too sparse for the theorem, as a share of all, that are no reason to sample again.
 DENSE_ENOUGH = 0.1
-_HOLE = 1.3  # in spacings: half as wide again as the largest holes between even samples
+_HOLE = 0.85  # radius of the largest holes between even samples, in spacings
 _PLACES = 5  # how many of the worst places are named
 _APART = 0.05  # how far apart these are, as a share of the diagonal
 
@@ -87,7 +87,7 @@ class Density:
         return self.share <= DENSE_ENOUGH
 
     def is_improved_by(self, spacing: float) -> bool:
-        """Whether even samples so far apart are clearly denser where it matters; in noise they are not."""
+        """Whether even samples so far apart are denser where it matters; in noise they are not."""
         area = np.minimum(self.spacing, float(np.ptp(self.points, axis=0).max())) ** 2
         too_wide = (self.epsilon > self.limit) & (self.spacing > _HOLE * spacing)
         return not self.dense_enough and area[too_wide].sum() > DENSE_ENOUGH * area.sum()

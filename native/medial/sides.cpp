@@ -81,6 +81,20 @@ double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
   return squared_circumradius(points[i], points[j], points[k]);
 }
 
+std::pair<Vec3, Vec3> bounding_box(std::span<const Vec3> points) {
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return {low, high};
+}
+
+bool is_between(const Vec3& x, const Vec3& low, const Vec3& high) {
+  return low.x <= x.x && x.x <= high.x && low.y <= x.y && x.y <= high.y && low.z <= x.z &&
+         x.z <= high.z;
+}
+
 }  // namespace
 
 CellSides sides_from_surface(std::span<const Vec3> vertices, const Surface& surface,
@@ -110,7 +124,10 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
   const auto samples = static_cast<int32_t>(normals.size());
+  const auto [low, high] = bounding_box(points.first(normals.size()));
   parallel_for(t.finite_cells, run, [&](int64_t c) {
+    // Beyond an opening the samples see only each other's backs, however far away.
+    if (!is_between(voronoi.centre[c], low, high)) return;
     double vote = 0;
     for (const int32_t p : t.cells[c]) {
       if (p < samples) vote += dot(normals[p], normalized(voronoi.centre[c] - points[p]));

@@ -379,3 +379,16 @@ def test_points_without_volume(medial, call, points):
 def test_threads_must_not_be_negative(medial):
     with pytest.raises(medial.InvalidInputError):
         medial.TightCocone(CLOUD, threads=-1)
+
+
+def test_normals_say_nothing_beyond_the_samples(medial):
+    """Through the opening of a box far Voronoi vertices see the walls from behind; they are not inside."""
+    vertices, triangles = meshes.box((6, 6, 6), (1.0, 0.7, 0.4))
+    keep = (vertices[triangles][:, :, 2] < 0.39).any(axis=1)
+    samples = medial.sample_surface(vertices, triangles[keep], count=4000)
+    analysis = medial.MedialAnalysis(
+        samples.points, normals=samples.normals, sides=medial.SidesFrom.NORMALS
+    )
+    inner = analysis.extract(side=medial.Side.INNER)
+    assert len(inner.generators) > 1000
+    assert (np.abs(inner.vertices) <= np.abs(samples.points).max(axis=0)).all()
