@@ -276,7 +276,7 @@ class _Sampler:
             self._gaps or self._shape.volume < 0
         ):  # faces that point inward are told by what is found
             return np.ones(len(found.points), bool)
-        points, normals = _on_faces(self._shape, found)
+        points, normals = _on_faces(self._shape, found, 100.0 * offset)
         with native.own_errors() as module:
             return ~module.buried(
                 points, normals, offset, self._shape.points, self._shape.triangles
@@ -370,17 +370,24 @@ def _telling(
     )
 
 
-def _on_faces(shape: Shape, found: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Samples and their normals on the flat faces, also where they follow the smooth surface."""
+def _on_faces(
+    shape: Shape, found: Any, step: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A place on a flat face for each sample, also where samples follow the smooth surface, and its normal.
+
+    Places on edges and corners are moved by a step, or a tenth of the way, to the middle of the face, for
+    on the edge itself the face's normal may lead along its neighbour.
+    """
     corners = shape.points[shape.triangles[found.triangle]]
     points = np.einsum("ij,ijk->ik", found.barycentric, corners)
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    normals /= np.where(lengths > 0, lengths, 1.0)[:, None]
     with native.own_errors() as module:
         on_edge = found.kind != int(module.SampleKind.SURFACE)
-    normals[on_edge] = found.normals[on_edge]  # a face's own leads along its neighbour
-    return points, normals
+    inward = corners[on_edge].mean(axis=1) - points[on_edge]
+    ways = np.linalg.norm(inward, axis=1)[:, None]
+    points[on_edge] += inward * np.minimum(0.1, step / np.where(ways > 0.0, ways, step))
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    return points, normals / np.where(lengths > 0.0, lengths, 1.0)[:, None]
 
 
 def _check_faces(shape: Shape, wanted: Sampling) -> None:

@@ -45,7 +45,7 @@ class OBJECT_OT_medial_axis(Watched, SamplingProperties, bpy.types.Operator):
         for name in OPTIONS:
             if name not in SAMPLING_OPTIONS:
                 self.layout.prop(self, name)
-        draw_sampling(self.layout.box(), self)
+        draw_sampling(self.layout.box().column(), self)
 
     def work(self, shape):
         return partial(compute_axis, shape, settings_from(self))
@@ -95,7 +95,7 @@ class OBJECT_OT_medial_axis_sampling_report(Watched, SamplingProperties, bpy.typ
         self.layout.use_property_split = True
         for name in ("target", "side", "sides", "sampling"):
             self.layout.prop(self, name)
-        draw_sampling(self.layout.box(), self)
+        draw_sampling(self.layout.box().column(), self)
 
     def check_writable(self, thing):
         check_report_writable(thing) if self.target == "COPY" else check_source_writable(thing)

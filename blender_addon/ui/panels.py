@@ -50,9 +50,9 @@ class VIEW3D_PT_medial_axis_sampling(_Tab, bpy.types.Panel):
         column.use_property_split = True
         column.use_property_decorate = False
         draw_sampling(column, settings)
-        row = self.layout.row()
-        row.enabled = running.job() is None
-        copy_settings(settings, row.operator("object.medial_axis_sampling_report", icon="VIEWZOOM"))
+        if running.job() is None:  # Blender keeps a button grey that was so below the mouse
+            button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
+            copy_settings(settings, button)
         report = shown_report(context)
         if report is not None:
             _draw_report(context, self.layout, report)

@@ -198,7 +198,7 @@ def scene_compute_drag_undo():
     first, before = facets(), analyses()
     yield from click(145, 705)  # opens Adjust Last Operation at the lower left
     yield 1.0
-    yield from drag((220, 560), (250, 560))  # its theta
+    yield from drag((220, 343), (250, 343))  # its theta
     yield 1.0
     look("adjusted")
     adjusted = facets()
@@ -295,8 +295,7 @@ def scene_sampling():
     look("opened")
     yield from click(*at(REPORT))
     yield report_exists
-    viewport().spaces.active.shading.type = "MATERIAL"
-    yield 4.0
+    yield 2.0
     look("reported")
     (report,) = reports()
     assert len(report.data.vertices) == result["ma_points"], "it is the same analysis"
