@@ -140,9 +140,8 @@ def read_off(path):
 
 
 def compute(source):
-    sides = "SURFACE" if source.data.polygons else "AUTOMATIC"
     start = time.perf_counter()
-    bpy.ops.object.medial_axis(sides=sides, sampling="VERTICES")
+    bpy.ops.object.medial_axis()
     result = bpy.context.view_layer.objects.active
     print(
         f"{result.name}: {len(result.data.polygons):,} facets after {time.perf_counter() - start:.2f} s"
