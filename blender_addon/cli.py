@@ -297,5 +297,5 @@ class _Teller:
         if report["status"] in ("failed", "cancelled"):
             self.complain(f"{name}: {report['error']}")
         elif not self._json:
-            what = f"{report['facets']:,} facets, {report['status']}"
-            print(f"{report['output']}: {what} in {report['seconds']:.2f} s", flush=True)
+            how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
+            print(f"{report['output']}: {report['facets']:,} facets, {how}", flush=True)

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 _RANGE = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?::(\d{1,9}))?)?")
+_MOST = 1_000_000  # frames of one command
 _FORBIDDEN = re.compile(r'[\\/:*?"<>|\x00-\x1f]')  # by some file system
 _NUMBER = re.compile(r"#+")
 
@@ -26,7 +27,13 @@ def parse_frames(text: str) -> list[int]:
                 f"Expected frames such as 1-250, 1-250:10 or 1,5,9-12, found {text!a}; "
                 "write first and last frame"
             )
-        frames.update(range(int(first), int(last or first) + 1, int(step or 1)))
+        part_frames = range(int(first), int(last or first) + 1, int(step or 1))
+        if len(part_frames) > _MOST:
+            raise ValueError(
+                f"Expected at most {_MOST:,} frames, found {len(part_frames):,} in {text!a}; "
+                "split them"
+            )
+        frames.update(part_frames)
     return sorted(frames)
 
 

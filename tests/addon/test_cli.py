@@ -187,6 +187,10 @@ def test_the_same_bytes_in_every_way_in(here, run):
         command = [bpy.app.binary_path, "--command", "medial_axis", "scan.npy", "command.npz"]
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
+        command = [bpy.app.binary_path, "scan.blend", "--command", "medial_axis", "after.npz"]
+        done = subprocess.run(command, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert (here / "after.npz").read_bytes() == (here / "command.npz").read_bytes()
     else:
         (here / "command.npz").write_bytes((here / "open.npz").read_bytes())
     done = subprocess.run([*plain_python(), "scan.npy", "plain.npz"], capture_output=True)
@@ -202,6 +206,25 @@ def test_exit_codes_leave_blender(here):
     assert in_blender("--help").returncode == 0
     assert in_blender("a.ma", "--object", "Body", "--rho=1e9", "--criteria=ratio",
                       file=["walk.blend"]).returncode == 1  # fmt: skip
+
+
+def test_two_blenders_in_one_folder(here):
+    """The same frames at the same time, in other orders: every file is whole and as if made alone."""
+    walking()
+    command = [bpy.app.binary_path, "--background", "--factory-startup", "walk.blend"]
+    command += ["--python", str(FOLDER / "__main__.py"), "--"]
+    runs = [
+        subprocess.Popen([*command, "both/", "--frames", "1-5", *words], stdout=subprocess.DEVNULL)
+        for words in ([], ["--object", "Ring", "--object", "Body"])
+    ]
+    assert [run.wait() for run in runs] == [0, 0]
+    assert subprocess.run([*command, "alone/", "--frames=1-5"], capture_output=True).returncode == 0
+    both, alone = (
+        {path.name: path.read_bytes() for path in (here / folder).glob("*.ma")}
+        for folder in ("both", "alone")
+    )
+    assert both == alone and len(both) == 10
+    assert not list((here / "both").glob(".medial_axis_*"))
 
 
 def test_module_path_of_an_enabled_addon(here):

@@ -84,7 +84,7 @@ def test_panel_settings_are_used_and_the_command_line_agrees(growing, tmp_path, 
     words = [f"{tmp_path}/", "--frames", "2-3", "--format", "npz", "--rho", "6"]
     assert addon("cli").main(words) == 0
     out = capfd.readouterr().out
-    assert out.count(", kept in ") == 2
+    assert out.count(" facets, kept\n") == 2
 
 
 def test_several_objects_and_a_frame_that_fails(growing, tmp_path, capfd):

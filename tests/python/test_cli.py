@@ -265,6 +265,8 @@ def test_frames():
     for text in ("", "a", "1-", "4-1", "1-4:0", "1-4:", "1;2", "1e9"):
         with pytest.raises(ValueError, match="Expected frames such as"):
             parse_frames(text)
+    with pytest.raises(ValueError, match="at most 1,000,000 frames, found 999,999,999"):
+        parse_frames("1-999999999")
     assert at_frame("a_####/b_##.ply", 123) == "a_0123/b_123.ply"
     assert output_path("{file}/{name}_##.ma", "A/b: #1", "x", 3) == Path("x/A_b_ #1_03.ma")
 
