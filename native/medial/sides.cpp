@@ -81,13 +81,18 @@ double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
   return squared_circumradius(points[i], points[j], points[k]);
 }
 
-std::pair<Vec3, Vec3> bounding_box(std::span<const Vec3> points) {
-  Vec3 low = points[0], high = points[0];
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+// The samples that are lowest and highest along each axis.
+std::array<std::array<size_t, 2>, 3> extremes(std::span<const Vec3> points) {
+  std::array<std::array<size_t, 2>, 3> found{};
+  for (size_t p = 0; p < points.size(); ++p) {
+    const auto at = [&](size_t id) { return std::array{points[id].x, points[id].y, points[id].z}; };
+    for (int k = 0; k < 3; ++k) {
+      auto& [low, high] = found[k];
+      if (at(p)[k] < at(low)[k]) low = p;
+      if (at(p)[k] > at(high)[k]) high = p;
+    }
   }
-  return {low, high};
+  return found;
 }
 
 bool is_between(const Vec3& x, const Vec3& low, const Vec3& high) {
@@ -124,10 +129,19 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
   const auto samples = static_cast<int32_t>(normals.size());
-  const auto [low, high] = bounding_box(points.first(normals.size()));
+  const auto [x, y, z] = extremes(points.first(normals.size()));
+  const Vec3 low{points[x[0]].x, points[y[0]].y, points[z[0]].z};
+  const Vec3 high{points[x[1]].x, points[y[1]].y, points[z[1]].z};
+  const double outward = normals[x[1]].x - normals[x[0]].x + normals[y[1]].y - normals[y[0]].y +
+                         normals[z[1]].z - normals[z[0]].z;
+  const auto beyond = static_cast<uint8_t>(outward < 0 ? Side::inner : Side::outer);
   parallel_for(t.finite_cells, run, [&](int64_t c) {
-    // Beyond an opening the samples see only each other's backs, however far away.
-    if (!is_between(voronoi.centre[c], low, high)) return;
+    // Through an opening far vertices see the samples from behind: beyond the samples all is one
+    // side.
+    if (!is_between(voronoi.centre[c], low, high)) {
+      sides[c] = beyond;
+      return;
+    }
     double vote = 0;
     for (const int32_t p : t.cells[c]) {
       if (p < samples) vote += dot(normals[p], normalized(voronoi.centre[c] - points[p]));
