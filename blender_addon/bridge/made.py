@@ -22,6 +22,8 @@ VERSION = "ma_version"
 POINTS = "ma_points"
 DUPLICATES = "ma_duplicates"
 WARNINGS = "ma_warnings"
+SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
+DENSITY = "ma_density"  # how densely that lies: a sentence
 
 
 def source_of(made: bpy.types.Object) -> bpy.types.Object | None:

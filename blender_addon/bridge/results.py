@@ -9,7 +9,7 @@ import bpy
 
 from ..core.settings import OPTIONS, Choice, Integer, Settings, Switch
 from .attributes import attributes
-from .made import check_mode, made_of, new_object, place, remember, replace_mesh
+from .made import DENSITY, SAMPLED, check_mode, made_of, new_object, place, remember, replace_mesh
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
 from .write_object import new_mesh
 
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"
 INSIDE = "ma_inside"  # what told inside from outside, and why: a sentence
-SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
-DENSITY = "ma_density"  # how densely that lies: a sentence
 UNBOUNDED = "ma_unbounded"
 ZERO_AREA = "ma_zero_area"
 

@@ -11,7 +11,7 @@ from mathutils.kdtree import KDTree
 
 from ..core.errors import InvalidInputError
 from .attributes import EPSILON, SAMPLE_ATTRIBUTES
-from .made import check_mode, made_of, new_object, place, remember, replace_mesh
+from .made import DENSITY, SAMPLED, check_mode, made_of, new_object, place, remember, replace_mesh
 from .material import LIMIT, epsilon_material
 from .write_object import new_mesh
 
@@ -27,8 +27,6 @@ SHARE = "ma_epsilon_share"
 SHARE_OF_ALL = "ma_epsilon_share_of_all"
 WORST = "ma_epsilon_worst"
 WORST_PLACES = "ma_epsilon_worst_places"
-SAMPLED = "ma_sampled"
-DENSITY = "ma_density"
 
 
 def is_report(thing: bpy.types.Object) -> bool:

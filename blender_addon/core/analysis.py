@@ -134,8 +134,7 @@ def compute_axis(shape: Shape, settings: Settings, progress: Progress | None = N
     """
     start = time.perf_counter()
     progress = progress or Progress()
-    side = Side.INNER if settings.side is Side.AUTOMATIC else settings.side
-    settings = replace(settings, side=side)
+    settings = settings.with_side()
     sampled = sample(shape, settings, progress)
     settings = replace(settings, sides=sampled.sides.source, sampling=sampled.sampling)
     axis = _extract(sampled.samples.analysis, settings, progress.part())

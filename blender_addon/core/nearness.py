@@ -1,4 +1,4 @@
-"""Which points lie near others, by a grid: NumPy has no search tree, and Blender's Python need not have SciPy."""
+"""Which points lie near others, or in one place. NumPy has no search tree, and Blender's Python need not have SciPy."""
 
 from __future__ import annotations
 
@@ -11,10 +11,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+def same_place(points: NDArray[np.float64]) -> NDArray[np.int64]:
+    """(n,) a number for each of (n, 3) points, the same where the coordinates are; from 0 upwards."""
+    _, place = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0
+    return place.reshape(-1).astype(np.int64)
+
+
 def near(
     points: NDArray[np.float64], others: NDArray[np.float64], reach: float
 ) -> NDArray[np.bool_]:
-    """Whether one of the others is at most `reach` away; quick where few of them are near each point.
+    """Whether one of the others is at most `reach` away, by a grid; quick where few of them are near each point.
 
     Parameters
     ----------

@@ -11,6 +11,7 @@ import numpy as np
 from . import native
 from .errors import DegenerateInputError
 from .sides import cocone_warnings
+from .triangle_faces import TriangleFaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Reconstruction:
+class Reconstruction(TriangleFaces):
     """A closed surface of triangles whose vertices are samples, and how it came about.
 
     Parameters
@@ -49,16 +50,6 @@ class Reconstruction:
     cavities: int
     warnings: tuple[str, ...]
     seconds: float
-
-    @property
-    def face_offsets(self) -> NDArray[np.int32]:
-        """(f + 1,) int32, as `MedialAxis.face_offsets`."""
-        return np.arange(0, self.triangles.size + 1, 3, dtype=np.int32)
-
-    @property
-    def face_vertices(self) -> NDArray[np.int32]:
-        """(3 f,) int32, as `MedialAxis.face_vertices`."""
-        return self.triangles.ravel()
 
 
 def reconstruct(points: NDArray[np.float64], progress: Progress | None = None) -> Reconstruction:

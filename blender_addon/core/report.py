@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .nearness import same_place
 from .progress import Progress
 from .sampling import Sampled, sample, sampling_warnings
-from .settings import Settings, Side
+from .triangle_faces import TriangleFaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .density import Density
+    from .settings import Settings
     from .shape import Shape
 
 
 @dataclass(frozen=True, eq=False)
-class SamplingReport:
+class SamplingReport(TriangleFaces):
     """The samples, the surface as they see it, and estimates for each.
 
     Parameters
@@ -52,16 +54,6 @@ class SamplingReport:
     def density(self) -> Density:
         return self.sampled.samples.density
 
-    @property
-    def face_offsets(self) -> NDArray[np.int32]:
-        """(f + 1,) int32, as `MedialAxis.face_offsets`."""
-        return np.arange(0, self.triangles.size + 1, 3, dtype=np.int32)
-
-    @property
-    def face_vertices(self) -> NDArray[np.int32]:
-        """(3 f,) int32, as `MedialAxis.face_vertices`."""
-        return self.triangles.ravel()
-
 
 def report(shape: Shape, settings: Settings, progress: Progress | None = None) -> SamplingReport:
     """Sample an object as `analysis.compute` does, and estimate how dense that is.
@@ -77,8 +69,7 @@ def report(shape: Shape, settings: Settings, progress: Progress | None = None) -
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     start = time.perf_counter()
-    side = Side.INNER if settings.side is Side.AUTOMATIC else settings.side
-    sampled = sample(shape, replace(settings, side=side), progress or Progress())
+    sampled = sample(shape, settings.with_side(), progress or Progress())
     samples, density = sampled.samples, sampled.samples.density
     rows = _sample_of_row(samples.points, samples.analysis.samples)
     return SamplingReport(
@@ -98,8 +89,7 @@ def _sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> N
     """(n,) which of the samples, the distinct rows, each row is."""
     if len(samples) == len(points):
         return np.arange(len(points))
-    _, which = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0
-    which = which.reshape(-1)
+    which = same_place(points)
     place = np.empty(which.max() + 1, np.int64)
     place[which[samples]] = np.arange(len(samples))
     return place[which]

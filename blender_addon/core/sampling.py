@@ -34,9 +34,8 @@ _EFFORT = {
 _SPENT = 0.97  # of the budget, which is met by scaling all spacings
 _SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning
 _OFF = 1e-3  # of the spacing: how far from the surface one looks for its two sides
-_CLEARLY = (
-    1.01  # sharper than an angle: tubes of twelve sides are round, and bent ones have 30.1 degrees
-)
+# Edges are sharp from so much above the angle: tubes of twelve sides are round, and bent ones have 30.1 degrees.
+_CLEARLY = 1.01
 _ROUNDINGS = 4  # of float32, in which meshes are stored: a surface that is less thick is flat
 
 
@@ -51,6 +50,8 @@ class Samples:
     points : (n, 3) float64
     kinds : (n,) int32 or None
         Values of `_medial.SampleKind`; None: vertices.
+    normals : (n, 3) float64 or None
+        Of the surface there, outward.
     analysis : _medial.MedialAnalysis
     density : Density
     spacing : float
@@ -168,8 +169,7 @@ class _Sampler:
         if cocone is not None and not cocone.encloses:
             return self._of_surface("the vertices alone enclose nothing")
         if not density.dense_enough:
-            reason = found.reason.replace("dense enough", "as dense as samples would be")
-            return replace(found, reason=reason)
+            return replace(found, reason=self._vertices("as dense as samples would be"))
         return found
 
     # --- vertices
@@ -181,15 +181,16 @@ class _Sampler:
             (sides.source.name, shape.points, *_telling(sides, shape.triangles, shape.normals)),
             lambda key: self._analysed_vertices(key, sides, share),
         )
-        reason = f"The {len(shape.points):,} vertices, {why}"
-        return Sampled(found, Sampling.VERTICES, reason, sides, self._gaps)
+        return Sampled(found, Sampling.VERTICES, self._vertices(why), sides, self._gaps)
+
+    def _vertices(self, why: str) -> str:
+        return f"The {len(self._shape.points):,} vertices, {why}"
 
     def _analysed_vertices(self, key: str, sides: Sides, share: float) -> Samples:
-        points, triangles = self._shape.points, self._shape.triangles
-        triangles, normals = _telling(sides, triangles, self._shape.normals)
-        analysis = self._analyse(points, triangles, normals, sides, self._progress.part(share))
+        points, normals = self._shape.points, self._shape.normals
+        analysis = self._analyse(points, normals, sides, self._progress.part(share))
         density = estimate(analysis, points, points[:0], 0.0, self._settings.epsilon)
-        return Samples(key, points, None, self._shape.normals, analysis, density)
+        return Samples(key, points, None, normals, analysis, density)
 
     # --- samples of the faces
 
@@ -257,13 +258,9 @@ class _Sampler:
                 "bound nothing; remove doubled faces, or choose Sampling Vertices"
             )
         points, normals, kinds = (x[bare] for x in (found.points, found.normals, found.kind))
-        analysis = self._analyse(
-            points, shape.triangles, normals, self._sides, self._progress.part(share)
-        )
+        analysis = self._analyse(points, normals, self._sides, self._progress.part(share))
         edge = kinds == int(module.SampleKind.SHARP)
-        if (
-            not self._gaps
-        ):  # otherwise corners may be those of an opening, where the shape may be thick
+        if not self._gaps:  # else corners may be those of an opening, where the shape may be thick
             edge |= kinds == int(module.SampleKind.CORNER)
         first = first or spacing
         density = estimate(analysis, points, points[edge], first, self._settings.epsilon)
@@ -272,9 +269,8 @@ class _Sampler:
 
     def _bare(self, found: Any, offset: float) -> NDArray[np.bool_]:
         """(n,) the samples that lie between inside and outside, and are not buried in the solid."""
-        if (
-            self._gaps or self._shape.volume < 0
-        ):  # faces that point inward are told by what is found
+        # Open faces bound nothing; of those that point inward the empty axis tells.
+        if self._gaps or self._shape.volume < 0:
             return np.ones(len(found.points), bool)
         points, normals = _on_faces(self._shape, found, 100.0 * offset)
         with native.own_errors() as module:
@@ -287,20 +283,19 @@ class _Sampler:
     def _analyse(
         self,
         points: NDArray[np.float64],
-        triangles: NDArray[np.int32] | None,
         normals: NDArray[np.float64] | None,
         sides: Sides,
         progress: Any,
     ) -> Any:
-        surface = sides.source is SidesFrom.SURFACE
+        shape = self._shape
+        triangles, normals = _telling(sides, shape.triangles, normals)
+        separate = triangles is not None and points is not shape.points
         with native.own_errors() as module:
             return module.MedialAnalysis(
                 points,
-                triangles if surface else None,
-                vertices=self._shape.points
-                if surface and points is not self._shape.points
-                else None,
-                normals=normals if sides.source is SidesFrom.NORMALS else None,
+                triangles,
+                vertices=shape.points if separate else None,
+                normals=normals,
                 sides=getattr(module.SidesFrom, sides.source.name),
                 bounding_sphere=self._settings.side is not Side.INNER,
                 progress=progress,

@@ -6,7 +6,7 @@ Dey & Zhao, sect. 3: an edge is selected by Angle[theta] or Ratio[rho].
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from .errors import InvalidInputError
@@ -352,6 +352,10 @@ class Settings:
     smooth: bool = OPTIONS["smooth"].default
     keep_vertices: bool = OPTIONS["keep_vertices"].default
     seed: int = OPTIONS["seed"].default
+
+    def with_side(self) -> Settings:
+        """The same with a side that is not AUTOMATIC."""
+        return replace(self, side=Side.INNER) if self.side is Side.AUTOMATIC else self
 
     def __post_init__(self) -> None:
         for name, option in OPTIONS.items():

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .errors import InvalidInputError
+from .nearness import same_place
 from .settings import OPTIONS, SidesFrom
 
 if TYPE_CHECKING:
@@ -87,8 +88,7 @@ def resolve_sides_of_samples(
 
 def _turned(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
     """The share of edges that another triangle runs through in the same direction."""
-    _, vertex = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0
-    ends = vertex.reshape(-1)[triangles].astype(np.int64)
+    ends = same_place(points)[triangles]
     edges = (ends * (len(points) + 1) + np.roll(ends, -1, axis=1)).ravel()
     return 1.0 - len(np.unique(edges)) / len(edges)
 

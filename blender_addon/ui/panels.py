@@ -145,7 +145,7 @@ def _draw_figures(context, layout, result):
             "Radius": "{:.3g} to {:.3g}".format(*results.radius_range(result)),
         },
     )
-    for name in (results.SAMPLED, results.DENSITY, results.INSIDE):
+    for name in (made.SAMPLED, made.DENSITY, results.INSIDE):
         if sentence := result.get(name):
             _sentence(context, layout, sentence, "INFO")
     _draw_warnings(context, layout, result)
@@ -183,7 +183,7 @@ def _draw_report(context, layout, report):
             "Worst": f"{worst[0]:.2g}",
         },
     )
-    _sentence(context, layout, report.get(sampling_report.SAMPLED, ""), "INFO")
+    _sentence(context, layout, report.get(made.SAMPLED, ""), "INFO")
     _draw_warnings(context, layout, report)
 
 

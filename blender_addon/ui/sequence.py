@@ -16,13 +16,14 @@ from ..core.frames import output_path, parse_frames
 from ..core.job import run_task
 from . import running
 from .properties import settings_from
-from .sources import obstacle, sources
+from .sources import sources
+from .watched import FromSelection
 
 _PRODUCT = "medial axis"
 _AT_ONCE = 0.1  # seconds; so long finished frames are passed over without a pause
 
 
-class OBJECT_OT_medial_axis_sequence(bpy.types.Operator):
+class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
     bl_idname = "object.medial_axis_sequence"
     bl_label = "Compute Sequence"
     bl_description = (
@@ -42,13 +43,6 @@ class OBJECT_OT_medial_axis_sequence(bpy.types.Operator):
         description="Also make objects of the files, of which each frame shows its own",
         default=True,
     )
-
-    @classmethod
-    def poll(cls, context):
-        reason = obstacle(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
 
     def execute(self, context):
         if not self._start(context):

@@ -11,7 +11,18 @@ from . import running
 from .sources import Source, obstacle, sources
 
 
-class Watched:
+class FromSelection:
+    """An operator that computes from what is selected: it says why it cannot."""
+
+    @classmethod
+    def poll(cls, context):
+        reason = obstacle(context)
+        if reason:
+            cls.poll_message_set(reason)
+        return not reason
+
+
+class Watched(FromSelection):
     """An operator that computes one object of each source; the base of those that are registered.
 
     A subclass names its `product` and has three steps: `check_writable(thing)` raises MedialAxisError when the
@@ -21,13 +32,6 @@ class Watched:
     """
 
     product = ""
-
-    @classmethod
-    def poll(cls, context):
-        reason = obstacle(context)
-        if reason:
-            cls.poll_message_set(reason)
-        return not reason
 
     def execute(self, context):
         found, tasks = self._read(context)

@@ -197,12 +197,7 @@ bool straight(const TriangleMesh& mesh, int32_t before, int32_t at, int32_t afte
 
 // No crease ends here, and yet some triangle is steeper than the angle against the mean.
 bool is_tip(const TriangleMesh& mesh, int32_t p, double angle) {
-  Vec3 mean;
-  for (const int32_t t : mesh.fans[p]) {
-    const auto& corners = mesh.triangles[t];
-    const auto at = std::find(corners.begin(), corners.end(), p) - corners.begin();
-    mean = mean + mesh.corner_angle(t, static_cast<int>(at)) * mesh.normal[t];
-  }
+  const Vec3 mean = mesh.normal_sum(p);
   const double least = std::cos(std::min(angle, std::numbers::pi / 2)) * length(mean);
   const auto steep = [&](int32_t t) {
     return mesh.normal[t] != Vec3{} && dot(mesh.normal[t], mean) < least;
@@ -271,6 +266,16 @@ double TriangleMesh::corner_angle(int32_t triangle, int corner) const {
   const Vec3 u = points[t[(corner + 1) % 3]] - points[t[corner]];
   const Vec3 v = points[t[(corner + 2) % 3]] - points[t[corner]];
   return std::atan2(length(cross(u, v)), dot(u, v));
+}
+
+Vec3 TriangleMesh::normal_sum(int32_t point) const {
+  Vec3 sum;
+  for (const int32_t t : fans[point]) {
+    const auto& corners = triangles[t];
+    const auto at = std::find(corners.begin(), corners.end(), point) - corners.begin();
+    sum = sum + corner_angle(t, static_cast<int>(at)) * normal[t];
+  }
+  return sum;
 }
 
 int32_t Creases::find(int32_t p, int32_t q) const {

@@ -18,6 +18,8 @@ struct TriangleMesh {
   Csr<int32_t> fans;                // triangles at each point
 
   double corner_angle(int32_t triangle, int corner) const;
+  // Sum of the normals of the triangles at a point, weighted by their angles there.
+  Vec3 normal_sum(int32_t point) const;
 };
 
 enum class Crease : uint8_t { kNone, kSharp, kBoundary };

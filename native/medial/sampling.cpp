@@ -107,16 +107,6 @@ Vec3 edge_normal(const Model& model, const MeshEdge& edge, double share) {
   return normalized(sum);
 }
 
-Vec3 vertex_normal(const TriangleMesh& mesh, int32_t p) {
-  Vec3 sum;
-  for (const int32_t t : mesh.fans[p]) {
-    const auto& corners = mesh.triangles[t];
-    const auto at = std::find(corners.begin(), corners.end(), p) - corners.begin();
-    sum = sum + mesh.corner_angle(t, static_cast<int>(at)) * mesh.normal[t];
-  }
-  return normalized(sum);
-}
-
 FixedSample at_vertex(const Model& model, int32_t p, const Spacing& spacing) {
   const int32_t t = model.mesh.fans[p].front();
   const auto& creases = model.creases;
@@ -128,7 +118,7 @@ FixedSample at_vertex(const Model& model, int32_t p, const Spacing& spacing) {
           t,
           along(model.mesh.triangles[t], p, -1, 0),
           model.mesh.points[p],
-          vertex_normal(model.mesh, p),
+          normalized(model.mesh.normal_sum(p)),
           kDisk * spacing(model.mesh.points[p])};
 }
 

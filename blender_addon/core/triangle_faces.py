@@ -1,0 +1,26 @@
+"""Triangles as the faces that Blender and the file formats take."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+class TriangleFaces:
+    """What has `triangles`, (f, 3) int32, has faces as a `MedialAxis` has them."""
+
+    triangles: NDArray[np.int32]
+
+    @property
+    def face_offsets(self) -> NDArray[np.int32]:
+        """(f + 1,) int32, as `MedialAxis.face_offsets`."""
+        return np.arange(0, self.triangles.size + 1, 3, dtype=np.int32)
+
+    @property
+    def face_vertices(self) -> NDArray[np.int32]:
+        """(3 f,) int32, as `MedialAxis.face_vertices`."""
+        return self.triangles.ravel()
