@@ -4,6 +4,7 @@
     python3 build_addon.py build     compile the native module, pack dist/medial_axis-VERSION.zip
     python3 build_addon.py demo      build, then compute and render real models in a real Blender
     python3 build_addon.py test      everything that must hold: native, Python and Blender tests, sanitizers
+    python3 build_addon.py bench     what it costs beside the bare Delaunay triangulation, as tables
     python3 build_addon.py clean     remove what the other commands made
 
 Any Python 3.8 or newer can run this file; it needs nothing but the standard library. The module itself is
@@ -62,6 +63,7 @@ TEST_NEEDS = {
     "mouse and keyboard for the GUI tests": "xdotool",
     "screenshots": "imagemagick",
 }
+BENCH_NEEDS = {"SciPy, whose Qhull is measured, too": "python3-scipy"}
 
 # Symbols and libraries that a module inside Blender's process must not bring along.
 FORBIDDEN_LIBRARIES = re.compile(r"lib(tbb|gmp|mpfr|python)")
@@ -529,6 +531,22 @@ PARTS = {
 }
 
 
+# --- bench
+
+
+def bench(arguments: argparse.Namespace) -> None:
+    require({**BUILD_NEEDS, **BENCH_NEEDS})
+    blender = find_blender(arguments.blender)
+    _, python = build_module(blender)
+    run("cmake", "--build", "--preset", "release", "--target", "bare_triangulation")
+    say("Measuring; leave the machine alone meanwhile")
+    options = ["--bare", BUILD / "release/tests/benchmarks/bare_triangulation"]
+    options += ["--largest", min(arguments.largest, 200_000 if arguments.quick else 10**9)]
+    options += ["--repeats", 1 if arguments.quick else arguments.repeats]
+    options += ["--output", Path(arguments.output).resolve(), "--only", *arguments.only]
+    run(python, "tests/benchmarks/bench.py", *options)
+
+
 # --- clean
 
 
@@ -576,7 +594,27 @@ def parse(words: list[str]) -> argparse.Namespace:
     add_test.add_argument(
         "--only", nargs="+", default=[], metavar="PART", help=f"out of: {', '.join(PARTS)}"
     )
-    for command in (add_build, add_demo, add_test):
+    add_bench = add("bench", bench, "measure beside the bare Delaunay triangulation", BENCH_HELP)
+    add_bench.add_argument(
+        "--quick", action="store_true", help="inputs of at most 200,000 points, once each"
+    )
+    add_bench.add_argument(
+        "--largest", type=int, default=5_000_000, metavar="N", help="leave larger inputs out"
+    )
+    add_bench.add_argument(
+        "--repeats", type=int, default=3, metavar="K", help="turns of each; default: 3"
+    )
+    add_bench.add_argument(
+        "--only",
+        nargs="+",
+        default=[],
+        metavar="WORD",
+        help="inputs with such a word in their name",
+    )
+    add_bench.add_argument(
+        "--output", default=BUILD / "bench", metavar="FOLDER", help="default: ./build/bench"
+    )
+    for command in (add_build, add_demo, add_test, add_bench):
         command.add_argument(
             "--blender", default="blender", metavar="PATH", help="the Blender to build for"
         )
@@ -595,6 +633,11 @@ mesh of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .
 
 TEST_HELP = f"""Parts, in order: {", ".join(PARTS)}. One failing part fails the whole; a part that cannot run for
 lack of a tool is skipped by name. The parts after `build` use what `build` made."""
+
+BENCH_HELP = """Builds, then measures CGAL's triangulation alone and the medial axis in turns, each in a process of
+its own, on one thread and on all: random points on an ellipsoid (up to 5 million) and a torus, a noisy scan, and
+meshes of the folder that MEDIAL_AXIS_TEST_DATA names. Beside them SciPy's Qhull and the published figure. Prints and
+writes bench.md and bench.json. About half an hour; --quick takes two minutes."""
 
 
 def main(words: list[str]) -> int:
