@@ -10,6 +10,7 @@ from bpy_extras.io_utils import ExportHelper
 from ..bridge.read_axis import find_axis, read_axis, world_matrix
 from ..core.errors import MedialAxisError
 from ..core.export import FORMATS, export_axis
+from .paths import RELATIVE
 
 _EXTENSIONS = {suffix[1:].upper(): suffix for suffix in FORMATS}
 
@@ -22,6 +23,7 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
     )
     bl_options = {"PRESET"}
 
+    filepath: StringProperty(name="File Path", subtype="FILE_PATH", options=RELATIVE)
     filter_glob: StringProperty(
         default=";".join(f"*{suffix}" for suffix in FORMATS), options={"HIDDEN"}
     )

@@ -9,6 +9,7 @@ from bpy_extras.io_utils import ImportHelper, axis_conversion, orientation_helpe
 from ..bridge.new_points import new_points
 from ..core.errors import MedialAxisError
 from ..core.import_points import import_points
+from .paths import RELATIVE
 
 
 class ImportPoints(ImportHelper):
@@ -19,7 +20,8 @@ class ImportPoints(ImportHelper):
     files: CollectionProperty(
         type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"}
     )
-    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
+    filepath: StringProperty(name="File Path", subtype="FILE_PATH", options=RELATIVE)
+    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE", *RELATIVE})
     global_scale: FloatProperty(
         name="Scale",
         description="Factor of all coordinates",

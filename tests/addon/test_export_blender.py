@@ -217,6 +217,7 @@ def test_failed_write_raises_and_leaves_the_old_file(result, tmp_path, monkeypat
     assert [p.name for p in tmp_path.iterdir()] == ["axis.ply"] and path.read_bytes() == b"precious"
 
 
+@pytest.mark.filterwarnings("error:.*blend relative:RuntimeWarning")
 def test_path_beside_the_blend_file(result, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
     export("//axis.obj")

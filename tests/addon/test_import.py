@@ -127,6 +127,7 @@ def test_collection_of_another_file(folder):
     assert bpy.context.object.users_collection == (bpy.context.scene.collection,)
 
 
+@pytest.mark.filterwarnings("error:.*blend relative:RuntimeWarning")
 def test_path_beside_the_blend_file(folder):
     bpy.ops.wm.save_as_mainfile(filepath=str(folder / "scene.blend"))
     assert bpy.ops.import_mesh.points_xyz(filepath="//scan.xyz") == {"FINISHED"}
