@@ -1,18 +1,22 @@
 #!/usr/bin/env python3
 """Installs the add-on's zip into a private Blender profile and runs the tests inside that Blender.
 
-    python3 tests/addon/run.py --zip dist/medial_axis-0.1.0.zip [--blender blender] [pytest
-    arguments] python3 tests/addon/run.py --zip ... --gui [--keep FOLDER]
+    python3 tests/addon/run.py --zip dist/medial_axis-0.1.0.zip [--blender blender] [pytest arguments]
+    python3 tests/addon/run.py --zip ... --bpy PYTHON [pytest arguments]
+    python3 tests/addon/run.py --zip ... --gui [--keep FOLDER] [scenes]
+    python3 tests/addon/run.py --zip ... --script FILE [arguments]
 
-Without --zip the add-on's sources and compiled modules are packed first. --gui drives Blender's
-window under Xvfb with xdotool; its screenshots and logs are written to the folder that --keep
-names. The exit code is 0 when every test passed.
+Without --zip the add-on's sources and compiled modules are packed first. --bpy takes a Python with
+Blender as a module instead of a Blender. --gui drives Blender's window under Xvfb with xdotool; its
+screenshots and logs are written to the folder that --keep names. --script runs another script than
+the tests. The exit code is 0 when every test passed.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -27,7 +31,7 @@ PACKAGE = "medial_axis"
 class Blender:
     """A Blender with a profile of its own, into which the zip is installed."""
 
-    def __init__(self, program: str, folder: Path) -> None:
+    def __init__(self, program: list[str], folder: Path) -> None:
         self.program = program
         self.environment = {**os.environ, "HOME": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
         self.environment["TMPDIR"] = str(folder)  # Blender saves quit.blend there
@@ -38,19 +42,19 @@ class Blender:
             self.environment[f"BLENDER_USER_{part}"] = str(path)
 
     def run(self, *arguments: object, check: bool = True) -> int:
-        command = [self.program, *map(str, arguments)]
+        command = [*self.program, *map(str, arguments)]
         code = subprocess.run(command, env=self.environment).returncode
         if check and code != 0:
             raise SystemExit(f"{' '.join(command)} ended with exit code {code}")
         return code
 
-    def background(self, *arguments: object, check: bool = True) -> int:
-        quiet = ("--background", "--python-exit-code", "1")
-        return self.run(*quiet, *arguments, check=check)
+    def script(self, path: Path, *arguments: object, options=(), check: bool = True) -> int:
+        quiet = ("--background", *options, "--python-exit-code", "1")
+        return self.run(*quiet, "--python", path, "--", *arguments, check=check)
 
     def version(self) -> tuple[int, ...]:
         text = subprocess.run(
-            [self.program, "--version"], env=self.environment, capture_output=True, text=True
+            [*self.program, "--version"], env=self.environment, capture_output=True, text=True
         ).stdout
         return tuple(int(part) for part in text.split()[1].split(".")[:2])
 
@@ -61,8 +65,19 @@ class Blender:
                 "--command", "extension", "install-file", "-r", "user_default", "--enable", archive
             )
             return f"bl_ext.user_default.{PACKAGE}"
-        self.background("--python", HERE / "install.py", "--", archive)
+        self.script(HERE / "install.py", archive)
         return PACKAGE
+
+
+class BpyModule(Blender):
+    """Blender as a Python module; `program` is a Python that has it."""
+
+    def script(self, path: Path, *arguments: object, options=(), check: bool = True) -> int:
+        return self.run(path, "--", *arguments, check=check)
+
+    def install(self, archive: Path) -> str:
+        self.script(HERE / "install.py", archive)
+        return f"bl_ext.user_default.{PACKAGE}"
 
 
 def pack(folder: Path) -> Path:
@@ -80,14 +95,25 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
     parser.add_argument("--zip", type=Path, help="the add-on; default: packed from the sources")
-    parser.add_argument("--blender", default="blender", help="the Blender to test")
+    parser.add_argument(
+        "--blender",
+        default="blender",
+        help="the Blender to test; words may stand before it: 'tests/matrix/enter.sh FOLDER blender'",
+    )
+    parser.add_argument("--bpy", metavar="PYTHON", help="test Blender as a module of this Python")
+    parser.add_argument("--script", type=Path, default=HERE / "inside.py", help="what to run")
     parser.add_argument(
         "--gui", action="store_true", help="drive the window instead of background mode"
     )
     parser.add_argument("--keep", type=Path, help="where --gui leaves its screenshots and logs")
     arguments, pytest_arguments = parser.parse_known_args()
     with tempfile.TemporaryDirectory(prefix="medial_axis_test_") as folder:
-        blender = Blender(arguments.blender, Path(folder) / "profile")
+        kind, program = (
+            (BpyModule, [arguments.bpy])
+            if arguments.bpy
+            else (Blender, shlex.split(arguments.blender))
+        )
+        blender = kind(program, Path(folder) / "profile")
         archive = (arguments.zip or pack(Path(folder))).resolve()
         module = blender.install(archive)
         blender.environment["MEDIAL_AXIS_MODULE"] = module
@@ -96,12 +122,10 @@ def main() -> int:
             import drive
 
             return drive.run_all(blender, arguments.keep or Path(folder) / "gui", pytest_arguments)
-        return blender.background(
-            "--factory-startup",
-            "--python",
-            HERE / "inside.py",
-            "--",
+        return blender.script(
+            arguments.script.resolve(),
             *pytest_arguments,
+            options=["--factory-startup"],
             check=False,
         )
 

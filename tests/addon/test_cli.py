@@ -41,6 +41,8 @@ def reports_of(text):
 
 def blender(*words, **options):
     """Another Blender with the same profile."""
+    if not bpy.app.binary_path:
+        pytest.skip("this is Blender as a module; it has no program")
     command = [bpy.app.binary_path, "--background", "--factory-startup", *map(str, words)]
     return subprocess.run(command, capture_output=True, text=True, **options)
 

@@ -325,6 +325,8 @@ def pixels_of(result, folder):
     scene.render.film_transparent = True
     scene.world = bpy.data.worlds.new("White")
     scene.world.color = (1, 1, 1)
+    if scene.world.node_tree:  # from 5.0 always
+        scene.world.node_tree.nodes["Background"].inputs[0].default_value = (1, 1, 1, 1)
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.data.type, camera.data.ortho_scale = "ORTHO", 2.5 * max(result.dimensions)
     camera.location = result.matrix_world.translation

@@ -18,16 +18,19 @@ from scene import (
 
 
 def point_cloud(points, normals=None, name="Cloud"):
-    """A point cloud object; Blender has no way to give one a number of points but its own operators."""
+    """A point cloud object; Blender before 5.0 gives them a number of points of its own."""
     experimental = bpy.context.preferences.experimental
-    if not hasattr(bpy.types, "PointCloud") or not hasattr(
-        experimental, "use_new_point_cloud_type"
-    ):
-        pytest.skip("this Blender makes no point cloud objects by pointcloud_add")
-    experimental.use_new_point_cloud_type = True
-    bpy.ops.object.pointcloud_add()
-    thing = bpy.context.object
-    thing.name = name
+    if "resize" in bpy.types.PointCloud.bl_rna.functions:
+        thing = bpy.data.objects.new(name, bpy.data.pointclouds.new(name))
+        thing.data.resize(len(points))
+        bpy.context.scene.collection.objects.link(thing)
+    elif hasattr(experimental, "use_new_point_cloud_type"):
+        experimental.use_new_point_cloud_type = True
+        bpy.ops.object.pointcloud_add()
+        thing = bpy.context.object
+        thing.name = name
+    else:
+        pytest.skip("this Blender makes no point cloud objects from Python")
     count = len(thing.data.points)
     vectors = np.asarray(points, np.float32)[:count].ravel()
     thing.data.attributes["position"].data.foreach_set("vector", vectors)

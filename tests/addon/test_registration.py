@@ -2,6 +2,7 @@
 
 import ast
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -141,12 +142,12 @@ def test_defaults_are_those_of_the_compiled_module():
     settings = addon("core.settings")
     module = addon("core.native").load()
     default = settings.Settings()
+    # pybind11 writes the types in other words from version to version.
     signature = module.MedialAnalysis.extract.__doc__.splitlines()[0]
-    assert f"theta: float = {default.theta!r}," in signature
-    assert f"rho: float = {default.rho!r}," in signature
+    for name in ("theta", "rho", "limit_set"):
+        assert re.search(rf"\b{name}: [^=]*= {getattr(default, name)!r}\b", signature), signature
     assert f"Rule.{default.rule.name}:" in signature
     assert f"Criteria.{default.criteria.name}:" in signature
-    assert f"limit_set: bool = {default.limit_set}," in signature
     for enum in (settings.Rule, settings.Criteria):
         assert {member.name for member in enum} == set(getattr(module, enum.__name__).__members__)
     signature = module.sample_surface.__doc__.splitlines()[0]

@@ -131,7 +131,7 @@ def test_animated_constraint_is_seen():
 @pytest.mark.parametrize("name", PLACES)
 def test_split_transform_gives_a_rotation_and_a_symmetric_rest(name):
     split = addon("bridge.read_object").split_transform
-    world = np.array(PLACES[name])
+    world = np.array(PLACES[name], np.float64)
     frame, rest = split(world)
     rotation = frame[:3, :3]
     np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-12)
@@ -147,7 +147,7 @@ def test_rotation_alone_leaves_the_points_exactly_as_they_are():
     for _ in range(100):
         turn = Euler(random.uniform(-math.pi, math.pi, 3)).to_matrix().to_4x4()
         further = Euler(random.uniform(-math.pi, math.pi, 3)).to_matrix().to_4x4()
-        _, rest = split(np.array(turn @ further))
+        _, rest = split(np.array(turn @ further, np.float64))
         np.testing.assert_array_equal(rest, np.eye(3))
 
 
