@@ -21,7 +21,7 @@ namespace py = pybind11;
 
 inline std::string describe(const py::handle& object) {
   if (!py::isinstance<py::array>(object))
-    return "an object of type " + std::string(py::str(object.get_type()));
+    return "an object of type " + std::string(py::str(py::type::handle_of(object)));
   return "shape " + std::string(py::str(object.attr("shape"))) + " of " +
          std::string(py::str(object.attr("dtype")));
 }

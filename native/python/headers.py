@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Fetches the headers of a Python that is not installed, and of a pybind11 that knows it, from Debian.
+
+    python3 native/python/headers.py 3.13 trixie build/python/3.13
+
+A private apt verifies the suite's signature and the packages' hashes. Nothing is installed, and of
+the packages only python3.X/, its pyconfig.h and pybind11/ are unpacked: headers of another C library
+never meet the compiler's own. Exit code 1 and one sentence when they cannot be had.
+"""
+
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+KEYRING = Path("/usr/share/keyrings/debian-archive-keyring.gpg")
+DEFAULT_MIRROR = "http://deb.debian.org/debian"
+STAMP = "packages.txt"  # written last: what was unpacked, by version
+
+
+def main(version, suite, folder):
+    """Fill the folder; returns the packages that it came from, such as ['pybind11-dev 3.1.0-1']."""
+    stamp = folder / STAMP
+    if not stamp.exists():
+        require(version)
+        with tempfile.TemporaryDirectory() as private:
+            packages = download(Path(private), suite, [f"libpython{version}-dev", "pybind11-dev"])
+            fresh = folder.with_name(f"{folder.name}.new")
+            shutil.rmtree(fresh, ignore_errors=True)
+            for package in packages:
+                unpack(package, version, fresh)
+        names = sorted(" ".join(package.name.split("_")[:2]) for package in packages)
+        (fresh / STAMP).write_text("\n".join(names) + "\n", encoding="utf-8")
+        shutil.rmtree(folder, ignore_errors=True)
+        fresh.rename(folder)
+    return stamp.read_text(encoding="utf-8").split("\n")[:-1]
+
+
+def require(version):
+    for tool in ("apt-get", "dpkg-deb"):
+        if shutil.which(tool) is None:
+            raise SystemExit(f"Python {version}: expected {tool}, which fetches its headers")
+    if not KEYRING.exists():
+        raise SystemExit(f"Python {version}: expected {KEYRING}; install debian-archive-keyring")
+
+
+def mirror():
+    """Where this machine gets its Debian packages from."""
+    query = ["apt-get", "indextargets", "--format", "$(SITE)", "Identifier: Packages"]
+    sites = subprocess.run(query, capture_output=True, text=True).stdout.split()
+    return next((site for site in sites if site.rstrip("/").endswith("/debian")), DEFAULT_MIRROR)
+
+
+def download(private, suite, packages):
+    """The packages of a suite as files, by an apt that sees nothing but that suite."""
+    for part in ("state/lists/partial", "cache/archives/partial"):
+        (private / part).mkdir(parents=True)
+    (private / "status").touch()
+    source = f"deb [signed-by={KEYRING}] {mirror()} {suite} main\n"
+    (private / "sources.list").write_text(source, encoding="utf-8")
+    options = {
+        "Dir::Etc::sourcelist": private / "sources.list",
+        "Dir::Etc::sourceparts": "/dev/null",
+        "Dir::State": private / "state",
+        "Dir::State::status": private / "status",
+        "Dir::Cache": private / "cache",
+        "Acquire::Languages": "none",
+        "Acquire::Check-Valid-Until": "false",  # mirrors of a moving suite may stand still
+        "APT::Sandbox::User": "root",
+        "APT::Update::Error-Mode": "any",
+    }
+    apt = ["apt-get", "-qq", *(f"-o{name}={value}" for name, value in options.items())]
+    for command in (["update"], ["download", *packages]):
+        done = subprocess.run([*apt, *command], cwd=private, capture_output=True, text=True)
+        if done.returncode != 0:
+            reason = (done.stderr.strip().splitlines() or ["no reason given"])[0]
+            raise SystemExit(f"{' '.join(packages)} of Debian {suite} cannot be had: {reason}")
+    return sorted(private.glob("*.deb"))
+
+
+def unpack(package, version, folder):
+    """The headers alone, without the usr/include above them."""
+    folder.mkdir(parents=True, exist_ok=True)
+    archive = subprocess.run(
+        ["dpkg-deb", "--fsys-tarfile", package], check=True, capture_output=True
+    ).stdout
+    wanted = [f"./usr/include/{name}" for name in (f"python{version}", "*/pyconfig.h", "pybind11")]
+    extract = ["tar", "-x", "-C", folder, "--strip-components=3", "--wildcards", *wanted]
+    # Which of the three a package has not, tar complains about.
+    subprocess.run(extract, input=archive, stderr=subprocess.DEVNULL)
+
+
+if __name__ == "__main__":
+    print("\n".join(main(sys.argv[1], sys.argv[2], Path(sys.argv[3]).resolve())))
