@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Builds, shows and tests the Medial Axis add-on.
 
-    python3 build_addon.py build     compile the native module, pack dist/medial_axis-VERSION.zip
+    python3 build_addon.py build     compile the native modules, pack dist/medial_axis-VERSION.zip
     python3 build_addon.py demo      build, then compute and render real models in a real Blender
     python3 build_addon.py test      everything that must hold: native, Python and Blender tests, sanitizers
     python3 build_addon.py bench     what it costs beside the bare Delaunay triangulation, as tables
@@ -35,6 +35,7 @@ LIBRARY = ADDON / "lib"
 BUILD = ROOT / "build"
 DIST = ROOT / "dist"
 PACKAGE = "medial_axis"  # the add-on's name inside Blender and the top folder of its zip
+PLATFORM = "linux-x64"  # as extensions.blender.org calls it
 
 # What is needed -> the Debian package that brings it, by command.
 BUILD_NEEDS = {
@@ -65,8 +66,10 @@ TEST_NEEDS = {
 }
 BENCH_NEEDS = {"SciPy, whose Qhull is measured, too": "python3-scipy"}
 
-# Symbols and libraries that a module inside Blender's process must not bring along.
-FORBIDDEN_LIBRARIES = re.compile(r"lib(tbb|gmp|mpfr|python)")
+MATRIX_NEEDS = {**TEST_NEEDS, "Debian in a folder, by root alone": "debootstrap"}
+
+# The Pythons of the Blenders that the zip is for, and the Debian suite that has their headers.
+PYTHONS = {"3.11": "bookworm", "3.13": "trixie", "3.14": "sid"}
 ZIPPED_SUFFIXES = {".py", ".toml", ".so", ".png", ".svg", ".js", ".yaml"}
 
 
@@ -220,27 +223,49 @@ def blender_python(blender: Path) -> tuple[Path, str]:
 # --- building
 
 
-def build_module(blender: Path) -> tuple[Path, Path]:
-    """Compile the release module into blender_addon/lib; returns it and Blender's Python."""
-    say("Building the native module")
+def build_modules(blender: Path, local: bool = False) -> None:
+    """Compile the release modules into blender_addon/lib: for Blender's own Python and, unless `local`, the others."""
+    say("Building the native modules")
     python, abi = blender_python(blender)
-    build_preset("release", f"-DPython_EXECUTABLE={python}")
-    built = sorted((BUILD / "release").rglob(f"_medial.{abi}.so"))
-    if len(built) != 1:
-        raise Failure(
-            f"Expected one _medial.{abi}.so under build/release, found {len(built)}; run clean first"
-        )
+    folders = {} if local else other_headers(abi)
+    headers = ";".join(map(str, folders.values()))
+    build_preset("release", f"-DPython_EXECUTABLE={python}", f"-DMEDIAL_PYTHON_HEADERS={headers}")
+    abis = [abi, *(re.sub(r"\d+", version.replace(".", ""), abi, count=1) for version in folders)]
+    modules = [put_into_library(BUILD / "release" / f"_medial.{abi}.so") for abi in abis]
+    for old in set(LIBRARY.glob("_medial.*")) - set(modules):
+        old.unlink()
+    checker = ROOT / "native" / "python" / "check_module.py"
+    run(sys.executable, checker, *modules, *(["--local"] if local else []))
+    print(output_of(python, "-c", IMPORT_MODULE, modules[0]).strip())
+
+
+def other_headers(abi: str) -> dict[str, Path]:
+    """Folders with the headers of the Pythons that Blender here does not use; those not to be had are named."""
+    folders = {}
+    for version, suite in PYTHONS.items():
+        if f"cpython-{version.replace('.', '')}-" in abi:
+            continue
+        folder = BUILD / "python" / version
+        fetch = [sys.executable, ROOT / "native/python/headers.py", version, suite, folder]
+        done = subprocess.run(list(map(str, fetch)), capture_output=True, text=True)
+        if done.returncode == 0:
+            print(f"Python {version}: {', '.join(done.stdout.splitlines())}")
+            folders[version] = folder
+        else:
+            print(f"No module for Python {version}: {done.stderr.strip()}")
+    return folders
+
+
+def put_into_library(built: Path) -> Path:
+    """Strip a module into blender_addon/lib; renamed at the end: a running Blender keeps the file that it has open."""
+    if not built.exists():
+        raise Failure(f"Expected {built.relative_to(ROOT)}, found none; run clean first")
     LIBRARY.mkdir(exist_ok=True)
-    module = LIBRARY / built[0].name
-    fresh = module.with_suffix(
-        ".new"
-    )  # renamed at the end: a running Blender keeps the file that it has open
-    shutil.copy2(built[0], fresh)
-    run("strip", "--strip-unneeded", fresh)
+    module = LIBRARY / built.name
+    fresh = module.with_suffix(".new")
+    run("strip", "--strip-unneeded", "-o", fresh, built)
     os.replace(fresh, module)
-    check_module(module)
-    print(output_of(python, "-c", IMPORT_MODULE, module).strip())
-    return module, python
+    return module
 
 
 IMPORT_MODULE = """
@@ -255,36 +280,6 @@ print("imports as _medial", module.__version__)
 def build_preset(preset: str, *definitions: str) -> None:
     run("cmake", "--preset", preset, *definitions)
     run("cmake", "--build", "--preset", preset, "--parallel", parallel_jobs())
-
-
-def check_module(module: Path) -> None:
-    """Refuse a module that would meet Blender's own libraries, and print what it needs of the system."""
-    libraries = re.findall(r"\(NEEDED\).*\[(.+)\]", output_of("readelf", "-d", module))
-    unwanted = [library for library in libraries if FORBIDDEN_LIBRARIES.match(library)]
-    if unwanted:
-        raise Failure(
-            f"{module.name} must not need {', '.join(unwanted)}; link it statically or leave it out"
-        )
-    exported = [
-        line.split()[-1] for line in output_of("nm", "-D", "--defined-only", module).splitlines()
-    ]
-    if exported != ["PyInit__medial"]:
-        raise Failure(
-            f"{module.name} must export PyInit__medial only, found {len(exported)}: {exported[:5]}"
-        )
-    versions = output_of("objdump", "-T", module)
-    floors = [f"{name} {newest(name, versions)}" for name in ("GLIBC", "GLIBCXX", "CXXABI")]
-    print(
-        f"{module.relative_to(ROOT)}: {module.stat().st_size / 1e6:.1f} MB, needs {', '.join(libraries)}"
-    )
-    print(f"exports PyInit__medial only; newest versions needed: {', '.join(floors)}")
-
-
-def newest(name: str, text: str) -> str:
-    found = re.findall(rf"\b{name}_([0-9.]+)", text)
-    return max(
-        found, key=lambda version: [int(part) for part in version.split(".")], default="none"
-    )
 
 
 def version() -> str:
@@ -302,22 +297,44 @@ def version() -> str:
 
 
 def pack() -> Path:
-    """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension). Same files, same bytes."""
+    """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension), and the one for the extensions
+    platform, which wants its files at the top. Same files, same bytes. Returns the first."""
     say("Packing the add-on")
     DIST.mkdir(exist_ok=True)
-    target = DIST / f"{PACKAGE}-{version()}.zip"
-    fresh = target.with_suffix(".new")
     files = {path.relative_to(ADDON).as_posix(): path for path in packed_files()}
     files["LICENSE"] = ROOT / "LICENSE"
+    archive, extension = archives()
+    write_zip(archive, {f"{PACKAGE}/{name}": path.read_bytes() for name, path in files.items()})
+    contents = {name: path.read_bytes() for name, path in files.items()}
+    contents["blender_manifest.toml"] = for_platform(contents["blender_manifest.toml"])
+    write_zip(extension, contents)
+    abis = sorted(name.split(".")[1] for name in files if name.startswith("lib/_medial."))
+    print(f"{len(files)} files each; compiled for {', '.join(abis) or 'no Python'}")
+    return archive
+
+
+def archives() -> tuple[Path, Path]:
+    """The zip for people, and the one for the extensions platform, named as Blender names such."""
+    stem = f"{PACKAGE}-{version()}"
+    return DIST / f"{stem}.zip", DIST / f"{stem}-{PLATFORM}.zip"
+
+
+def for_platform(manifest: bytes) -> bytes:
+    """The manifest says for which system the zip is; a line of its own before the first table."""
+    line = f'platforms = ["{PLATFORM}"]\n\n['.encode()
+    return manifest.replace(b"\n[", b"\n" + line, 1)
+
+
+def write_zip(target: Path, contents: dict[str, bytes]) -> None:
+    fresh = target.with_suffix(".new")
     with zipfile.ZipFile(fresh, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, path in sorted(files.items()):
-            entry = zipfile.ZipInfo(f"{PACKAGE}/{name}")  # with the same date always
+        for name, content in sorted(contents.items()):
+            entry = zipfile.ZipInfo(name)  # with the same date always
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = 0o644 << 16
-            archive.writestr(entry, path.read_bytes())
+            archive.writestr(entry, content)
     os.replace(fresh, target)
-    print(f"{target.relative_to(ROOT)}: {len(files)} files, {target.stat().st_size / 1e6:.1f} MB")
-    return target
+    print(f"{target.relative_to(ROOT)}: {target.stat().st_size / 1e6:.1f} MB")
 
 
 def packed_files() -> list[Path]:
@@ -333,7 +350,7 @@ def packed_files() -> list[Path]:
 
 def build(arguments: argparse.Namespace) -> None:
     require(BUILD_NEEDS)
-    build_module(find_blender(arguments.blender))
+    build_modules(find_blender(arguments.blender), arguments.local)
     print(
         f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {pack().relative_to(ROOT)}"
     )
@@ -349,7 +366,7 @@ def demo(arguments: argparse.Namespace) -> None:
     absent = [mesh for mesh in meshes if not mesh.is_file()]
     if absent:
         raise Failure(f"Expected mesh files, found no file {absent[0]}; check the path")
-    build_module(blender)
+    build_modules(blender)
     archive = pack()
     output = Path(arguments.output).resolve()
     output.mkdir(parents=True, exist_ok=True)
@@ -418,16 +435,17 @@ def print_table(reports: list[dict]) -> None:
 
 
 def test(arguments: argparse.Namespace) -> None:
-    require({**BUILD_NEEDS, **TEST_NEEDS})
+    require({**BUILD_NEEDS, **(MATRIX_NEEDS if os.geteuid() == 0 else TEST_NEEDS)})
     blender = find_blender(arguments.blender)
-    unknown = set(arguments.only) - set(PARTS)
+    parts = MATRIX_PARTS if arguments.matrix else PARTS
+    unknown = set(arguments.only) - set(parts)
     if unknown:
         raise Failure(
-            f"Expected parts out of {', '.join(PARTS)}, found {', '.join(sorted(unknown))}"
+            f"Expected parts out of {', '.join(parts)}, found {', '.join(sorted(unknown))}"
         )
     results = {}
     started = time.monotonic()
-    for name, part in PARTS.items():
+    for name, part in parts.items():
         if arguments.only and name not in arguments.only:
             continue
         results[name] = test_part(name, part, blender)
@@ -459,7 +477,7 @@ def test_part(name: str, part, blender: Path) -> tuple[str, float]:
 
 
 def test_build(blender: Path) -> None:
-    build_module(blender)
+    build_modules(blender)
     pack()
 
 
@@ -494,8 +512,25 @@ def test_gui(blender: Path) -> None:
 def run_inside(blender: Path, *options: object) -> None:
     """The tests of the installed zip inside Blender."""
     python, _ = blender_python(blender)
-    archive = DIST / f"{PACKAGE}-{version()}.zip"
+    archive, _ = archives()
     run(python, "tests/addon/run.py", "--zip", archive, "--blender", blender, *options)
+
+
+def test_blenders(blender: Path) -> None:
+    """The main things in every Blender that Debian has; the rest of the matrix takes longer."""
+    run_matrix(blender, "--quick")
+
+
+def test_matrix(blender: Path) -> None:
+    run_matrix(blender, "--table", ROOT / "docs" / "compatibility.md")
+
+
+def run_matrix(blender: Path, *options: object) -> None:
+    zips = archives()
+    keep = BUILD / "matrix"
+    run(
+        sys.executable, "tests/matrix/run.py", *zips, "--blender", blender, "--keep", keep, *options
+    )
 
 
 def test_asan(blender: Path) -> None:
@@ -526,9 +561,11 @@ PARTS = {
     "python": test_python,
     "addon": test_addon,
     "gui": test_gui,
+    "blenders": test_blenders,
     "asan": test_asan,
     "tsan": test_tsan,
 }
+MATRIX_PARTS = {"build": test_build, "matrix": test_matrix}
 
 
 # --- bench
@@ -537,7 +574,8 @@ PARTS = {
 def bench(arguments: argparse.Namespace) -> None:
     require({**BUILD_NEEDS, **BENCH_NEEDS})
     blender = find_blender(arguments.blender)
-    _, python = build_module(blender)
+    python, _ = blender_python(blender)
+    build_modules(blender)
     run("cmake", "--build", "--preset", "release", "--target", "bare_triangulation")
     say("Measuring; leave the machine alone meanwhile")
     options = ["--bare", BUILD / "release/tests/benchmarks/bare_triangulation"]
@@ -594,6 +632,12 @@ def parse(words: list[str]) -> argparse.Namespace:
     add_test.add_argument(
         "--only", nargs="+", default=[], metavar="PART", help=f"out of: {', '.join(PARTS)}"
     )
+    add_test.add_argument(
+        "--matrix", action="store_true", help="instead: all tests of the add-on in every Blender"
+    )
+    add_build.add_argument(
+        "--local", action="store_true", help="for this machine's Blender alone; no network needed"
+    )
     add_bench = add("bench", bench, "measure beside the bare Delaunay triangulation", BENCH_HELP)
     add_bench.add_argument(
         "--quick", action="store_true", help="inputs of at most 200,000 points, once each"
@@ -623,16 +667,24 @@ def parse(words: list[str]) -> argparse.Namespace:
     return parser.parse_args(words)
 
 
-BUILD_HELP = """Compiles with the CMake preset `release` for the Python that Blender uses, puts the module into
-blender_addon/lib/, checks that it needs no library that Blender brings too, and packs
-dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer."""
+BUILD_HELP = f"""Compiles with the CMake preset `release` for the Python that Blender uses and, with headers from
+Debian's mirror, for {", ".join(PYTHONS)}; what cannot be had is left out by name.
+Puts the modules into blender_addon/lib/,
+checks that they need no library that Blender brings too and no newer system than others have, and packs
+dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer, and
+dist/medial_axis-VERSION-{PLATFORM}.zip for the extensions platform."""
 
 DEMO_HELP = """Installs the zip into a private Blender profile, computes the medial axis of Blender's Suzanne and of a
 mesh of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .ply, .ma and a rendered
 .png of each. Works without a display."""
 
 TEST_HELP = f"""Parts, in order: {", ".join(PARTS)}. One failing part fails the whole; a part that cannot run for
-lack of a tool is skipped by name. The parts after `build` use what `build` made."""
+lack of a tool is skipped by name. The parts after `build` use what `build` made.
+
+--matrix builds, installs the zip into Blender 3.4, 4.3 and 5.2 of Debian 12, 13 and sid and into the official bpy
+modules, runs the add-on's tests, windows and renderings in each, and writes docs/compatibility.md. Debian 13 and sid
+are made in build/blenders (or $MEDIAL_AXIS_BLENDERS), which needs root; a Blender that cannot be had is skipped
+by name."""
 
 BENCH_HELP = """Builds, then measures CGAL's triangulation alone and the medial axis in turns, each in a process of
 its own, on one thread and on all: random points on an ellipsoid (up to 5 million) and a torus, a noisy scan, and

@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -12,14 +13,19 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 
-@pytest.fixture
-def script(monkeypatch):
-    """The script as a module, with an environment that it may change."""
-    spec = importlib.util.spec_from_file_location("build_addon", ROOT / "build_addon.py")
+def module_of(path):
+    """A script of this repository as a module."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    monkeypatch.setenv("PATH", os.environ["PATH"])
     return module
+
+
+@pytest.fixture
+def script(monkeypatch):
+    """build_addon.py, with an environment that it may change."""
+    monkeypatch.setenv("PATH", os.environ["PATH"])
+    return module_of(ROOT / "build_addon.py")
 
 
 @pytest.fixture
@@ -35,7 +41,8 @@ def sources(script, tmp_path, monkeypatch):
         (addon / name).parent.mkdir(parents=True, exist_ok=True)
         (addon / name).write_text(f"content of {name}", encoding="utf-8")
     (addon / "__init__.py").write_text('bl_info = {"version": (1, 2, 3)}\n', encoding="utf-8")
-    (addon / "blender_manifest.toml").write_text('version = "1.2.3"\n', encoding="utf-8")
+    manifest = 'version = "1.2.3"\n\n[permissions]\n'
+    (addon / "blender_manifest.toml").write_text(manifest, encoding="utf-8")
     (tmp_path / "LICENSE").write_text("licence", encoding="utf-8")
     for name, path in {"ROOT": tmp_path, "ADDON": addon, "DIST": tmp_path / "dist"}.items():
         monkeypatch.setattr(script, name, path)
@@ -107,6 +114,18 @@ def test_zip_holds_what_is_needed_and_nothing_else(script, sources):
     ]
 
 
+def test_zip_for_the_platform_has_no_folder_and_says_what_it_is_for(script, sources):
+    first = script.pack()
+    target = first.with_name("medial_axis-1.2.3-linux-x64.zip")
+    with zipfile.ZipFile(first) as ours, zipfile.ZipFile(target) as platform:
+        names = platform.namelist()
+        assert [f"medial_axis/{name}" for name in names] == ours.namelist()
+        manifest = platform.read("blender_manifest.toml").decode()
+        assert manifest == 'version = "1.2.3"\n\nplatforms = ["linux-x64"]\n\n[permissions]\n'
+        for name in set(names) - {"blender_manifest.toml"}:
+            assert platform.read(name) == ours.read(f"medial_axis/{name}")
+
+
 def test_same_sources_same_zip(script, sources):
     first = script.pack().read_bytes()
     for path in sources.rglob("*.py"):
@@ -121,7 +140,36 @@ def test_versions_must_agree(script, sources):
 
 
 def test_real_versions_agree(script):
-    assert script.version().count(".") == 2
+    """Manifest and bl_info by the script itself; the newest heading of the changelog; the compiled modules."""
+    version = script.version()
+    assert version.count(".") == 2
+    changelog = (ROOT / "docs" / "changelog.md").read_text(encoding="utf-8")
+    assert re.findall(r"^## (\S+)", changelog, re.MULTILINE)[0] == version
+    modules = sorted(script.LIBRARY.glob("_medial.*.so"))
+    assert modules and all(version.encode() in module.read_bytes() for module in modules)
+
+
+def test_python_whose_headers_cannot_be_had_is_named(script, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(script, "BUILD", tmp_path)
+    monkeypatch.setattr(script, "PYTHONS", {"3.11": "bookworm", "3.99": "no-such-suite"})
+    monkeypatch.setenv("PATH", str(tmp_path))  # no apt-get
+    assert script.other_headers("cpython-311-x86_64-linux-gnu") == {}
+    out = capsys.readouterr().out
+    assert (
+        out
+        == "No module for Python 3.99: Python 3.99: expected apt-get, which fetches its headers\n"
+    )
+
+
+def test_headers_that_are_there_are_used_without_a_network(script, tmp_path, monkeypatch, capsys):
+    folder = tmp_path / "python" / "3.13"
+    folder.mkdir(parents=True)
+    (folder / "packages.txt").write_text("libpython3.13-dev 1\npybind11-dev 2\n")
+    monkeypatch.setattr(script, "BUILD", tmp_path)
+    monkeypatch.setattr(script, "PYTHONS", {"3.13": "trixie"})
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert script.other_headers("cpython-311-x86_64-linux-gnu") == {"3.13": folder}
+    assert capsys.readouterr().out == "Python 3.13: libpython3.13-dev 1, pybind11-dev 2\n"
 
 
 def compile_library(folder, source, *options):
@@ -137,37 +185,50 @@ def compile_library(folder, source, *options):
 GOOD = 'extern "C" __attribute__((visibility("default"))) int PyInit__medial() { return 0; }\n'
 
 
-def test_module_that_exports_one_symbol_passes(script, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(script, "ROOT", tmp_path)
-    script.check_module(compile_library(tmp_path, GOOD))
-    assert "exports PyInit__medial only" in capsys.readouterr().out
+@pytest.fixture
+def checker():
+    return module_of(ROOT / "native" / "python" / "check_module.py")
 
 
-def test_module_that_exports_more_is_refused(script, tmp_path, monkeypatch):
-    monkeypatch.setattr(script, "ROOT", tmp_path)
-    with pytest.raises(script.Failure, match="PyInit__medial only, found 2"):
-        script.check_module(
-            compile_library(tmp_path, GOOD + 'extern "C" int other() { return 1; }\n')
-        )
+def test_module_that_exports_one_symbol_passes(checker, tmp_path):
+    (_, text) = checker.check(compile_library(tmp_path, GOOD))
+    assert "exports PyInit__medial only" in text
+
+
+def test_module_that_exports_more_is_refused(checker, tmp_path):
+    module = compile_library(tmp_path, GOOD + 'extern "C" int other() { return 1; }\n')
+    with pytest.raises(SystemExit, match="PyInit__medial only, found 2"):
+        checker.check(module)
 
 
 @pytest.mark.parametrize(
     "name", ["libtbb.so.12", "libgmp.so.10", "libmpfr.so.6", "libpython3.11.so.1.0"]
 )
-def test_module_that_needs_blenders_libraries_is_refused(script, tmp_path, monkeypatch, name):
-    monkeypatch.setattr(script, "ROOT", tmp_path)
+def test_module_that_needs_blenders_libraries_is_refused(checker, tmp_path, name):
     needed = tmp_path / name
     subprocess.run(
         ["g++", "-shared", "-fPIC", "-o", needed, f"-Wl,-soname,{name}", "-x", "c++", "/dev/null"],
         check=True,
     )
-    with pytest.raises(script.Failure, match=f"must not need {name}"):
-        script.check_module(compile_library(tmp_path, GOOD, "-Wl,--no-as-needed", needed))
+    with pytest.raises(SystemExit, match=f"must not need {name}"):
+        checker.check(compile_library(tmp_path, GOOD, "-Wl,--no-as-needed", needed))
 
 
-def test_newest_version_counts_in_numbers(script):
-    assert script.newest("GLIBC", "GLIBC_2.9 GLIBC_2.34 GLIBC_2.4 GLIBCXX_3.4.29") == "2.34"
-    assert script.newest("CXXABI", "GLIBC_2.9") == "none"
+def test_module_for_newer_systems_is_refused_unless_it_is_for_this_one(
+    checker, tmp_path, monkeypatch
+):
+    source = '#include <cstdio>\nextern "C" __attribute__((visibility("default"))) '
+    module = compile_library(tmp_path, source + 'int PyInit__medial() { return std::puts(""); }\n')
+    checker.check(module)
+    monkeypatch.setitem(checker.NEWEST, "GLIBC", "2.2")
+    with pytest.raises(SystemExit, match=r"needs GLIBC_2\.\d+.*, newer than 2\.2; .*--local"):
+        checker.check(module)
+    assert checker.check(module, local=True)
+
+
+def test_newest_version_counts_in_numbers(checker):
+    assert checker.newest("GLIBC", "GLIBC_2.9 GLIBC_2.34 GLIBC_2.4 GLIBCXX_3.4.29") == "2.34"
+    assert checker.newest("CXXABI", "GLIBC_2.9") == ""
 
 
 def test_one_failing_part_fails_the_whole(script, monkeypatch, capsys):

@@ -1,0 +1,120 @@
+"""Runs inside any Blender with the installed add-on: one computation, its export, its picture, and what ran it.
+
+Arguments: the file that the answer is written to, as JSON, and the render engines to try.
+"""
+
+import hashlib
+import itertools
+import json
+import os
+import platform
+import sys
+import tempfile
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+ANSWER, *ENGINES = sys.argv[sys.argv.index("--") + 1 :]
+# What an engine is called; EEVEE has changed its name twice.
+NAMES = {
+    "Cycles": ("CYCLES",),
+    "EEVEE": ("BLENDER_EEVEE", "BLENDER_EEVEE_NEXT"),
+    "Workbench": ("BLENDER_WORKBENCH",),
+}
+
+
+def egg(steps=12):
+    """Vertices and triangles of a closed surface: an octahedron's grid pushed outwards, by +, *, / and
+    sqrt alone, which round alike everywhere, and a little uneven."""
+    number, vertices, triangles = {}, [], []
+
+    def vertex(*place):
+        if place not in number:
+            number[place] = len(vertices)
+            unevenness = ((len(vertices) * 7919) % 1009 - 504) / 504000
+            x, y, z = place
+            size = (x * x + y * y + z * z) ** 0.5 * (1 + unevenness)
+            vertices.append((x / size, 0.7 * y / size, 0.4 * z / size))
+        return number[place]
+
+    grid = [(a, b) for a in range(steps) for b in range(steps - a)]
+    cells = [((a, b), (a + 1, b), (a, b + 1)) for a, b in grid]
+    cells += [((a + 1, b), (a + 1, b + 1), (a, b + 1)) for a, b in grid if a + b < steps - 1]
+    for sx, sy, sz in itertools.product((1, -1), repeat=3):
+        for cell in cells:
+            corners = [vertex(sx * a, sy * b, sz * (steps - a - b)) for a, b in cell]
+            triangles.append(corners[:: sx * sy * sz])  # outward after a mirror, too
+    return vertices, triangles
+
+
+def source():
+    mesh = bpy.data.meshes.new("Egg")
+    vertices, faces = egg()
+    mesh.from_pydata(vertices, [], faces)
+    mesh.update()
+    thing = bpy.data.objects.new("Egg", mesh)
+    bpy.context.scene.collection.objects.link(thing)
+    bpy.context.view_layer.objects.active = thing
+    thing.select_set(True)
+    return thing
+
+
+def exported(folder):
+    """SHA-256 of the .ma file."""
+    path = folder / "egg.ma"
+    assert bpy.ops.object.medial_axis(side="INNER") == {"FINISHED"}
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    content = path.read_bytes()
+    assert len(content) > 10_000
+    return hashlib.sha256(content).hexdigest()
+
+
+def set_stage():
+    scene = bpy.context.scene
+    scene.render.resolution_x, scene.render.resolution_y = 160, 120
+    scene.cycles.samples, scene.cycles.use_denoising = 4, False
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.location = (0, 0, 4)
+    sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+    sun.data.energy = 3
+    scene.collection.objects.link(camera)
+    scene.collection.objects.link(sun)
+    scene.camera = camera
+
+
+def colours(engine, folder):
+    """How many colours the picture has that this engine renders."""
+    for name in NAMES[engine]:
+        try:
+            bpy.context.scene.render.engine = name
+            break
+        except TypeError:
+            continue
+    bpy.context.scene.render.filepath = str(folder / f"{engine}.png")
+    bpy.ops.render.render(write_still=True)
+    image = bpy.data.images.load(bpy.context.scene.render.filepath)
+    pixels = np.array(image.pixels[:], np.float32).reshape(-1, 4)
+    return len(np.unique(pixels, axis=0))
+
+
+def main():
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    module = os.environ["MEDIAL_AXIS_MODULE"]
+    bpy.ops.preferences.addon_enable(module=module)
+    thing = source()
+    with tempfile.TemporaryDirectory() as folder:
+        answer = {
+            "blender": bpy.app.version_string,
+            "python": platform.python_version(),
+            "numpy": np.__version__,
+            "installed": "extension" if module.startswith("bl_ext.") else "legacy add-on",
+            "export": exported(Path(folder)),
+        }
+        thing.hide_render = True
+        set_stage()
+        answer["colours"] = {engine: colours(engine, Path(folder)) for engine in ENGINES}
+    Path(ANSWER).write_text(json.dumps(answer), encoding="utf-8")
+
+
+main()

@@ -1,0 +1,102 @@
+"""tests/matrix/run.py: what is skipped, what fails, what the table says; no Blender is started."""
+
+import importlib.util
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+FACTS = {"blender": "5.2.2", "python": "3.14.1", "numpy": "2.4", "installed": "extension"}
+
+
+@pytest.fixture
+def matrix(monkeypatch):
+    spec = importlib.util.spec_from_file_location(
+        "matrix_run", ROOT / "tests" / "matrix" / "run.py"
+    )
+    module = importlib.util.module_from_spec(spec)
+    monkeypatch.setitem(sys.modules, "matrix_run", module)
+    spec.loader.exec_module(module)
+    return module
+
+
+class Fake:
+    """A Blender that gives the same answer always."""
+
+    source, words, engines = "Nowhere 1", [], ("Cycles",)
+    quick, quick_tests = True, True
+
+    def prepare(self, log):
+        return []
+
+
+@pytest.fixture
+def played(matrix, monkeypatch, tmp_path, capsys):
+    """Run the matrix with some fakes in place of all Blenders; returns (exit code, output, table)."""
+
+    def play(*blenders, code=0, colours=500, export=None):
+        answers = iter(export or "a" * 99)
+
+        def run_tests(options, log):
+            if "--script" in options:
+                answer = options[options.index("--script") + 2]
+                facts = {**FACTS, "colours": {"Cycles": colours}, "export": next(answers) * 64}
+                answer.write_text(json.dumps(facts))
+                return 0, ""
+            return code, "....\n3 passed, 1 skipped, 2 deselected, 5 warnings in 1.25s (0:00:01)\n"
+
+        table = tmp_path / "table.md"
+        table.write_text(f"By hand.\n\n{matrix.MARK}\nold\n")
+        monkeypatch.setattr(matrix, "run_tests", run_tests)
+        first, *others = [*blenders, *[Unavailable()] * 5][:5]
+        monkeypatch.setattr(matrix, "Installed", lambda program: first)
+        left = iter(others)
+        for kind in ("Chroot", "Bpy"):
+            monkeypatch.setattr(matrix, kind, lambda *names: next(left))
+        words = ["run.py", "a.zip", "b.zip", "--keep", str(tmp_path), "--table", str(table)]
+        monkeypatch.setattr(sys, "argv", words)
+        Unavailable.error = matrix.UnavailableError
+        return matrix.main(), capsys.readouterr().out, table.read_text()
+
+    return play
+
+
+class Unavailable(Fake):
+    source = "Elsewhere"
+
+    def prepare(self, log):
+        raise self.error("no network")
+
+
+def test_blender_that_runs_is_in_the_table_and_others_are_skipped_by_name(played):
+    code, out, table = played(Fake())
+    assert code == 0 and "FAILED" not in out
+    assert table.startswith("By hand.\n") and "old" not in table
+    row = "| 5.2.2 | Nowhere 1 | 3.14.1 | 2.4 | extension | 3 passed, 1 skipped | none | Cycles | `aaaaaaaaaaaaaaaa` |"
+    assert row in table
+    assert table.count("| Elsewhere |") == 4 and "not tested: no network |" in table
+
+
+@pytest.mark.parametrize(
+    "wrong, told",
+    [
+        ({"code": 1}, "tests: 3 passed, 1 skipped"),
+        ({"colours": 1}, "empty pictures: Cycles"),
+        ({"export": "ab"}, "the two zips give different exports"),
+    ],
+)
+def test_failure_in_a_blender_that_runs_is_a_failure(played, wrong, told):
+    code, out, _ = played(Fake(), **wrong)
+    assert code == 1 and f"FAILED Nowhere 1: {told}" in out
+
+
+def test_different_exports_in_two_blenders_are_a_failure(played):
+    code, out, _ = played(Fake(), Fake(), export="aabb")
+    assert code == 1 and "FAILED the same mesh gives different .ma files" in out
+
+
+def test_command_that_fails_is_told_with_its_last_line(matrix, tmp_path):
+    with pytest.raises(matrix.UnavailableError, match=r"sh failed: no such suite \(see "):
+        matrix.run_logged(["sh", "-c", "echo first; echo no such suite; exit 3"], tmp_path / "log")
