@@ -126,9 +126,9 @@ class Bpy:
     engines = ("Cycles", "Workbench")
     quick = False
 
-    def __init__(self, python: str) -> None:
-        self.python = python
-        self.source = f"bpy for Python {python}"
+    def __init__(self, version: str, python: str) -> None:
+        self.version, self.python = version, python
+        self.source = f"bpy {version}"
         self.words: list[str] = []
 
     def prepare(self, log: Path) -> list[str]:
@@ -140,10 +140,11 @@ class Bpy:
         ]
         if not found:
             raise UnavailableError(f"no Python {self.python} that makes virtual environments")
-        folder = CHROOTS / f"bpy-{self.python}"
+        folder = CHROOTS / f"bpy-{self.version}"
         run_logged([found[0], "-m", "venv", folder], log)
-        install = ["-m", "pip", "install", "--upgrade", "--only-binary", ":all:"]
-        run_logged([folder / "bin" / "python", *install, "bpy", "pytest", "scipy"], log)
+        packages = [f"bpy=={self.version}.*", "pytest", "scipy"]
+        install = ["-m", "pip", "install", "--upgrade", "--only-binary", ":all:", *packages]
+        run_logged([folder / "bin" / "python", *install], log)
         return ["--bpy", str(folder / "bin" / "python")]
 
 
@@ -276,8 +277,7 @@ def main() -> int:
         Installed(arguments.blender),
         Chroot("trixie", "Debian 13"),
         Chroot("sid", "Debian sid"),
-        Bpy("3.11"),
-        Bpy("3.13"),
+        *map(Bpy, ("4.2", "4.5", "5.0", "5.2"), ("3.11", "3.11", "3.11", "3.13")),
     ]
     rows = []
     for blender in blenders:
