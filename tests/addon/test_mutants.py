@@ -1,0 +1,96 @@
+"""A thousand objects and options at random: an answer each, a sound result or one sentence, and never a crash.
+
+A crash ends Blender and so the tests; `run.py -s -k mutants` prints each number before it is tried.
+"""
+
+import resource
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from mutants import mutant, options
+from scene import addon, attribute, contents, positions
+
+COUNT, BLOCK = 1000, 100
+MEMORY = 6 << 30  # bytes of address space that each block may have beyond those that Blender has
+OPERATORS = ("medial_axis",) * 6 + ("tight_cocone_surface", "medial_axis_sampling_report")
+
+
+def blocks():
+    """The first is always run."""
+    for start in range(0, COUNT, BLOCK):
+        yield pytest.param(start, marks=[pytest.mark.slow] if start else [])
+
+
+@pytest.fixture
+def little_memory():
+    """What asks for too much fails alone, and not the machine."""
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    limits = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + MEMORY, limits[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_AS, limits)
+
+
+@pytest.mark.parametrize("start", blocks())
+def test_mutants(start, little_memory):
+    wrong, finished = [], 0
+    for seed in range(start, start + BLOCK):
+        print(f"mutant {seed}", flush=True)
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        try:
+            finished += attempt(seed) == {"FINISHED"}
+        except Exception as failure:
+            wrong.append(f"mutant {seed}: {failure!r}")
+    assert not wrong, "\n".join(wrong)
+    assert BLOCK / 10 < finished < BLOCK, "neither all refused nor all fine"
+
+
+def attempt(seed):
+    """Run an operator on a mutant; its answer, or the sentence that it raised."""
+    thing, random = mutant(seed)
+    name = OPERATORS[random.integers(len(OPERATORS))]
+    operator = getattr(bpy.ops.object, name)
+    known = operator.get_rna_type().properties.keys()
+    chosen = {key: value for key, value in options(random).items() if key in known}
+    before, data, mode = contents(), state(thing), thing.mode
+    single = len(bpy.context.selected_objects) < 2  # else one may be refused, and others fine
+    try:
+        answer = operator(**chosen)
+    except RuntimeError as error:
+        answer = str(error)
+        assert answer.startswith("Error: '") or ".poll() Select " in answer, answer
+        assert "Traceback" not in answer
+    assert thing.mode == mode
+    assert np.array_equal(state(thing), data, equal_nan=True), "the source was changed"
+    if answer == {"FINISHED"}:
+        check_made(name)
+        again = operator(**chosen) if operator.poll() else answer
+        assert again == answer
+    elif single:
+        assert contents() == before, f"after {answer} something was left"
+    assert addon("ui.running").job() is None
+    return answer
+
+
+def state(thing):
+    """The points of a mesh."""
+    return positions(thing.data) if thing.type == "MESH" else np.zeros((0, 3))
+
+
+def check_made(name):
+    """What was made is a valid mesh of finite numbers."""
+    made = [other for other in bpy.data.objects if "ma_version" in other]
+    assert made, "nothing was made"
+    for other in made:
+        mesh = other.data
+        assert mesh.validate() is False, "the mesh was not valid"
+        assert np.isfinite(positions(mesh)).all() and len(mesh.vertices) > 0
+        assert np.isfinite(np.array(other.matrix_world)).all()
+        if name == "medial_axis":
+            assert len(mesh.polygons) > 0
+            for attribute_name in ("ma_radius", "ma_theta", "ma_rho"):
+                values = attribute(mesh, attribute_name)
+                assert np.isfinite(values).all(), attribute_name
+            assert (attribute(mesh, "ma_radius") > 0).all()
