@@ -124,7 +124,7 @@ def _read_data(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
         with _evaluated_mesh(evaluated) as mesh:
             if mesh is not None and len(mesh.vertices):
                 return Shape(
-                    points=read_vectors(mesh.vertices, "co"),
+                    points=_read_positions(mesh),
                     triangles=_read_triangles(mesh),
                     normals=read_normals(mesh.attributes),
                     sharp_edges=_read_sharp_edges(mesh),
@@ -169,27 +169,46 @@ def _evaluated_cloud(
     return None
 
 
+def _read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float64]:
+    if "position" in mesh.attributes:  # from 3.6 or so; then it alone is copied in one go
+        return read_vectors(mesh.attributes["position"].data, "vector")
+    return read_vectors(mesh.vertices, "co")
+
+
 def _read_triangles(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     mesh.calc_loop_triangles()
-    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", triangles)
-    return triangles.reshape(-1, 3)
+    return _read_rows(mesh.loop_triangles, 3)
+
+
+def _read_rows(elements: bpy.types.bpy_prop_collection, corners: int) -> NDArray[np.int32]:
+    """The vertices of edges or triangles. Unsigned, as Blender keeps them, they are copied in one go."""
+    rows = np.empty(corners * len(elements), np.uint32)
+    elements.foreach_get("vertices", rows)
+    return rows.view(np.int32).reshape(-1, corners)
 
 
 def _read_sharp_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32] | None:
     """(e, 2) the edges that are marked sharp; None where there is none."""
-    marked = np.zeros(len(mesh.edges), bool)
-    if "use_edge_sharp" in bpy.types.MeshEdge.bl_rna.properties:
-        mesh.edges.foreach_get("use_edge_sharp", marked)
-    if not marked.any():
-        return None
-    ends = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    return ends.reshape(-1, 2)[marked]
+    marked = _read_marks(mesh, mesh.edges, "use_edge_sharp", "sharp_edge")
+    return _read_rows(mesh.edges, 2)[marked] if marked.any() else None
 
 
 def _is_shaded_smooth(mesh: bpy.types.Mesh) -> bool:
     """Every face, and without the automatic sharp edges that Blender had up to 4.0."""
-    smooth = np.zeros(len(mesh.polygons), bool)
-    mesh.polygons.foreach_get("use_smooth", smooth)
+    if bpy.app.version < (4, 1, 0):
+        smooth = _read_marks(mesh, mesh.polygons, "use_smooth", "")
+    else:
+        smooth = ~_read_marks(mesh, mesh.polygons, "", "sharp_face")
     return len(smooth) > 0 and bool(smooth.all()) and not getattr(mesh, "use_auto_smooth", False)
+
+
+def _read_marks(
+    mesh: bpy.types.Mesh, elements: bpy.types.bpy_prop_collection, name: str, attribute: str
+) -> NDArray[np.bool_]:
+    """A mark of edges or faces: from 4.1 an attribute, which there is only where something is marked."""
+    marks = np.zeros(len(elements), bool)
+    if bpy.app.version < (4, 1, 0):
+        elements.foreach_get(name, marks)
+    elif attribute in mesh.attributes:
+        mesh.attributes[attribute].data.foreach_get("value", marks)
+    return marks

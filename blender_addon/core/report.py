@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .density import Density, estimate
 from .nearness import same_place
 from .progress import Progress
-from .sampling import Sampled, sample, sampling_warnings
+from .sampling import Sampled, Samples, sample, sampling_warnings
 from .triangle_faces import TriangleFaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .density import Density
     from .settings import Settings
     from .shape import Shape
 
@@ -32,7 +32,9 @@ class SamplingReport(TriangleFaces):
     triangles : (f, 3) int32
         Between inside and outside, outward.
     epsilon, spacing, feature_size : (n,) float64
-        As of `density.Density`; rows with the same coordinates have the same.
+        As of `density`; rows with the same coordinates have the same.
+    density : Density
+        Of all samples.
     shape : Shape
         What was sampled.
     sampled : Sampled
@@ -45,14 +47,11 @@ class SamplingReport(TriangleFaces):
     epsilon: NDArray[np.float64]
     spacing: NDArray[np.float64]
     feature_size: NDArray[np.float64]
+    density: Density
     shape: Shape
     sampled: Sampled
     warnings: tuple[str, ...]
     seconds: float
-
-    @property
-    def density(self) -> Density:
-        return self.sampled.samples.density
 
 
 def report(shape: Shape, settings: Settings, progress: Progress | None = None) -> SamplingReport:
@@ -70,7 +69,7 @@ def report(shape: Shape, settings: Settings, progress: Progress | None = None) -
     """
     start = time.perf_counter()
     sampled = sample(shape, settings.with_side(), progress or Progress())
-    samples, density = sampled.samples, sampled.samples.density
+    samples, density = sampled.samples, _of_all(sampled.samples)
     rows = _sample_of_row(samples.points, samples.analysis.samples)
     return SamplingReport(
         vertices=samples.points,
@@ -78,11 +77,20 @@ def report(shape: Shape, settings: Settings, progress: Progress | None = None) -
         epsilon=density.epsilon[rows],
         spacing=density.spacing[rows],
         feature_size=density.feature_size[rows],
+        density=density,
         shape=shape,
         sampled=sampled,
         warnings=tuple(sampling_warnings(shape, sampled)),
         seconds=time.perf_counter() - start,
     )
+
+
+def _of_all(samples: Samples) -> Density:
+    """The density at every sample, also where a glance at some was enough to choose them."""
+    found, analysis = samples.density, samples.analysis
+    if len(found.points) == len(analysis.samples):
+        return found
+    return estimate(analysis, samples.points, found.edges, found.finest, found.limit)
 
 
 def _sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> NDArray[np.int64]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import native
 from .cache import CACHE, key_of
-from .density import Density, estimate, percent
+from .density import LOOKED_AT, Density, estimate, percent
 from .errors import DegenerateInputError, InvalidInputError
 from .settings import Sampling, Settings, Side, SidesFrom
 from .sides import Sides, resolve_sides, resolve_sides_of_samples
@@ -161,16 +161,17 @@ class _Sampler:
         except DegenerateInputError:  # their faces may span a volume all the same
             return self._of_surface("the vertices alone span no volume")
         density, cocone = found.samples.density, found.samples.analysis.tight_cocone
-        if density.is_improved_by(_spacing(self._shape, self._settings)):
+        dense = density.dense_enough
+        if not dense and density.is_improved_by(_spacing(self._shape, self._settings)):
             return self._of_surface(
                 f"the vertices are too sparse, epsilon above {density.limit:g} at "
                 f"{percent(density.share)} of them"
             )
         if cocone is not None and not cocone.encloses:
             return self._of_surface("the vertices alone enclose nothing")
-        if not density.dense_enough:
-            return replace(found, reason=self._vertices("as dense as samples would be"))
-        return found
+        if dense:
+            return found
+        return replace(found, reason=self._vertices("as dense as samples would be"))
 
     # --- vertices
 
@@ -189,7 +190,9 @@ class _Sampler:
     def _analysed_vertices(self, key: str, sides: Sides, share: float) -> Samples:
         points, normals = self._shape.points, self._shape.normals
         analysis = self._analyse(points, normals, sides, self._progress.part(share))
-        density = estimate(analysis, points, points[:0], 0.0, self._settings.epsilon)
+        density = estimate(
+            analysis, points, points[:0], 0.0, self._settings.epsilon, most=LOOKED_AT
+        )
         return Samples(key, points, None, normals, analysis, density)
 
     # --- samples of the faces

@@ -2,8 +2,15 @@
 
 import numpy as np
 import pytest
-from medial_axis.core.density import Density, percent
+from medial_axis.core import sampling
+from medial_axis.core.cache import CACHE
+from medial_axis.core.density import Density, estimate, percent
 from medial_axis.core.nearness import near
+from medial_axis.core.report import report
+from medial_axis.core.settings import Sampling, Settings
+from medial_axis.core.shape import Shape
+from meshes import icosphere
+from shapes import SHAPES
 
 RNG = np.random.default_rng(5)
 
@@ -73,3 +80,42 @@ def test_nothing_is_near_nothing():
     assert not near(points, np.zeros((0, 3)), 1.0).any()
     assert not near(points, points, 0.0).any()
     assert near(np.zeros((0, 3)), points, 1.0).shape == (0,)
+
+
+# --- some of many samples
+
+
+@pytest.fixture(scope="module")
+def analysed(medial):
+    points = SHAPES["ellipsoid"].random_sample(30_000, 0)
+    return medial.MedialAnalysis(points, sides=medial.SidesFrom.NONE), points
+
+
+def test_some_samples_tell_what_all_would(analysed):
+    analysis, points = analysed
+    whole = estimate(analysis, points, points[:0], 0.0, 0.05)
+    some = estimate(analysis, points, points[:0], 0.0, 0.05, most=5_000)
+    assert len(whole.points) == 30_000 and 4_900 < len(some.points) <= 5_000
+    assert 0.2 < whole.share < 0.8
+    assert abs(some.share - whole.share) < 0.02
+    assert some.median == pytest.approx(whole.median, rel=0.02)
+    rows = {tuple(point): row for row, point in enumerate(points.tolist())}
+    found = [rows[tuple(point)] for point in some.points.tolist()]
+    np.testing.assert_array_equal(some.epsilon, whole.epsilon[found])
+
+
+def test_all_samples_where_there_are_few(analysed):
+    analysis, points = analysed
+    found = estimate(analysis, points, points[:0], 0.0, 0.05, most=30_000)
+    np.testing.assert_array_equal(found.points, points)
+
+
+def test_a_report_is_of_all_samples(monkeypatch):
+    shape = Shape(*icosphere(4))
+    whole = report(shape, Settings(sampling=Sampling.VERTICES))
+    CACHE.clear()
+    monkeypatch.setattr(sampling, "LOOKED_AT", 100)
+    some = report(shape, Settings(sampling=Sampling.VERTICES))
+    assert len(some.sampled.samples.density.points) <= 100
+    np.testing.assert_array_equal(some.epsilon, whole.epsilon)
+    assert some.density.share == whole.density.share
