@@ -64,7 +64,11 @@ TEST_NEEDS = {
     "mouse and keyboard for the GUI tests": "xdotool",
     "screenshots": "imagemagick",
 }
-BENCH_NEEDS = {"SciPy, whose Qhull is measured, too": "python3-scipy"}
+BENCH_NEEDS = {
+    "SciPy, whose Qhull is measured, too": "python3-scipy",
+    "virtual display": "xvfb",
+    "software OpenGL": "libgl1-mesa-dri",
+}
 
 MATRIX_NEEDS = {**TEST_NEEDS, "Debian in a folder, by root alone": "debootstrap"}
 
@@ -581,8 +585,8 @@ def bench(arguments: argparse.Namespace) -> None:
     options = ["--bare", BUILD / "release/tests/benchmarks/bare_triangulation"]
     options += ["--largest", min(arguments.largest, 200_000 if arguments.quick else 10**9)]
     options += ["--repeats", 1 if arguments.quick else arguments.repeats]
-    options += ["--output", Path(arguments.output).resolve(), "--only", *arguments.only]
-    run(python, "tests/benchmarks/bench.py", *options)
+    options += ["--blender", blender, "--output", Path(arguments.output).resolve()]
+    run(python, "tests/benchmarks/bench.py", *options, "--only", *arguments.only)
 
 
 # --- clean
@@ -688,8 +692,9 @@ by name."""
 
 BENCH_HELP = """Builds, then measures CGAL's triangulation alone and the medial axis in turns, each in a process of
 its own, on one thread and on all: random points on an ellipsoid (up to 5 million) and a torus, a noisy scan, and
-meshes of the folder that MEDIAL_AXIS_TEST_DATA names. Beside them SciPy's Qhull and the published figure. Prints and
-writes bench.md and bench.json. About half an hour; --quick takes two minutes."""
+meshes of the folder that MEDIAL_AXIS_TEST_DATA names. Beside them SciPy's Qhull and the published figure. Then the
+operator in Blender, and what a change of a threshold costs there. Prints and writes bench.md and bench.json. About
+half an hour; --quick takes some minutes."""
 
 
 def main(words: list[str]) -> int:

@@ -193,7 +193,7 @@ def test_curve_with_a_bevel():
 
 def test_curve_without_a_surface_is_one_sentence():
     bpy.ops.curve.primitive_bezier_circle_add()
-    refused("'BezierCircle': Expected faces, found only lines; give the object a surface")
+    refused("'B.zierCircle': Expected faces, found only lines; give the object a surface")
 
 
 def test_nurbs_surface():

@@ -26,12 +26,11 @@ from functools import partial
 from pathlib import Path
 
 import _module
+import blender_bench
 import measuring
+import meshes
 import numpy as np
 from measuring import DELAUNAY, Input, median
-
-sys.path.insert(0, str(_module.ROOT / "tests"))
-import meshes
 from shapes import SHAPES
 
 NO_TRIANGLES = np.empty((0, 3), np.int32)
@@ -216,17 +215,35 @@ def main() -> None:
     parser.add_argument("--largest", type=int, required=True, help="leave larger inputs out")
     parser.add_argument("--repeats", type=int, required=True, help="turns of each")
     parser.add_argument("--only", nargs="*", default=[], help="inputs whose name has such a word")
+    parser.add_argument("--blender", required=True, help="the Blender whose operator is measured")
     parser.add_argument("--output", type=Path, required=True, help="a folder")
     options = parser.parse_args()
-    options.output.mkdir(parents=True, exist_ok=True)
-    found, text = {"machine": machine(), "native": []}, ""
+    found = {"machine": machine(), "native": [], "blender": []}
     for work in ladder(options.largest, options.only):
         found["native"].append(measured(work, options))
         print(beside_bare(found["native"][-1:]), file=sys.stderr, flush=True)
-        text = "\n".join(table(found["native"]) for table in (beside_bare, stages, beside_others))
-        (options.output / "bench.json").write_text(json.dumps(found, indent=1))
-        (options.output / "bench.md").write_text(text)
-    print(text)
+        write(found, options.output)
+    for work in blender_bench.ladder(options.largest, options.only):
+        found["blender"].append(
+            blender_bench.measured(work, options.bare, options.blender, options.repeats)
+        )
+        print(blender_bench.table(found["blender"][-1:]), file=sys.stderr, flush=True)
+        write(found, options.output)
+    if not (found["native"] or found["blender"]):
+        raise SystemExit("Expected an input to measure, found none; see --only and --largest")
+    print((options.output / "bench.md").read_text())
+
+
+def write(found: dict, folder: Path) -> None:
+    """All that was found so far."""
+    tables = []
+    if found["native"]:
+        tables += [table(found["native"]) for table in (beside_bare, stages, beside_others)]
+    if found["blender"]:
+        tables.append(blender_bench.table(found["blender"]))
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "bench.json").write_text(json.dumps(found, indent=1))
+    (folder / "bench.md").write_text("\n".join(tables))
 
 
 if __name__ == "__main__":
