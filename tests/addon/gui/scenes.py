@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 import traceback
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -378,6 +379,7 @@ def scene_source_deleted():
     yield 0.3
     nothing_is_left()
     assert "'Cloud' was deleted" in bpy.context.scene.medial_axis.note
+    yield 1.0
     look("deleted")
 
 
@@ -392,6 +394,108 @@ def scene_undo_while_running():
     nothing_is_left()
     assert "'Cloud' was deleted" in bpy.context.scene.medial_axis.note
     look("undone")
+
+
+def scene_undo_storm():
+    """Undo and redo as fast as the keyboard gives them, while a run is on and after it."""
+    cloud(200_000)
+    camera = bpy.data.objects["Camera"]
+    for step in range(1, 9):
+        camera.location.z = step
+        bpy.ops.ed.undo_push(message=f"Camera {step}")
+    yield from start_long_run()
+    del camera  # undo makes another
+    heights = set()
+    while job() is not None:
+        yield from storm(6, heights)
+    assert min(heights) < 4, "the keys were missed"
+    yield result_exists
+    look("computed")
+    assert [thing.name for thing in medial_objects()] == ["Cloud Medial Axis"]
+    assert medial_objects()[0]["ma_source"] == bpy.data.objects["Cloud"]
+    before = len(medial_objects()[0].data.polygons)
+    for _ in range(3):
+        yield from storm(6, heights)
+    yield from key("ctrl+z")
+    assert medial_objects() == []
+    yield from key("ctrl+shift+z")
+    assert [len(thing.data.polygons) for thing in medial_objects()] == [before]
+    yield 1.0
+    look("redone")
+    assert threads() == []
+
+
+def storm(strokes, heights):
+    """As many undos, then as many redos, with hardly a pause; where the camera is in between."""
+    area = viewport()
+    yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
+    for name in ("ctrl+z", "ctrl+shift+z"):
+        xdotool("key", "--delay", 15, *[name] * strokes)
+        yield 0.3
+        heights.add(bpy.data.objects["Camera"].location.z)
+    yield 0.5
+
+
+def scene_file_opened():
+    """Another file while a run is on, the same file once more, and the add-on works in it."""
+    path = str(Path(FOLDER) / "opened.blend")
+    cloud(400_000)
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    for load in (partial(bpy.ops.wm.open_mainfile, filepath=path), bpy.ops.wm.revert_mainfile):
+        yield from start_long_run()
+        with bpy.context.temp_override(window=window()):
+            load()
+        yield 1.0
+        assert no_job()
+        nothing_is_left()
+        select(bpy.data.objects["Cloud"])
+    yield from start_long_run()
+    yield result_exists
+    yield 0.5
+    look("computed")
+    assert [thing.name for thing in medial_objects()] == ["Cloud Medial Axis"]
+
+
+def scene_disabled_while_running():
+    cloud()
+    yield from start_long_run()
+    bpy.ops.preferences.addon_disable(module=os.environ["MEDIAL_AXIS_MODULE"])
+    yield 1.0
+    assert threads() == [] and not hasattr(bpy.types, "OBJECT_OT_medial_axis")
+    look("disabled")
+    bpy.ops.preferences.addon_enable(module=os.environ["MEDIAL_AXIS_MODULE"])
+    yield 0.5
+    nothing_is_left()
+    bpy.data.objects.remove(bpy.data.objects["Cloud"])
+    bpy.ops.mesh.primitive_cube_add()
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield 0.5
+    look("computed")
+
+
+def scene_window_closed_while_running():
+    """The run belongs to the window that it was started in."""
+    cloud()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.window_new()
+    yield 1.0
+    second = bpy.context.window_manager.windows[-1]
+    assert second != window()
+    with bpy.context.temp_override(window=second):
+        assert bpy.ops.object.medial_axis("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield job_runs
+    with bpy.context.temp_override(window=second):
+        bpy.ops.wm.window_close()
+    yield 1.0
+    assert no_job()
+    nothing_is_left()
+    bpy.data.objects.remove(bpy.data.objects["Cloud"])
+    bpy.ops.mesh.primitive_cube_add()
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield result_exists
 
 
 def scene_file_loaded():
