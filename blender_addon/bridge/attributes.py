@@ -43,7 +43,14 @@ class Attribute:
         array = getattr(axis, self.field)
         if self.column is not None:
             array = array[:, self.column]
+        if self.dtype is np.float32:
+            array = as_float32(array)
         return np.ascontiguousarray(array, self.dtype).ravel()
+
+
+def as_float32(values: NDArray[np.float64]) -> NDArray[np.float32]:
+    """Numbers as Blender holds them; what is too large for it is the largest one, for infinity spoils colours."""
+    return np.minimum(values, np.finfo(np.float32).max).astype(np.float32)
 
 
 RADIUS = Attribute("ma_radius", "radius", "POINT", "FLOAT", np.float32)

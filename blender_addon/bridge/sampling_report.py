@@ -10,7 +10,7 @@ import numpy as np
 from mathutils.kdtree import KDTree
 
 from ..core.errors import InvalidInputError
-from .attributes import EPSILON, SAMPLE_ATTRIBUTES
+from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32
 from .made import DENSITY, SAMPLED, check_mode, made_of, new_object, place, remember, replace_mesh
 from .material import LIMIT, epsilon_material
 from .write_object import new_mesh
@@ -144,7 +144,7 @@ def _on_vertices(found: SamplingReport) -> NDArray[np.float32]:
     np.maximum.at(values, to_vertex, found.epsilon)
     bare = np.flatnonzero(values < 0.0)
     values[bare] = found.epsilon[_nearest(vertices[bare], found.vertices)]
-    return values.astype(np.float32)
+    return as_float32(values)
 
 
 def _nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -297,7 +297,7 @@ def keyed(random, thing):
 
 def oriented(random, thing):
     """Normals that may be wrong, NaN or nothing."""
-    if thing.type != "MESH" or not thing.data.vertices:
+    if thing.type != "MESH" or not thing.data.vertices or thing.mode != "OBJECT":
         return
     normals = random.normal(size=(len(thing.data.vertices), 3))
     normals[rows(random, normals)] = chosen(random, (np.nan, 0.0, np.inf, 1e30))
@@ -318,6 +318,8 @@ def attributed(random, thing):
 def out_of_sight(random, thing):
     """Hidden, not selected, or in a collection that may be excluded."""
     kind = random.integers(4)
+    if thing.name not in bpy.context.view_layer.objects:
+        return  # it is excluded already
     if kind == 0:
         thing.hide_set(True)
     elif kind == 1:
@@ -332,6 +334,7 @@ def out_of_sight(random, thing):
         scene.objects.unlink(thing)
         layers = bpy.context.view_layer.layer_collection.children
         layers[collection.name].exclude = bool(random.integers(2))
+    bpy.context.view_layer.update()
 
 
 def shared(random, thing):
@@ -339,7 +342,8 @@ def shared(random, thing):
     other = bpy.data.objects.new(thing.name, thing.data)
     other.location.x = 3
     bpy.context.scene.collection.objects.link(other)
-    select(thing, other)
+    if thing.name in bpy.context.view_layer.objects:
+        select(thing, other)
 
 
 def entered(random, thing):

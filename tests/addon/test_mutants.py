@@ -15,6 +15,11 @@ from scene import addon, attribute, contents, positions
 COUNT, BLOCK = 1000, 100
 MEMORY = 6 << 30  # bytes of address space that each block may have beyond those that Blender has
 OPERATORS = ("medial_axis",) * 6 + ("tight_cocone_surface", "medial_axis_sampling_report")
+ATTRIBUTES = {
+    "medial_axis": ("ma_radius", "ma_theta", "ma_rho"),
+    "tight_cocone_surface": (),
+    "medial_axis_sampling_report": ("ma_epsilon", "ma_feature_size", "ma_spacing"),
+}
 
 
 def blocks():
@@ -54,6 +59,8 @@ def attempt(seed):
     operator = getattr(bpy.ops.object, name)
     known = operator.get_rna_type().properties.keys()
     chosen = {key: value for key, value in options(random).items() if key in known}
+    if "target" in known:
+        chosen["target"] = ("COPY", "SOURCE")[random.integers(2)]
     before, data, mode = contents(), state(thing), thing.mode
     single = len(bpy.context.selected_objects) < 2  # else one may be refused, and others fine
     try:
@@ -65,7 +72,10 @@ def attempt(seed):
     assert thing.mode == mode
     assert np.array_equal(state(thing), data, equal_nan=True), "the source was changed"
     if answer == {"FINISHED"}:
-        check_made(name)
+        if "SOURCE" in chosen.values():
+            assert np.isfinite(attribute(thing.data, "ma_epsilon")).all()
+        else:
+            check_made(name)
         again = operator(**chosen) if operator.poll() else answer
         assert again == answer
     elif single:
@@ -88,9 +98,7 @@ def check_made(name):
         assert mesh.validate() is False, "the mesh was not valid"
         assert np.isfinite(positions(mesh)).all() and len(mesh.vertices) > 0
         assert np.isfinite(np.array(other.matrix_world)).all()
+        for attribute_name in ATTRIBUTES[name]:
+            assert np.isfinite(attribute(mesh, attribute_name)).all(), attribute_name
         if name == "medial_axis":
-            assert len(mesh.polygons) > 0
-            for attribute_name in ("ma_radius", "ma_theta", "ma_rho"):
-                values = attribute(mesh, attribute_name)
-                assert np.isfinite(values).all(), attribute_name
-            assert (attribute(mesh, "ma_radius") > 0).all()
+            assert len(mesh.polygons) > 0 and (attribute(mesh, "ma_radius") > 0).all()

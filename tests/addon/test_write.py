@@ -1,5 +1,7 @@
 """Writing a mesh: exact in float32, and all or nothing."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -55,6 +57,14 @@ def test_arrays_arrive():
     if "sharp_face" in mesh.attributes or bpy.app.version >= (4, 1):
         assert all(d.value for d in mesh.attributes["sharp_face"].data)
     assert len(mesh.edges) > 0 and mesh.validate() is False
+
+
+def test_numbers_beyond_float32_become_its_largest():
+    """Infinity would spoil colours and averages."""
+    table = addon("bridge.attributes")
+    found = table.EPSILON.values(SimpleNamespace(epsilon=np.array([0.5, 1e39, np.inf])))
+    largest = np.finfo(np.float32).max
+    assert found.dtype == np.float32 and found.tolist() == [0.5, largest, largest]
 
 
 def test_polygons_of_different_sizes():

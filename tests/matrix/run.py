@@ -251,15 +251,18 @@ def compare(rows: list[Row]) -> list[str]:
     ]
 
 
-def table(rows: list[Row]) -> str:
-    lines = [HEADER, tuple("---" for _ in HEADER), *(row.cells() for row in rows)]
+def table(rows: list[tuple[str, ...]]) -> str:
+    lines = [HEADER, tuple("---" for _ in HEADER), *rows]
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
 
 
-def write_table(path: Path, rows: list[Row]) -> None:
-    """Replace what stands below the mark."""
-    above = path.read_text(encoding="utf-8").partition(MARK)[0]
-    path.write_text(f"{above}{MARK}\n\n{table(rows)}\n", encoding="utf-8")
+def write_table(path: Path, rows: list[Row], sources: list[str]) -> None:
+    """Replace what stands below the mark; of Blenders that were not asked now, the old row stays."""
+    above, _, below = path.read_text(encoding="utf-8").partition(MARK)
+    old = [tuple(line[2:-2].split(" | ")) for line in below.splitlines() if line.startswith("| ")]
+    cells = {row[1]: row for row in [*old[2:], *(row.cells() for row in rows)] if row[1] in sources}
+    whole = table([cells[source] for source in sources if source in cells])
+    path.write_text(f"{above}{MARK}\n\n{whole}\n", encoding="utf-8")
 
 
 def main() -> int:
@@ -285,10 +288,12 @@ def main() -> int:
             continue
         print(f"{blender.source} ...", flush=True)
         rows.append(examine(blender, arguments))
-        print(table(rows[-1:]).splitlines()[-1], *rows[-1].failures, sep="\n  ", flush=True)
-    print("\n" + table(rows))
+        print(
+            table([rows[-1].cells()]).splitlines()[-1], *rows[-1].failures, sep="\n  ", flush=True
+        )
+    print("\n" + table([row.cells() for row in rows]))
     if arguments.table:
-        write_table(arguments.table, rows)
+        write_table(arguments.table, rows, [blender.source for blender in blenders])
     failures = [f"{row.source}: {failure}" for row in rows for failure in row.failures]
     failures += compare(rows)
     print(*(f"FAILED {failure}" for failure in failures), sep="\n")

@@ -79,6 +79,19 @@ def test_blender_that_runs_is_in_the_table_and_others_are_skipped_by_name(played
     assert table.count("| Elsewhere |") == 6 and "not tested: no network |" in table
 
 
+def test_rows_of_blenders_that_were_not_asked_stay(matrix, tmp_path):
+    path = tmp_path / "table.md"
+    path.write_text(f"By hand.\n{matrix.MARK}\n")
+    sources = ["One 1", "Two 2", "Three 3"]
+    matrix.write_table(path, [matrix.Row("Two 2", "no disk"), matrix.Row("One 1", "no")], sources)
+    matrix.write_table(path, [matrix.Row("Two 2", facts=FACTS, tests="9 passed")], sources)
+    lines = path.read_text().splitlines()
+    assert [line.split(" | ")[1] for line in lines[5:]] == ["One 1", "Two 2"]
+    assert "not tested: no" in lines[5] and "9 passed" in lines[6]
+    matrix.write_table(path, [], sources[:1])
+    assert len(path.read_text().splitlines()) == 6, "a Blender that is asked no more has no row"
+
+
 @pytest.mark.parametrize(
     "wrong, told",
     [
