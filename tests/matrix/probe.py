@@ -1,6 +1,7 @@
 """Runs inside any Blender with the installed add-on: one computation, its export, its picture, and what ran it.
 
-Arguments: the file that the answer is written to, as JSON, and the render engines to try.
+Arguments: the file that the answer is written to, as JSON, and the render engines to try, whose pictures are
+written beside it.
 """
 
 import hashlib
@@ -111,9 +112,9 @@ def main():
             "installed": "extension" if module.startswith("bl_ext.") else "legacy add-on",
             "export": exported(Path(folder)),
         }
-        thing.hide_render = True
-        set_stage()
-        answer["colours"] = {engine: colours(engine, Path(folder)) for engine in ENGINES}
+    thing.hide_render = True
+    set_stage()
+    answer["colours"] = {engine: colours(engine, Path(ANSWER).parent) for engine in ENGINES}
     Path(ANSWER).write_text(json.dumps(answer), encoding="utf-8")
 
 
