@@ -586,6 +586,7 @@ def bench(arguments: argparse.Namespace) -> None:
     options += ["--largest", min(arguments.largest, 200_000 if arguments.quick else 10**9)]
     options += ["--repeats", 1 if arguments.quick else arguments.repeats]
     options += ["--blender", blender, "--output", Path(arguments.output).resolve()]
+    options += ["--table", Path(arguments.table).resolve()] if arguments.table else []
     run(python, "tests/benchmarks/bench.py", *options, "--only", *arguments.only)
 
 
@@ -661,6 +662,9 @@ def parse(words: list[str]) -> argparse.Namespace:
     )
     add_bench.add_argument(
         "--output", default=BUILD / "bench", metavar="FOLDER", help="default: ./build/bench"
+    )
+    add_bench.add_argument(
+        "--table", metavar="PAGE", help="put the tables into docs/performance.md, for instance"
     )
     for command in (add_build, add_demo, add_test, add_bench):
         command.add_argument(

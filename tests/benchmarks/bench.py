@@ -1,6 +1,7 @@
 """What a medial axis costs beside the bare Delaunay triangulation of the same points: JSON and Markdown tables.
 
     python3 build_addon.py bench [--quick] [--largest N] [--repeats K] [--only WORD ...] [--output FOLDER]
+        [--table PAGE]
 
 builds everything and calls this. CGAL alone (bare_triangulation.cpp, compiled as the product is) and ours take turns,
 each in a process of its own; figures are medians of the turns, ratios medians of the ratios of neighbours.
@@ -40,6 +41,7 @@ LARGEST_COCONE = 1_000_000
 LARGEST_QHULL = 500_000
 # Dey & Zhao, Table 1: FEMALE, Delaunay and filter on a 933 MHz PC.
 PAPER_POINTS, PAPER_SECONDS = 121_723, 292.85 + 24.95
+MARK = "<!-- written by build_addon.py bench: do not edit below -->"
 
 
 # --- inputs
@@ -201,7 +203,7 @@ def machine() -> dict:
         "processor": model[0].split(":")[1].strip() if model else platform.machine(),
         "cores": len(os.sched_getaffinity(0)),
         "memory": pages,
-        "system": platform.platform(),
+        "system": platform.system() + " " + platform.release(),
         "module": _module.load().__version__,
         "time": time.strftime("%Y-%m-%d %H:%M"),
     }
@@ -217,8 +219,9 @@ def main() -> None:
     parser.add_argument("--only", nargs="*", default=[], help="inputs whose name has such a word")
     parser.add_argument("--blender", required=True, help="the Blender whose operator is measured")
     parser.add_argument("--output", type=Path, required=True, help="a folder")
+    parser.add_argument("--table", type=Path, help="put the tables below the mark in this page")
     options = parser.parse_args()
-    found = {"machine": machine(), "native": [], "blender": []}
+    found = {"machine": {**machine(), "turns": options.repeats}, "native": [], "blender": []}
     for work in ladder(options.largest, options.only):
         found["native"].append(measured(work, options))
         print(beside_bare(found["native"][-1:]), file=sys.stderr, flush=True)
@@ -231,7 +234,10 @@ def main() -> None:
         write(found, options.output)
     if not (found["native"] or found["blender"]):
         raise SystemExit("Expected an input to measure, found none; see --only and --largest")
-    print((options.output / "bench.md").read_text())
+    tables = (options.output / "bench.md").read_text()
+    if options.table:
+        put_below_mark(tables, options.table)
+    print(tables)
 
 
 def write(found: dict, folder: Path) -> None:
@@ -243,7 +249,20 @@ def write(found: dict, folder: Path) -> None:
         tables.append(blender_bench.table(found["blender"]))
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "bench.json").write_text(json.dumps(found, indent=1))
-    (folder / "bench.md").write_text("\n".join(tables))
+    (folder / "bench.md").write_text("\n".join([described(found), *tables]))
+
+
+def described(found: dict) -> str:
+    on = found["machine"]
+    return (
+        f"{on['processor']}, {on['cores']} cores, {on['memory'] / 2**30:.0f} GiB, {on['system']}; "
+        f"medians of {on['turns']} turns, {on['time']}.\n"
+    )
+
+
+def put_below_mark(tables: str, page: Path) -> None:
+    above = page.read_text(encoding="utf-8").partition(MARK)[0]
+    page.write_text(f"{above}{MARK}\n\n{tables}", encoding="utf-8")
 
 
 if __name__ == "__main__":

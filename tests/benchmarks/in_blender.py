@@ -58,6 +58,7 @@ def add_object(work: Input) -> None:
     bpy.context.collection.objects.link(thing)
     bpy.context.view_layer.objects.active = thing
     thing.select_set(True)
+    bpy.context.view_layer.update()
     show()
 
 

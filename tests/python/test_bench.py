@@ -1,0 +1,58 @@
+"""The benchmark: what its figures are made of. No test looks at seconds."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))
+import bench
+import measuring
+from shapes import SHAPES
+
+
+@pytest.fixture(scope="module")
+def turn(tmp_path_factory):
+    """One measurement in a process of its own."""
+    folder = tmp_path_factory.mktemp("bench")
+    points = SHAPES["ellipsoid"].random_sample(20_000, 0)
+    measuring.Input("", points, bench.NO_TRIANGLES).write(folder)
+    return measuring.ours(folder, "TIGHT_COCONE", 1)
+
+
+def test_a_measurement_has_all_stages_and_counts_memory(turn, medial):
+    analysis = medial.MedialAnalysis(
+        SHAPES["ellipsoid"].random_sample(20_000, 0), sides=medial.SidesFrom.TIGHT_COCONE
+    )
+    assert list(turn["stages"]) == list(analysis.timings)
+    assert sum(turn["stages"].values()) <= turn["seconds"]["analysis"]
+    assert turn["facets"] == len(analysis.extract(side=medial.Side.INNER).generators)
+    sizes = turn["bytes"]
+    assert 200 * 20_000 < sizes["kept"] <= sizes["analysis"] <= sizes["with extract"]
+
+
+def test_ratios_are_those_of_neighbours(turn):
+    turns = [
+        {**turn, "bare": {"seconds": seconds, "cpu": seconds, "bytes": 1, "others": 0.0}}
+        for seconds in (0.5, 1.0, 8.0)
+    ]
+    found = bench.summary("TIGHT_COCONE", 1, turns)
+    whole = turn["seconds"]["analysis"] + turn["seconds"]["extract"]
+    assert found["ratios"]["all"] == pytest.approx(whole / 1.0)
+    assert found["seconds"]["own"] < found["seconds"]["all"] == pytest.approx(whole)
+    assert found["bare"]["seconds"] == 1.0
+
+
+def test_inputs_are_made_only_when_wanted():
+    assert list(bench.ladder(1, [])) == []
+    (work,) = bench.ladder(20_000, ["ellipsoid"])
+    assert work.points.shape == (10_000, 3) and len(work.triangles) == 0
+    assert np.isfinite(work.points).all()
+
+
+def test_tables_replace_what_stood_below_the_mark(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text(f"words\n{bench.MARK}\n\nold\n")
+    bench.put_below_mark("new\n", page)
+    assert page.read_text() == f"words\n{bench.MARK}\n\nnew\n"
