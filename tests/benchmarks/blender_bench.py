@@ -2,7 +2,8 @@
 
 Used by bench.py. Click: the operator from the mesh object to the evaluated object of the axis. Change: another
 threshold, from the panel's property to the evaluated mesh; drawn: until it is on the screen, which an X server
-without a screen and OpenGL in software take much longer for than people's machines; drawing: that alone.
+without a screen and OpenGL in software take much longer for than people's machines; drawing: that alone. CPU: the
+ratio to its left in processor time, of all threads together.
 """
 
 from __future__ import annotations
@@ -29,8 +30,18 @@ from shapes import SHAPES
 COUNTS = (100_000, 1_000_000)
 LARGEST_DRAWN = 100_000
 SCRIPT = Path(__file__).resolve().parent / "in_blender.py"
-HEADER = ["in Blender", "points", "bare s", "analysis s", "click s", "click / bare", "change s"]
-HEADER += ["change / click", "change drawn s", "drawing s", "facets", "peak B / point", "others"]
+HEADER = [
+    "in Blender",
+    "points",
+    "bare s",
+    "analysis s",
+    "click s",
+    "click / bare",
+    "CPU",
+    "change s",
+]
+HEADER += ["change / click", "CPU", "change drawn s", "drawing s", "facets", "peak B / point"]
+HEADER += ["others"]
 
 
 def ladder(largest: int, wanted: list[str]) -> Iterator[Input]:
@@ -68,10 +79,12 @@ def measured(work: Input, bare: Path, program: str, repeats: int) -> dict:
             if len(work.points) <= LARGEST_DRAWN and shutil.which("Xvfb"):
                 turns[-1]["window"] = _in_window(blender, folder)
     for turn in turns:
-        seconds = turn["seconds"]
+        seconds, cpu = turn["seconds"], turn["cpu"]
         turn["ratios"] = {
             "click": seconds["run"] / turn["bare"]["seconds"],
+            "click cpu": cpu["run"] / turn["bare"]["cpu"],
             "change": seconds["change"] / seconds["run"],
+            "change cpu": cpu["change"] / cpu["run"],
         }
     return {"input": work.name, "points": len(work.points), **median(turns)}
 
@@ -99,8 +112,9 @@ def table(results: list[dict]) -> str:
         seconds, window = result["seconds"], result.get("window", {}).get("seconds", {})
         cells = [result["input"], str(result["points"]), f"{result['bare']['seconds']:.3f}"]
         cells += [f"{seconds['analysis']:.3f}", f"{seconds['run']:.3f}"]
-        cells += [f"{result['ratios']['click']:.2f}", f"{seconds['change']:.3f}"]
-        cells += [f"{result['ratios']['change']:.3f}"]
+        cells += [f"{result['ratios'][x]:.2f}" for x in ("click", "click cpu")]
+        cells += [f"{seconds['change']:.3f}"]
+        cells += [f"{result['ratios'][x]:.3f}" for x in ("change", "change cpu")]
         cells += [f"{window[x]:.3f}" if window else "" for x in ("change drawn", "drawing")]
         cells += [f"{result['facets']:.0f}", f"{result['bytes'] / result['points']:.0f}"]
         rows.append([*cells, f"{result['others']:.1f}"])
