@@ -1,7 +1,5 @@
 #include "analysis.h"
 
-#include "order.h"
-
 namespace medial {
 namespace {
 
@@ -114,13 +112,14 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   if (options.bounding_sphere) add_bounding_sphere(samples_);
   const std::vector<Vec3>& points = samples_.points;
   watch.lap("samples");
-  triangulation_ = triangulate(points, run);
-  watch.lap("triangulation");
+  triangulation_ = triangulate(points, run, &watch);
+  watch.lap("cells");
   voronoi_ = voronoi(points, triangulation_, run);
   watch.lap("voronoi");
   begin_stage(progress, "Delaunay edges", 0.66, 0.68);
   const Csr<int32_t> incident = incident_cells(triangulation_, count, run);
-  edges_ = delaunay_edges(triangulation_, incident, run);
+  edges_ =
+      delaunay_edges(triangulation_, incident, samples_.row, samples_.sample_of_row.size(), run);
   watch.lap("complex");
   const Poles p = poles(points, triangulation_, voronoi_, incident, run);
   watch.lap("poles");
@@ -133,9 +132,6 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   tell_sides(surface, corners.points, input.normals.value_or(std::span<const Vec3>()), incident, p,
              options.cocone, run);
   watch.lap("sides");
-  begin_stage(progress, "Order of the edges", 0.99, 1);
-  sort_edges(run);
-  watch.lap("order");
   advance(progress, 1);
 }
 
@@ -159,26 +155,6 @@ void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> ve
   }
 }
 
-// From the order of the samples to that of the input rows: by the lower row, then by the higher.
-void MedialAnalysis::sort_edges(const Run& run) {
-  const std::vector<int32_t>& row = samples_.row;
-  std::vector<Edge> rows(edges_.ends.size());
-  parallel_for(edges_.count(), run, [&](int64_t e) {
-    auto& [p, q] = edges_.ends[e];
-    if (row[p] > row[q]) std::swap(p, q);
-    rows[e] = {row[p], row[q]};
-  });
-  const auto order =
-      lexicographic_order(std::span<const Edge>(rows), samples_.sample_of_row.size(), run);
-  reorder(edges_.ends, order, run);
-  reorder(edges_.cell, order, run);
-  for (auto* values : {&significance_.theta, &significance_.rho, &significance_.theta_both,
-                       &significance_.rho_both}) {
-    reorder(*values, order, run);
-  }
-  reorder(significance_.untried, order, run);
-}
-
 // Definition 4: |pq| >= eps^(1/4) mu, with mu the smallest ball radius at the facet's vertices and
 // eps = R / mu, where R = |pq| / rho is the umbrella radius that the Ratio condition compared.
 bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds,
@@ -199,11 +175,11 @@ std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progr
   const Run run{threads_, progress};
   std::vector<int32_t> ids = medial::select(significance_, x.thresholds, run);
   if (x.side == Side::both && !x.limit_set) return ids;
+  const Conditions holds(significance_, x.thresholds);
   const auto wanted = [&](int32_t edge, std::vector<int32_t>& ring) {
-    const bool angle = satisfies_angle(significance_, edge, x.thresholds);
     ring_of_cells(triangulation_, edges_.ends[edge], edges_.cell[edge], ring);
     if (x.side != Side::both && facet_side(ring, sides_) != x.side) return false;
-    return !x.limit_set || angle || in_limit_set(edge, x.thresholds, ring);
+    return !x.limit_set || holds.angle(edge) || in_limit_set(edge, x.thresholds, ring);
   };
   std::vector<std::vector<int32_t>> rings(threads_);
   return parallel_append<int32_t>(static_cast<int64_t>(ids.size()), run,
@@ -242,7 +218,7 @@ MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) cons
   mesh.generators.resize(kept.size());
   parallel_for(faces, run, [&, &mesh = mesh, &kept = kept](int64_t f) {
     const int32_t e = kept[f];
-    mesh.theta[f] = (either ? significance_.theta : significance_.theta_both)[e];
+    mesh.theta[f] = theta_of((either ? significance_.sine : significance_.sine_both)[e]);
     mesh.rho[f] = (either ? significance_.rho : significance_.rho_both)[e];
     mesh.generators[f] = {samples_.row[edges_.ends[e][0]], samples_.row[edges_.ends[e][1]]};
   });
@@ -251,6 +227,14 @@ MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) cons
   }
   advance(progress, 1);
   return std::move(mesh);
+}
+
+std::vector<double> MedialAnalysis::theta(Rule rule) const {
+  const auto& sine = rule == Rule::either ? significance_.sine : significance_.sine_both;
+  std::vector<double> result(sine.size());
+  parallel_for(edges_.count(), {threads_, nullptr},
+               [&](int64_t e) { result[e] = theta_of(sine[e]); });
+  return result;
 }
 
 std::vector<double> MedialAnalysis::spacing() const {

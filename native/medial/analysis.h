@@ -55,7 +55,10 @@ class MedialAnalysis {
   // All Delaunay edges as input rows p < q in lexicographic order; significance and side in the
   // same order.
   std::vector<Edge> edge_rows() const;
-  const Significance& significance() const { return significance_; }
+  std::vector<double> theta(Rule rule) const;
+  const std::vector<double>& rho(Rule rule) const {
+    return rule == Rule::either ? significance_.rho : significance_.rho_both;
+  }
   std::vector<Side> edge_sides() const;
   std::vector<uint8_t> edges_bounded() const;
 
@@ -73,7 +76,6 @@ class MedialAnalysis {
   void tell_sides(const Surface& surface, std::span<const Vec3> vertices,
                   std::span<const Vec3> normals, const Csr<int32_t>& incident, const Poles& poles,
                   const CoconeOptions& options, const Run& run);
-  void sort_edges(const Run& run);
   // Of the facets dual to edge_of(0), ..., edge_of(count - 1).
   template <typename EdgeOf>
   std::vector<Side> facet_sides(int64_t count, const Run& run, const EdgeOf& edge_of) const;

@@ -1,10 +1,47 @@
 #include "complex.h"
 
+#include <algorithm>
+#include <optional>
+
 namespace medial {
 namespace {
 
-struct HalfEdge {
-  int32_t low, high, cell;
+// An edge from a sample to one of a higher row, in a cell.
+struct Way {
+  int32_t row, to, cell;
+};
+
+// Tells the edges from a sample.
+class Ways {
+ public:
+  Ways(const Triangulation& triangulation, const Csr<int32_t>& incident,
+       std::span<const int32_t> row)
+      : t_(triangulation), incident_(incident), row_(row), seen_(row.size(), 0) {}
+
+  // In ascending order of their rows.
+  std::span<const Way> from(int32_t p) {
+    ways_.clear();
+    ++call_;
+    const auto cells = incident_[p];
+    // Backwards: infinite cells come last, so that an unbounded facet is known by its cell.
+    for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
+      for (const int32_t q : t_.cells[*cell]) {
+        if (q < 0 || q >= static_cast<int32_t>(row_.size()) || seen_[q] == call_) continue;
+        seen_[q] = call_;
+        if (row_[q] > row_[p]) ways_.push_back({row_[q], q, *cell});
+      }
+    }
+    std::sort(ways_.begin(), ways_.end(), [](const Way& a, const Way& b) { return a.row < b.row; });
+    return ways_;
+  }
+
+ private:
+  const Triangulation& t_;
+  const Csr<int32_t>& incident_;
+  std::span<const int32_t> row_;
+  uint32_t call_ = 0;
+  std::vector<uint32_t> seen_;  // per sample: the last call that met it
+  std::vector<Way> ways_;
 };
 
 // kNext[i][j] = k so that the permutation (i, j, k, l) of (0, 1, 2, 3) is even.
@@ -13,34 +50,36 @@ constexpr int kNext[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0,
 }  // namespace
 
 Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples, const Run& run) {
-  return rows_containing(std::span<const Cell>(t.cells), samples, run.progress);
+  return rows_containing(std::span<const Cell>(t.cells), samples, run);
 }
 
-Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident, const Run& run) {
-  const auto samples = static_cast<int32_t>(incident.size());
-  std::vector<std::vector<int32_t>> seen_by(run.threads);
-  const auto found = parallel_append<HalfEdge>(
-      samples, run, [&](int64_t id, std::vector<HalfEdge>& out, int worker) {
-        auto& seen = seen_by[worker];
-        if (seen.empty()) seen.assign(static_cast<size_t>(samples), -1);
-        const auto p = static_cast<int32_t>(id);
-        const auto cells = incident[p];
-        // Backwards: infinite cells come first, so that an unbounded facet is known by its cell.
-        for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
-          for (const int32_t q : t.cells[*cell]) {
-            if (q > p && q < samples && seen[q] != p) {
-              seen[q] = p;
-              out.push_back({p, q, *cell});
-            }
-          }
-        }
-      });
+Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident,
+                     std::span<const int32_t> row, size_t rows, const Run& run) {
+  std::vector<std::optional<Ways>> ways(run.threads);
+  const auto from = [&](int64_t p, int worker) {
+    if (!ways[worker]) ways[worker].emplace(t, incident, row);
+    return ways[worker]->from(static_cast<int32_t>(p));
+  };
+  std::vector<int32_t> begin(rows + 1, 0);  // of the edges from each row
+  parallel_chunks(incident.size(), run, [&](int64_t first, int64_t last, int worker) {
+    for (int64_t p = first; p < last; ++p) {
+      begin[row[p]] = static_cast<int32_t>(from(p, worker).size());
+    }
+  });
+  counts_to_offsets(begin);
   Edges edges;
-  edges.ends.resize(found.size());
-  edges.cell.resize(found.size());
-  parallel_for(static_cast<int64_t>(found.size()), run, [&](int64_t e) {
-    edges.ends[e] = {found[e].low, found[e].high};
-    edges.cell[e] = found[e].cell;
+  edges.from.resize(row.size());
+  edges.ends.resize(static_cast<size_t>(begin.back()));
+  edges.cell.resize(static_cast<size_t>(begin.back()));
+  parallel_chunks(incident.size(), run, [&](int64_t first, int64_t last, int worker) {
+    for (int64_t p = first; p < last; ++p) {
+      int32_t e = begin[row[p]];
+      edges.from[p] = {e, begin[row[p] + 1]};
+      for (const Way& way : from(p, worker)) {
+        edges.ends[e] = {static_cast<int32_t>(p), way.to};
+        edges.cell[e++] = way.cell;
+      }
+    }
   });
   return edges;
 }

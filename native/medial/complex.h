@@ -12,15 +12,18 @@ struct Edges {
   std::vector<int32_t>
       cell;  // a cell of the ring; infinite exactly when the dual facet is unbounded
 
+  std::vector<std::array<int32_t, 2>> from;  // per sample: begin and end of the edges from it
+
   int64_t count() const { return static_cast<int64_t>(ends.size()); }
 };
 
 // Cells, finite ones first, at each of the first `samples` points.
 Csr<int32_t> incident_cells(const Triangulation& triangulation, int32_t samples, const Run& run);
 
-// Grouped by their lower end, in ascending order of it.
+// `row`: of each sample in the input. The edges go from the lower row to the higher, and are in
+// lexicographic order of their rows, which lie in [0, rows).
 Edges delaunay_edges(const Triangulation& triangulation, const Csr<int32_t>& incident,
-                     const Run& run);
+                     std::span<const int32_t> row, size_t rows, const Run& run);
 
 // The cells round an edge, counter-clockwise about the direction from ends[0] to ends[1], starting
 // at `cell`: the Voronoi facet's vertices. Appends to `ring` after clearing it.

@@ -295,7 +295,7 @@ TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle>
   throw_if_cancelled(run.progress);
   add_triangles(triangles, point, mesh, run);
   mesh.fans = rows_containing(std::span<const Triangle>(mesh.triangles),
-                              static_cast<int32_t>(mesh.points.size()), run.progress);
+                              static_cast<int32_t>(mesh.points.size()), run);
   add_normals(mesh, run);
   return mesh;
 }

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <vector>
 
-#include "progress.h"
+#include "parallel.h"
 
 namespace medial {
 
@@ -23,39 +24,44 @@ struct Csr {
 
 // Turns counts[i], the length of list i, into offsets; counts has one extra last entry, whatever
 // its value.
-inline void counts_to_offsets(std::span<int64_t> counts) {
-  int64_t sum = 0;
+template <typename Counts>
+void counts_to_offsets(Counts&& counts) {
+  std::ranges::range_value_t<Counts> sum = 0;
   for (auto& count : counts) {
-    const int64_t length = count;
+    const auto length = count;
     count = sum;
     sum += length;
   }
 }
 
 // Inverts a table: list k holds, ascending, the rows that contain k. Ids outside [0, lists) are
-// passed over.
+// passed over. Each thread reads the whole table for some of the lists.
 template <typename Row>
-Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists,
-                             const Progress* progress = nullptr) {
-  constexpr int32_t kBatch = 1 << 18;
+Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists, const Run& run = {}) {
+  const auto parts = std::min<int64_t>(run.threads, lists);
+  // Calls found(i, k) for the rows i that contain k, for all k.
+  const auto for_all = [&](const auto& found) {
+    parallel_for(
+        parts, run,
+        [&](int64_t part) {
+          const auto low = static_cast<int32_t>(lists * part / parts);
+          const auto high = static_cast<int32_t>(lists * (part + 1) / parts);
+          for (size_t i = 0; i < table.size(); ++i) {
+            for (const int32_t k : table[i]) {
+              if (k >= low && k < high) found(static_cast<int32_t>(i), k);
+            }
+          }
+        },
+        1);
+  };
   Csr<int32_t> result;
   result.offsets.assign(static_cast<size_t>(lists) + 2, 0);
-  int64_t* const start =
-      result.offsets.data() + 1;  // shifted by one: ends as the offsets themselves
-  for (int32_t i = 0; i < static_cast<int32_t>(table.size()); ++i) {
-    if (i % kBatch == 0) throw_if_cancelled(progress);
-    for (const int32_t k : table[static_cast<size_t>(i)]) {
-      if (k >= 0 && k < lists) ++start[k];
-    }
-  }
+  // Shifted by one: ends as the offsets themselves.
+  int64_t* const start = result.offsets.data() + 1;
+  for_all([&](int32_t, int32_t k) { ++start[k]; });
   counts_to_offsets(std::span(result.offsets).subspan(1));
   result.items.resize(static_cast<size_t>(result.offsets.back()));
-  for (int32_t i = 0; i < static_cast<int32_t>(table.size()); ++i) {
-    if (i % kBatch == 0) throw_if_cancelled(progress);
-    for (const int32_t k : table[static_cast<size_t>(i)]) {
-      if (k >= 0 && k < lists) result.items[static_cast<size_t>(start[k]++)] = i;
-    }
-  }
+  for_all([&](int32_t i, int32_t k) { result.items[static_cast<size_t>(start[k]++)] = i; });
   result.offsets.pop_back();
   return result;
 }

@@ -1,29 +1,40 @@
-// Sorting rows of ids.
+// Sorting ids: a counting sort into buckets by all threads, then small sorts within the buckets.
 #pragma once
 
 #include <algorithm>
-#include <numeric>
 
 #include "csr.h"
 #include "parallel.h"
 
 namespace medial {
 
-// The rows of a table in lexicographic order; first entries lie in [0, ids). A counting sort by the
-// first entry, then each group by itself.
-template <typename Row>
-std::vector<int32_t> lexicographic_order(std::span<const Row> table, size_t ids, const Run& run) {
-  std::vector<int64_t> start(ids + 1, 0);
-  for (const Row& row : table) ++start[row[0]];
-  counts_to_offsets(start);
-  std::vector<int32_t> order(table.size());
-  auto next = start;
-  for (int32_t i = 0; i < static_cast<int32_t>(order.size()); ++i) order[next[table[i][0]]++] = i;
-  parallel_for(static_cast<int64_t>(ids), run, [&](int64_t id) {
-    std::sort(order.begin() + start[id], order.begin() + start[id + 1],
-              [&](int32_t a, int32_t b) { return table[a] < table[b]; });
+// 0, ..., count - 1 by ascending bucket_of(id) in [0, buckets), then by `before`, which must tell
+// all ids of a bucket apart.
+template <typename BucketOf, typename Before>
+std::vector<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
+                                  const BucketOf& bucket_of, const Before& before) {
+  std::vector<int32_t> next(buckets + 1, 0);
+  const auto place = [&](int64_t id) {
+    return std::atomic_ref(next[bucket_of(id)]).fetch_add(1, std::memory_order_relaxed);
+  };
+  parallel_for(count, run, place);
+  counts_to_offsets(next);
+  std::vector<int32_t> order(static_cast<size_t>(count));
+  parallel_for(count, run, [&](int64_t id) { order[place(id)] = static_cast<int32_t>(id); });
+  // Now next[b] is the end of bucket b.
+  parallel_for(static_cast<int64_t>(buckets), run, [&](int64_t b) {
+    std::sort(order.begin() + (b == 0 ? 0 : next[b - 1]), order.begin() + next[b], before);
   });
   return order;
+}
+
+// The rows of a table in lexicographic order, equal ones by their ids; first entries lie in [0,
+// ids).
+template <typename Row>
+std::vector<int32_t> lexicographic_order(std::span<const Row> table, size_t ids, const Run& run) {
+  return bucket_order(
+      static_cast<int64_t>(table.size()), ids, run, [&](int64_t i) { return table[i][0]; },
+      [&](int32_t a, int32_t b) { return table[a] < table[b] || (table[a] == table[b] && a < b); });
 }
 
 // Puts values into an order.

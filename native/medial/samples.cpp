@@ -1,20 +1,18 @@
 #include "samples.h"
 
 #include <array>
+#include <bit>
 #include <numbers>
 #include <sstream>
 #include <string>
+
+#include "order.h"
 
 namespace medial {
 namespace {
 
 // Beyond these the fifth powers in a circumcentre would leave the range of a double.
 constexpr double kSmallestExtent = 1e-50, kLargestCoordinate = 1e50;
-
-struct Keyed {
-  uint64_t key;
-  int32_t row;
-};
 
 std::string text(const Vec3& p) {
   std::ostringstream out;
@@ -32,8 +30,9 @@ Box box_of(std::span<const Vec3> rows) {
 
 // Index along a 3D Hilbert curve of 2^21 steps per axis (J. Skilling, Programming the Hilbert
 // curve, 2004).
+constexpr int kBits = 21;
+
 uint64_t hilbert_key(std::array<uint32_t, 3> x) {
-  constexpr int kBits = 21;
   for (uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
     const uint32_t mask = q - 1;
     for (auto& xi : x) {
@@ -60,27 +59,17 @@ uint64_t hilbert_key(std::array<uint32_t, 3> x) {
   return key;
 }
 
-std::vector<Keyed> along_hilbert_curve(std::span<const Vec3> rows, const Run& run) {
+std::vector<uint64_t> hilbert_keys(std::span<const Vec3> rows, const Run& run) {
   const Box box = box_of(rows);
   const double extent = max_abs(box.extent());
   const double scale = extent >= kSmallestExtent ? 2097151 / extent : 0;  // finite
-  std::vector<Keyed> order(rows.size());
+  std::vector<uint64_t> keys(rows.size());
   parallel_for(static_cast<int64_t>(rows.size()), run, [&](int64_t i) {
     const Vec3 p = scale * (rows[i] - box.low);
-    order[i] = {hilbert_key({static_cast<uint32_t>(p.x), static_cast<uint32_t>(p.y),
-                             static_cast<uint32_t>(p.z)}),
-                static_cast<int32_t>(i)};
+    keys[i] = hilbert_key(
+        {static_cast<uint32_t>(p.x), static_cast<uint32_t>(p.y), static_cast<uint32_t>(p.z)});
   });
-  const auto before = [&](const Keyed& a, const Keyed& b) {
-    if (a.key != b.key) return a.key < b.key;
-    const Vec3 &p = rows[a.row], &q = rows[b.row];
-    if (p.x != q.x) return p.x < q.x;
-    if (p.y != q.y) return p.y < q.y;
-    if (p.z != q.z) return p.z < q.z;
-    return a.row < b.row;
-  };
-  std::sort(order.begin(), order.end(), before);
-  return order;
+  return keys;
 }
 
 }  // namespace
@@ -96,10 +85,19 @@ void require_finite(std::span<const Vec3> rows, const char* what) {
 }
 
 std::vector<int32_t> hilbert_order(std::span<const Vec3> rows, const Run& run) {
-  std::vector<int32_t> order;
-  order.reserve(rows.size());
-  for (const Keyed& next : along_hilbert_curve(rows, run)) order.push_back(next.row);
-  return order;
+  const auto keys = hilbert_keys(rows, run);
+  const int bits = std::min(static_cast<int>(std::bit_width(rows.size())), 24);  // a bucket per row
+  return bucket_order(
+      static_cast<int64_t>(rows.size()), size_t{1} << bits, run,
+      [&](int64_t i) { return keys[i] >> (3 * kBits - bits); },
+      [&](int32_t a, int32_t b) {
+        if (keys[a] != keys[b]) return keys[a] < keys[b];
+        const Vec3 &p = rows[a], &q = rows[b];
+        if (p.x != q.x) return p.x < q.x;
+        if (p.y != q.y) return p.y < q.y;
+        if (p.z != q.z) return p.z < q.z;
+        return a < b;
+      });
 }
 
 Samples distinct_rows(std::span<const Vec3> rows, const char* what, const Run& run) {
@@ -108,13 +106,13 @@ Samples distinct_rows(std::span<const Vec3> rows, const char* what, const Run& r
   samples.points.reserve(rows.size() + 200);
   samples.row.reserve(rows.size());
   samples.sample_of_row.resize(rows.size());
-  for (const Keyed& next : along_hilbert_curve(rows, run)) {
-    const Vec3& p = rows[next.row];
+  for (const int32_t row : hilbert_order(rows, run)) {
+    const Vec3& p = rows[row];
     if (samples.points.empty() || samples.points.back() != p) {
       samples.points.push_back(p);
-      samples.row.push_back(next.row);
+      samples.row.push_back(row);
     }
-    samples.sample_of_row[next.row] = samples.count() - 1;
+    samples.sample_of_row[row] = samples.count() - 1;
   }
   return samples;
 }

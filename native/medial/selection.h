@@ -23,9 +23,9 @@ inline double tried(double larger, double smaller, bool try_larger, bool try_sma
   return try_larger ? larger : try_smaller ? smaller : 0;
 }
 
-inline double tried_theta(const Significance& s, int64_t edge, Rule rule) {
+inline double tried_sine(const Significance& s, int64_t edge, Rule rule) {
   const uint8_t untried = s.untried[edge];
-  return tried(s.theta[edge], s.theta_both[edge], !(untried & larger_theta),
+  return tried(s.sine[edge], s.sine_both[edge], !(untried & larger_theta),
                !(untried & smaller_theta), rule);
 }
 
@@ -35,13 +35,25 @@ inline double tried_rho(const Significance& s, int64_t edge, Rule rule) {
                rule);
 }
 
-inline bool satisfies_angle(const Significance& s, int64_t edge, const Thresholds& t) {
-  return t.criteria != Criteria::ratio && tried_theta(s, edge, t.rule) > t.theta;
-}
+// Angle[theta] and Ratio[rho].
+class Conditions {
+ public:
+  Conditions(const Significance& significance, const Thresholds& thresholds)
+      : s_(significance), t_(thresholds), sine_(largest_sine(thresholds.theta)) {}
 
-inline bool satisfies_ratio(const Significance& s, int64_t edge, const Thresholds& t) {
-  return t.criteria != Criteria::angle && tried_rho(s, edge, t.rule) > t.rho;
-}
+  bool angle(int64_t edge) const {
+    return t_.criteria != Criteria::ratio && tried_sine(s_, edge, t_.rule) > sine_;
+  }
+  bool ratio(int64_t edge) const {
+    return t_.criteria != Criteria::angle && tried_rho(s_, edge, t_.rule) > t_.rho;
+  }
+  bool either(int64_t edge) const { return angle(edge) || ratio(edge); }
+
+ private:
+  const Significance& s_;
+  Thresholds t_;
+  double sine_;
+};
 
 // Ascending ids of the edges that satisfy Angle[theta] or Ratio[rho].
 std::vector<int32_t> select(const Significance& significance, const Thresholds& thresholds,

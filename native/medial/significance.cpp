@@ -67,27 +67,40 @@ uint8_t untried(const End& p, const End& q) {
 
 }  // namespace
 
+double largest_sine(double theta) {
+  double low = 0, high = 1;
+  if (theta_of(high) <= theta) return high;
+  for (;;) {
+    const double middle = low + (high - low) / 2;
+    if (middle <= low || middle >= high) return low;
+    (theta_of(middle) <= theta ? low : high) = middle;
+  }
+}
+
 Significance significance(std::span<const Vec3> points, const Edges& edges,
                           const Umbrellas& umbrellas, const Run& run) {
   begin_stage(run.progress, "Angles and ratios", 0.8, 0.88);
   Shapes s = shapes(points, umbrellas, {run.threads, nullptr});
   const auto count = static_cast<size_t>(edges.count());
   Significance result;
-  for (auto* values : {&result.theta, &result.rho, &result.theta_both, &result.rho_both})
+  for (auto* values : {&result.sine, &result.rho, &result.sine_both, &result.rho_both})
     values->resize(count);
   result.untried.resize(count);
-  parallel_for(edges.count(), run, [&](int64_t e) {
+  const auto judge = [&](int32_t e) {
     const auto& [p, q] = edges.ends[e];
     const Vec3 pq = points[q] - points[p];
     const double size = length(pq);
     const Vec3 direction = (1 / size) * pq;
     const End at_p = end_at(p, q, direction, size, umbrellas, s),
               at_q = end_at(q, p, direction, size, umbrellas, s);
-    result.theta[e] = std::asin(std::max(at_p.sine, at_q.sine));
-    result.theta_both[e] = std::asin(std::min(at_p.sine, at_q.sine));
+    result.sine[e] = std::max(at_p.sine, at_q.sine);
+    result.sine_both[e] = std::min(at_p.sine, at_q.sine);
     result.rho[e] = std::max(at_p.ratio, at_q.ratio);
     result.rho_both[e] = std::min(at_p.ratio, at_q.ratio);
     result.untried[e] = untried(at_p, at_q);
+  };
+  parallel_for(umbrellas.size(), run, [&](int64_t p) {
+    for (int32_t e = edges.from[p][0]; e < edges.from[p][1]; ++e) judge(e);
   });
   result.spacing = std::move(s.radius);
   return result;

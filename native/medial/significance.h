@@ -11,8 +11,8 @@ namespace medial {
 
 // Per edge, the larger value of the two ends (rule EITHER) and the smaller one (rule BOTH).
 struct Significance {
-  std::vector<double> theta, rho;
-  std::vector<double> theta_both, rho_both;
+  std::vector<double> sine, rho;  // of theta: an arcsine takes longer than all else about an edge
+  std::vector<double> sine_both, rho_both;
   std::vector<uint8_t> untried;  // bits of Untried
   // Per sample: the largest circumradius in its umbrella, infinite for an empty one.
   std::vector<double> spacing;
@@ -22,6 +22,11 @@ struct Significance {
 // from the values. It matters below rho0 = 2 and, by rounding, at theta0 = 0; elsewhere such an end
 // fails anyway.
 enum Untried : uint8_t { larger_theta = 1, smaller_theta = 2, larger_rho = 4, smaller_rho = 8 };
+
+inline double theta_of(double sine) { return std::asin(sine); }
+
+// The largest sine whose theta is not above a threshold.
+double largest_sine(double theta);
 
 Significance significance(std::span<const Vec3> points, const Edges& edges,
                           const Umbrellas& umbrellas, const Run& run);

@@ -23,8 +23,7 @@ Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_
     const Triangle t{vertex_of_row[i], vertex_of_row[j], vertex_of_row[k]};
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) surface.triangles.push_back(t);
   }
-  const auto fans =
-      rows_containing(std::span<const Triangle>(surface.triangles), vertices, run.progress);
+  const auto fans = rows_containing(std::span<const Triangle>(surface.triangles), vertices, run);
   surface.boundary = boundary_edges(surface.triangles, fans, run);
   return surface;
 }

@@ -5,7 +5,7 @@
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
-#include <utility>
+#include "order.h"
 
 namespace medial {
 namespace {
@@ -19,13 +19,6 @@ using Delaunay =
     CGAL::Delaunay_triangulation_3<Kernel,
                                    CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using CellHandle = Delaunay::Cell_handle;
-
-constexpr size_t kBatch = 1 << 17;  // cells between two looks at the cancel flag
-
-struct OrderedCell {
-  Cell ids;
-  CellHandle handle;
-};
 
 uint64_t scrambled(uint64_t x) {  // SplitMix64 (Steele, Lea, Flood 2014)
   x += 0x9e3779b97f4a7c15u;
@@ -69,82 +62,71 @@ void insert_all(Delaunay& delaunay, std::span<const Vec3> points, Progress* prog
   }
 }
 
-// Sorted but for the last two, which keep the orientation positive.
-Cell canonical(Cell ids) {
-  bool odd = false;
-  for (int i = 1; i < 4; ++i) {
-    for (int j = i; j > 0 && ids[j - 1] > ids[j]; --j) {
-      std::swap(ids[j - 1], ids[j]);
-      odd = !odd;
-    }
+// A cell in canonical order, and how it got there: slots[j] is where its corner j went.
+struct CanonicalCell {
+  Cell ids;  // sorted but for the last two, which keep the orientation positive
+  std::array<int8_t, 4> slots;
+
+  // The lowest finite id, infinite cells after the finite ones.
+  int32_t bucket(int32_t points) const { return ids[0] == kInfinite ? points + ids[1] : ids[0]; }
+  // The lexicographic order of the sorted ids.
+  auto sorted() const {
+    return std::array{ids[0], ids[1], std::min(ids[2], ids[3]), std::max(ids[2], ids[3])};
   }
-  if (odd) std::swap(ids[2], ids[3]);
-  return ids;
+};
+
+// By ranks: cells come in any order, so that a sort by branches would guess wrong half of the time.
+CanonicalCell canonical(const Cell& x) {
+  const int a = x[0] > x[1], b = x[0] > x[2], c = x[0] > x[3];
+  const int d = x[1] > x[2], e = x[1] > x[3], f = x[2] > x[3];
+  const int odd = a ^ b ^ c ^ d ^ e ^ f;
+  const std::array rank{a + b + c, 1 - a + d + e, 2 - b - d + f, 3 - c - e - f};
+  CanonicalCell cell{};
+  for (int j = 0; j < 4; ++j) {
+    const int slot = rank[j] ^ (odd & (rank[j] >> 1));
+    cell.ids[slot] = x[j];
+    cell.slots[j] = static_cast<int8_t>(slot);
+  }
+  return cell;
 }
 
-bool lexicographically_before(const OrderedCell& a, const OrderedCell& b) {
-  const auto sorted = [](Cell ids) {
-    if (ids[2] > ids[3]) std::swap(ids[2], ids[3]);
-    return ids;
-  };
-  return sorted(a.ids) < sorted(b.ids);
-}
-
-// A counting sort by lowest finite id, infinite cells after the finite ones, then small sorts
-// within the buckets.
-std::vector<OrderedCell> ordered_cells(const Delaunay& delaunay, int32_t points, const Run& run) {
-  const auto bucket = [&](const Cell& ids) {
-    return ids[0] == kInfinite ? points + ids[1] : ids[0];
-  };
-  const size_t count = delaunay.tds().number_of_cells();
-  std::vector<OrderedCell> found;
-  found.reserve(count);
-  std::vector<int64_t> start(2 * static_cast<size_t>(points) + 1, 0);
+std::vector<CellHandle> handles_of(const Delaunay& delaunay) {
+  std::vector<CellHandle> handles;
+  handles.reserve(delaunay.tds().number_of_cells());
   for (auto cell = delaunay.all_cells_begin(); cell != delaunay.all_cells_end(); ++cell) {
-    Cell ids;
-    for (int i = 0; i < 4; ++i) {
-      ids[i] = delaunay.is_infinite(cell->vertex(i)) ? kInfinite : cell->vertex(i)->info();
-    }
-    ids = canonical(ids);
-    ++start[bucket(ids) + 1];
-    if (found.size() % kBatch == 0)
-      advance(run.progress, 0.3 * static_cast<double>(found.size()) / static_cast<double>(count));
-    found.push_back({ids, cell});
+    handles.push_back(cell);
   }
-  for (size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
-  std::vector<OrderedCell> ordered(count);
-  auto next = start;
-  for (size_t i = 0; i < count; ++i) {
-    if (i % kBatch == 0)
-      advance(run.progress, 0.3 + 0.2 * static_cast<double>(i) / static_cast<double>(count));
-    ordered[next[bucket(found[i].ids)]++] = found[i];
-  }
-  begin_stage(run.progress, "Delaunay cells", 0.54, 0.56);
-  parallel_for(static_cast<int64_t>(start.size()) - 1, run, [&](int64_t b) {
-    std::sort(ordered.begin() + start[b], ordered.begin() + start[b + 1], lexicographically_before);
-  });
-  return ordered;
+  return handles;
 }
 
 Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run) {
-  begin_stage(run.progress, "Delaunay cells", 0.5, 0.58);
-  const auto ordered = ordered_cells(delaunay, points, run);
-  Triangulation result;
-  result.cells.resize(ordered.size());
-  result.neighbors.resize(ordered.size());
-  parallel_for(static_cast<int64_t>(ordered.size()), run, [&](int64_t c) {
-    result.cells[c] = ordered[c].ids;
-    ordered[c].handle->info() = static_cast<int32_t>(c);
+  begin_stage(run.progress, "Delaunay cells", 0.5, 0.52);
+  const auto handles = handles_of(delaunay);
+  const auto count = static_cast<int64_t>(handles.size());
+  std::vector<CanonicalCell> found(handles.size());
+  parallel_for(count, run, [&](int64_t i) {
+    Cell ids;
+    for (int j = 0; j < 4; ++j) ids[j] = handles[i]->vertex(j)->info();
+    found[i] = canonical(ids);
   });
-  begin_stage(run.progress, "Delaunay cells", 0.56, 0.58);
-  parallel_for(static_cast<int64_t>(ordered.size()), run, [&](int64_t c) {
-    const CellHandle cell = ordered[c].handle;
+  begin_stage(run.progress, "Delaunay cells", 0.52, 0.54);
+  const auto order = bucket_order(
+      count, 2 * static_cast<size_t>(points), {run.threads, nullptr},
+      [&](int64_t i) { return found[i].bucket(points); },
+      [&](int32_t a, int32_t b) { return found[a].sorted() < found[b].sorted(); });
+  Triangulation result;
+  result.cells.resize(handles.size());
+  result.neighbors.resize(handles.size());
+  parallel_for(count, run, [&](int64_t c) {
+    const int32_t i = order[c];
+    result.cells[c] = found[i].ids;
+    handles[i]->info() = static_cast<int32_t>(c);
+  });
+  begin_stage(run.progress, "Delaunay cells", 0.54, 0.58);
+  parallel_for(count, run, [&](int64_t c) {
+    const int32_t i = order[c];
     for (int j = 0; j < 4; ++j) {
-      const auto vertex = cell->vertex(j);
-      const int32_t id = delaunay.is_infinite(vertex) ? kInfinite : vertex->info();
-      const auto slot = std::find(result.cells[c].begin(), result.cells[c].end(), id);
-      result.neighbors[c][static_cast<size_t>(slot - result.cells[c].begin())] =
-          cell->neighbor(j)->info();
+      result.neighbors[c][found[i].slots[j]] = handles[i]->neighbor(j)->info();
     }
   });
   const auto infinite = std::partition_point(result.cells.begin(), result.cells.end(),
@@ -181,11 +163,13 @@ void require_volume(std::span<const Vec3> points) {
                              "; add points off it.");
 }
 
-Triangulation triangulate(std::span<const Vec3> points, const Run& run) {
+Triangulation triangulate(std::span<const Vec3> points, const Run& run, Stopwatch* watch) {
   begin_stage(run.progress, "Delaunay triangulation", 0.02, 0.5);
   try {
     Delaunay delaunay;
     insert_all(delaunay, points, run.progress);
+    delaunay.infinite_vertex()->info() = kInfinite;
+    if (watch) watch->lap("triangulation");
     return as_arrays(delaunay, static_cast<int32_t>(points.size()), run);
   } catch (const CGAL::Failure_exception& failure) {
     throw DegenerateInputError(std::string("Expected points that CGAL can triangulate, found: ") +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "parallel.h"
+#include "stopwatch.h"
 #include "vec3.h"
 
 namespace medial {
@@ -40,6 +41,7 @@ void require_volume(std::span<const Vec3> points);
 
 // `points` must be distinct, span a volume and should be in spatial order. Cospherical points are
 // triangulated by CGAL's symbolic perturbation, which depends on coordinates alone.
-Triangulation triangulate(std::span<const Vec3> points, const Run& run);
+// `watch` gets the lap "triangulation" when CGAL is done, before the copy into arrays.
+Triangulation triangulate(std::span<const Vec3> points, const Run& run, Stopwatch* watch = nullptr);
 
 }  // namespace medial

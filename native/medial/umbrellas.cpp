@@ -17,26 +17,28 @@ Height height(const Vec3& p, const Vec3& pole, int32_t cell, const Triangulation
   return dot(voronoi.centre[cell] - p, pole) >= 0 ? Height::above : Height::below;
 }
 
-bool cross_the_plane(Height a, Height b) {
-  return a != b && a != Height::level && b != Height::level;
+// The corners of a cell's facet opposite to a slot that are not p.
+std::array<int32_t, 2> others(const Cell& cell, int slot, int32_t p) {
+  std::array<int32_t, 2> found{};
+  int count = 0;
+  for (int j = 0; j < 4; ++j) {
+    if (j != slot && cell[j] != p) found[count++] = cell[j];
+  }
+  return found;
 }
 
+// Each Voronoi edge that crosses the plane is met once: from below.
 void append_umbrella(const Vec3& p, int32_t id, const Vec3& pole, std::span<const int32_t> cells,
                      const Triangulation& t, const Voronoi& voronoi,
                      std::vector<std::array<int32_t, 2>>& out) {
   for (const int32_t cell : cells) {
-    if (t.is_infinite(cell)) break;  // a ray is met from its finite end
-    const Height here = height(p, pole, cell, t, voronoi);
+    if (height(p, pole, cell, t, voronoi) != Height::below) continue;
     for (int i = 0; i < 4; ++i) {
       const int32_t next = t.neighbors[cell][i];
-      if (next < cell || t.cells[cell][i] == id) continue;
-      if (!cross_the_plane(here, height(p, pole, next, t, voronoi))) continue;
-      std::array<int32_t, 2> others{};
-      int found = 0;
-      for (int j = 0; j < 4; ++j) {
-        if (j != i && t.cells[cell][j] != id) others[found++] = t.cells[cell][j];
+      if (t.cells[cell][i] == id || (t.is_infinite(cell) && t.is_infinite(next))) continue;
+      if (height(p, pole, next, t, voronoi) == Height::above) {
+        out.push_back(others(t.cells[cell], i, id));
       }
-      out.push_back(others);
     }
   }
 }

@@ -180,10 +180,13 @@ void bind_mesh(py::module_& m) {
                     "not emitted.");
 }
 
-// A property that is a view of one of the significance arrays.
-auto significance_property(std::vector<double> Significance::*member) {
-  return [member](const py::object& self) {
-    return view_of<double>(self.cast<const MedialAnalysis&>().significance().*member, self);
+auto theta_property(Rule rule) {
+  return [rule](const MedialAnalysis& a) { return array_of<double>(a.theta(rule)); };
+}
+
+auto rho_property(Rule rule) {
+  return [rule](const py::object& self) {
+    return view_of<double>(self.cast<const MedialAnalysis&>().rho(rule), self);
   };
 }
 
@@ -212,16 +215,16 @@ void bind_analysis(py::module_& m) {
       .def_property_readonly(
           "edges", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_rows()); },
           "(e, 2) int32: all Delaunay edges between samples, p < q, in lexicographic order.")
-      .def_property_readonly("theta", significance_property(&Significance::theta),
+      .def_property_readonly("theta", theta_property(Rule::either),
                              "(e,) float64: max over both ends of pi/2 - max over t in U_p of "
                              "angle(n_t, pq) (sect. 3.1).")
       .def_property_readonly(
-          "rho", significance_property(&Significance::rho),
+          "rho", rho_property(Rule::either),
           "(e,) float64: max over both ends of |pq| / max over t in U_p of R_t (sect. 3.2).")
       .def_property_readonly(
-          "theta_both", significance_property(&Significance::theta_both),
+          "theta_both", theta_property(Rule::both),
           "(e,) float64: as `theta` with the minimum of the two ends (Rule.BOTH).")
-      .def_property_readonly("rho_both", significance_property(&Significance::rho_both),
+      .def_property_readonly("rho_both", rho_property(Rule::both),
                              "(e,) float64: as `rho` with the minimum of the two ends (Rule.BOTH).")
       .def_property_readonly(
           "side", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_sides()); },
