@@ -73,6 +73,19 @@ std::vector<Vec3> unit_normals(std::span<const Vec3> normals, const Samples& sam
   return result;
 }
 
+constexpr size_t kBytesPerPoint = 1000;  // hardly an analysis takes less
+
+std::unique_ptr<Heap> heap_for(size_t points) {
+  return std::make_unique<Heap>(2 * kBytesPerPoint * points);
+}
+
+// Has memory ready for the stages, on a thread of its own.
+std::jthread touching(const Heap& heap, size_t points, int threads) {
+  if (threads == 1) return {};
+  return std::jthread(
+      [&heap, points](const std::stop_token& stop) { heap.touch(kBytesPerPoint * points, stop); });
+}
+
 std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& samples) {
   const auto end = static_cast<int64_t>(samples.sample_of_row.size());
   std::vector<int32_t> ids;
@@ -91,8 +104,8 @@ std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& sa
 
 MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options,
                                Progress* progress)
-    : threads_(thread_count(options.threads)) {
-  const Run run{threads_, progress}, quiet{threads_, nullptr};
+    : threads_(thread_count(options.threads)), heap_(heap_for(input.points.size())) {
+  const Run run{threads_, progress, heap_.get()}, quiet{threads_, nullptr, heap_.get()};
   Stopwatch watch(timings_);
   begin_stage(progress, "Samples", 0, 0.02);
   require_corners(input.triangles, input.vertices.value_or(input.points).size());
@@ -112,12 +125,16 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   if (options.bounding_sphere) add_bounding_sphere(samples_);
   const std::vector<Vec3>& points = samples_.points;
   watch.lap("samples");
-  triangulation_ = triangulate(points, run, &watch);
+  {
+    // CGAL leaves the other cores idle.
+    const std::jthread toucher = touching(*heap_, points.size(), threads_);
+    triangulation_ = triangulate(points, run, &watch);
+  }
   watch.lap("cells");
   voronoi_ = voronoi(points, triangulation_, run);
   watch.lap("voronoi");
   begin_stage(progress, "Delaunay edges", 0.66, 0.68);
-  const Csr<int32_t> incident = incident_cells(triangulation_, count, run);
+  Csr<int32_t> incident = incident_cells(triangulation_, count, run);
   edges_ =
       delaunay_edges(triangulation_, incident, samples_.row, samples_.sample_of_row.size(), run);
   watch.lap("complex");
@@ -126,12 +143,14 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   {
     const Umbrellas u = umbrellas(points, triangulation_, voronoi_, incident, p, run);
     watch.lap("umbrellas");
+    if (sides_from_ != SidesFrom::tight_cocone) incident = {};
     significance_ = medial::significance(points, edges_, u, run);
     watch.lap("significance");
   }
   tell_sides(surface, corners.points, input.normals.value_or(std::span<const Vec3>()), incident, p,
              options.cocone, run);
   watch.lap("sides");
+  heap_->trim();
   advance(progress, 1);
 }
 
@@ -169,62 +188,58 @@ bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds,
   return size >= std::pow(epsilon, 0.25) * mu;
 }
 
-std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
+FacetChoice MedialAnalysis::choice(const Extraction& x) const {
   check(x);
   if (x.side != Side::both) require_solid(sides_from_, tight_cocone_.get());
-  const Run run{threads_, progress};
-  std::vector<int32_t> ids = medial::select(significance_, x.thresholds, run);
-  if (x.side == Side::both && !x.limit_set) return ids;
   const Conditions holds(significance_, x.thresholds);
-  const auto wanted = [&](int32_t edge, std::vector<int32_t>& ring) {
-    ring_of_cells(triangulation_, edges_.ends[edge], edges_.cell[edge], ring);
-    if (x.side != Side::both && facet_side(ring, sides_) != x.side) return false;
-    return !x.limit_set || holds.angle(edge) || in_limit_set(edge, x.thresholds, ring);
+  const auto maybe = [this, holds, side = x.side](int32_t edge) {
+    if (!holds.either(edge)) return false;
+    return side == Side::both || may_be(side, edges_.cell[edge], sides_);
   };
+  const auto side = [this, holds, x](int32_t edge,
+                                     const std::vector<int32_t>& ring) -> std::optional<Side> {
+    const Side found = facet_side(ring, sides_);
+    if (x.side != Side::both && found != x.side) return {};
+    if (x.limit_set && !holds.angle(edge) && !in_limit_set(edge, x.thresholds, ring)) return {};
+    return found;
+  };
+  return {maybe, side};
+}
+
+std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
+  const FacetChoice chosen = choice(x);
+  const bool by_ring = x.side != Side::both || x.limit_set;
   std::vector<std::vector<int32_t>> rings(threads_);
-  return parallel_append<int32_t>(static_cast<int64_t>(ids.size()), run,
-                                  [&](int64_t i, std::vector<int32_t>& kept, int worker) {
-                                    if (wanted(ids[i], rings[worker])) kept.push_back(ids[i]);
+  const auto wanted = [&](int32_t edge, std::vector<int32_t>& ring) {
+    if (!chosen.maybe(edge)) return false;
+    if (!by_ring) return true;
+    ring_of_cells(triangulation_, edges_.ends[edge], edges_.cell[edge], ring);
+    return chosen.side(edge, ring).has_value();
+  };
+  return parallel_append<int32_t>(edges_.count(), {threads_, progress, heap_.get()},
+                                  [&](int64_t e, std::vector<int32_t>& kept, int worker) {
+                                    const auto edge = static_cast<int32_t>(e);
+                                    if (wanted(edge, rings[worker])) kept.push_back(edge);
                                   });
 }
 
-template <typename EdgeOf>
-std::vector<Side> MedialAnalysis::facet_sides(int64_t count, const Run& run,
-                                              const EdgeOf& edge_of) const {
-  std::vector<Side> sides(static_cast<size_t>(count), Side::both);
-  if (sides_.empty()) return sides;
-  parallel_chunks(count, run, [&](int64_t begin, int64_t end, int) {
-    std::vector<int32_t> ring;
-    for (int64_t f = begin; f < end; ++f) {
-      const auto edge = edge_of(f);
-      ring_of_cells(triangulation_, edges_.ends[edge], edges_.cell[edge], ring);
-      sides[f] = facet_side(ring, sides_);
-    }
-  });
-  return sides;
-}
-
 MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
-  begin_stage(progress, "Selection", 0, 0.4);
-  const std::vector<int32_t> ids = select(x, progress);
-  begin_stage(progress, "Facets", 0.4, 1);
-  const Run run{threads_, progress};
-  auto [mesh, kept] = voronoi_facets(ids, samples_.points, triangulation_, voronoi_, edges_, run);
+  begin_stage(progress, "Facets", 0, 0.8);
+  const Run run{threads_, progress, heap_.get()};
+  auto [mesh, kept] = voronoi_facets(choice(x), samples_, triangulation_, voronoi_, edges_, run);
   const auto faces = static_cast<int64_t>(kept.size());
   const bool either = x.thresholds.rule == Rule::either;
+  const auto& sine = either ? significance_.sine : significance_.sine_both;
+  begin_stage(progress, "Facets", 0.8, 1);
   mesh.theta.resize(kept.size());
   mesh.rho.resize(kept.size());
-  mesh.side.assign(kept.size(), x.side);
   mesh.generators.resize(kept.size());
   parallel_for(faces, run, [&, &mesh = mesh, &kept = kept](int64_t f) {
     const int32_t e = kept[f];
-    mesh.theta[f] = theta_of((either ? significance_.sine : significance_.sine_both)[e]);
-    mesh.rho[f] = (either ? significance_.rho : significance_.rho_both)[e];
+    mesh.theta[f] = theta_of(sine[e]);
+    mesh.rho[f] = rho(x.thresholds.rule)[e];
     mesh.generators[f] = {samples_.row[edges_.ends[e][0]], samples_.row[edges_.ends[e][1]]};
   });
-  if (x.side == Side::both) {
-    mesh.side = facet_sides(faces, run, [&kept = kept](int64_t f) { return kept[f]; });
-  }
   advance(progress, 1);
   return std::move(mesh);
 }
@@ -272,7 +287,7 @@ std::vector<Triangle> MedialAnalysis::solid_triangles() const {
 }
 
 std::vector<Edge> MedialAnalysis::edge_rows() const {
-  std::vector<Edge> rows(edges_.ends);
+  std::vector<Edge> rows(edges_.ends.begin(), edges_.ends.end());
   for (auto& [p, q] : rows) {
     p = samples_.row[p];
     q = samples_.row[q];
@@ -281,7 +296,16 @@ std::vector<Edge> MedialAnalysis::edge_rows() const {
 }
 
 std::vector<Side> MedialAnalysis::edge_sides() const {
-  return facet_sides(edges_.count(), {threads_, nullptr}, [](int64_t e) { return e; });
+  std::vector<Side> sides(static_cast<size_t>(edges_.count()), Side::both);
+  if (sides_.empty()) return sides;
+  parallel_chunks(edges_.count(), {threads_}, [&](int64_t begin, int64_t end, int) {
+    std::vector<int32_t> ring;
+    for (int64_t e = begin; e < end; ++e) {
+      ring_of_cells(triangulation_, edges_.ends[e], edges_.cell[e], ring);
+      sides[e] = facet_side(ring, sides_);
+    }
+  });
+  return sides;
 }
 
 std::vector<uint8_t> MedialAnalysis::edges_bounded() const {

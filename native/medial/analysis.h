@@ -7,6 +7,7 @@
 
 #include "feature_size.h"
 #include "medial_mesh.h"
+#include "selection.h"
 #include "watertight_surface.h"
 
 namespace medial {
@@ -56,7 +57,7 @@ class MedialAnalysis {
   // same order.
   std::vector<Edge> edge_rows() const;
   std::vector<double> theta(Rule rule) const;
-  const std::vector<double>& rho(Rule rule) const {
+  const Array<double>& rho(Rule rule) const {
     return rule == Rule::either ? significance_.rho : significance_.rho_both;
   }
   std::vector<Side> edge_sides() const;
@@ -76,12 +77,12 @@ class MedialAnalysis {
   void tell_sides(const Surface& surface, std::span<const Vec3> vertices,
                   std::span<const Vec3> normals, const Csr<int32_t>& incident, const Poles& poles,
                   const CoconeOptions& options, const Run& run);
-  // Of the facets dual to edge_of(0), ..., edge_of(count - 1).
-  template <typename EdgeOf>
-  std::vector<Side> facet_sides(int64_t count, const Run& run, const EdgeOf& edge_of) const;
+  FacetChoice choice(const Extraction& extraction) const;
   bool in_limit_set(int32_t edge, const Thresholds& thresholds,
                     std::span<const int32_t> ring) const;
 
+  int threads_ = 1;
+  std::unique_ptr<Heap> heap_;  // goes after all that lies in it
   Samples samples_;
   Triangulation triangulation_;
   Voronoi voronoi_;
@@ -92,7 +93,6 @@ class MedialAnalysis {
   std::shared_ptr<const WatertightSurface> tight_cocone_;
   int64_t duplicates_ = 0, boundary_edges_ = 0;
   bool closed_ = false;
-  int threads_ = 1;
   Timings timings_;
 };
 

@@ -65,7 +65,7 @@ std::vector<uint8_t> buried(std::span<const Vec3> points, std::span<const Vec3> 
   const Samples corners = distinct_rows(vertices, "vertex", run);
   const Surface surface = closed_surface(corners, triangles, run);
   const WindingNumber winding(corners.points, surface.triangles, surface.boundary, run.progress);
-  const std::vector<int32_t> order = hilbert_order(points, run);
+  const auto order = hilbert_order(points, run);
   std::vector<uint8_t> result(points.size(), 0);
   parallel_chunks(static_cast<int64_t>(order.size()), run, [&](int64_t begin, int64_t end, int) {
     Follower above(winding), below(winding);

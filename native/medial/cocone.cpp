@@ -204,7 +204,7 @@ Cocone cocone(std::span<const Vec3> points, const Triangulation& t, const Vorono
               const Csr<int32_t>& incident, const Poles& poles, const CoconeOptions& options,
               const Run& run) {
   begin_stage(run.progress, "Cocone", 0.9, 0.93);
-  Stage s{points, t, voronoi, incident, options, poles.vector};
+  Stage s{points, t, voronoi, incident, options, {poles.vector.begin(), poles.vector.end()}};
   parallel_for(s.samples(), run, [&](int64_t p) { s.normal[p] = normalized(s.normal[p]); });
   const auto samples = static_cast<size_t>(s.samples());
   Cocone result{{}, std::vector<uint8_t>(samples), std::vector<uint8_t>(samples), FacetSet(t)};

@@ -56,29 +56,25 @@ Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples, const Run& 
 Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident,
                      std::span<const int32_t> row, size_t rows, const Run& run) {
   std::vector<std::optional<Ways>> ways(run.threads);
-  const auto from = [&](int64_t p, int worker) {
+  auto first = array<int32_t>(row.size() + 1, 0, run);  // of the edges from each sample, as found
+  auto begin = array<int32_t>(rows + 1, 0, run);        // of those from each row, in their order
+  auto found = array<Way>(0, run);
+  parallel_append_to(found, incident.size(), run, [&](int64_t p, auto& out, int worker) {
     if (!ways[worker]) ways[worker].emplace(t, incident, row);
-    return ways[worker]->from(static_cast<int32_t>(p));
-  };
-  std::vector<int32_t> begin(rows + 1, 0);  // of the edges from each row
-  parallel_chunks(incident.size(), run, [&](int64_t first, int64_t last, int worker) {
-    for (int64_t p = first; p < last; ++p) {
-      begin[row[p]] = static_cast<int32_t>(from(p, worker).size());
-    }
+    const auto from = ways[worker]->from(static_cast<int32_t>(p));
+    out.insert(out.end(), from.begin(), from.end());
+    first[p] = begin[row[p]] = static_cast<int32_t>(from.size());
   });
+  counts_to_offsets(first);
   counts_to_offsets(begin);
-  Edges edges;
-  edges.from.resize(row.size());
-  edges.ends.resize(static_cast<size_t>(begin.back()));
-  edges.cell.resize(static_cast<size_t>(begin.back()));
-  parallel_chunks(incident.size(), run, [&](int64_t first, int64_t last, int worker) {
-    for (int64_t p = first; p < last; ++p) {
-      int32_t e = begin[row[p]];
-      edges.from[p] = {e, begin[row[p] + 1]};
-      for (const Way& way : from(p, worker)) {
-        edges.ends[e] = {static_cast<int32_t>(p), way.to};
-        edges.cell[e++] = way.cell;
-      }
+  Edges edges{array<Edge>(found.size(), run), array<int32_t>(found.size(), run),
+              array<std::array<int32_t, 2>>(row.size(), run)};
+  parallel_for(incident.size(), run, [&](int64_t p) {
+    edges.from[p] = {begin[row[p]], begin[row[p] + 1]};
+    int32_t e = edges.from[p][0];
+    for (int32_t i = first[p]; i < first[p + 1]; ++i, ++e) {
+      edges.ends[e] = {static_cast<int32_t>(p), found[i].to};
+      edges.cell[e] = found[i].cell;
     }
   });
   return edges;

@@ -8,11 +8,10 @@ namespace medial {
 
 // Delaunay edges between samples 0..n-1, each once.
 struct Edges {
-  std::vector<Edge> ends;  // sample ids
-  std::vector<int32_t>
-      cell;  // a cell of the ring; infinite exactly when the dual facet is unbounded
+  Array<Edge> ends;     // sample ids
+  Array<int32_t> cell;  // a cell of the ring; infinite exactly when the dual facet is unbounded
 
-  std::vector<std::array<int32_t, 2>> from;  // per sample: begin and end of the edges from it
+  Array<std::array<int32_t, 2>> from;  // per sample: begin and end of the edges from it
 
   int64_t count() const { return static_cast<int64_t>(ends.size()); }
 };

@@ -12,8 +12,8 @@ namespace medial {
 
 template <typename T>
 struct Csr {
-  std::vector<int64_t> offsets;  // (lists + 1)
-  std::vector<T> items;
+  Array<int64_t> offsets;  // (lists + 1)
+  Array<T> items;
 
   int64_t size() const { return static_cast<int64_t>(offsets.size()) - 1; }
   std::span<const T> operator[](int64_t i) const {
@@ -55,12 +55,12 @@ Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists, const Ru
         1);
   };
   Csr<int32_t> result;
-  result.offsets.assign(static_cast<size_t>(lists) + 2, 0);
+  result.offsets = array<int64_t>(static_cast<size_t>(lists) + 2, 0, run);
   // Shifted by one: ends as the offsets themselves.
   int64_t* const start = result.offsets.data() + 1;
   for_all([&](int32_t, int32_t k) { ++start[k]; });
   counts_to_offsets(std::span(result.offsets).subspan(1));
-  result.items.resize(static_cast<size_t>(result.offsets.back()));
+  result.items = array<int32_t>(static_cast<size_t>(result.offsets.back()), run);
   for_all([&](int32_t i, int32_t k) { result.items[static_cast<size_t>(start[k]++)] = i; });
   result.offsets.pop_back();
   return result;

@@ -1,32 +1,43 @@
 // The closure of the selected Voronoi facets as a polygon mesh: output of MEDIAL(P).
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "complex.h"
-#include "selection.h"
+#include "samples.h"
 #include "sides.h"
 
 namespace medial {
 
 struct MedialMesh {
-  std::vector<Vec3> vertices;         // (v) Voronoi vertices in order of first use; no two coincide
-  std::vector<double> radius;         // (v) of the empty ball
-  std::vector<int32_t> face_offsets;  // (f + 1)
-  std::vector<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
-  std::vector<double> theta, rho;      // (f) as the rule takes them
-  std::vector<Side> side;              // (f)
-  std::vector<Edge> generators;        // (f) input rows p < q
-  int64_t unbounded = 0;               // facets that reach infinity: counted, not emitted
-  int64_t zero_area = 0;               // facets that are a point or a segment: not emitted
+  Array<Vec3> vertices;          // (v) Voronoi vertices in order of first use; no two coincide
+  Array<double> radius;          // (v) of the empty ball
+  Array<int32_t> face_offsets;   // (f + 1)
+  Array<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
+  Array<double> theta, rho;      // (f) as the rule takes them
+  Array<Side> side;              // (f)
+  Array<Edge> generators;        // (f) input rows p < q
+  int64_t unbounded = 0;         // facets that reach infinity: counted, not emitted
+  int64_t zero_area = 0;         // facets that are a point or a segment: not emitted
 };
 
-// Polygons with vertices and radii; the attributes are the caller's.
+// Polygons with vertices, radii and sides; the other attributes are the caller's.
 struct Facets {
   MedialMesh mesh;
-  std::vector<int32_t> edges;  // (f) the edge of each emitted facet
+  Array<int32_t> edges;  // (f) the edge of each emitted facet, ascending
 };
 
-// The dual facets of `edge_ids`, in that order.
-Facets voronoi_facets(std::span<const int32_t> edge_ids, std::span<const Vec3> points,
+// Which facets are wanted.
+struct FacetChoice {
+  // As far as the edge alone tells.
+  std::function<bool(int32_t edge)> maybe;
+  // Its side if it is wanted. `ring` as from ring_of_cells.
+  std::function<std::optional<Side>(int32_t edge, const std::vector<int32_t>& ring)> side;
+};
+
+// The dual facets of edges, in the order of these.
+Facets voronoi_facets(const FacetChoice& choice, const Samples& samples,
                       const Triangulation& triangulation, const Voronoi& voronoi,
                       const Edges& edges, const Run& run);
 

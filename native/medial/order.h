@@ -11,15 +11,15 @@ namespace medial {
 // 0, ..., count - 1 by ascending bucket_of(id) in [0, buckets), then by `before`, which must tell
 // all ids of a bucket apart.
 template <typename BucketOf, typename Before>
-std::vector<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
-                                  const BucketOf& bucket_of, const Before& before) {
-  std::vector<int32_t> next(buckets + 1, 0);
+Array<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
+                            const BucketOf& bucket_of, const Before& before) {
+  auto next = array<int32_t>(buckets + 1, 0, run);
   const auto place = [&](int64_t id) {
     return std::atomic_ref(next[bucket_of(id)]).fetch_add(1, std::memory_order_relaxed);
   };
   parallel_for(count, run, place);
   counts_to_offsets(next);
-  std::vector<int32_t> order(static_cast<size_t>(count));
+  auto order = array<int32_t>(static_cast<size_t>(count), run);
   parallel_for(count, run, [&](int64_t id) { order[place(id)] = static_cast<int32_t>(id); });
   // Now next[b] is the end of bucket b.
   parallel_for(static_cast<int64_t>(buckets), run, [&](int64_t b) {
@@ -31,7 +31,7 @@ std::vector<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
 // The rows of a table in lexicographic order, equal ones by their ids; first entries lie in [0,
 // ids).
 template <typename Row>
-std::vector<int32_t> lexicographic_order(std::span<const Row> table, size_t ids, const Run& run) {
+Array<int32_t> lexicographic_order(std::span<const Row> table, size_t ids, const Run& run) {
   return bucket_order(
       static_cast<int64_t>(table.size()), ids, run, [&](int64_t i) { return table[i][0]; },
       [&](int32_t a, int32_t b) { return table[a] < table[b] || (table[a] == table[b] && a < b); });

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "heap.h"
 #include "progress.h"
 
 namespace medial {
@@ -19,7 +20,18 @@ namespace medial {
 struct Run {
   int threads = 1;
   Progress* progress = nullptr;
+  Heap* heap = nullptr;
 };
+
+// Elements without a value, or with the same one.
+template <typename T>
+Array<T> array(size_t count, const Run& run) {
+  return Array<T>(count, HeapAllocator<T>(run.heap));
+}
+template <typename T>
+Array<T> array(size_t count, const T& value, const Run& run) {
+  return Array<T>(count, value, HeapAllocator<T>(run.heap));
+}
 
 inline int thread_count(int wanted) {
   if (wanted > 0) return wanted;
@@ -76,28 +88,38 @@ void parallel_for(int64_t count, const Run& run, const Body& body, int64_t grain
       grain);
 }
 
-// Concatenates, in order of the ids, what body(id, out) appends to `out` for every id in [0,
-// count).
-template <typename T, typename Body>
-std::vector<T> parallel_append(int64_t count, const Run& run, const Body& body,
-                               int64_t grain = kGrain) {
-  const auto chunks = static_cast<size_t>((count + grain - 1) / grain);
-  std::vector<std::vector<T>> parts(chunks);
+// Appends to `all`, in order of the ids, what body(id, out, worker) appends to `out` for every id
+// in [0, count).
+template <typename All, typename Body>
+void parallel_append_to(All& all, int64_t count, const Run& run, const Body& body,
+                        int64_t grain = kGrain) {
+  using T = typename All::value_type;
+  std::vector<Array<T>> parts(static_cast<size_t>((count + grain - 1) / grain));
+  std::vector<std::vector<T>> rooms(run.threads);
   parallel_chunks(
       count, run,
       [&](int64_t begin, int64_t end, int worker) {
-        auto& part = parts[static_cast<size_t>(begin / grain)];
-        for (int64_t i = begin; i < end; ++i) body(i, part, worker);
+        auto& room = rooms[worker];
+        room.clear();
+        for (int64_t i = begin; i < end; ++i) body(i, room, worker);
+        parts[static_cast<size_t>(begin / grain)] =
+            Array<T>(room.begin(), room.end(), HeapAllocator<T>(run.heap));
       },
       grain);
-  size_t total = 0;
+  size_t total = all.size();
   for (const auto& part : parts) total += part.size();
-  std::vector<T> all;
   all.reserve(total);
   for (auto& part : parts) {
     all.insert(all.end(), part.begin(), part.end());
-    std::vector<T>().swap(part);
+    part = {};
   }
+}
+
+template <typename T, typename Body>
+std::vector<T> parallel_append(int64_t count, const Run& run, const Body& body,
+                               int64_t grain = kGrain) {
+  std::vector<T> all;
+  parallel_append_to(all, count, run, body, grain);
   return all;
 }
 

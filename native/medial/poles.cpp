@@ -30,9 +30,8 @@ Vec3 mean_direction(std::span<const int32_t> infinite_cells, const Voronoi& voro
 Poles poles(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
             const Csr<int32_t>& incident, const Run& run) {
   begin_stage(run.progress, "Poles", 0.68, 0.72);
-  Poles result;
-  result.vector.resize(static_cast<size_t>(incident.size()));
-  result.unbounded.resize(static_cast<size_t>(incident.size()));
+  const auto samples = static_cast<size_t>(incident.size());
+  Poles result{array<Vec3>(samples, run), array<uint8_t>(samples, run)};
   parallel_for(incident.size(), run, [&](int64_t p) {
     const auto cells = incident[p];
     const auto finite = static_cast<size_t>(

@@ -7,9 +7,9 @@
 namespace medial {
 
 struct Poles {
-  std::vector<Vec3>
+  Array<Vec3>
       vector;  // v_p = p+ - p; for an unbounded cell the mean direction of its infinite edges
-  std::vector<uint8_t> unbounded;  // the pole is at infinity
+  Array<uint8_t> unbounded;  // the pole is at infinity
 };
 
 // `incident` as from incident_cells.

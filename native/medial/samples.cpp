@@ -59,11 +59,11 @@ uint64_t hilbert_key(std::array<uint32_t, 3> x) {
   return key;
 }
 
-std::vector<uint64_t> hilbert_keys(std::span<const Vec3> rows, const Run& run) {
+Array<uint64_t> hilbert_keys(std::span<const Vec3> rows, const Run& run) {
   const Box box = box_of(rows);
   const double extent = max_abs(box.extent());
   const double scale = extent >= kSmallestExtent ? 2097151 / extent : 0;  // finite
-  std::vector<uint64_t> keys(rows.size());
+  auto keys = array<uint64_t>(rows.size(), run);
   parallel_for(static_cast<int64_t>(rows.size()), run, [&](int64_t i) {
     const Vec3 p = scale * (rows[i] - box.low);
     keys[i] = hilbert_key(
@@ -84,7 +84,7 @@ void require_finite(std::span<const Vec3> rows, const char* what) {
   }
 }
 
-std::vector<int32_t> hilbert_order(std::span<const Vec3> rows, const Run& run) {
+Array<int32_t> hilbert_order(std::span<const Vec3> rows, const Run& run) {
   const auto keys = hilbert_keys(rows, run);
   const int bits = std::min(static_cast<int>(std::bit_width(rows.size())), 24);  // a bucket per row
   return bucket_order(

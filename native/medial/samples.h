@@ -25,7 +25,7 @@ struct Samples {
 void require_finite(std::span<const Vec3> rows, const char* what);
 
 // The rows along a Hilbert curve; the order depends on the coordinates alone but for equal rows.
-std::vector<int32_t> hilbert_order(std::span<const Vec3> rows, const Run& run);
+Array<int32_t> hilbert_order(std::span<const Vec3> rows, const Run& run);
 
 // The distinct rows; their order depends on the coordinates alone, so that permuted rows give the
 // same samples. Throws InvalidInputError as require_finite does.

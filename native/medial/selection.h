@@ -55,8 +55,4 @@ class Conditions {
   double sine_;
 };
 
-// Ascending ids of the edges that satisfy Angle[theta] or Ratio[rho].
-std::vector<int32_t> select(const Significance& significance, const Thresholds& thresholds,
-                            const Run& run);
-
 }  // namespace medial

@@ -37,6 +37,11 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
                          std::span<const Triangle> boundary, const Triangulation& triangulation,
                          const Voronoi& voronoi, const Run& run);
 
+// Whether a facet may be inner, or outer, as far as one cell of its ring tells.
+inline bool may_be(Side side, int32_t cell, const CellSides& sides) {
+  return (sides[cell] == static_cast<uint8_t>(Side::inner)) == (side == Side::inner);
+}
+
 // inner: every cell of the ring is; outer: none is; crossing: some are; both: not known.
 Side facet_side(std::span<const int32_t> ring, const CellSides& sides);
 

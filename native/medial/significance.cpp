@@ -7,8 +7,8 @@ namespace {
 
 // Unit normals of all umbrella triangles, and the largest circumradius in each umbrella.
 struct Shapes {
-  std::vector<Vec3> normal;
-  std::vector<double> radius;  // infinite for an empty umbrella
+  Array<Vec3> normal;
+  Array<double> radius;  // infinite for an empty umbrella
 };
 
 double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -18,9 +18,8 @@ double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Run& run) {
-  Shapes result;
-  result.normal.resize(umbrellas.items.size());
-  result.radius.assign(static_cast<size_t>(umbrellas.size()), HUGE_VAL);
+  Shapes result{array<Vec3>(umbrellas.items.size(), run),
+                array<double>(static_cast<size_t>(umbrellas.size()), HUGE_VAL, run)};
   parallel_for(umbrellas.size(), run, [&](int64_t p) {
     if (!umbrellas[p].empty()) result.radius[p] = 0;
     for (int64_t i = umbrellas.offsets[p]; i < umbrellas.offsets[p + 1]; ++i) {
@@ -80,12 +79,12 @@ double largest_sine(double theta) {
 Significance significance(std::span<const Vec3> points, const Edges& edges,
                           const Umbrellas& umbrellas, const Run& run) {
   begin_stage(run.progress, "Angles and ratios", 0.8, 0.88);
-  Shapes s = shapes(points, umbrellas, {run.threads, nullptr});
+  Shapes s = shapes(points, umbrellas, {run.threads, nullptr, run.heap});
   const auto count = static_cast<size_t>(edges.count());
   Significance result;
   for (auto* values : {&result.sine, &result.rho, &result.sine_both, &result.rho_both})
-    values->resize(count);
-  result.untried.resize(count);
+    *values = array<double>(count, run);
+  result.untried = array<uint8_t>(count, run);
   const auto judge = [&](int32_t e) {
     const auto& [p, q] = edges.ends[e];
     const Vec3 pq = points[q] - points[p];

@@ -11,11 +11,11 @@ namespace medial {
 
 // Per edge, the larger value of the two ends (rule EITHER) and the smaller one (rule BOTH).
 struct Significance {
-  std::vector<double> sine, rho;  // of theta: an arcsine takes longer than all else about an edge
-  std::vector<double> sine_both, rho_both;
-  std::vector<uint8_t> untried;  // bits of Untried
+  Array<double> sine, rho;  // of theta: an arcsine takes longer than all else about an edge
+  Array<double> sine_both, rho_both;
+  Array<uint8_t> untried;  // bits of Untried
   // Per sample: the largest circumradius in its umbrella, infinite for an empty one.
-  std::vector<double> spacing;
+  Array<double> spacing;
 };
 
 // Step 5 of MEDIAL tries pq from p only when pq is not in U_p: which end that rules out, as seen

@@ -1,5 +1,32 @@
 #include "triangulation.h"
 
+// CGAL's containers, too, take their memory from the heap of the run.
+#define CGAL_ALLOCATOR(T) medial::RunAllocator<T>
+#include "heap.h"
+
+namespace medial {
+
+inline thread_local Heap* run_heap = nullptr;
+
+struct InHeap {
+  explicit InHeap(Heap* heap) { run_heap = heap; }
+  ~InHeap() { run_heap = nullptr; }
+  InHeap(const InHeap&) = delete;
+};
+
+template <typename T>
+struct RunAllocator : HeapAllocator<T> {
+  RunAllocator() : HeapAllocator<T>(run_heap) {}
+  template <typename U>
+  RunAllocator(const RunAllocator<U>& other) : HeapAllocator<T>(other.heap) {}
+  template <typename U>
+  struct rebind {
+    using other = RunAllocator<U>;
+  };
+};
+
+}  // namespace medial
+
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
@@ -90,8 +117,8 @@ CanonicalCell canonical(const Cell& x) {
   return cell;
 }
 
-std::vector<CellHandle> handles_of(const Delaunay& delaunay) {
-  std::vector<CellHandle> handles;
+Array<CellHandle> handles_of(const Delaunay& delaunay, const Run& run) {
+  auto handles = array<CellHandle>(0, run);
   handles.reserve(delaunay.tds().number_of_cells());
   for (auto cell = delaunay.all_cells_begin(); cell != delaunay.all_cells_end(); ++cell) {
     handles.push_back(cell);
@@ -101,9 +128,9 @@ std::vector<CellHandle> handles_of(const Delaunay& delaunay) {
 
 Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run) {
   begin_stage(run.progress, "Delaunay cells", 0.5, 0.52);
-  const auto handles = handles_of(delaunay);
+  const auto handles = handles_of(delaunay, run);
   const auto count = static_cast<int64_t>(handles.size());
-  std::vector<CanonicalCell> found(handles.size());
+  auto found = array<CanonicalCell>(handles.size(), run);
   parallel_for(count, run, [&](int64_t i) {
     Cell ids;
     for (int j = 0; j < 4; ++j) ids[j] = handles[i]->vertex(j)->info();
@@ -111,12 +138,12 @@ Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run
   });
   begin_stage(run.progress, "Delaunay cells", 0.52, 0.54);
   const auto order = bucket_order(
-      count, 2 * static_cast<size_t>(points), {run.threads, nullptr},
+      count, 2 * static_cast<size_t>(points), {run.threads, nullptr, run.heap},
       [&](int64_t i) { return found[i].bucket(points); },
       [&](int32_t a, int32_t b) { return found[a].sorted() < found[b].sorted(); });
   Triangulation result;
-  result.cells.resize(handles.size());
-  result.neighbors.resize(handles.size());
+  result.cells = array<Cell>(handles.size(), run);
+  result.neighbors = array<Cell>(handles.size(), run);
   parallel_for(count, run, [&](int64_t c) {
     const int32_t i = order[c];
     result.cells[c] = found[i].ids;
@@ -166,6 +193,7 @@ void require_volume(std::span<const Vec3> points) {
 Triangulation triangulate(std::span<const Vec3> points, const Run& run, Stopwatch* watch) {
   begin_stage(run.progress, "Delaunay triangulation", 0.02, 0.5);
   try {
+    const InHeap in_heap(run.heap);
     Delaunay delaunay;
     insert_all(delaunay, points, run.progress);
     delaunay.infinite_vertex()->info() = kInfinite;

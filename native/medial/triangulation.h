@@ -27,9 +27,8 @@ inline int slot_of(const Cell& row, int32_t id) {
 // and start with their lowest id. Finite cells come first; each part is in lexicographic order of
 // the sorted ids, so the arrays are the same however the triangulation was built.
 struct Triangulation {
-  std::vector<Cell> cells;  // point ids, kInfinite for the infinite vertex
-  std::vector<Cell>
-      neighbors;  // neighbors[c][i]: the cell across the facet opposite to cells[c][i]
+  Array<Cell> cells;      // point ids, kInfinite for the infinite vertex
+  Array<Cell> neighbors;  // neighbors[c][i]: the cell across the facet opposite to cells[c][i]
   int32_t finite_cells = 0;
 
   int32_t cell_count() const { return static_cast<int32_t>(cells.size()); }

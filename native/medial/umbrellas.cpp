@@ -49,14 +49,14 @@ Umbrellas umbrellas(std::span<const Vec3> points, const Triangulation& t, const 
                     const Csr<int32_t>& incident, const Poles& poles, const Run& run) {
   begin_stage(run.progress, "Umbrellas", 0.72, 0.8);
   Umbrellas result;
-  result.offsets.assign(static_cast<size_t>(incident.size()) + 1, 0);
-  result.items =
-      parallel_append<std::array<int32_t, 2>>(incident.size(), run, [&](int64_t p, auto& out, int) {
-        const size_t before = out.size();
-        append_umbrella(points[p], static_cast<int32_t>(p), poles.vector[p], incident[p], t,
-                        voronoi, out);
-        result.offsets[p] = static_cast<int64_t>(out.size() - before);
-      });
+  result.offsets = array<int64_t>(static_cast<size_t>(incident.size()) + 1, 0, run);
+  result.items = array<std::array<int32_t, 2>>(0, run);
+  parallel_append_to(result.items, incident.size(), run, [&](int64_t p, auto& out, int) {
+    const size_t before = out.size();
+    append_umbrella(points[p], static_cast<int32_t>(p), poles.vector[p], incident[p], t, voronoi,
+                    out);
+    result.offsets[p] = static_cast<int64_t>(out.size() - before);
+  });
   counts_to_offsets(result.offsets);
   return result;
 }

@@ -1,16 +1,16 @@
 // Disjoint sets of ids 0..n-1 as parent pointers; a set is represented by its lowest id.
 #pragma once
 
-#include <cstdint>
 #include <numeric>
 #include <utility>
-#include <vector>
+
+#include "parallel.h"
 
 namespace medial {
 
 class UnionFind {
  public:
-  explicit UnionFind(size_t count) : parent_(count) {
+  explicit UnionFind(size_t count, const Run& run = {}) : parent_(array<int32_t>(count, run)) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
@@ -26,13 +26,13 @@ class UnionFind {
   }
   // Representative of every id. A parent is never above its child, so one ascending pass ends at
   // the roots.
-  std::vector<int32_t> representatives() && {
+  Array<int32_t> representatives() && {
     for (auto& p : parent_) p = parent_[p];
     return std::move(parent_);
   }
 
  private:
-  std::vector<int32_t> parent_;
+  Array<int32_t> parent_;
 };
 
 // Disjoint sets of things that can be turned over: within a set it is known which of them are

@@ -9,14 +9,14 @@ namespace {
 using CellPair = std::pair<int32_t, int32_t>;
 
 struct Centres {
-  std::vector<Vec3> centre;
-  std::vector<float> error;  // rounded up
+  Array<Vec3> centre;
+  Array<float> error;  // rounded up
 };
 
 float rounded_up(double x) { return std::nextafter(static_cast<float>(x), HUGE_VALF); }
 
 Centres centres(std::span<const Vec3> points, const Triangulation& t, const Run& run) {
-  Centres result{std::vector<Vec3>(t.cells.size()), std::vector<float>(t.cells.size())};
+  Centres result{array<Vec3>(t.cells.size(), run), array<float>(t.cells.size(), run)};
   parallel_for(t.cell_count(), run, [&](int64_t c) {
     const auto& [i, j, k, l] = t.cells[c];
     if (i == kInfinite) {
@@ -44,9 +44,9 @@ bool indistinguishable(const Centres& centres, int32_t a, int32_t b) {
   return squared_length(d) <= error * error;
 }
 
-std::vector<CellPair> same_vertex_pairs(const Triangulation& t, const Centres& centres,
-                                        const Run& run) {
-  return parallel_append<CellPair>(t.finite_cells, run, [&](int64_t c, auto& pairs, int) {
+Array<CellPair> same_vertex_pairs(const Triangulation& t, const Centres& centres, const Run& run) {
+  auto all = array<CellPair>(0, run);
+  parallel_append_to(all, t.finite_cells, run, [&](int64_t c, auto& pairs, int) {
     for (const int32_t n : t.neighbors[c]) {
       const auto cell = static_cast<int32_t>(c);
       if (n > cell && !t.is_infinite(n) && indistinguishable(centres, cell, n)) {
@@ -54,6 +54,7 @@ std::vector<CellPair> same_vertex_pairs(const Triangulation& t, const Centres& c
       }
     }
   });
+  return all;
 }
 
 // Cocircular hull triangles have one Voronoi ray: same origin, same direction.
@@ -77,8 +78,8 @@ std::vector<CellPair> same_ray_pairs(const Triangulation& t, const Centres& cent
 Voronoi voronoi(std::span<const Vec3> points, const Triangulation& t, const Run& run) {
   begin_stage(run.progress, "Voronoi vertices", 0.58, 0.66);
   Centres found = centres(points, t, run);
-  UnionFind vertices(t.cells.size());
-  unite(vertices, same_vertex_pairs(t, found, {run.threads, nullptr}));
+  UnionFind vertices(t.cells.size(), run);
+  unite(vertices, same_vertex_pairs(t, found, {run.threads, nullptr, run.heap}));
   unite(vertices, same_ray_pairs(t, found, vertices));
   return {std::move(found.centre), std::move(vertices).representatives()};
 }

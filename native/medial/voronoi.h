@@ -8,11 +8,11 @@ namespace medial {
 struct Voronoi {
   // Finite cell: its circumcentre. Infinite cell: the outward unit normal of its hull triangle,
   // which is the direction of the dual Voronoi ray.
-  std::vector<Vec3> centre;
+  Array<Vec3> centre;
   // Lowest cell with the same Voronoi vertex (infinite cell: the same Voronoi ray). Cells are the
   // same when their centres cannot be told apart in the arithmetic that computed them, so that the
   // zero-length Voronoi edges between cospherical cells vanish.
-  std::vector<int32_t> vertex;
+  Array<int32_t> vertex;
 };
 
 // From a point to the Voronoi vertex of a cell; for an infinite cell the direction of its ray.

@@ -88,8 +88,9 @@ class Triangles {
 
 // Rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis for
 // one).
-template <typename Scalar, typename T>
-py::array view_of(const std::vector<T>& rows, const py::handle& owner) {
+template <typename Scalar, typename Rows>
+py::array view_of(const Rows& rows, const py::handle& owner) {
+  using T = typename Rows::value_type;
   constexpr auto columns = static_cast<py::ssize_t>(sizeof(T) / sizeof(Scalar));
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows.size())};
   if (columns > 1) shape.push_back(columns);
@@ -99,18 +100,18 @@ py::array view_of(const std::vector<T>& rows, const py::handle& owner) {
 }
 
 // A property that is a view of a vector inside the object.
-template <typename Scalar, typename Owner, typename T>
-auto view_property(std::vector<T> Owner::*member) {
+template <typename Scalar, typename Owner, typename Rows>
+auto view_property(Rows Owner::*member) {
   return [member](const py::object& self) {
     return view_of<Scalar>(self.cast<const Owner&>().*member, self);
   };
 }
 
 // Hands a result over to Python.
-template <typename Scalar, typename T>
-py::array array_of(std::vector<T> rows) {
-  auto* kept = new std::vector<T>(std::move(rows));
-  const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+template <typename Scalar, typename Rows>
+py::array array_of(Rows rows) {
+  auto* kept = new Rows(std::move(rows));
+  const py::capsule owner(kept, [](void* p) { delete static_cast<Rows*>(p); });
   return view_of<Scalar>(*kept, owner);
 }
 

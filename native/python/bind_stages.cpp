@@ -101,8 +101,8 @@ struct Stages {
   Csr<int32_t> incident;
 };
 
-std::vector<Cell> cell_rows(const Stages& stages) {
-  std::vector<Cell> rows(stages.triangulation.cells);
+Array<Cell> cell_rows(const Stages& stages) {
+  auto rows = stages.triangulation.cells;
   for (Cell& cell : rows) {
     for (int32_t& id : cell) id = id == kInfinite ? kInfinite : stages.samples.row[id];
   }
