@@ -1,5 +1,7 @@
 #include "analysis.h"
 
+#include <numeric>
+
 namespace medial {
 namespace {
 
@@ -135,8 +137,7 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   watch.lap("voronoi");
   begin_stage(progress, "Delaunay edges", 0.66, 0.68);
   Csr<int32_t> incident = incident_cells(triangulation_, count, run);
-  edges_ =
-      delaunay_edges(triangulation_, incident, samples_.row, samples_.sample_of_row.size(), run);
+  edges_ = delaunay_edges(triangulation_, incident, samples_.row, run);
   watch.lap("complex");
   const Poles p = poles(points, triangulation_, voronoi_, incident, run);
   watch.lap("poles");
@@ -196,60 +197,72 @@ FacetChoice MedialAnalysis::choice(const Extraction& x) const {
     if (!holds.either(edge)) return false;
     return side == Side::both || may_be(side, edges_.cell[edge], sides_);
   };
-  const auto side = [this, holds, x](int32_t edge,
-                                     const std::vector<int32_t>& ring) -> std::optional<Side> {
-    const Side found = facet_side(ring, sides_);
-    if (x.side != Side::both && found != x.side) return {};
+  const auto attributes = [this, holds, x](
+                              int32_t edge,
+                              const std::vector<int32_t>& ring) -> std::optional<FacetAttributes> {
+    const Side side = facet_side(ring, sides_);
+    if (x.side != Side::both && side != x.side) return {};
     if (x.limit_set && !holds.angle(edge) && !in_limit_set(edge, x.thresholds, ring)) return {};
-    return found;
+    return FacetAttributes{theta_of(significance_.sines(x.thresholds.rule)[edge]),
+                           significance_.ratios(x.thresholds.rule)[edge], side};
   };
-  return {maybe, side};
+  return {maybe, attributes};
 }
 
-std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
-  const FacetChoice chosen = choice(x);
+std::vector<int32_t> MedialAnalysis::chosen(const Extraction& x, std::span<const int32_t> edges,
+                                            Progress* progress) const {
+  const FacetChoice wanted = choice(x);
   const bool by_ring = x.side != Side::both || x.limit_set;
   std::vector<std::vector<int32_t>> rings(threads_);
-  const auto wanted = [&](int32_t edge, std::vector<int32_t>& ring) {
-    if (!chosen.maybe(edge)) return false;
+  const auto is_wanted = [&](int32_t edge, std::vector<int32_t>& ring) {
+    if (!wanted.maybe(edge)) return false;
     if (!by_ring) return true;
     ring_of_cells(triangulation_, edges_.ends[edge], edges_.cell[edge], ring);
-    return chosen.side(edge, ring).has_value();
+    return wanted.attributes(edge, ring).has_value();
   };
-  return parallel_append<int32_t>(edges_.count(), {threads_, progress, heap_.get()},
-                                  [&](int64_t e, std::vector<int32_t>& kept, int worker) {
-                                    const auto edge = static_cast<int32_t>(e);
-                                    if (wanted(edge, rings[worker])) kept.push_back(edge);
+  return parallel_append<int32_t>(static_cast<int64_t>(edges.size()),
+                                  {threads_, progress, heap_.get()},
+                                  [&](int64_t i, std::vector<int32_t>& kept, int worker) {
+                                    if (is_wanted(edges[i], rings[worker]))
+                                      kept.push_back(static_cast<int32_t>(i));
                                   });
 }
 
+std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
+  return chosen(x, edges_by_row(), progress);
+}
+
 MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
-  begin_stage(progress, "Facets", 0, 0.8);
-  const Run run{threads_, progress, heap_.get()};
-  auto [mesh, kept] = voronoi_facets(choice(x), samples_, triangulation_, voronoi_, edges_, run);
-  const auto faces = static_cast<int64_t>(kept.size());
-  const bool either = x.thresholds.rule == Rule::either;
-  const auto& sine = either ? significance_.sine : significance_.sine_both;
-  begin_stage(progress, "Facets", 0.8, 1);
-  mesh.theta.resize(kept.size());
-  mesh.rho.resize(kept.size());
-  mesh.generators.resize(kept.size());
-  parallel_for(faces, run, [&, &mesh = mesh, &kept = kept](int64_t f) {
-    const int32_t e = kept[f];
-    mesh.theta[f] = theta_of(sine[e]);
-    mesh.rho[f] = rho(x.thresholds.rule)[e];
-    mesh.generators[f] = {samples_.row[edges_.ends[e][0]], samples_.row[edges_.ends[e][1]]};
-  });
+  begin_stage(progress, "Facets", 0, 1);
+  MedialMesh mesh = voronoi_facets(choice(x), samples_, triangulation_, voronoi_, edges_,
+                                   {threads_, progress, heap_.get()});
   advance(progress, 1);
-  return std::move(mesh);
+  return mesh;
+}
+
+template <typename T, typename Value>
+std::vector<T> MedialAnalysis::by_row(const Value& value) const {
+  const auto order = edges_by_row();
+  std::vector<T> result(order.size());
+  parallel_for(edges_.count(), {threads_}, [&](int64_t i) { result[i] = value(order[i]); });
+  return result;
+}
+
+std::vector<int32_t> MedialAnalysis::edges_by_row() const {
+  std::vector<int32_t> order;
+  order.reserve(edges_.ends.size());
+  for (const int32_t p : samples_by_row(samples_)) {
+    for (int32_t e = edges_.first[p]; e < edges_.first[p + 1]; ++e) order.push_back(e);
+  }
+  return order;
 }
 
 std::vector<double> MedialAnalysis::theta(Rule rule) const {
-  const auto& sine = rule == Rule::either ? significance_.sine : significance_.sine_both;
-  std::vector<double> result(sine.size());
-  parallel_for(edges_.count(), {threads_, nullptr},
-               [&](int64_t e) { result[e] = theta_of(sine[e]); });
-  return result;
+  return by_row<double>([&](int32_t e) { return theta_of(significance_.sines(rule)[e]); });
+}
+
+std::vector<double> MedialAnalysis::rho(Rule rule) const {
+  return by_row<double>([&](int32_t e) { return significance_.ratios(rule)[e]; });
 }
 
 std::vector<double> MedialAnalysis::spacing() const {
@@ -264,7 +277,9 @@ std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
                                                  Progress* progress) const {
   begin_stage(progress, "Feature size", 0, 1);
   const auto at = rows ? samples_of(*rows, samples_) : samples_by_row(samples_);
-  const auto ids = select({.thresholds = thresholds}, progress);
+  std::vector<int32_t> all(edges_.ends.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto ids = chosen({.thresholds = thresholds}, all, progress);
   auto sizes = medial::feature_size(samples_.points, at, triangulation_, voronoi_, edges_, ids,
                                     {threads_, progress});
   advance(progress, 1);
@@ -287,32 +302,23 @@ std::vector<Triangle> MedialAnalysis::solid_triangles() const {
 }
 
 std::vector<Edge> MedialAnalysis::edge_rows() const {
-  std::vector<Edge> rows(edges_.ends.begin(), edges_.ends.end());
-  for (auto& [p, q] : rows) {
-    p = samples_.row[p];
-    q = samples_.row[q];
-  }
-  return rows;
+  return by_row<Edge>([&](int32_t e) {
+    const auto& [p, q] = edges_.ends[e];
+    return Edge{samples_.row[p], samples_.row[q]};
+  });
 }
 
 std::vector<Side> MedialAnalysis::edge_sides() const {
-  std::vector<Side> sides(static_cast<size_t>(edges_.count()), Side::both);
-  if (sides_.empty()) return sides;
-  parallel_chunks(edges_.count(), {threads_}, [&](int64_t begin, int64_t end, int) {
-    std::vector<int32_t> ring;
-    for (int64_t e = begin; e < end; ++e) {
-      ring_of_cells(triangulation_, edges_.ends[e], edges_.cell[e], ring);
-      sides[e] = facet_side(ring, sides_);
-    }
+  if (sides_.empty()) return std::vector<Side>(edges_.ends.size(), Side::both);
+  return by_row<Side>([&](int32_t e) {
+    thread_local std::vector<int32_t> ring;
+    ring_of_cells(triangulation_, edges_.ends[e], edges_.cell[e], ring);
+    return facet_side(ring, sides_);
   });
-  return sides;
 }
 
 std::vector<uint8_t> MedialAnalysis::edges_bounded() const {
-  std::vector<uint8_t> bounded(edges_.ends.size());
-  for (size_t e = 0; e < bounded.size(); ++e)
-    bounded[e] = !triangulation_.is_infinite(edges_.cell[e]);
-  return bounded;
+  return by_row<uint8_t>([&](int32_t e) { return !triangulation_.is_infinite(edges_.cell[e]); });
 }
 
 std::vector<int32_t> MedialAnalysis::sample_rows() const {

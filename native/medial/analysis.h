@@ -57,9 +57,7 @@ class MedialAnalysis {
   // same order.
   std::vector<Edge> edge_rows() const;
   std::vector<double> theta(Rule rule) const;
-  const Array<double>& rho(Rule rule) const {
-    return rule == Rule::either ? significance_.rho : significance_.rho_both;
-  }
+  std::vector<double> rho(Rule rule) const;
   std::vector<Side> edge_sides() const;
   std::vector<uint8_t> edges_bounded() const;
 
@@ -78,6 +76,13 @@ class MedialAnalysis {
                   std::span<const Vec3> normals, const Csr<int32_t>& incident, const Poles& poles,
                   const CoconeOptions& options, const Run& run);
   FacetChoice choice(const Extraction& extraction) const;
+  // Positions in `edges` of those that are selected.
+  std::vector<int32_t> chosen(const Extraction& extraction, std::span<const int32_t> edges,
+                              Progress* progress) const;
+  // Edges in lexicographic order of their input rows, and values in that order.
+  std::vector<int32_t> edges_by_row() const;
+  template <typename T, typename Value>
+  std::vector<T> by_row(const Value& value) const;
   bool in_limit_set(int32_t edge, const Thresholds& thresholds,
                     std::span<const int32_t> ring) const;
 

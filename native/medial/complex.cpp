@@ -54,27 +54,24 @@ Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples, const Run& 
 }
 
 Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident,
-                     std::span<const int32_t> row, size_t rows, const Run& run) {
+                     std::span<const int32_t> row, const Run& run) {
   std::vector<std::optional<Ways>> ways(run.threads);
-  auto first = array<int32_t>(row.size() + 1, 0, run);  // of the edges from each sample, as found
-  auto begin = array<int32_t>(rows + 1, 0, run);        // of those from each row, in their order
   auto found = array<Way>(0, run);
+  Edges edges;
+  edges.first = array<int32_t>(row.size() + 1, 0, run);
   parallel_append_to(found, incident.size(), run, [&](int64_t p, auto& out, int worker) {
     if (!ways[worker]) ways[worker].emplace(t, incident, row);
     const auto from = ways[worker]->from(static_cast<int32_t>(p));
     out.insert(out.end(), from.begin(), from.end());
-    first[p] = begin[row[p]] = static_cast<int32_t>(from.size());
+    edges.first[p] = static_cast<int32_t>(from.size());
   });
-  counts_to_offsets(first);
-  counts_to_offsets(begin);
-  Edges edges{array<Edge>(found.size(), run), array<int32_t>(found.size(), run),
-              array<std::array<int32_t, 2>>(row.size(), run)};
+  counts_to_offsets(edges.first);
+  edges.ends = array<Edge>(found.size(), run);
+  edges.cell = array<int32_t>(found.size(), run);
   parallel_for(incident.size(), run, [&](int64_t p) {
-    edges.from[p] = {begin[row[p]], begin[row[p] + 1]};
-    int32_t e = edges.from[p][0];
-    for (int32_t i = first[p]; i < first[p + 1]; ++i, ++e) {
-      edges.ends[e] = {static_cast<int32_t>(p), found[i].to};
-      edges.cell[e] = found[i].cell;
+    for (int32_t e = edges.first[p]; e < edges.first[p + 1]; ++e) {
+      edges.ends[e] = {static_cast<int32_t>(p), found[e].to};
+      edges.cell[e] = found[e].cell;
     }
   });
   return edges;

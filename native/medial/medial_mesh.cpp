@@ -10,7 +10,7 @@ namespace {
 // Polygons of the edges from one chunk of samples; corners are lowest cells of Voronoi vertices.
 struct Polygons {
   std::vector<int32_t> corners, sizes, edges;
-  std::vector<Side> sides;
+  std::vector<FacetAttributes> attributes;
   int64_t unbounded = 0, zero_area = 0;
 };
 
@@ -70,8 +70,8 @@ class FacetMaker {
   int32_t append(int32_t edge, Polygons& out) {
     if (!choice_.maybe(edge)) return 0;
     ring_of_cells(t_, edges_.ends[edge], edges_.cell[edge], ring_);
-    const auto side = choice_.side(edge, ring_);
-    if (!side) return 0;
+    const auto attributes = choice_.attributes(edge, ring_);
+    if (!attributes) return 0;
     if (t_.is_infinite(edges_.cell[edge])) {
       ++out.unbounded;
       return 0;
@@ -84,7 +84,7 @@ class FacetMaker {
     out.corners.insert(out.corners.end(), polygon_.begin(), polygon_.end());
     out.sizes.push_back(static_cast<int32_t>(polygon_.size()));
     out.edges.push_back(edge);
-    out.sides.push_back(*side);
+    out.attributes.push_back(*attributes);
     return out.sizes.back();
   }
 
@@ -115,7 +115,7 @@ Found find_polygons(const FacetChoice& choice, const Samples& samples, const Tri
     Polygons& out = found.chunks[static_cast<size_t>(begin / kGrain)];
     for (int64_t p = begin; p < end; ++p) {
       const int32_t row = samples.row[p];
-      for (int32_t e = edges.from[p][0]; e < edges.from[p][1]; ++e) {
+      for (int32_t e = edges.first[p]; e < edges.first[p + 1]; ++e) {
         const int32_t size = maker.append(e, out);
         found.faces[row] += size > 0;
         found.corners[row] += size;
@@ -135,17 +135,18 @@ void require_few_corners(const Found& found) {
 }
 
 // One chunk into the order of the rows.
-void place(const Polygons& chunk, const Found& found, const Samples& samples, const Edges& edges,
-           Facets& facets) {
-  MedialMesh& mesh = facets.mesh;
+void place(const Polygons& chunk, const Found& found, std::span<const int32_t> row,
+           const Edges& edges, MedialMesh& mesh) {
   auto corner = chunk.corners.begin();
   int32_t last = -1, f = 0, c = 0;
   for (size_t i = 0; i < chunk.edges.size(); ++i) {
-    const int32_t p = edges.ends[chunk.edges[i]][0];
-    if (p != last) f = found.faces[samples.row[p]], c = found.corners[samples.row[p]];
+    const auto& [p, q] = edges.ends[chunk.edges[i]];
+    if (p != last) f = found.faces[row[p]], c = found.corners[row[p]];
     last = p;
-    facets.edges[f] = chunk.edges[i];
-    mesh.side[f] = chunk.sides[i];
+    mesh.theta[f] = chunk.attributes[i].theta;
+    mesh.rho[f] = chunk.attributes[i].rho;
+    mesh.side[f] = chunk.attributes[i].side;
+    mesh.generators[f] = {row[p], row[q]};
     mesh.face_offsets[f++] = c;
     std::copy_n(corner, chunk.sizes[i], mesh.face_vertices.begin() + c);
     corner += chunk.sizes[i];
@@ -153,40 +154,51 @@ void place(const Polygons& chunk, const Found& found, const Samples& samples, co
   }
 }
 
-Facets in_order(Found found, const Samples& samples, const Edges& edges, const Run& run) {
+MedialMesh in_order(Found found, std::span<const int32_t> row, const Edges& edges, const Run& run) {
   require_few_corners(found);
   counts_to_offsets(found.faces);
   counts_to_offsets(found.corners);
-  Facets facets;
-  MedialMesh& mesh = facets.mesh;
+  MedialMesh mesh;
   const auto faces = static_cast<size_t>(found.faces.back());
-  facets.edges = array<int32_t>(faces, run);
+  for (auto* values : {&mesh.theta, &mesh.rho}) values->resize(faces);
   mesh.side.resize(faces);
+  mesh.generators.resize(faces);
   mesh.face_offsets.resize(faces + 1);
   mesh.face_vertices.resize(static_cast<size_t>(found.corners.back()));
   mesh.face_offsets.back() = found.corners.back();
   parallel_for(
       static_cast<int64_t>(found.chunks.size()), run,
-      [&](int64_t i) { place(found.chunks[i], found, samples, edges, facets); }, 1);
+      [&](int64_t i) { place(found.chunks[i], found, row, edges, mesh); }, 1);
   for (const Polygons& chunk : found.chunks) {
     mesh.unbounded += chunk.unbounded;
     mesh.zero_area += chunk.zero_area;
   }
-  return facets;
+  return mesh;
 }
 
-// Numbers the Voronoi vertices in order of first use and replaces cells by these numbers.
-Array<int32_t> number_vertices(Array<int32_t>& corners, int32_t cells, const Run& run) {
+// Numbers the Voronoi vertices in order of first use and replaces cells by these numbers. Returns
+// the number of each cell, and how many there are.
+std::pair<Array<int32_t>, int32_t> number_vertices(Array<int32_t>& corners, int32_t cells,
+                                                   const Run& run) {
   auto number = array<int32_t>(static_cast<size_t>(cells), -1, run);
-  auto used = array<int32_t>(0, run);
+  int32_t count = 0;
   for (int32_t& corner : corners) {
-    if (number[corner] < 0) {
-      number[corner] = static_cast<int32_t>(used.size());
-      used.push_back(corner);
-    }
+    if (number[corner] < 0) number[corner] = count++;
     corner = number[corner];
   }
-  return used;
+  return {std::move(number), count};
+}
+
+void add_vertices(MedialMesh& mesh, const Samples& samples, const Triangulation& t,
+                  const Voronoi& voronoi, const Run& run) {
+  const auto [number, count] = number_vertices(mesh.face_vertices, t.cell_count(), run);
+  mesh.vertices.resize(static_cast<size_t>(count));
+  mesh.radius.resize(static_cast<size_t>(count));
+  parallel_for(t.finite_cells, run, [&, &number = number](int64_t c) {
+    if (number[c] < 0) return;
+    mesh.vertices[number[c]] = voronoi.centre[c];
+    mesh.radius[number[c]] = distance(voronoi.centre[c], samples.points[t.cells[c][0]]);
+  });
 }
 
 void start_at_lowest(MedialMesh& mesh, const Run& run) {
@@ -199,20 +211,15 @@ void start_at_lowest(MedialMesh& mesh, const Run& run) {
 
 }  // namespace
 
-Facets voronoi_facets(const FacetChoice& choice, const Samples& samples, const Triangulation& t,
-                      const Voronoi& voronoi, const Edges& edges, const Run& run) {
-  Facets facets = in_order(find_polygons(choice, samples, t, voronoi, edges, run), samples, edges,
-                           {run.threads, nullptr, run.heap});
-  MedialMesh& mesh = facets.mesh;
-  const auto used = number_vertices(mesh.face_vertices, t.cell_count(), run);
-  start_at_lowest(mesh, run);
-  mesh.vertices.resize(used.size());
-  mesh.radius.resize(used.size());
-  parallel_for(static_cast<int64_t>(used.size()), run, [&](int64_t v) {
-    mesh.vertices[v] = voronoi.centre[used[v]];
-    mesh.radius[v] = distance(mesh.vertices[v], samples.points[t.cells[used[v]][0]]);
-  });
-  return facets;
+MedialMesh voronoi_facets(const FacetChoice& choice, const Samples& samples, const Triangulation& t,
+                          const Voronoi& voronoi, const Edges& edges, const Run& run) {
+  const Run quiet{run.threads, nullptr, run.heap};
+  MedialMesh mesh =
+      in_order(find_polygons(choice, samples, t, voronoi, edges, run), samples.row, edges, quiet);
+  throw_if_cancelled(run.progress);
+  add_vertices(mesh, samples, t, voronoi, quiet);
+  start_at_lowest(mesh, quiet);
+  return mesh;
 }
 
 }  // namespace medial

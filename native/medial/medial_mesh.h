@@ -17,28 +17,28 @@ struct MedialMesh {
   Array<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
   Array<double> theta, rho;      // (f) as the rule takes them
   Array<Side> side;              // (f)
-  Array<Edge> generators;        // (f) input rows p < q
+  Array<Edge> generators;        // (f) input rows p < q; the facets are in their order
   int64_t unbounded = 0;         // facets that reach infinity: counted, not emitted
   int64_t zero_area = 0;         // facets that are a point or a segment: not emitted
 };
 
-// Polygons with vertices, radii and sides; the other attributes are the caller's.
-struct Facets {
-  MedialMesh mesh;
-  Array<int32_t> edges;  // (f) the edge of each emitted facet, ascending
+struct FacetAttributes {
+  double theta = 0, rho = 0;
+  Side side = Side::both;
 };
 
 // Which facets are wanted.
 struct FacetChoice {
   // As far as the edge alone tells.
   std::function<bool(int32_t edge)> maybe;
-  // Its side if it is wanted. `ring` as from ring_of_cells.
-  std::function<std::optional<Side>(int32_t edge, const std::vector<int32_t>& ring)> side;
+  // None: not wanted. `ring` as from ring_of_cells.
+  std::function<std::optional<FacetAttributes>(int32_t edge, const std::vector<int32_t>& ring)>
+      attributes;
 };
 
-// The dual facets of edges, in the order of these.
-Facets voronoi_facets(const FacetChoice& choice, const Samples& samples,
-                      const Triangulation& triangulation, const Voronoi& voronoi,
-                      const Edges& edges, const Run& run);
+// The dual facets of edges.
+MedialMesh voronoi_facets(const FacetChoice& choice, const Samples& samples,
+                          const Triangulation& triangulation, const Voronoi& voronoi,
+                          const Edges& edges, const Run& run);
 
 }  // namespace medial

@@ -7,7 +7,6 @@
 
 namespace medial {
 
-enum class Rule : int32_t { either = 0, both = 1 };
 enum class Criteria : int32_t { angle_or_ratio = 0, angle = 1, ratio = 2 };
 
 struct Thresholds {

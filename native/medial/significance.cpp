@@ -85,7 +85,7 @@ Significance significance(std::span<const Vec3> points, const Edges& edges,
   for (auto* values : {&result.sine, &result.rho, &result.sine_both, &result.rho_both})
     *values = array<double>(count, run);
   result.untried = array<uint8_t>(count, run);
-  const auto judge = [&](int32_t e) {
+  const auto judge = [&](int64_t e) {
     const auto& [p, q] = edges.ends[e];
     const Vec3 pq = points[q] - points[p];
     const double size = length(pq);
@@ -98,9 +98,7 @@ Significance significance(std::span<const Vec3> points, const Edges& edges,
     result.rho_both[e] = std::min(at_p.ratio, at_q.ratio);
     result.untried[e] = untried(at_p, at_q);
   };
-  parallel_for(umbrellas.size(), run, [&](int64_t p) {
-    for (int32_t e = edges.from[p][0]; e < edges.from[p][1]; ++e) judge(e);
-  });
+  parallel_for(edges.count(), run, judge);
   result.spacing = std::move(s.radius);
   return result;
 }

@@ -9,6 +9,8 @@
 
 namespace medial {
 
+enum class Rule : int32_t { either = 0, both = 1 };
+
 // Per edge, the larger value of the two ends (rule EITHER) and the smaller one (rule BOTH).
 struct Significance {
   Array<double> sine, rho;  // of theta: an arcsine takes longer than all else about an edge
@@ -16,6 +18,9 @@ struct Significance {
   Array<uint8_t> untried;  // bits of Untried
   // Per sample: the largest circumradius in its umbrella, infinite for an empty one.
   Array<double> spacing;
+
+  const Array<double>& sines(Rule rule) const { return rule == Rule::either ? sine : sine_both; }
+  const Array<double>& ratios(Rule rule) const { return rule == Rule::either ? rho : rho_both; }
 };
 
 // Step 5 of MEDIAL tries pq from p only when pq is not in U_p: which end that rules out, as seen

@@ -185,9 +185,7 @@ auto theta_property(Rule rule) {
 }
 
 auto rho_property(Rule rule) {
-  return [rule](const py::object& self) {
-    return view_of<double>(self.cast<const MedialAnalysis&>().rho(rule), self);
-  };
+  return [rule](const MedialAnalysis& a) { return array_of<double>(a.rho(rule)); };
 }
 
 py::array bounded(const MedialAnalysis& a) {
