@@ -8,23 +8,40 @@
 
 namespace medial {
 
-// 0, ..., count - 1 by ascending bucket_of(id) in [0, buckets), then by `before`, which must tell
-// all ids of a bucket apart.
-template <typename BucketOf, typename Before>
-Array<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
-                            const BucketOf& bucket_of, const Before& before) {
+// Puts 0, ..., count - 1 into ascending order of bucket_of(id) in [0, buckets), then of
+// key_of(id), then of the ids themselves: calls placed(position, id) for each.
+template <typename BucketOf, typename KeyOf, typename Placed>
+void bucket_sort(int64_t count, size_t buckets, const Run& run, const BucketOf& bucket_of,
+                 const KeyOf& key_of, const Placed& placed) {
   auto next = array<int32_t>(buckets + 1, 0, run);
   const auto place = [&](int64_t id) {
     return std::atomic_ref(next[bucket_of(id)]).fetch_add(1, std::memory_order_relaxed);
   };
   parallel_for(count, run, place);
   counts_to_offsets(next);
-  auto order = array<int32_t>(static_cast<size_t>(count), run);
-  parallel_for(count, run, [&](int64_t id) { order[place(id)] = static_cast<int32_t>(id); });
+  auto ids = array<int32_t>(static_cast<size_t>(count), run);
+  parallel_for(count, run, [&](int64_t id) { ids[place(id)] = static_cast<int32_t>(id); });
   // Now next[b] is the end of bucket b.
-  parallel_for(static_cast<int64_t>(buckets), run, [&](int64_t b) {
-    std::sort(order.begin() + (b == 0 ? 0 : next[b - 1]), order.begin() + next[b], before);
+  using Keyed = std::pair<decltype(key_of(0)), int32_t>;
+  parallel_chunks(static_cast<int64_t>(buckets), run, [&](int64_t begin, int64_t end, int) {
+    std::vector<Keyed> bucket;
+    for (int64_t b = begin; b < end; ++b) {
+      int32_t position = b == 0 ? 0 : next[b - 1];
+      bucket.clear();
+      for (int32_t i = position; i < next[b]; ++i) bucket.emplace_back(key_of(ids[i]), ids[i]);
+      std::sort(bucket.begin(), bucket.end());
+      for (const Keyed& keyed : bucket) placed(position++, keyed.second);
+    }
   });
+}
+
+// The same as a list of the ids.
+template <typename BucketOf, typename KeyOf>
+Array<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
+                            const BucketOf& bucket_of, const KeyOf& key_of) {
+  auto order = array<int32_t>(static_cast<size_t>(count), run);
+  bucket_sort(count, buckets, run, bucket_of, key_of,
+              [&](int32_t position, int32_t id) { order[position] = id; });
   return order;
 }
 
@@ -34,7 +51,7 @@ template <typename Row>
 Array<int32_t> lexicographic_order(std::span<const Row> table, size_t ids, const Run& run) {
   return bucket_order(
       static_cast<int64_t>(table.size()), ids, run, [&](int64_t i) { return table[i][0]; },
-      [&](int32_t a, int32_t b) { return table[a] < table[b] || (table[a] == table[b] && a < b); });
+      [&](int64_t i) { return table[i]; });
 }
 
 // Puts values into an order.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include "order.h"
 
@@ -90,14 +91,7 @@ Array<int32_t> hilbert_order(std::span<const Vec3> rows, const Run& run) {
   return bucket_order(
       static_cast<int64_t>(rows.size()), size_t{1} << bits, run,
       [&](int64_t i) { return keys[i] >> (3 * kBits - bits); },
-      [&](int32_t a, int32_t b) {
-        if (keys[a] != keys[b]) return keys[a] < keys[b];
-        const Vec3 &p = rows[a], &q = rows[b];
-        if (p.x != q.x) return p.x < q.x;
-        if (p.y != q.y) return p.y < q.y;
-        if (p.z != q.z) return p.z < q.z;
-        return a < b;
-      });
+      [&](int64_t i) { return std::tuple(keys[i], rows[i].x, rows[i].y, rows[i].z); });
 }
 
 Samples distinct_rows(std::span<const Vec3> rows, const char* what, const Run& run) {

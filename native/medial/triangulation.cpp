@@ -96,9 +96,10 @@ struct CanonicalCell {
 
   // The lowest finite id, infinite cells after the finite ones.
   int32_t bucket(int32_t points) const { return ids[0] == kInfinite ? points + ids[1] : ids[0]; }
-  // The lexicographic order of the sorted ids.
-  auto sorted() const {
-    return std::array{ids[0], ids[1], std::min(ids[2], ids[3]), std::max(ids[2], ids[3])};
+  // In the order of the sorted ids but for the first.
+  std::pair<uint64_t, int32_t> key() const {
+    const auto [low, high] = std::minmax(ids[2], ids[3]);
+    return {static_cast<uint64_t>(ids[1]) << 32 | static_cast<uint32_t>(low), high};
   }
 };
 
@@ -137,24 +138,20 @@ Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run
     found[i] = canonical(ids);
   });
   begin_stage(run.progress, "Delaunay cells", 0.52, 0.54);
-  const auto order = bucket_order(
+  auto place = array<int32_t>(handles.size(), run);
+  bucket_sort(
       count, 2 * static_cast<size_t>(points), {run.threads, nullptr, run.heap},
       [&](int64_t i) { return found[i].bucket(points); },
-      [&](int32_t a, int32_t b) { return found[a].sorted() < found[b].sorted(); });
-  Triangulation result;
-  result.cells = array<Cell>(handles.size(), run);
-  result.neighbors = array<Cell>(handles.size(), run);
-  parallel_for(count, run, [&](int64_t c) {
-    const int32_t i = order[c];
-    result.cells[c] = found[i].ids;
-    handles[i]->info() = static_cast<int32_t>(c);
-  });
+      [&](int64_t i) { return found[i].key(); },
+      [&](int32_t position, int32_t i) { place[i] = position; });
+  parallel_for(count, run, [&](int64_t i) { handles[i]->info() = place[i]; });
   begin_stage(run.progress, "Delaunay cells", 0.54, 0.58);
-  parallel_for(count, run, [&](int64_t c) {
-    const int32_t i = order[c];
-    for (int j = 0; j < 4; ++j) {
-      result.neighbors[c][found[i].slots[j]] = handles[i]->neighbor(j)->info();
-    }
+  Triangulation result{array<Cell>(handles.size(), run), array<Cell>(handles.size(), run)};
+  parallel_for(count, run, [&](int64_t i) {
+    const auto& [ids, slots] = found[i];
+    result.cells[place[i]] = ids;
+    Cell& neighbors = result.neighbors[place[i]];
+    for (int j = 0; j < 4; ++j) neighbors[slots[j]] = handles[i]->neighbor(j)->info();
   });
   const auto infinite = std::partition_point(result.cells.begin(), result.cells.end(),
                                              [](const Cell& ids) { return ids[0] != kInfinite; });
