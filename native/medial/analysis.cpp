@@ -139,16 +139,14 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   Csr<int32_t> incident = incident_cells(triangulation_, count, run);
   edges_ = delaunay_edges(triangulation_, incident, samples_.row, run);
   watch.lap("complex");
-  const Poles p = poles(points, triangulation_, voronoi_, incident, run);
-  watch.lap("poles");
   {
-    const Umbrellas u = umbrellas(points, triangulation_, voronoi_, incident, p, run);
+    const Umbrellas u = umbrellas(points, triangulation_, voronoi_, incident, run);
     watch.lap("umbrellas");
     if (sides_from_ != SidesFrom::tight_cocone) incident = {};
     significance_ = medial::significance(points, edges_, u, run);
     watch.lap("significance");
   }
-  tell_sides(surface, corners.points, input.normals.value_or(std::span<const Vec3>()), incident, p,
+  tell_sides(surface, corners.points, input.normals.value_or(std::span<const Vec3>()), incident,
              options.cocone, run);
   watch.lap("sides");
   heap_->trim();
@@ -157,7 +155,7 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
 
 void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> vertices,
                                 std::span<const Vec3> normals, const Csr<int32_t>& incident,
-                                const Poles& poles, const CoconeOptions& options, const Run& run) {
+                                const CoconeOptions& options, const Run& run) {
   const std::vector<Vec3>& points = samples_.points;
   if (sides_from_ == SidesFrom::surface) {
     sides_ = sides_from_surface(vertices, surface, triangulation_, voronoi_, run);
@@ -165,8 +163,9 @@ void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> ve
     sides_ =
         sides_from_normals(points, unit_normals(normals, samples_), triangulation_, voronoi_, run);
   } else if (sides_from_ == SidesFrom::tight_cocone) {
+    const Poles p = poles(points, triangulation_, voronoi_, incident, run);
     TightCocone found =
-        medial::tight_cocone(points, triangulation_, voronoi_, incident, poles, options, run);
+        medial::tight_cocone(points, triangulation_, voronoi_, incident, p, options, run);
     SolidBoundary boundary = solid_boundary(triangulation_, incident, found.sides, run);
     sides_ = sides_in_solid(points, found.sides, boundary.triangles, triangulation_, voronoi_, run);
     found.sides = {};

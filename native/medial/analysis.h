@@ -73,7 +73,7 @@ class MedialAnalysis {
 
  private:
   void tell_sides(const Surface& surface, std::span<const Vec3> vertices,
-                  std::span<const Vec3> normals, const Csr<int32_t>& incident, const Poles& poles,
+                  std::span<const Vec3> normals, const Csr<int32_t>& incident,
                   const CoconeOptions& options, const Run& run);
   FacetChoice choice(const Extraction& extraction) const;
   // Positions in `edges` of those that are selected.

@@ -106,13 +106,16 @@ void parallel_append_to(All& all, int64_t count, const Run& run, const Body& bod
             Array<T>(room.begin(), room.end(), HeapAllocator<T>(run.heap));
       },
       grain);
-  size_t total = all.size();
-  for (const auto& part : parts) total += part.size();
-  all.reserve(total);
-  for (auto& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
-    part = {};
-  }
+  std::vector<size_t> begin{all.size()};
+  for (const auto& part : parts) begin.push_back(begin.back() + part.size());
+  all.resize(begin.back());
+  parallel_for(
+      static_cast<int64_t>(parts.size()), {run.threads},
+      [&](int64_t i) {
+        std::copy(parts[i].begin(), parts[i].end(), all.data() + begin[i]);
+        parts[i] = {};
+      },
+      1);
 }
 
 template <typename T, typename Body>

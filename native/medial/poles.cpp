@@ -25,24 +25,33 @@ Vec3 mean_direction(std::span<const int32_t> infinite_cells, const Voronoi& voro
   return (1 / static_cast<double>(rays.size())) * sum;
 }
 
+// How many cells of a sample are finite; they come first.
+size_t finite_count(std::span<const int32_t> cells, const Triangulation& t) {
+  return static_cast<size_t>(std::lower_bound(cells.begin(), cells.end(), t.finite_cells) -
+                             cells.begin());
+}
+
 }  // namespace
+
+Vec3 pole(const Vec3& p, std::span<const int32_t> cells, const Triangulation& t,
+          const Voronoi& voronoi) {
+  const size_t finite = finite_count(cells, t);
+  Vec3 found;
+  if (finite < cells.size()) found = mean_direction(cells.subspan(finite), voronoi);
+  // Directions that cancel out leave no mean: then the farthest vertex speaks, as in a bounded
+  // cell.
+  if (found == Vec3{}) found = to_farthest_vertex(p, cells.first(finite), voronoi);
+  return found;
+}
 
 Poles poles(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
             const Csr<int32_t>& incident, const Run& run) {
-  begin_stage(run.progress, "Poles", 0.68, 0.72);
+  begin_stage(run.progress, "Poles", 0.88, 0.9);
   const auto samples = static_cast<size_t>(incident.size());
   Poles result{array<Vec3>(samples, run), array<uint8_t>(samples, run)};
   parallel_for(incident.size(), run, [&](int64_t p) {
-    const auto cells = incident[p];
-    const auto finite = static_cast<size_t>(
-        std::lower_bound(cells.begin(), cells.end(), t.finite_cells) - cells.begin());
-    result.unbounded[p] = finite < cells.size();
-    Vec3 pole;
-    if (result.unbounded[p]) pole = mean_direction(cells.subspan(finite), voronoi);
-    // Directions that cancel out leave no mean: then the farthest vertex speaks, as in a bounded
-    // cell.
-    if (pole == Vec3{}) pole = to_farthest_vertex(points[p], cells.first(finite), voronoi);
-    result.vector[p] = pole;
+    result.vector[p] = pole(points[p], incident[p], t, voronoi);
+    result.unbounded[p] = finite_count(incident[p], t) < incident[p].size();
   });
   return result;
 }

@@ -12,6 +12,10 @@ struct Poles {
   Array<uint8_t> unbounded;  // the pole is at infinity
 };
 
+// Of one sample, whose cells are `cells`.
+Vec3 pole(const Vec3& p, std::span<const int32_t> cells, const Triangulation& triangulation,
+          const Voronoi& voronoi);
+
 // `incident` as from incident_cells.
 Poles poles(std::span<const Vec3> points, const Triangulation& triangulation,
             const Voronoi& voronoi, const Csr<int32_t>& incident, const Run& run);

@@ -141,8 +141,7 @@ Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run
   auto place = array<int32_t>(handles.size(), run);
   bucket_sort(
       count, 2 * static_cast<size_t>(points), {run.threads, nullptr, run.heap},
-      [&](int64_t i) { return found[i].bucket(points); },
-      [&](int64_t i) { return found[i].key(); },
+      [&](int64_t i) { return found[i].bucket(points); }, [&](int64_t i) { return found[i].key(); },
       [&](int32_t position, int32_t i) { place[i] = position; });
   parallel_for(count, run, [&](int64_t i) { handles[i]->info() = place[i]; });
   begin_stage(run.progress, "Delaunay cells", 0.54, 0.58);

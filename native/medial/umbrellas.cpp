@@ -46,15 +46,15 @@ void append_umbrella(const Vec3& p, int32_t id, const Vec3& pole, std::span<cons
 }  // namespace
 
 Umbrellas umbrellas(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
-                    const Csr<int32_t>& incident, const Poles& poles, const Run& run) {
-  begin_stage(run.progress, "Umbrellas", 0.72, 0.8);
+                    const Csr<int32_t>& incident, const Run& run) {
+  begin_stage(run.progress, "Poles and umbrellas", 0.68, 0.8);
   Umbrellas result;
   result.offsets = array<int64_t>(static_cast<size_t>(incident.size()) + 1, 0, run);
   result.items = array<std::array<int32_t, 2>>(0, run);
   parallel_append_to(result.items, incident.size(), run, [&](int64_t p, auto& out, int) {
     const size_t before = out.size();
-    append_umbrella(points[p], static_cast<int32_t>(p), poles.vector[p], incident[p], t, voronoi,
-                    out);
+    const Vec3 to_pole = pole(points[p], incident[p], t, voronoi);
+    append_umbrella(points[p], static_cast<int32_t>(p), to_pole, incident[p], t, voronoi, out);
     result.offsets[p] = static_cast<int64_t>(out.size() - before);
   });
   counts_to_offsets(result.offsets);

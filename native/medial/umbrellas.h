@@ -10,7 +10,6 @@ namespace medial {
 using Umbrellas = Csr<std::array<int32_t, 2>>;
 
 Umbrellas umbrellas(std::span<const Vec3> points, const Triangulation& triangulation,
-                    const Voronoi& voronoi, const Csr<int32_t>& incident, const Poles& poles,
-                    const Run& run);
+                    const Voronoi& voronoi, const Csr<int32_t>& incident, const Run& run);
 
 }  // namespace medial

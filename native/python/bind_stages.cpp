@@ -157,7 +157,7 @@ py::tuple umbrella_triangles(const py::object& points) {
     const py::gil_scoped_release release;
     const Stages s(span);
     const Umbrellas found =
-        umbrellas(s.samples.points, s.triangulation, s.voronoi, s.incident, s.poles(), all_cores());
+        umbrellas(s.samples.points, s.triangulation, s.voronoi, s.incident, all_cores());
     for (const int32_t p : s.by_row()) {
       append_rows(p, found, s.samples, triangles);
       offsets.push_back(static_cast<int64_t>(triangles.size()));
