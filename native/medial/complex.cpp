@@ -6,42 +6,52 @@
 namespace medial {
 namespace {
 
-// An edge from a sample to one of a higher row, in a cell.
+// An edge to another sample, in a cell.
 struct Way {
-  int32_t row, to, cell;
+  int32_t to, cell;
 };
 
-// Tells the edges from a sample.
+// Tells the edges from a sample to those of higher rows.
 class Ways {
  public:
   Ways(const Triangulation& triangulation, const Csr<int32_t>& incident,
        std::span<const int32_t> row)
       : t_(triangulation), incident_(incident), row_(row), seen_(row.size(), 0) {}
 
-  // In ascending order of their rows.
-  std::span<const Way> from(int32_t p) {
+  // Appends them in ascending order of their rows; returns their number.
+  int32_t append(int32_t p, std::vector<Way>& out) {
+    find(p);
+    order_.clear();
+    for (size_t i = 0; i < ways_.size(); ++i) {
+      order_.push_back(static_cast<uint64_t>(row_[ways_[i].to]) << 32 | i);
+    }
+    std::sort(order_.begin(), order_.end());
+    for (const uint64_t next : order_) out.push_back(ways_[next & 0xffffffffu]);
+    return static_cast<int32_t>(ways_.size());
+  }
+
+ private:
+  void find(int32_t p) {
     ways_.clear();
-    ++call_;
+    seen_[p] = ++call_;
     const auto cells = incident_[p];
     // Backwards: infinite cells come last, so that an unbounded facet is known by its cell.
     for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
       for (const int32_t q : t_.cells[*cell]) {
-        if (q < 0 || q >= static_cast<int32_t>(row_.size()) || seen_[q] == call_) continue;
+        if (static_cast<uint32_t>(q) >= seen_.size() || seen_[q] == call_) continue;
         seen_[q] = call_;
-        if (row_[q] > row_[p]) ways_.push_back({row_[q], q, *cell});
+        if (row_[q] > row_[p]) ways_.push_back({q, *cell});
       }
     }
-    std::sort(ways_.begin(), ways_.end(), [](const Way& a, const Way& b) { return a.row < b.row; });
-    return ways_;
   }
 
- private:
   const Triangulation& t_;
   const Csr<int32_t>& incident_;
   std::span<const int32_t> row_;
   uint32_t call_ = 0;
   std::vector<uint32_t> seen_;  // per sample: the last call that met it
   std::vector<Way> ways_;
+  std::vector<uint64_t> order_;
 };
 
 // kNext[i][j] = k so that the permutation (i, j, k, l) of (0, 1, 2, 3) is even.
@@ -61,9 +71,7 @@ Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident,
   edges.first = array<int32_t>(row.size() + 1, 0, run);
   parallel_append_to(found, incident.size(), run, [&](int64_t p, auto& out, int worker) {
     if (!ways[worker]) ways[worker].emplace(t, incident, row);
-    const auto from = ways[worker]->from(static_cast<int32_t>(p));
-    out.insert(out.end(), from.begin(), from.end());
-    edges.first[p] = static_cast<int32_t>(from.size());
+    edges.first[p] = ways[worker]->append(static_cast<int32_t>(p), out);
   });
   counts_to_offsets(edges.first);
   edges.ends = array<Edge>(found.size(), run);

@@ -9,9 +9,20 @@ namespace {
 
 // Polygons of the edges from one chunk of samples; corners are lowest cells of Voronoi vertices.
 struct Polygons {
-  std::vector<int32_t> corners, sizes, edges;
-  std::vector<FacetAttributes> attributes;
+  Array<int32_t> corners, sizes, edges;
+  Array<FacetAttributes> attributes;
   int64_t unbounded = 0, zero_area = 0;
+
+  // As long as they have to be, in the heap of a run.
+  Polygons packed(const Run& run) const {
+    return {pack(corners, run),    pack(sizes, run), pack(edges, run),
+            pack(attributes, run), unbounded,        zero_area};
+  }
+  void clear() {
+    for (auto* values : {&corners, &sizes, &edges}) values->clear();
+    attributes.clear();
+    unbounded = zero_area = 0;
+  }
 };
 
 // The distinct Voronoi vertices of a ring. All edges between equal ones have length zero, also
@@ -110,9 +121,11 @@ Found find_polygons(const FacetChoice& choice, const Samples& samples, const Tri
   const size_t rows = samples.sample_of_row.size();
   Found found{std::vector<Polygons>(static_cast<size_t>((count + kGrain - 1) / kGrain)),
               array<int32_t>(rows + 1, 0, run), array<int32_t>(rows + 1, 0, run)};
-  parallel_chunks(count, run, [&](int64_t begin, int64_t end, int) {
+  std::vector<Polygons> rooms(run.threads);
+  parallel_chunks(count, run, [&](int64_t begin, int64_t end, int worker) {
     FacetMaker maker(choice, samples.points, t, voronoi, edges);
-    Polygons& out = found.chunks[static_cast<size_t>(begin / kGrain)];
+    Polygons& out = rooms[worker];
+    out.clear();
     for (int64_t p = begin; p < end; ++p) {
       const int32_t row = samples.row[p];
       for (int32_t e = edges.first[p]; e < edges.first[p + 1]; ++e) {
@@ -121,6 +134,7 @@ Found find_polygons(const FacetChoice& choice, const Samples& samples, const Tri
         found.corners[row] += size;
       }
     }
+    found.chunks[static_cast<size_t>(begin / kGrain)] = out.packed(run);
   });
   return found;
 }

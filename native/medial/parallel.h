@@ -33,6 +33,12 @@ Array<T> array(size_t count, const T& value, const Run& run) {
   return Array<T>(count, value, HeapAllocator<T>(run.heap));
 }
 
+// A copy that is as long as it has to be.
+template <typename Values>
+Array<typename Values::value_type> pack(const Values& values, const Run& run) {
+  return {values.begin(), values.end(), HeapAllocator<typename Values::value_type>(run.heap)};
+}
+
 inline int thread_count(int wanted) {
   if (wanted > 0) return wanted;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -102,8 +108,7 @@ void parallel_append_to(All& all, int64_t count, const Run& run, const Body& bod
         auto& room = rooms[worker];
         room.clear();
         for (int64_t i = begin; i < end; ++i) body(i, room, worker);
-        parts[static_cast<size_t>(begin / grain)] =
-            Array<T>(room.begin(), room.end(), HeapAllocator<T>(run.heap));
+        parts[static_cast<size_t>(begin / grain)] = pack(room, run);
       },
       grain);
   std::vector<size_t> begin{all.size()};

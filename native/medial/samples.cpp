@@ -33,31 +33,33 @@ Box box_of(std::span<const Vec3> rows) {
 // curve, 2004).
 constexpr int kBits = 21;
 
+// Puts two zeros between the bits of x.
+uint64_t spread(uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffffu;
+  x = (x | x << 16) & 0x001f0000ff0000ffu;
+  x = (x | x << 8) & 0x100f00f00f00f00fu;
+  x = (x | x << 4) & 0x10c30c30c30c30c3u;
+  return (x | x << 2) & 0x1249249249249249u;
+}
+
 uint64_t hilbert_key(std::array<uint32_t, 3> x) {
   for (uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
     const uint32_t mask = q - 1;
     for (auto& xi : x) {
-      if (xi & q) {
-        x[0] ^= mask;
-      } else {
-        const uint32_t t = (x[0] ^ xi) & mask;
-        x[0] ^= t;
-        xi ^= t;
-      }
+      const uint32_t set = 0u - static_cast<uint32_t>((xi & q) != 0);  // all bits, or none
+      const uint32_t t = (x[0] ^ xi) & mask & ~set;
+      x[0] ^= t | (mask & set);
+      if (&xi != &x[0]) xi ^= t;
     }
   }
   x[1] ^= x[0];
   x[2] ^= x[1];
   uint32_t t = 0;
   for (uint32_t q = 1u << (kBits - 1); q > 1; q >>= 1) {
-    if (x[2] & q) t ^= q - 1;
+    t ^= (q - 1) & (0u - static_cast<uint32_t>((x[2] & q) != 0));
   }
   for (auto& xi : x) xi ^= t;
-  uint64_t key = 0;
-  for (int bit = kBits - 1; bit >= 0; --bit) {
-    for (const uint32_t xi : x) key = key << 1 | (xi >> bit & 1u);
-  }
-  return key;
+  return spread(x[0]) << 2 | spread(x[1]) << 1 | spread(x[2]);
 }
 
 Array<uint64_t> hilbert_keys(std::span<const Vec3> rows, const Run& run) {

@@ -1,9 +1,11 @@
 #include "umbrellas.h"
 
+#include <optional>
+
 namespace medial {
 namespace {
 
-enum class Height { below, above, level };
+enum class Height : uint8_t { below, above, level };
 
 // On which side of the tangent plane a Voronoi vertex lies; a vertex in the plane counts as above,
 // so that of the edges that meet there those from below cross it, and the umbrella stays a disc.
@@ -17,44 +19,66 @@ Height height(const Vec3& p, const Vec3& pole, int32_t cell, const Triangulation
   return dot(voronoi.centre[cell] - p, pole) >= 0 ? Height::above : Height::below;
 }
 
-// The corners of a cell's facet opposite to a slot that are not p.
-std::array<int32_t, 2> others(const Cell& cell, int slot, int32_t p) {
-  std::array<int32_t, 2> found{};
-  int count = 0;
-  for (int j = 0; j < 4; ++j) {
-    if (j != slot && cell[j] != p) found[count++] = cell[j];
-  }
-  return found;
-}
+// kOthers[i][j]: the slots of a cell that are neither i nor j.
+constexpr int kOthers[4][4][2] = {{{}, {2, 3}, {1, 3}, {1, 2}},
+                                  {{2, 3}, {}, {0, 3}, {0, 2}},
+                                  {{1, 3}, {0, 3}, {}, {0, 1}},
+                                  {{1, 2}, {0, 2}, {0, 1}, {}}};
 
-// Each Voronoi edge that crosses the plane is met once: from below.
-void append_umbrella(const Vec3& p, int32_t id, const Vec3& pole, std::span<const int32_t> cells,
-                     const Triangulation& t, const Voronoi& voronoi,
-                     std::vector<std::array<int32_t, 2>>& out) {
-  for (const int32_t cell : cells) {
-    if (height(p, pole, cell, t, voronoi) != Height::below) continue;
+// Collects umbrellas, one after the other.
+class Collector {
+ public:
+  Collector(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
+            const Run& run)
+      : points_(points), t_(t), voronoi_(voronoi), height_(array<Height>(t.cells.size(), run)) {}
+
+  // Appends U_p. Each Voronoi edge that crosses the plane is met once: from below.
+  void append(int32_t p, std::span<const int32_t> cells, std::vector<std::array<int32_t, 2>>& out) {
+    const Vec3 to_pole = pole(points_[p], cells, t_, voronoi_);
+    below_.clear();
+    for (const int32_t cell : cells) {
+      height_[cell] = height(points_[p], to_pole, cell, t_, voronoi_);
+      if (height_[cell] == Height::below) below_.push_back(cell);
+    }
+    for (const int32_t cell : below_) append_above(p, cell, out);
+  }
+
+ private:
+  // The triangles at p through which a cell has a neighbour above. All neighbours there have p.
+  void append_above(int32_t p, int32_t cell, std::vector<std::array<int32_t, 2>>& out) const {
+    const Cell& ids = t_.cells[cell];
+    const int own = slot_of(ids, p);
     for (int i = 0; i < 4; ++i) {
-      const int32_t next = t.neighbors[cell][i];
-      if (t.cells[cell][i] == id || (t.is_infinite(cell) && t.is_infinite(next))) continue;
-      if (height(p, pole, next, t, voronoi) == Height::above) {
-        out.push_back(others(t.cells[cell], i, id));
-      }
+      const int32_t next = t_.neighbors[cell][i];
+      if (i == own || height_[next] != Height::above) continue;
+      if (t_.is_infinite(cell) && t_.is_infinite(next)) continue;
+      auto& [a, b] = out.emplace_back();
+      a = ids[kOthers[own][i][0]];
+      b = ids[kOthers[own][i][1]];
     }
   }
-}
+
+  std::span<const Vec3> points_;
+  const Triangulation& t_;
+  const Voronoi& voronoi_;
+  Array<Height> height_;  // of the cells at the sample in hand
+  std::vector<int32_t> below_;
+};
 
 }  // namespace
 
 Umbrellas umbrellas(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
                     const Csr<int32_t>& incident, const Run& run) {
   begin_stage(run.progress, "Poles and umbrellas", 0.68, 0.8);
+  std::vector<std::optional<Collector>> collectors(run.threads);
   Umbrellas result;
   result.offsets = array<int64_t>(static_cast<size_t>(incident.size()) + 1, 0, run);
   result.items = array<std::array<int32_t, 2>>(0, run);
-  parallel_append_to(result.items, incident.size(), run, [&](int64_t p, auto& out, int) {
+  parallel_append_to(result.items, incident.size(), run, [&](int64_t p, auto& out, int worker) {
+    auto& collector = collectors[worker];
+    if (!collector) collector.emplace(points, t, voronoi, run);
     const size_t before = out.size();
-    const Vec3 to_pole = pole(points[p], incident[p], t, voronoi);
-    append_umbrella(points[p], static_cast<int32_t>(p), to_pole, incident[p], t, voronoi, out);
+    collector->append(static_cast<int32_t>(p), incident[p], out);
     result.offsets[p] = static_cast<int64_t>(out.size() - before);
   });
   counts_to_offsets(result.offsets);

@@ -11,7 +11,8 @@ namespace medial {
 class UnionFind {
  public:
   explicit UnionFind(size_t count, const Run& run = {}) : parent_(array<int32_t>(count, run)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
+    parallel_for(static_cast<int64_t>(count), run,
+                 [&](int64_t id) { parent_[id] = static_cast<int32_t>(id); });
   }
 
   int32_t find(int32_t id) {
@@ -21,18 +22,20 @@ class UnionFind {
   void unite(int32_t a, int32_t b) {
     a = find(a);
     b = find(b);
+    if (a == b) return;
     if (a < b) std::swap(a, b);
     parent_[a] = b;
+    joined_.push_back(a);
   }
-  // Representative of every id. A parent is never above its child, so one ascending pass ends at
-  // the roots.
+  // Representative of every id.
   Array<int32_t> representatives() && {
-    for (auto& p : parent_) p = parent_[p];
+    for (const int32_t id : joined_) parent_[id] = find(id);
     return std::move(parent_);
   }
 
  private:
   Array<int32_t> parent_;
+  std::vector<int32_t> joined_;  // whoever is no representative
 };
 
 // Disjoint sets of things that can be turned over: within a set it is known which of them are
