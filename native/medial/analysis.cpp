@@ -149,7 +149,6 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   tell_sides(surface, corners.points, input.normals.value_or(std::span<const Vec3>()), incident,
              options.cocone, run);
   watch.lap("sides");
-  heap_->trim();
   advance(progress, 1);
 }
 

@@ -66,20 +66,23 @@ Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples, const Run& 
 Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident,
                      std::span<const int32_t> row, const Run& run) {
   std::vector<std::optional<Ways>> ways(run.threads);
-  auto found = array<Way>(0, run);
   Edges edges;
   edges.first = array<int32_t>(row.size() + 1, 0, run);
-  parallel_append_to(found, incident.size(), run, [&](int64_t p, auto& out, int worker) {
-    if (!ways[worker]) ways[worker].emplace(t, incident, row);
-    edges.first[p] = ways[worker]->append(static_cast<int32_t>(p), out);
-  });
+  const auto parts =
+      parallel_parts<Way>(incident.size(), run, [&](int64_t p, auto& out, int worker) {
+        if (!ways[worker]) ways[worker].emplace(t, incident, row);
+        edges.first[p] = ways[worker]->append(static_cast<int32_t>(p), out);
+      });
   counts_to_offsets(edges.first);
-  edges.ends = array<Edge>(found.size(), run);
-  edges.cell = array<int32_t>(found.size(), run);
-  parallel_for(incident.size(), run, [&](int64_t p) {
-    for (int32_t e = edges.first[p]; e < edges.first[p + 1]; ++e) {
-      edges.ends[e] = {static_cast<int32_t>(p), found[e].to};
-      edges.cell[e] = found[e].cell;
+  edges.ends = array<Edge>(static_cast<size_t>(edges.first.back()), run);
+  edges.cell = array<int32_t>(static_cast<size_t>(edges.first.back()), run);
+  parallel_chunks(incident.size(), run, [&](int64_t begin, int64_t end, int) {
+    auto way = parts[static_cast<size_t>(begin / kGrain)].begin();
+    for (int64_t p = begin; p < end; ++p) {
+      for (int32_t e = edges.first[p]; e < edges.first[p + 1]; ++e, ++way) {
+        edges.ends[e] = {static_cast<int32_t>(p), way->to};
+        edges.cell[e] = way->cell;
+      }
     }
   });
   return edges;

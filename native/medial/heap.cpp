@@ -25,11 +25,8 @@ bool populate(std::byte* begin, size_t bytes) {
   return begin == nullptr && bytes == 0;
 #endif
 }
-
-void discard(std::byte* begin, size_t bytes) { madvise(begin, bytes, MADV_DONTNEED); }
 #else
 bool populate(std::byte*, size_t) { return false; }
-void discard(std::byte*, size_t) {}
 #endif
 
 }  // namespace
@@ -93,14 +90,6 @@ void Heap::touch(size_t bytes, const std::stop_token& stop) const {
   const size_t end = std::min(bytes, capacity_) / kPage * kPage;
   for (size_t at = 0; at < end && !stop.stop_requested(); at += kStep) {
     if (!populate(block_ + at, std::min(kStep, end - at))) return;
-  }
-}
-
-void Heap::trim() const {
-  const std::lock_guard lock(mutex_);
-  for (const auto& [offset, size] : free_) {
-    const size_t begin = rounded_up(offset, kPage), end = (offset + size) / kPage * kPage;
-    if (begin < end) discard(block_ + begin, end - begin);
   }
 }
 

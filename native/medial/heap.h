@@ -23,8 +23,6 @@ class Heap {
   void give_back(void* memory, size_t bytes);
   // Has the first bytes touched, where the system can do so beside those who use them.
   void touch(size_t bytes, const std::stop_token& stop) const;
-  // Returns free memory to the system.
-  void trim() const;
   size_t used() const;  // bytes that were taken and not given back
   size_t peak() const;  // the most that ever were
 

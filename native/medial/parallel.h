@@ -94,12 +94,11 @@ void parallel_for(int64_t count, const Run& run, const Body& body, int64_t grain
       grain);
 }
 
-// Appends to `all`, in order of the ids, what body(id, out, worker) appends to `out` for every id
-// in [0, count).
-template <typename All, typename Body>
-void parallel_append_to(All& all, int64_t count, const Run& run, const Body& body,
-                        int64_t grain = kGrain) {
-  using T = typename All::value_type;
+// What body(id, out, worker) appends to `out` for every id in [0, count), in order: part i is of
+// the ids from i * grain on.
+template <typename T, typename Body>
+std::vector<Array<T>> parallel_parts(int64_t count, const Run& run, const Body& body,
+                                     int64_t grain = kGrain) {
   std::vector<Array<T>> parts(static_cast<size_t>((count + grain - 1) / grain));
   std::vector<std::vector<T>> rooms(run.threads);
   parallel_chunks(
@@ -111,6 +110,14 @@ void parallel_append_to(All& all, int64_t count, const Run& run, const Body& bod
         parts[static_cast<size_t>(begin / grain)] = pack(room, run);
       },
       grain);
+  return parts;
+}
+
+// The same as one list, at the end of `all`.
+template <typename All, typename Body>
+void parallel_append_to(All& all, int64_t count, const Run& run, const Body& body,
+                        int64_t grain = kGrain) {
+  auto parts = parallel_parts<typename All::value_type>(count, run, body, grain);
   std::vector<size_t> begin{all.size()};
   for (const auto& part : parts) begin.push_back(begin.back() + part.size());
   all.resize(begin.back());
