@@ -20,29 +20,34 @@ class Ways {
 
   // Appends them in ascending order of their rows; returns their number.
   int32_t append(int32_t p, std::vector<Way>& out) {
-    find(p);
+    const size_t count = find(p);
     order_.clear();
-    for (size_t i = 0; i < ways_.size(); ++i) {
+    for (size_t i = 0; i < count; ++i) {
       order_.push_back(static_cast<uint64_t>(row_[ways_[i].to]) << 32 | i);
     }
     std::sort(order_.begin(), order_.end());
     for (const uint64_t next : order_) out.push_back(ways_[next & 0xffffffffu]);
-    return static_cast<int32_t>(ways_.size());
+    return static_cast<int32_t>(count);
   }
 
  private:
-  void find(int32_t p) {
-    ways_.clear();
-    seen_[p] = ++call_;
+  // Fills the front of `ways_`; returns their number. Each corner is written, and counts if it is
+  // new and of a higher row: a branch would be taken wrong too often.
+  size_t find(int32_t p) {
     const auto cells = incident_[p];
+    if (ways_.size() < 4 * cells.size()) ways_.resize(4 * cells.size());
+    ++call_;
+    size_t count = 0;
     // Backwards: infinite cells come last, so that an unbounded facet is known by its cell.
     for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
       for (const int32_t q : t_.cells[*cell]) {
-        if (static_cast<uint32_t>(q) >= seen_.size() || seen_[q] == call_) continue;
+        if (static_cast<uint32_t>(q) >= seen_.size()) continue;
+        ways_[count] = {q, *cell};
+        count += static_cast<size_t>((seen_[q] != call_) & (row_[q] > row_[p]));
         seen_[q] = call_;
-        if (row_[q] > row_[p]) ways_.push_back({q, *cell});
       }
     }
+    return count;
   }
 
   const Triangulation& t_;

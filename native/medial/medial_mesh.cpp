@@ -30,6 +30,10 @@ struct Polygons {
 // between them coincides too.
 void distinct_vertices(const std::vector<int32_t>& ring, const Voronoi& voronoi,
                        std::vector<int32_t>& polygon) {
+  polygon = ring;
+  bool own = true;  // of every cell
+  for (const int32_t cell : ring) own &= voronoi.vertex[cell] == cell;
+  if (own) return;
   polygon.clear();
   for (const int32_t cell : ring) {
     const int32_t v = voronoi.vertex[cell];
@@ -70,6 +74,21 @@ bool is_on_a_line(const std::vector<int32_t>& polygon, std::span<const Vec3> poi
   });
 }
 
+// Whether three vertices of a polygon tell at once that it is not on a line: were they no farther
+// from one than `clear` above, the parallelogram of a and b would be at most clear (|a| + |b|).
+bool is_wide(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
+             const Triangulation& t, const Voronoi& voronoi) {
+  const Vec3& start = voronoi.centre[polygon[0]];
+  const Vec3 a = voronoi.centre[polygon[1]] - start, b = voronoi.centre[polygon[2]] - start;
+  double farthest = squared_length(start - points[t.cells[polygon[0]][0]]);
+  for (const int32_t v : polygon) {
+    farthest = std::max(farthest, squared_length(voronoi.centre[v] - start));
+  }
+  const double clear = 16 * kCoarsestError;
+  return squared_length(cross(a, b)) >
+         clear * clear * farthest * (squared_length(a) + squared_length(b));
+}
+
 // Makes facets, one after the other.
 class FacetMaker {
  public:
@@ -88,7 +107,8 @@ class FacetMaker {
       return 0;
     }
     distinct_vertices(ring_, voronoi_, polygon_);
-    if (polygon_.size() < 3 || is_on_a_line(polygon_, points_, t_, voronoi_)) {
+    if (polygon_.size() < 3 || (!is_wide(polygon_, points_, t_, voronoi_) &&
+                                is_on_a_line(polygon_, points_, t_, voronoi_))) {
       ++out.zero_area;
       return 0;
     }

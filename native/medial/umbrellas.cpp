@@ -35,12 +35,14 @@ class Collector {
   // Appends U_p. Each Voronoi edge that crosses the plane is met once: from below.
   void append(int32_t p, std::span<const int32_t> cells, std::vector<std::array<int32_t, 2>>& out) {
     const Vec3 to_pole = pole(points_[p], cells, t_, voronoi_);
-    below_.clear();
+    if (below_.size() < cells.size()) below_.resize(cells.size());
+    size_t count = 0;
     for (const int32_t cell : cells) {
       height_[cell] = height(points_[p], to_pole, cell, t_, voronoi_);
-      if (height_[cell] == Height::below) below_.push_back(cell);
+      below_[count] = cell;
+      count += height_[cell] == Height::below;
     }
-    for (const int32_t cell : below_) append_above(p, cell, out);
+    for (size_t i = 0; i < count; ++i) append_above(p, below_[i], out);
   }
 
  private:
