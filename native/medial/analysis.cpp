@@ -75,14 +75,14 @@ std::vector<Vec3> unit_normals(std::span<const Vec3> normals, const Samples& sam
   return result;
 }
 
-constexpr size_t kBytesPerPoint = 1000;  // hardly an analysis takes less
+constexpr size_t kBytesPerPoint = 900;  // samples of surfaces take at least as much
 
 std::unique_ptr<Heap> heap_for(size_t points) {
   return std::make_unique<Heap>(2 * kBytesPerPoint * points);
 }
 
 // Has memory ready for the stages, on a thread of its own.
-std::jthread touching(const Heap& heap, size_t points, int threads) {
+std::jthread touching(Heap& heap, size_t points, int threads) {
   if (threads == 1) return {};
   return std::jthread(
       [&heap, points](const std::stop_token& stop) { heap.touch(kBytesPerPoint * points, stop); });
@@ -317,6 +317,12 @@ std::vector<Side> MedialAnalysis::edge_sides() const {
 
 std::vector<uint8_t> MedialAnalysis::edges_bounded() const {
   return by_row<uint8_t>([&](int32_t e) { return !triangulation_.is_infinite(edges_.cell[e]); });
+}
+
+size_t MedialAnalysis::bytes() const {
+  const size_t of_samples = samples_.points.capacity() * sizeof(Vec3) +
+                            (samples_.row.capacity() + samples_.sample_of_row.capacity()) * 4;
+  return heap_->held() + of_samples + sides_.capacity();
 }
 
 std::vector<int32_t> MedialAnalysis::sample_rows() const {

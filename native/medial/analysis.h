@@ -32,6 +32,10 @@ struct Extraction {
   bool limit_set = false;  // Definition 4 for facets selected by the Ratio condition alone
 };
 
+// Bytes at the peak of an analysis of so many samples of a surface and an extraction, as measured.
+// Facets that are long and thin take up to four times as many.
+inline int64_t memory_needed(int64_t points) { return 1400 * points; }
+
 class MedialAnalysis {
  public:
   // Throws InvalidInputError, DegenerateInputError, Cancelled.
@@ -63,6 +67,7 @@ class MedialAnalysis {
 
   std::vector<int32_t> sample_rows() const;  // ascending
   int64_t duplicates() const { return duplicates_; }
+  size_t bytes() const;  // of memory that it holds
   int64_t finite_cells() const { return triangulation_.finite_cells; }
   bool closed() const { return closed_; }
   int64_t boundary_edges() const { return boundary_edges_; }

@@ -59,8 +59,10 @@ void* Heap::take(size_t bytes) {
       const auto [offset, left] = *room;
       free_.erase(room);
       if (left > size) free_[offset + size] = left - size;
+      touched_ = std::max(touched_, offset + size);
       return block_ + offset;
     }
+    elsewhere_ += bytes;
   }
   return ::operator new(bytes);
 }
@@ -70,7 +72,10 @@ void Heap::give_back(void* memory, size_t bytes) {
   if (!own) ::operator delete(memory);
   const std::lock_guard lock(mutex_);
   used_ -= bytes;
-  if (!own) return;
+  if (!own) {
+    elsewhere_ -= bytes;
+    return;
+  }
   const auto offset = static_cast<size_t>(static_cast<std::byte*>(memory) - block_);
   auto here = free_.emplace(offset, rounded_up(bytes, 64)).first;
   const auto next = std::next(here);
@@ -86,10 +91,12 @@ void Heap::give_back(void* memory, size_t bytes) {
   }
 }
 
-void Heap::touch(size_t bytes, const std::stop_token& stop) const {
+void Heap::touch(size_t bytes, const std::stop_token& stop) {
   const size_t end = std::min(bytes, capacity_) / kPage * kPage;
   for (size_t at = 0; at < end && !stop.stop_requested(); at += kStep) {
     if (!populate(block_ + at, std::min(kStep, end - at))) return;
+    const std::lock_guard lock(mutex_);
+    touched_ = std::max(touched_, std::min(at + kStep, end));
   }
 }
 
@@ -101,6 +108,11 @@ size_t Heap::used() const {
 size_t Heap::peak() const {
   const std::lock_guard lock(mutex_);
   return peak_;
+}
+
+size_t Heap::held() const {
+  const std::lock_guard lock(mutex_);
+  return touched_ + elsewhere_;
 }
 
 }  // namespace medial

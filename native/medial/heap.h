@@ -22,9 +22,11 @@ class Heap {
   void* take(size_t bytes);
   void give_back(void* memory, size_t bytes);
   // Has the first bytes touched, where the system can do so beside those who use them.
-  void touch(size_t bytes, const std::stop_token& stop) const;
+  void touch(size_t bytes, const std::stop_token& stop);
   size_t used() const;  // bytes that were taken and not given back
   size_t peak() const;  // the most that ever were
+  // Memory that the system has given; what was touched stays.
+  size_t held() const;
 
  private:
   bool owns(const void* memory) const;
@@ -34,6 +36,7 @@ class Heap {
   size_t capacity_;
   std::map<size_t, size_t> free_;  // offset: bytes; no two touch
   size_t used_ = 0, peak_ = 0;
+  size_t touched_ = 0, elsewhere_ = 0;  // of the block; beside it
 };
 
 // Memory from a heap, or from anywhere for none.

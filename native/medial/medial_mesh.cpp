@@ -11,17 +11,22 @@ namespace {
 struct Polygons {
   Array<int32_t> corners, sizes, edges;
   Array<FacetAttributes> attributes;
-  int64_t unbounded = 0, zero_area = 0;
+  int64_t unbounded = 0, zero_area = 0, rings = 0;
 
   // As long as they have to be, in the heap of a run.
   Polygons packed(const Run& run) const {
-    return {pack(corners, run),    pack(sizes, run), pack(edges, run),
-            pack(attributes, run), unbounded,        zero_area};
+    return {pack(corners, run),
+            pack(sizes, run),
+            pack(edges, run),
+            pack(attributes, run),
+            unbounded,
+            zero_area,
+            rings};
   }
   void clear() {
     for (auto* values : {&corners, &sizes, &edges}) values->clear();
     attributes.clear();
-    unbounded = zero_area = 0;
+    unbounded = zero_area = rings = 0;
   }
 };
 
@@ -100,6 +105,7 @@ class FacetMaker {
   int32_t append(int32_t edge, Polygons& out) {
     if (!choice_.maybe(edge)) return 0;
     ring_of_cells(t_, edges_.ends[edge], edges_.cell[edge], ring_);
+    ++out.rings;
     const auto attributes = choice_.attributes(edge, ring_);
     if (!attributes) return 0;
     if (t_.is_infinite(edges_.cell[edge])) {
@@ -206,6 +212,7 @@ MedialMesh in_order(Found found, std::span<const int32_t> row, const Edges& edge
   for (const Polygons& chunk : found.chunks) {
     mesh.unbounded += chunk.unbounded;
     mesh.zero_area += chunk.zero_area;
+    mesh.rings += chunk.rings;
   }
   return mesh;
 }

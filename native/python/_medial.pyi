@@ -224,6 +224,10 @@ class MedialMesh:
     @property
     def zero_area(self) -> int:
         """Selected facets that are a point or a segment (cospherical samples); they are not emitted."""
+    @property
+    def rings(self) -> int:
+        """Rings of cells that were walked: of the facets that the conditions select, without those that one cell
+        shows to lie on the other side."""
 
 @final
 class MedialAnalysis:
@@ -314,6 +318,9 @@ class MedialAnalysis:
     @property
     def cells(self) -> int:
         """Number of finite Delaunay cells."""
+    @property
+    def bytes(self) -> int:
+        """Memory that the analysis holds."""
     @property
     def timings(self) -> dict[str, float]:
         """Seconds of each stage, in order."""
@@ -512,6 +519,10 @@ def sample_surface(
         value out of range, a corner that is no row, no triangle with an area, or more than 268 million samples.
     Cancelled
     """
+
+def memory_needed(points: int) -> int:
+    """Bytes at the peak of an analysis of so many samples of a surface and an extraction, as measured. Facets that are
+    long and thin, as on a torus of random points, take up to four times as many."""
 
 # The stages by themselves, for study and tests. Every one starts from the points.
 

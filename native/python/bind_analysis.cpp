@@ -70,6 +70,11 @@ constexpr const char* kFeatureSizeDoc =
     "infinite when nothing is selected. With `rows`, (m,) int32,\nof these samples alone. Other "
     "parameters as in `extract`.";
 
+constexpr const char* kMemoryDoc =
+    "Bytes at the peak of an analysis of so many samples of a surface and an extraction, as "
+    "measured. Facets that are long\nand thin, as on a torus of random points, take up to four "
+    "times as many.";
+
 constexpr const char* kSelectDoc =
     "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and "
     "zero-area\n"
@@ -177,7 +182,10 @@ void bind_mesh(py::module_& m) {
                     "Selected facets that reach infinity; they are counted, never emitted.")
       .def_readonly("zero_area", &MedialMesh::zero_area,
                     "Selected facets that are a point or a segment (cospherical samples); they are "
-                    "not emitted.");
+                    "not emitted.")
+      .def_readonly("rings", &MedialMesh::rings,
+                    "Rings of cells that were walked: of the facets that the conditions select, "
+                    "without those that one cell shows to lie on the other side.");
 }
 
 auto theta_property(Rule rule) {
@@ -198,6 +206,7 @@ void bind_analysis(py::module_& m) {
   bind_enums(m);
   bind_progress(m);
   bind_mesh(m);
+  m.def("memory_needed", &memory_needed, kMemoryDoc, py::arg("points"));
   const Thresholds paper;
   py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final())
       .def(py::init(&analyse), py::arg("points"), py::arg("triangles") = py::none(), py::kw_only(),
@@ -208,6 +217,7 @@ void bind_analysis(py::module_& m) {
       .def_property_readonly(
           "samples", [](const MedialAnalysis& a) { return array_of<int32_t>(a.sample_rows()); },
           "(k,) int32: rows of the distinct points, ascending.")
+      .def_property_readonly("bytes", &MedialAnalysis::bytes, "Memory that the analysis holds.")
       .def_property_readonly("duplicates", &MedialAnalysis::duplicates,
                              "Rows merged into an earlier row with the same coordinates: n - k.")
       .def_property_readonly(
