@@ -157,7 +157,7 @@ void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> ve
                                 const CoconeOptions& options, const Run& run) {
   const std::vector<Vec3>& points = samples_.points;
   if (sides_from_ == SidesFrom::surface) {
-    sides_ = sides_from_surface(vertices, surface, triangulation_, voronoi_, run);
+    sides_ = sides_from_surface(points, vertices, surface, triangulation_, voronoi_, run);
   } else if (sides_from_ == SidesFrom::normals) {
     sides_ =
         sides_from_normals(points, unit_normals(normals, samples_), triangulation_, voronoi_, run);

@@ -31,7 +31,7 @@ UnitNormal unit_normal(const Vec3& a, const Vec3& b, const Vec3& c);
 inline double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
   return squared_length(u) * squared_length(v) * squared_length(c - b) /
-         squared_length(cross(u, v));
+         (4 * squared_length(cross(u, v)));
 }
 
 }  // namespace medial

@@ -53,22 +53,31 @@ int32_t cell_of(std::span<const Vec3> points, const Vec3& x, int32_t from, const
   return cell;
 }
 
-double largest_squared_circumradius(std::span<const Vec3> points,
-                                    std::span<const Triangle> triangles, const Run& run) {
+// How far, squared, a point of a triangle may lie from the nearest corner: the circumradius, but no
+// more than a third of the longest edge squared, also of needles.
+double squared_reach(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double longest =
+      std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
+  const double circumradius = squared_circumradius(a, b, c);
+  return circumradius < longest / 3 ? circumradius : longest / 3;
+}
+
+double largest_squared_reach(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                             const Run& run) {
   std::vector<double> largest(run.threads, 0);
-  parallel_chunks(
-      static_cast<int64_t>(triangles.size()), run, [&](int64_t begin, int64_t end, int worker) {
-        for (int64_t i = begin; i < end; ++i) {
-          const auto [p, q, r] = triangles[i];
-          largest[worker] =
-              std::max(largest[worker], squared_circumradius(points[p], points[q], points[r]));
-        }
-      });
+  parallel_chunks(static_cast<int64_t>(triangles.size()), run,
+                  [&](int64_t begin, int64_t end, int worker) {
+                    for (int64_t i = begin; i < end; ++i) {
+                      const auto [p, q, r] = triangles[i];
+                      largest[worker] =
+                          std::max(largest[worker], squared_reach(points[p], points[q], points[r]));
+                    }
+                  });
   return *std::max_element(largest.begin(), largest.end());
 }
 
 // The least distance, squared, of the Voronoi edge dual to a facet to the samples. A triangle of
-// samples that crosses the edge has a circumradius of at least that.
+// samples that crosses the edge reaches at least as far from its corners.
 double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
                            const Voronoi& voronoi, const Facet& f) {
   const auto [i, j, k] = corners(t, f);
@@ -80,6 +89,24 @@ double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
   }
   return squared_circumradius(points[i], points[j], points[k]);
 }
+
+// A neighbour that comes before a cell, from `begin` on, with nothing between their Voronoi
+// vertices that reaches no farther than `widest`; -1: none. `known` tells which neighbours are
+// decided.
+template <typename Known>
+int32_t clear_neighbour(int32_t cell, int64_t begin, double widest, std::span<const Vec3> points,
+                        const Triangulation& t, const Voronoi& voronoi, const Known& known) {
+  const double ball = squared_length(voronoi.centre[cell] - points[t.cells[cell][0]]);
+  for (int i = 0; i < 4 && ball > widest; ++i) {
+    const int32_t n = t.neighbors[cell][i];
+    if (n < begin || n >= cell || !known(n)) continue;
+    if (distance_to_samples(points, t, voronoi, {cell, i}) > widest) return n;
+  }
+  return -1;
+}
+
+// Beyond the rounding of Voronoi vertices.
+double widened(double squared) { return (1 + 16 * kCoarsestError) * squared; }
 
 // The samples that are lowest and highest along each axis.
 std::array<std::array<size_t, 2>, 3> extremes(std::span<const Vec3> points) {
@@ -102,22 +129,33 @@ bool is_between(const Vec3& x, const Vec3& low, const Vec3& high) {
 
 }  // namespace
 
-CellSides sides_from_surface(std::span<const Vec3> vertices, const Surface& surface,
-                             const Triangulation& t, const Voronoi& voronoi, const Run& run) {
+CellSides sides_from_surface(std::span<const Vec3> points, std::span<const Vec3> vertices,
+                             const Surface& surface, const Triangulation& t, const Voronoi& voronoi,
+                             const Run& run) {
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
   const WindingNumber winding(vertices, surface.triangles, surface.boundary, run.progress);
+  const bool of_samples = vertices.data() == points.data() && surface.closed();
+  const double widest =
+      of_samples ? widened(largest_squared_reach(points, surface.triangles, run)) : HUGE_VAL;
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
-  // Along a Voronoi edge there is little to cross: most vertices are told from a neighbour of the
-  // same chunk.
+  // Along a Voronoi edge there is nothing to cross, or little: most vertices are told from a
+  // neighbour of the same chunk.
   parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
     std::vector<int> closed;
-    for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
+    const auto told = [&](int32_t c) {
+      const int32_t like =
+          clear_neighbour(c, begin, widest, points, t, voronoi, [](int32_t) { return true; });
+      if (like >= 0) return closed[like - begin];
       const Vec3& here = voronoi.centre[c];
       const int32_t known = nearest_decided(c, begin, t, voronoi);
-      closed.push_back(
-          known < 0 ? winding.closed(here)
-                    : winding.closed_from(voronoi.centre[known], closed[known - begin], here));
-      if (winding.is_inside(here, closed.back())) sides[c] = static_cast<uint8_t>(Side::inner);
+      if (known < 0) return winding.closed(here);
+      return winding.closed_from(voronoi.centre[known], closed[known - begin], here);
+    };
+    for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
+      closed.push_back(told(c));
+      if (winding.is_inside(voronoi.centre[c], closed.back())) {
+        sides[c] = static_cast<uint8_t>(Side::inner);
+      }
     }
   });
   share_sides(t, voronoi, sides, run);
@@ -156,23 +194,14 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
                          std::span<const Triangle> boundary, const Triangulation& t,
                          const Voronoi& voronoi, const Run& run) {
   const auto inner = static_cast<uint8_t>(Side::inner);
-  const double widest = largest_squared_circumradius(points, boundary, run);
+  const double widest = widened(largest_squared_reach(points, boundary, run));
   CellSides sides(solid);
   parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
-    // A decided neighbour from whose Voronoi vertex no boundary parts that of the cell; -1: none.
-    const auto like_neighbour = [&](int32_t c) {
-      const double ball = squared_length(voronoi.centre[c] - points[t.cells[c][0]]);
-      for (int i = 0; i < 4 && ball > widest; ++i) {
-        const int32_t n = t.neighbors[c][i];
-        const bool decided = n >= begin && n < c && solid[n] == inner;
-        if (decided && distance_to_samples(points, t, voronoi, {c, i}) > widest) return n;
-      }
-      return -1;
-    };
     int32_t last = -1;  // where the last walk ended: near, for cells are in spatial order
     for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
       if (solid[c] != inner) continue;
-      const int32_t like = like_neighbour(c);
+      const int32_t like = clear_neighbour(c, begin, widest, points, t, voronoi,
+                                           [&](int32_t n) { return solid[n] == inner; });
       if (like < 0) {
         last = cell_of(points, voronoi.centre[c], last < 0 || t.is_infinite(last) ? c : last, t);
       }

@@ -19,10 +19,10 @@ using CellSides = std::vector<uint8_t>;
 enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none };
 
 // Inner exactly where the winding number of the surface at the Voronoi vertex exceeds 1/2.
-// `vertices` are those of the surface.
-CellSides sides_from_surface(std::span<const Vec3> vertices, const Surface& surface,
-                             const Triangulation& triangulation, const Voronoi& voronoi,
-                             const Run& run);
+// `vertices` are those of the surface: the points themselves, or others.
+CellSides sides_from_surface(std::span<const Vec3> points, std::span<const Vec3> vertices,
+                             const Surface& surface, const Triangulation& triangulation,
+                             const Voronoi& voronoi, const Run& run);
 
 // A vote of the corners of each cell: inner where their outward normals point away from its Voronoi
 // vertex, by the sum of the cosines. `normals` are per sample, unit or zero; zero ones do not vote.
