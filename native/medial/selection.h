@@ -17,41 +17,22 @@ struct Thresholds {
 };
 
 // A value over the ends that are tried, given that over both; nothing is above 0 where none is.
-inline double tried(double larger, double smaller, bool try_larger, bool try_smaller, Rule rule) {
-  if (rule == Rule::both) return try_larger && try_smaller ? smaller : 0;
-  return try_larger ? larger : try_smaller ? smaller : 0;
-}
+double tried_sine(const Significance& significance, int64_t edge, Rule rule);
+double tried_rho(const Significance& significance, int64_t edge, Rule rule);
 
-inline double tried_sine(const Significance& s, int64_t edge, Rule rule) {
-  const uint8_t untried = s.untried[edge];
-  return tried(s.sine[edge], s.sine_both[edge], !(untried & larger_theta),
-               !(untried & smaller_theta), rule);
-}
-
-inline double tried_rho(const Significance& s, int64_t edge, Rule rule) {
-  const uint8_t untried = s.untried[edge];
-  return tried(s.rho[edge], s.rho_both[edge], !(untried & larger_rho), !(untried & smaller_rho),
-               rule);
-}
-
-// Angle[theta] and Ratio[rho].
+// Angle[theta] and Ratio[rho] of an edge.
 class Conditions {
  public:
-  Conditions(const Significance& significance, const Thresholds& thresholds)
-      : s_(significance), t_(thresholds), sine_(largest_sine(thresholds.theta)) {}
+  Conditions(const Significance& significance, const Thresholds& thresholds);
 
-  bool angle(int64_t edge) const {
-    return t_.criteria != Criteria::ratio && tried_sine(s_, edge, t_.rule) > sine_;
-  }
-  bool ratio(int64_t edge) const {
-    return t_.criteria != Criteria::angle && tried_rho(s_, edge, t_.rule) > t_.rho;
-  }
+  bool angle(int64_t edge) const;
+  bool ratio(int64_t edge) const;
   bool either(int64_t edge) const { return angle(edge) || ratio(edge); }
 
  private:
   const Significance& s_;
   Thresholds t_;
-  double sine_;
+  double sine_;  // the largest that does not satisfy
 };
 
 }  // namespace medial

@@ -138,6 +138,10 @@ def test_each_part_of_boost_has_one_home():
     ]
 
 
+def test_the_system_has_one_home():
+    assert users_of("sys/") == [NATIVE / "medial" / "heap.h"]
+
+
 def test_pybind_and_python_have_one_home():
     assert {path.parent for path in users_of("pybind11/", "Python.h")} == {NATIVE / "python"}
 
@@ -157,7 +161,9 @@ VOCABULARY = {path.stem for path in native_files("medial")} - set(STAGES)
 def test_native_looks_down_only(path):
     """A stage includes itself, earlier stages, the vocabulary and the standard library; the vocabulary only itself."""
     own = {
-        name for name in includes_of(path) if name.endswith(".h") and not name.startswith("CGAL/")
+        name
+        for name in includes_of(path)
+        if name.endswith(".h") and not name.startswith(("CGAL/", "sys/"))
     }
     below = STAGES[: STAGES.index(path.stem) + 1] if path.stem in STAGES else []
     assert {name.removesuffix(".h") for name in own} <= {*below, *VOCABULARY}
