@@ -15,8 +15,9 @@ Vec3 to_farthest_vertex(const Vec3& p, std::span<const int32_t> finite_cells,
 }
 
 // Each distinct infinite edge counts once, however many cocircular hull triangles share it.
-Vec3 mean_direction(std::span<const int32_t> infinite_cells, const Voronoi& voronoi) {
-  std::vector<int32_t> rays;
+Vec3 mean_direction(std::span<const int32_t> infinite_cells, const Voronoi& voronoi,
+                    std::vector<int32_t>& rays) {
+  rays.clear();
   for (const int32_t cell : infinite_cells) rays.push_back(voronoi.vertex[cell]);
   std::sort(rays.begin(), rays.end());
   rays.erase(std::unique(rays.begin(), rays.end()), rays.end());
@@ -34,10 +35,10 @@ size_t finite_count(std::span<const int32_t> cells, const Triangulation& t) {
 }  // namespace
 
 Vec3 pole(const Vec3& p, std::span<const int32_t> cells, const Triangulation& t,
-          const Voronoi& voronoi) {
+          const Voronoi& voronoi, std::vector<int32_t>& room) {
   const size_t finite = finite_count(cells, t);
   Vec3 found;
-  if (finite < cells.size()) found = mean_direction(cells.subspan(finite), voronoi);
+  if (finite < cells.size()) found = mean_direction(cells.subspan(finite), voronoi, room);
   // Directions that cancel out leave no mean: then the farthest vertex speaks, as in a bounded
   // cell.
   if (found == Vec3{}) found = to_farthest_vertex(p, cells.first(finite), voronoi);
@@ -49,9 +50,12 @@ Poles poles(std::span<const Vec3> points, const Triangulation& t, const Voronoi&
   begin_stage(run.progress, "Poles", 0.88, 0.9);
   const auto samples = static_cast<size_t>(incident.size());
   Poles result{array<Vec3>(samples, run), array<uint8_t>(samples, run)};
-  parallel_for(incident.size(), run, [&](int64_t p) {
-    result.vector[p] = pole(points[p], incident[p], t, voronoi);
-    result.unbounded[p] = finite_count(incident[p], t) < incident[p].size();
+  parallel_chunks(incident.size(), run, [&](int64_t begin, int64_t end, int) {
+    std::vector<int32_t> room;
+    for (int64_t p = begin; p < end; ++p) {
+      result.vector[p] = pole(points[p], incident[p], t, voronoi, room);
+      result.unbounded[p] = finite_count(incident[p], t) < incident[p].size();
+    }
   });
   return result;
 }

@@ -12,9 +12,9 @@ struct Poles {
   Array<uint8_t> unbounded;  // the pole is at infinity
 };
 
-// Of one sample, whose cells are `cells`.
+// Of one sample, whose cells are `cells`. `room` to work in.
 Vec3 pole(const Vec3& p, std::span<const int32_t> cells, const Triangulation& triangulation,
-          const Voronoi& voronoi);
+          const Voronoi& voronoi, std::vector<int32_t>& room);
 
 // `incident` as from incident_cells.
 Poles poles(std::span<const Vec3> points, const Triangulation& triangulation,

@@ -34,7 +34,7 @@ class Collector {
 
   // Appends U_p. Each Voronoi edge that crosses the plane is met once: from below.
   void append(int32_t p, std::span<const int32_t> cells, std::vector<std::array<int32_t, 2>>& out) {
-    const Vec3 to_pole = pole(points_[p], cells, t_, voronoi_);
+    const Vec3 to_pole = pole(points_[p], cells, t_, voronoi_, below_);
     if (below_.size() < cells.size()) below_.resize(cells.size());
     size_t count = 0;
     for (const int32_t cell : cells) {
