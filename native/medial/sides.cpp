@@ -1,5 +1,7 @@
 #include "sides.h"
 
+#include <climits>
+
 #include "circumcentre.h"
 #include "facet_set.h"
 #include "winding_number.h"
@@ -7,22 +9,7 @@
 namespace medial {
 namespace {
 
-// The neighbour, of the cells from `begin` on that come before this one, whose Voronoi vertex is
-// nearest; -1: none.
-int32_t nearest_decided(int32_t cell, int64_t begin, const Triangulation& t,
-                        const Voronoi& voronoi) {
-  int32_t nearest = -1;
-  double least = HUGE_VAL;
-  for (const int32_t n : t.neighbors[cell]) {
-    if (n < begin || n >= cell) continue;
-    const double d = squared_length(voronoi.centre[n] - voronoi.centre[cell]);
-    if (d < least) {
-      least = d;
-      nearest = n;
-    }
-  }
-  return nearest;
-}
+constexpr int64_t kFlooded = 1 << 15;  // cells that one flood may reach
 
 // One Voronoi vertex, one side.
 void share_sides(const Triangulation& t, const Voronoi& voronoi, CellSides& sides, const Run& run) {
@@ -90,20 +77,80 @@ double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
   return squared_circumradius(points[i], points[j], points[k]);
 }
 
-// A neighbour that comes before a cell, from `begin` on, with nothing between their Voronoi
-// vertices that reaches no farther than `widest`; -1: none. `known` tells which neighbours are
-// decided.
-template <typename Known>
-int32_t clear_neighbour(int32_t cell, int64_t begin, double widest, std::span<const Vec3> points,
-                        const Triangulation& t, const Voronoi& voronoi, const Known& known) {
-  const double ball = squared_length(voronoi.centre[cell] - points[t.cells[cell][0]]);
-  for (int i = 0; i < 4 && ball > widest; ++i) {
-    const int32_t n = t.neighbors[cell][i];
-    if (n < begin || n >= cell || !known(n)) continue;
-    if (distance_to_samples(points, t, voronoi, {cell, i}) > widest) return n;
-  }
-  return -1;
+// Whether nothing that reaches no farther than `widest` lies between the Voronoi vertices of a cell
+// and of its neighbour.
+bool is_clear(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
+              const Facet& f, double widest) {
+  const double ball = squared_length(voronoi.centre[f.cell] - points[t.cells[f.cell][0]]);
+  return ball > widest && distance_to_samples(points, t, voronoi, f) > widest;
 }
+
+// The winding numbers of a closed soup at Voronoi vertices, told one from another.
+class Flood {
+ public:
+  Flood(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
+        const WindingNumber& winding, double widest)
+      : points_(points), t_(t), voronoi_(voronoi), winding_(winding), widest_(widest) {}
+
+  // Of the cells begin .. end - 1.
+  std::span<const int> operator()(int32_t begin, int32_t end) {
+    begin_ = begin;
+    closed_.assign(static_cast<size_t>(end - begin), kUnknown);
+    for (int32_t c = begin; c < end; ++c) {
+      if (at(c) != kUnknown) continue;
+      at(c) = told(c);
+      spread(c);
+    }
+    return closed_;
+  }
+
+ private:
+  static constexpr int kUnknown = INT_MIN;
+
+  int& at(int32_t cell) { return closed_[static_cast<size_t>(cell - begin_)]; }
+  bool has(int32_t cell) const {
+    return cell >= begin_ && cell < begin_ + static_cast<int32_t>(closed_.size());
+  }
+
+  // From the neighbour whose Voronoi vertex is nearest: there is little to cross; or from nothing.
+  int told(int32_t cell) {
+    int32_t nearest = -1;
+    double least = HUGE_VAL;
+    for (const int32_t n : t_.neighbors[cell]) {
+      if (!has(n) || at(n) == kUnknown) continue;
+      const double d = squared_length(voronoi_.centre[n] - voronoi_.centre[cell]);
+      if (d < least) least = d, nearest = n;
+    }
+    const Vec3& here = voronoi_.centre[cell];
+    if (nearest < 0) return winding_.closed(here);
+    return winding_.closed_from(voronoi_.centre[nearest], at(nearest), here);
+  }
+
+  // To all cells that nothing parts from this one.
+  void spread(int32_t cell) {
+    ahead_.assign(1, cell);
+    while (!ahead_.empty()) {
+      const int32_t c = ahead_.back();
+      ahead_.pop_back();
+      for (int i = 0; i < 4; ++i) {
+        const int32_t n = t_.neighbors[c][i];
+        if (!has(n) || at(n) != kUnknown) continue;
+        if (!is_clear(points_, t_, voronoi_, {c, i}, widest_)) continue;
+        at(n) = at(c);
+        ahead_.push_back(n);
+      }
+    }
+  }
+
+  std::span<const Vec3> points_;
+  const Triangulation& t_;
+  const Voronoi& voronoi_;
+  const WindingNumber& winding_;
+  double widest_;
+  int32_t begin_ = 0;
+  std::vector<int> closed_;
+  std::vector<int32_t> ahead_;
+};
 
 // Beyond the rounding of Voronoi vertices.
 double widened(double squared) { return (1 + 16 * kCoarsestError) * squared; }
@@ -138,26 +185,16 @@ CellSides sides_from_surface(std::span<const Vec3> points, std::span<const Vec3>
   const double widest =
       of_samples ? widened(largest_squared_reach(points, surface.triangles, run)) : HUGE_VAL;
   CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
-  // Along a Voronoi edge there is nothing to cross, or little: most vertices are told from a
-  // neighbour of the same chunk.
-  parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
-    std::vector<int> closed;
-    const auto told = [&](int32_t c) {
-      const int32_t like =
-          clear_neighbour(c, begin, widest, points, t, voronoi, [](int32_t) { return true; });
-      if (like >= 0) return closed[like - begin];
-      const Vec3& here = voronoi.centre[c];
-      const int32_t known = nearest_decided(c, begin, t, voronoi);
-      if (known < 0) return winding.closed(here);
-      return winding.closed_from(voronoi.centre[known], closed[known - begin], here);
-    };
-    for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
-      closed.push_back(told(c));
-      if (winding.is_inside(voronoi.centre[c], closed.back())) {
+  const auto tell = [&](int64_t begin, int64_t end, int) {
+    Flood flood(points, t, voronoi, winding, widest);
+    const auto closed = flood(static_cast<int32_t>(begin), static_cast<int32_t>(end));
+    for (int64_t c = begin; c < end; ++c) {
+      if (winding.is_inside(voronoi.centre[c], closed[c - begin])) {
         sides[c] = static_cast<uint8_t>(Side::inner);
       }
     }
-  });
+  };
+  parallel_chunks(t.finite_cells, run, tell, kFlooded);
   share_sides(t, voronoi, sides, run);
   return sides;
 }
@@ -197,11 +234,19 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
   const double widest = widened(largest_squared_reach(points, boundary, run));
   CellSides sides(solid);
   parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
+    // A decided neighbour from whose Voronoi vertex no boundary parts that of the cell; -1: none.
+    const auto like_neighbour = [&](int32_t c) {
+      for (int i = 0; i < 4; ++i) {
+        const int32_t n = t.neighbors[c][i];
+        const bool decided = n >= begin && n < c && solid[n] == inner;
+        if (decided && is_clear(points, t, voronoi, {c, i}, widest)) return n;
+      }
+      return -1;
+    };
     int32_t last = -1;  // where the last walk ended: near, for cells are in spatial order
     for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
       if (solid[c] != inner) continue;
-      const int32_t like = clear_neighbour(c, begin, widest, points, t, voronoi,
-                                           [&](int32_t n) { return solid[n] == inner; });
+      const int32_t like = like_neighbour(c);
       if (like < 0) {
         last = cell_of(points, voronoi.centre[c], last < 0 || t.is_infinite(last) ? c : last, t);
       }
