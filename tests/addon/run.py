@@ -69,11 +69,30 @@ class Blender:
         return PACKAGE
 
 
+# Python does not get to its end: there bpy 4.2 crashes once a single handler, property or panel was registered.
+RUN_AND_LEAVE = """
+import os, runpy, sys, traceback
+code = 1
+try:
+    runpy.run_path(sys.argv[1], run_name="__main__")
+    code = 0
+except SystemExit as end:
+    if isinstance(end.code, str):
+        print(end.code)
+    else:
+        code = int(end.code or 0)
+except BaseException:
+    traceback.print_exc()
+sys.stdout.flush()
+os._exit(code)
+"""
+
+
 class BpyModule(Blender):
     """Blender as a Python module; `program` is a Python that has it."""
 
     def script(self, path: Path, *arguments: object, options=(), check: bool = True) -> int:
-        return self.run(path, "--", *arguments, check=check)
+        return self.run("-c", RUN_AND_LEAVE, path, "--", *arguments, check=check)
 
     def install(self, archive: Path) -> str:
         self.script(HERE / "install.py", archive)

@@ -12,6 +12,13 @@ import pytest
 MODULE = os.environ["MEDIAL_AXIS_MODULE"]
 
 
+def program():
+    """The Blender that runs this, to be started once more."""
+    if not bpy.app.binary_path:
+        pytest.skip("this is Blender as a module; it has no program")
+    return bpy.app.binary_path
+
+
 def addon(path=""):
     """A module of the installed add-on, such as addon('core.analysis')."""
     return importlib.import_module(f"{MODULE}.{path}" if path else MODULE)

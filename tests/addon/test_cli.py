@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import MODULE, addon, ellipsoid, link, scan, select, torus
+from scene import MODULE, addon, ellipsoid, link, program, scan, select, torus
 
 FOLDER = Path(addon().__file__).resolve().parent
 
@@ -41,9 +41,7 @@ def reports_of(text):
 
 def blender(*words, **options):
     """Another Blender with the same profile."""
-    if not bpy.app.binary_path:
-        pytest.skip("this is Blender as a module; it has no program")
-    command = [bpy.app.binary_path, "--background", "--factory-startup", *map(str, words)]
+    command = [program(), "--background", "--factory-startup", *map(str, words)]
     return subprocess.run(command, capture_output=True, text=True, **options)
 
 
@@ -186,10 +184,10 @@ def test_the_same_bytes_in_every_way_in(here, run):
     assert done.returncode == 0 and len(reports_of(done.stdout)) == 1, done.stderr
     assert in_blender("loaded.npz", file=["scan.blend"]).returncode == 0
     if hasattr(bpy.utils, "register_cli_command"):
-        command = [bpy.app.binary_path, "--command", "medial_axis", "scan.npy", "command.npz"]
+        command = [program(), "--command", "medial_axis", "scan.npy", "command.npz"]
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
-        command = [bpy.app.binary_path, "scan.blend", "--command", "medial_axis", "after.npz"]
+        command = [program(), "scan.blend", "--command", "medial_axis", "after.npz"]
         done = subprocess.run(command, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
         assert (here / "after.npz").read_bytes() == (here / "command.npz").read_bytes()
@@ -213,7 +211,7 @@ def test_exit_codes_leave_blender(here):
 def test_two_blenders_in_one_folder(here):
     """The same frames at the same time, in other orders: every file is whole and as if made alone."""
     walking()
-    command = [bpy.app.binary_path, "--background", "--factory-startup", "walk.blend"]
+    command = [program(), "--background", "--factory-startup", "walk.blend"]
     command += ["--python", str(FOLDER / "__main__.py"), "--"]
     runs = [
         subprocess.Popen([*command, "both/", "--frames", "1-5", *words], stdout=subprocess.DEVNULL)
@@ -256,9 +254,9 @@ def test_documented_commands(here):
         if "--command" in words and not hasattr(bpy.utils, "register_cli_command"):
             words = ["--background", "--python", str(FOLDER / "__main__.py"), "--"]
             words += shlex.split(line)[3:]
-            done = subprocess.run([bpy.app.binary_path, *words], capture_output=True, text=True)
+            done = subprocess.run([program(), *words], capture_output=True, text=True)
         else:
-            done = subprocess.run([bpy.app.binary_path, *words[1:]], capture_output=True, text=True)
+            done = subprocess.run([program(), *words[1:]], capture_output=True, text=True)
         assert done.returncode == 0, f"{line}: {done.stdout}{done.stderr}"
     assert len(list((here / "axes").glob("Body_*.npz"))) == 5
     assert len(list((here / "axes" / "walk").glob("*.npz"))) == 6

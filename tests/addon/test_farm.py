@@ -9,7 +9,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from scene import MODULE, addon
+from scene import MODULE, addon, program
 from test_cli import in_blender, reports_of, walking
 
 FARM = Path(addon().__file__).resolve().parent / "farm"
@@ -68,7 +68,7 @@ def command_line(command):
     assert command["name"] == "blender-render"
     assert (words["exe"], words["exeArgs"]) == ("{blender}", "{blenderArgs}")
     return [
-        bpy.app.binary_path,
+        program(),
         "-b",
         "-y",
         *words["argsBefore"],
@@ -139,7 +139,7 @@ def parameters(template, **others):
 def test_openjd_commands_do_the_work(here, template):
     values = parameters(
         template, BlendFile=str(here / "walk.blend"), OutputFolder=str(here / "axes"),
-        Object="Body", Options="--rho 9", Blender=bpy.app.binary_path, Addon=MODULE,
+        Object="Body", Options="--rho 9", Blender=program(), Addon=MODULE,
     )  # fmt: skip
     (step,) = template["steps"]
     action = step["script"]["actions"]["onRun"]
@@ -178,7 +178,7 @@ def test_openjd_template_is_valid():
 def test_openjd_runs_the_job(here):
     values = {"BlendFile": here / "walk.blend", "OutputFolder": here / "axes", "Frames": "1-5"}
     values |= {"ChunkSize": 2, "Object": "Body", "Options": "--rho 9", "Addon": MODULE}
-    values["Blender"] = bpy.app.binary_path
+    values["Blender"] = program()
     words = [word for name, value in values.items() for word in ("-p", f"{name}={value}")]
     done = run(openjd(), "run", TEMPLATE, "--step", "MedialAxis", *words)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -7,7 +7,7 @@ import time
 
 import bpy
 import pytest
-from scene import MODULE, compute, result_of, select, torus
+from scene import MODULE, compute, program, result_of, select, torus
 
 FORMATS = (".ma", ".ply", ".obj", ".off", ".npz")
 
@@ -35,12 +35,10 @@ def axis():
 @pytest.fixture
 def exporter(tmp_path):
     """(blend file, target) -> another Blender that writes the target for ever; killed in the end."""
-    if not bpy.app.binary_path:
-        pytest.skip("this is Blender as a module; it has no program")
     started = []
 
     def start(blend, target):
-        command = [bpy.app.binary_path, "--background", "--factory-startup", blend]
+        command = [program(), "--background", "--factory-startup", blend]
         command += ["--python-exit-code", "1", "--python-expr", EXPORT_FOREVER, "--", target]
         log = open(tmp_path / f"{len(started)}.log", "wb")  # noqa: SIM115
         started.append(subprocess.Popen(list(map(str, command)), stdout=log, stderr=log))
