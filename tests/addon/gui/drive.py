@@ -37,6 +37,7 @@ SCENES = {  # name -> whether the compiled module is installed
 
 def run_all(blender, folder: Path, wanted: list[str]) -> int:
     """Run the scenes, or those named; returns the exit code."""
+    folder = folder.resolve()  # a chroot has another working folder
     folder.mkdir(parents=True, exist_ok=True)
     unknown = set(wanted) - set(SCENES)
     if unknown:
