@@ -32,7 +32,7 @@ from .core.frames import at_frame, has_number, output_path, parse_frames
 from .core.import_points import READERS
 from .core.job import Job, Outcome, Task
 from .core.mesh_file import read_shape
-from .core.option_words import add_options, settings_from
+from .core.option_words import add_limits, add_options, limit_from, settings_from
 
 DONE, FAILED, USAGE, INPUT, CANCELLED = range(5)
 
@@ -97,6 +97,7 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
     )
     parser.add_argument("paths", nargs="+", metavar="PATH", help="INPUT ... OUTPUT, see below")
     add_options(parser.add_argument_group("method"))
+    add_limits(parser.add_argument_group("memory"))
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
     files.add_argument(
@@ -131,7 +132,7 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
 def _complete(wanted: argparse.Namespace) -> None:
     """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
     *wanted.inputs, output = wanted.paths
-    wanted.settings = settings_from(wanted)
+    wanted.settings, wanted.limit = settings_from(wanted), limit_from(wanted)
     wanted.frames = None if wanted.frames is None else parse_frames(wanted.frames)
     if output.endswith(("/", "\\")) or Path(output).is_dir():
         number = "" if wanted.frames is None else "_####"
@@ -224,7 +225,7 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, teller: _Teller) -> 
                     f"Expected another output for each input, found '{item.output}' again; put "
                     "{file} or {name} in OUTPUT"
                 )
-            begun = begin(item, wanted.settings, wanted.force)
+            begun = begin(item, wanted.settings, wanted.force, wanted.limit)
             teller.tell(begun.kept or finish(begun, _watch(begun.task, teller.show)))
             outputs.add(item.output)
         except (KeyboardInterrupt, Cancelled):

@@ -11,8 +11,9 @@ import numpy as np
 
 from . import native
 from .cache import CACHE
+from .memory import WHAT_IS_FREE, MemoryLimit
 from .progress import Progress
-from .sampling import Sampled, sample, sampling_warnings
+from .sampling import Sampled, Samples, sample, sampling_warnings
 from .settings import Sampling, Settings, Side, SidesFrom
 from .shape import Shape
 from .sides import cocone_warnings, look_inward
@@ -40,7 +41,8 @@ class MedialAxis:
     side : (f,) int32
         0 not known, 1 inner, 2 outer, 3 crossing.
     generators : (f, 2) int32
-        Rows of the two samples of each facet.
+        Rows of the two samples of each facet; where only some points of a cloud were analysed, rows of
+        the whole cloud.
     unbounded, zero_area : int
         Selected facets that reach infinity, or that are a point or a segment; neither is here.
     """
@@ -119,7 +121,12 @@ def compute(
     return compute_axis(Shape(points, triangles, normals), settings, progress)
 
 
-def compute_axis(shape: Shape, settings: Settings, progress: Progress | None = None) -> Computation:
+def compute_axis(
+    shape: Shape,
+    settings: Settings,
+    progress: Progress | None = None,
+    limit: MemoryLimit = WHAT_IS_FREE,
+) -> Computation:
     """The medial axis of a shape, by its vertices or by samples of its faces.
 
     Parameters
@@ -127,6 +134,8 @@ def compute_axis(shape: Shape, settings: Settings, progress: Progress | None = N
     shape : Shape
     settings : Settings
     progress : Progress, optional
+    limit : MemoryLimit
+        What the analysis may need, and what is done when it needs more.
 
     Raises
     ------
@@ -135,9 +144,9 @@ def compute_axis(shape: Shape, settings: Settings, progress: Progress | None = N
     start = time.perf_counter()
     progress = progress or Progress()
     settings = settings.with_side()
-    sampled = sample(shape, settings, progress)
+    sampled = sample(shape, settings, progress, limit)
     settings = replace(settings, sides=sampled.sides.source, sampling=sampled.sampling)
-    axis = _extract(sampled.samples.analysis, settings, progress.part())
+    axis = _extract(sampled.samples, settings, progress.part())
     return Computation(
         axis=axis,
         settings=settings,
@@ -150,7 +159,7 @@ def compute_axis(shape: Shape, settings: Settings, progress: Progress | None = N
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
     """The axis for other thresholds of a kept analysis; None when it is no longer kept."""
     samples = CACHE.get(key)
-    return None if samples is None else _extract(samples.analysis, settings, None)
+    return None if samples is None else _extract(samples, settings, None)
 
 
 # --- warnings
@@ -211,9 +220,9 @@ def _why_empty(shape: Shape, settings: Settings, sampled: Sampled, axis: MedialA
 # --- the compiled module
 
 
-def _extract(analysis: Any, settings: Settings, progress: Any | None) -> MedialAxis:
+def _extract(samples: Samples, settings: Settings, progress: Any | None) -> MedialAxis:
     with native.own_errors() as module:
-        mesh = analysis.extract(
+        mesh = samples.analysis.extract(
             settings.theta,
             settings.rho,
             getattr(module.Side, settings.side.name),
@@ -222,4 +231,7 @@ def _extract(analysis: Any, settings: Settings, progress: Any | None) -> MedialA
             limit_set=settings.limit_set,
             progress=progress,
         )
-    return MedialAxis(**{name: getattr(mesh, name) for name in MedialAxis.__dataclass_fields__})
+    axis = MedialAxis(**{name: getattr(mesh, name) for name in MedialAxis.__dataclass_fields__})
+    if samples.rows is None:
+        return axis
+    return replace(axis, generators=samples.rows[axis.generators])

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ from .cache import CACHE, key_of
 from .errors import ExportError, MedialAxisError
 from .export import export_axis
 from .job import Outcome, Task
+from .memory import WHAT_IS_FREE, MemoryLimit
 from .option_words import as_words
 from .settings import Settings
 from .shape import Shape
@@ -63,27 +64,35 @@ class Begun:
     ----------
     item : Item
     settings : Settings
+    limit : MemoryLimit
     shape : Shape
     warnings : tuple of str
-    stamp : str
     kept : dict or None
         The report of the output that is there and finished; None: it has to be computed.
     """
 
     item: Item
     settings: Settings
+    limit: MemoryLimit
     shape: Shape
     warnings: tuple[str, ...]
-    stamp: str
     kept: dict[str, Any] | None
 
     @property
     def task(self) -> Task:
         """What is left to compute."""
-        return Task(self.item.name, partial(compute_axis, self.shape, self.settings))
+        work = partial(compute_axis, self.shape, self.settings, limit=self.limit)
+        return Task(self.item.name, work)
+
+    def stamp(self, thinned: bool) -> str:
+        """Names all that the output depends on; of what was thinned the limit, too."""
+        limit = self.limit if thinned else None
+        return stamp_of(self.shape, self.settings, self.item.output.suffix.lower(), limit)
 
 
-def begin(item: Item, settings: Settings, force: bool = False) -> Begun:
+def begin(
+    item: Item, settings: Settings, force: bool = False, limit: MemoryLimit = WHAT_IS_FREE
+) -> Begun:
     """Read an item and look whether it is finished; with `force` it never is.
 
     Raises
@@ -91,11 +100,11 @@ def begin(item: Item, settings: Settings, force: bool = False) -> Begun:
     MedialAxisError
     """
     shape, warnings = item.read()
-    stamp = stamp_of(shape, settings, item.output.suffix.lower())
-    kept = None if force else finished(item.output, stamp)
-    if kept is not None:
-        kept = {**kept, **_place(item), "status": "kept"}
-    return Begun(item, settings, shape, warnings, stamp, kept)
+    begun = Begun(item, settings, limit, shape, warnings, None)
+    kept = None if force else finished(item.output, {begun.stamp(False), begun.stamp(True)})
+    return (
+        begun if kept is None else replace(begun, kept={**kept, **_place(item), "status": "kept"})
+    )
 
 
 def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
@@ -122,7 +131,7 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
         "warnings": [*begun.warnings, *computation.warnings],
         "seconds": round(computation.seconds, 3),
         "version": __version__,
-        "stamp": begun.stamp,
+        "stamp": begun.stamp(thinned=bool(computation.sampled.thinned)),
         "digest": _digest(output),
     }
     text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
@@ -135,17 +144,19 @@ def failure(item: Item, error: BaseException) -> dict[str, Any]:
     return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": str(error)}
 
 
-def stamp_of(shape: Shape, settings: Settings, suffix: str) -> str:
+def stamp_of(
+    shape: Shape, settings: Settings, suffix: str, limit: MemoryLimit | None = None
+) -> str:
     """Names all that an output depends on: the whole shape, every setting, format, version."""
     parts = (getattr(shape, part.name) for part in fields(shape))
-    return key_of(*parts, repr(settings), suffix, __version__)
+    return key_of(*parts, repr(settings), repr(limit), suffix, __version__)
 
 
-def finished(output: Path, stamp: str) -> dict[str, Any] | None:
-    """The report of an output that is there and has this stamp."""
+def finished(output: Path, stamps: set[str]) -> dict[str, Any] | None:
+    """The report of an output that is there and has one of these stamps."""
     try:
         report = json.loads(report_path(output).read_text(encoding="utf-8"))
-        right = report["stamp"] == stamp and report["digest"] == _digest(output)
+        right = report["stamp"] in stamps and report["digest"] == _digest(output)
     except (OSError, ValueError, LookupError, TypeError):
         return None
     return report if right else None

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .settings import CACHE_SIZE, MEGABYTE
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -26,19 +28,18 @@ def key_of(*parts: NDArray | str | bool | None) -> str:
 
 
 class AnalysisCache:
-    """The most recent analyses; the newest always stays, older ones as long as there is room.
+    """The most recent analyses, as many as there is room for; the oldest go first.
+
+    One that is larger than all the room is not kept: whoever computes with it holds it.
 
     Parameters
     ----------
-    entries : int
-        Most analyses that are kept.
-    points : int
-        Most points that all kept analyses have together (about 1.5 KB each).
+    room : int
+        Bytes that all kept analyses may have together.
     """
 
-    def __init__(self, entries: int = 8, points: int = 1_500_000) -> None:
-        self._entries = entries
-        self._points = points
+    def __init__(self, room: int) -> None:
+        self._room = room
         self._kept: OrderedDict[str, tuple[Any, int]] = OrderedDict()
         self._lock = threading.Lock()
         self.analyses = 0  # computed since Blender started
@@ -50,13 +51,34 @@ class AnalysisCache:
             self._kept.move_to_end(key)
             return self._kept[key][0]
 
-    def put(self, key: str, analysis: Any, points: int) -> None:
+    def put(self, key: str, analysis: Any, size: int) -> None:
+        """Keep an analysis of so many bytes."""
         with self._lock:
-            self._kept[key] = (analysis, points)
-            self._kept.move_to_end(key)
             self.analyses += 1
-            while len(self._kept) > 1 and self._too_much():
-                self._kept.popitem(last=False)
+            self._kept.pop(key, None)
+            if size <= self._room:
+                self._drop_until(self._room - size)
+                self._kept[key] = (analysis, size)
+
+    @property
+    def room(self) -> int:
+        return self._room
+
+    @room.setter
+    def room(self, size: int) -> None:
+        with self._lock:
+            self._room = size
+            self._drop_until(size)
+
+    @property
+    def bytes(self) -> int:
+        """What all kept analyses have together."""
+        return sum(size for _, size in tuple(self._kept.values()))
+
+    def give_back(self, size: int) -> None:
+        """Drop analyses of at least so many bytes, as far as there are any."""
+        with self._lock:
+            self._drop_until(max(0, self.bytes - size))
 
     def clear(self) -> None:
         with self._lock:
@@ -65,9 +87,9 @@ class AnalysisCache:
     def __len__(self) -> int:
         return len(self._kept)
 
-    def _too_much(self) -> bool:
-        points = sum(points for _, points in self._kept.values())
-        return len(self._kept) > self._entries or points > self._points
+    def _drop_until(self, size: int) -> None:
+        while self.bytes > size:
+            self._kept.popitem(last=False)
 
 
-CACHE = AnalysisCache()
+CACHE = AnalysisCache(CACHE_SIZE.default * MEGABYTE)

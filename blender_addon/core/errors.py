@@ -23,6 +23,14 @@ class OutOfMemoryError(MedialAxisError, MemoryError):
     """The computer has not enough memory for this many points."""
 
 
+class MemoryLimitError(OutOfMemoryError):
+    """An analysis of so many `points` would need more memory than it may have; it was not begun."""
+
+    def __init__(self, text: str, points: int) -> None:
+        super().__init__(text)
+        self.points = points
+
+
 class Cancelled(MedialAxisError):  # noqa: N818 - as in _medial
     """The computation was cancelled; nothing was computed."""
 

@@ -4,16 +4,27 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Mapping
 from typing import Any
 
-from .settings import OPTIONS, Choice, Settings, Switch
+from .memory import MemoryLimit
+from .settings import LIMITS, OPTIONS, Choice, Settings, Switch
 
-_UNITS = {"rad": "DEG", "%": "PERCENT"}
+_UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB"}
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """An argument `--name` for every option; what is not given is left to Settings."""
-    for name, option in OPTIONS.items():
+    """An argument `--name` for every option of the method; what is not given is left to Settings."""
+    _add(parser, OPTIONS)
+
+
+def add_limits(parser: argparse.ArgumentParser) -> None:
+    """As `add_options`, for MemoryLimit."""
+    _add(parser, LIMITS)
+
+
+def _add(parser: argparse.ArgumentParser, options: Mapping[str, Any]) -> None:
+    for name, option in options.items():
         flag = "--" + name.replace("_", "-")
         words = {"dest": name, "default": argparse.SUPPRESS}
         if isinstance(option, Switch):
@@ -38,13 +49,28 @@ def settings_from(words: argparse.Namespace) -> Settings:
     InvalidInputError
         A number out of its range.
     """
-    given = {name: value for name, value in vars(words).items() if name in OPTIONS}
-    return Settings(**{name: _inward(OPTIONS[name], value) for name, value in given.items()})
+    return Settings(**_given(words, OPTIONS))
+
+
+def limit_from(words: argparse.Namespace) -> MemoryLimit:
+    """The limit that a parsed command line means.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+    return MemoryLimit(**_given(words, LIMITS))
 
 
 def as_words(settings: Settings) -> dict[str, str | float | bool]:
     """{option: value} as one would write it on the command line."""
     return {name: _outward(option, getattr(settings, name)) for name, option in OPTIONS.items()}
+
+
+def _given(words: argparse.Namespace, options: Mapping[str, Any]) -> dict[str, Any]:
+    given = {name: value for name, value in vars(words).items() if name in options}
+    return {name: _inward(options[name], value) for name, value in given.items()}
 
 
 def _help(option: Any, shown: str) -> str:

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import native
-from .errors import DegenerateInputError
+from .errors import DegenerateInputError, MemoryLimitError
+from .memory import WHAT_IS_FREE, MemoryLimit
 from .sides import cocone_warnings
+from .thinning import thinned_rows
 from .triangle_faces import TriangleFaces
 
 if TYPE_CHECKING:
@@ -52,13 +54,19 @@ class Reconstruction(TriangleFaces):
     seconds: float
 
 
-def reconstruct(points: NDArray[np.float64], progress: Progress | None = None) -> Reconstruction:
+def reconstruct(
+    points: NDArray[np.float64],
+    progress: Progress | None = None,
+    limit: MemoryLimit = WHAT_IS_FREE,
+) -> Reconstruction:
     """The watertight surface through samples (Dey & Goswami 2003).
 
     Parameters
     ----------
     points : (n, 3) float64
     progress : Progress, optional
+    limit : MemoryLimit
+        The surface alone needs no more than an analysis does.
 
     Raises
     ------
@@ -67,6 +75,7 @@ def reconstruct(points: NDArray[np.float64], progress: Progress | None = None) -
         The points span no volume, or enclose nothing.
     """
     start = time.perf_counter()
+    points, thinned = _within(points, limit)
     with native.own_errors() as module:
         part = None if progress is None else progress.part()
         found = module.TightCocone(points, progress=part)
@@ -85,6 +94,18 @@ def reconstruct(points: NDArray[np.float64], progress: Progress | None = None) -
         nonmanifold_edges=found.nonmanifold_edges,
         nonmanifold_vertices=found.nonmanifold_vertices,
         cavities=found.cavities,
-        warnings=tuple(cocone_warnings(found, points)),
+        warnings=(*thinned, *cocone_warnings(found, points)),
         seconds=time.perf_counter() - start,
     )
+
+
+def _within(
+    points: NDArray[np.float64], limit: MemoryLimit
+) -> tuple[NDArray[np.float64], tuple[str, ...]]:
+    """The points that the limit allows, and what has to be said when these are fewer."""
+    try:
+        limit.check(len(points))
+    except MemoryLimitError as error:
+        rows, sentence = thinned_rows(points, limit, error)
+        return points[rows], (sentence,)
+    return points, ()

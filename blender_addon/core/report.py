@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .density import Density, estimate
+from .memory import WHAT_IS_FREE, MemoryLimit
 from .nearness import same_place
 from .progress import Progress
 from .sampling import Sampled, Samples, sample, sampling_warnings
@@ -54,7 +55,12 @@ class SamplingReport(TriangleFaces):
     seconds: float
 
 
-def report(shape: Shape, settings: Settings, progress: Progress | None = None) -> SamplingReport:
+def report(
+    shape: Shape,
+    settings: Settings,
+    progress: Progress | None = None,
+    limit: MemoryLimit = WHAT_IS_FREE,
+) -> SamplingReport:
     """Sample an object as `analysis.compute` does, and estimate how dense that is.
 
     Parameters
@@ -62,13 +68,14 @@ def report(shape: Shape, settings: Settings, progress: Progress | None = None) -
     shape : Shape
     settings : Settings
     progress : Progress, optional
+    limit : MemoryLimit
 
     Raises
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     start = time.perf_counter()
-    sampled = sample(shape, settings.with_side(), progress or Progress())
+    sampled = sample(shape, settings.with_side(), progress or Progress(), limit)
     samples, density = sampled.samples, _of_all(sampled.samples)
     rows = _sample_of_row(samples.points, samples.analysis.samples)
     return SamplingReport(

@@ -13,9 +13,11 @@ import numpy as np
 from . import native
 from .cache import CACHE, key_of
 from .density import LOOKED_AT, Density, estimate, percent
-from .errors import DegenerateInputError, InvalidInputError
+from .errors import DegenerateInputError, InvalidInputError, MemoryLimitError
+from .memory import WHAT_IS_FREE, MemoryLimit
 from .settings import Sampling, Settings, Side, SidesFrom
 from .sides import Sides, resolve_sides, resolve_sides_of_samples
+from .thinning import fewer_samples, thinned_rows
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -58,6 +60,8 @@ class Samples:
         Of an even sampling, the distance of neighbours; of others that of their first pass.
     buried : int
         Samples that were left out, for the surface there bounds nothing.
+    rows : (n,) int32 or None
+        Which points of the shape these are; None: all, or samples.
     """
 
     key: str
@@ -68,6 +72,15 @@ class Samples:
     density: Density
     spacing: float = 0.0
     buried: int = 0
+    rows: NDArray[np.int32] | None = None
+
+    @property
+    def bytes(self) -> int:
+        """Memory that these and their analysis hold."""
+        density = self.density
+        arrays = (self.points, self.kinds, self.normals, self.rows, density.points)
+        arrays += (density.spacing, density.feature_size, density.edges)
+        return self.analysis.bytes + sum(0 if x is None else x.nbytes for x in arrays)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +98,8 @@ class Sampled:
         What told inside from outside, and why.
     gaps : int
         Edges at which the faces are open.
+    thinned : str
+        Why these are fewer than would have been used, a sentence; or empty.
     """
 
     samples: Samples
@@ -92,9 +107,12 @@ class Sampled:
     reason: str
     sides: Sides
     gaps: int
+    thinned: str = ""
 
 
-def sample(shape: Shape, settings: Settings, progress: Progress) -> Sampled:
+def sample(
+    shape: Shape, settings: Settings, progress: Progress, limit: MemoryLimit = WHAT_IS_FREE
+) -> Sampled:
     """Choose and analyse samples of a shape.
 
     Parameters
@@ -103,17 +121,35 @@ def sample(shape: Shape, settings: Settings, progress: Progress) -> Sampled:
     settings : Settings
         `side` is not AUTOMATIC.
     progress : Progress
+    limit : MemoryLimit
 
     Raises
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    return _Sampler(shape, settings, progress).run()
+    try:
+        return _Sampler(shape, settings, progress, limit).run()
+    except MemoryLimitError as error:
+        shape, settings, thinned = _thinned(shape, settings, limit, error)
+    return replace(_Sampler(shape, settings, progress, limit).run(), thinned=thinned)
+
+
+def _thinned(
+    shape: Shape, settings: Settings, limit: MemoryLimit, error: MemoryLimitError
+) -> tuple[Shape, Settings, str]:
+    if len(shape.triangles):
+        first = _count(shape, settings)
+        return shape, *fewer_samples(shape, settings, first, limit, error)
+    rows, sentence = thinned_rows(shape.points, limit, error)
+    normals = None if shape.normals is None else shape.normals[rows]
+    return replace(shape, points=shape.points[rows], normals=normals, rows=rows), settings, sentence
 
 
 def sampling_warnings(shape: Shape, sampled: Sampled) -> Iterator[str]:
     """What was left out, and where the samples are too sparse to trust the axis."""
     samples, density = sampled.samples, sampled.samples.density
+    if sampled.thinned:
+        yield sampled.thinned
     if sampled.sampling is not Sampling.VERTICES:
         loose = len(shape.points) - len(np.unique(shape.triangles))
         if loose and shape.of_samples:
@@ -136,10 +172,13 @@ def sampling_warnings(shape: Shape, sampled: Sampled) -> Iterator[str]:
 class _Sampler:
     """One run of `sample`."""
 
-    def __init__(self, shape: Shape, settings: Settings, progress: Progress) -> None:
+    def __init__(
+        self, shape: Shape, settings: Settings, progress: Progress, limit: MemoryLimit
+    ) -> None:
         self._shape = shape
         self._settings = settings
         self._progress = progress
+        self._limit = limit
         self._gaps = open_edges(shape.points, shape.triangles)
 
     def run(self) -> Sampled:
@@ -179,7 +218,10 @@ class _Sampler:
         shape, settings = self._shape, self._settings
         sides = resolve_sides(settings.sides, shape.triangles, self._gaps, shape.normals)
         found = self._cached(
-            (sides.source.name, shape.points, *_telling(sides, shape.triangles, shape.normals)),
+            (
+                *(sides.source.name, shape.points, shape.rows),
+                *_telling(sides, shape.triangles, shape.normals),
+            ),
             lambda key: self._analysed_vertices(key, sides, share),
         )
         return Sampled(found, Sampling.VERTICES, self._vertices(why), sides, self._gaps)
@@ -193,7 +235,7 @@ class _Sampler:
         density = estimate(
             analysis, points, points[:0], 0.0, self._settings.epsilon, most=LOOKED_AT
         )
-        return Samples(key, points, None, normals, analysis, density)
+        return Samples(key, points, None, normals, analysis, density, rows=self._shape.rows)
 
     # --- samples of the faces
 
@@ -245,6 +287,8 @@ class _Sampler:
     ) -> Samples:
         """Samples and their analysis; `first` is the spacing of the first pass, 0 in that."""
         shape = self._shape
+        if not first:
+            self._limit.check(_count(shape, self._settings))
         with native.own_errors() as module:
             found = module.sample_surface(
                 shape.points,
@@ -291,6 +335,7 @@ class _Sampler:
         progress: Any,
     ) -> Any:
         shape = self._shape
+        self._limit.check(len(points))
         triangles, normals = _telling(sides, shape.triangles, normals)
         separate = triangles is not None and points is not shape.points
         with native.own_errors() as module:
@@ -310,7 +355,7 @@ class _Sampler:
         found = CACHE.get(key)
         if found is None:
             found = make(key)
-            CACHE.put(key, found, len(found.points))
+            CACHE.put(key, found, found.bytes)
         _, at_edge, _ = _EFFORT[self._settings.sampling]
         density = replace(
             found.density, limit=self._settings.epsilon, finest=at_edge * found.spacing
@@ -348,6 +393,14 @@ def _spacing(shape: Shape, settings: Settings) -> float:
     """Of the first pass."""
     amount = _amount(shape, settings)
     return amount.get("spacing") or mean_spacing(shape.area, amount["count"])
+
+
+def _count(shape: Shape, settings: Settings) -> int:
+    """Of samples in the first pass, about; those that fill keep_vertices come on top."""
+    amount = _amount(shape, settings)
+    if "count" in amount:
+        return amount["count"]
+    return round(2.0 * shape.area / (math.sqrt(3.0) * amount["spacing"] ** 2))
 
 
 def _wanted(found: Samples, finest: float, budget: int) -> dict[str, Any]:

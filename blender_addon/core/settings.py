@@ -6,8 +6,10 @@ Dey & Zhao, sect. 3: an edge is selected by Angle[theta] or Ratio[rho].
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
+from typing import Any
 
 from .errors import InvalidInputError
 
@@ -52,6 +54,13 @@ class Criteria(Enum):
     ANGLE_OR_RATIO = "ANGLE_OR_RATIO"
     ANGLE = "ANGLE"
     RATIO = "RATIO"
+
+
+class AboveLimit(Enum):
+    """What becomes of an analysis that needs more memory than it may have."""
+
+    REFUSE = "REFUSE"
+    THIN = "THIN"
 
 
 @dataclass(frozen=True)
@@ -280,6 +289,44 @@ OPTIONS: dict[str, Number | Integer | Choice | Switch] = {
     ),
 }
 
+# What holds for a machine and not for a result, so that it is in the preferences of Blender.
+LIMITS: dict[str, Integer | Choice] = {
+    "memory_limit": Integer(
+        label="Memory Limit",
+        description="Memory that an analysis may need, in MB; 0: what is free when it starts",
+        default=0,
+        minimum=0,
+        maximum=1 << 24,
+        soft_minimum=0,
+        soft_maximum=1 << 16,
+        unit="MB",
+    ),
+    "above_limit": Choice(
+        label="Above the Limit",
+        description="What is done when an analysis would need more memory",
+        default=AboveLimit.REFUSE,
+        items={
+            AboveLimit.REFUSE: ("Refuse", "Nothing is computed; a message says what it would need"),
+            AboveLimit.THIN: (
+                "Thin",
+                "As many samples of the faces, or evenly spread points of a cloud, as fit",
+            ),
+        },
+    ),
+}
+CACHE_SIZE = Integer(
+    label="Cache Size",
+    description="Memory that analyses may keep for other thresholds after a computation, in MB; "
+    "the oldest go first",
+    default=1 << 10,
+    minimum=0,
+    maximum=1 << 20,
+    soft_minimum=0,
+    soft_maximum=1 << 14,
+    unit="MB",
+)
+MEGABYTE = 1 << 20  # bytes
+
 # What needs another analysis; the other options only select facets of the one that is there.
 ANALYSED = ("side", "sides", "sampling")
 # What a choice of Sampling listens to.
@@ -358,9 +405,14 @@ class Settings:
         return replace(self, side=Side.INNER) if self.side is Side.AUTOMATIC else self
 
     def __post_init__(self) -> None:
-        for name, option in OPTIONS.items():
-            if isinstance(option, (Number, Integer)):
-                _check_range(name, option, getattr(self, name))
+        check_ranges(self, OPTIONS)
+
+
+def check_ranges(values: Any, options: Mapping[str, Any]) -> None:
+    """Raise InvalidInputError for a number out of its range."""
+    for name, option in options.items():
+        if isinstance(option, (Number, Integer)):
+            _check_range(name, option, getattr(values, name))
 
 
 def _check_range(name: str, option: Number | Integer, value: float) -> None:

@@ -31,6 +31,8 @@ class Shape:
         Every face is, so that only marked edges look sharp.
     of_samples : bool
         The points are meant as samples. The vertices of curves, texts and metaballs are not.
+    rows : (n,) int32 or None
+        Which points of a larger cloud these are; None: there is no larger one.
     """
 
     points: NDArray[np.float64]
@@ -40,6 +42,7 @@ class Shape:
     sharp_edges: NDArray[np.int32] | None = None
     shaded_smooth: bool = False
     of_samples: bool = True
+    rows: NDArray[np.int32] | None = None
 
     @property
     def volume(self) -> float:

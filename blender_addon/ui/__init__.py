@@ -13,6 +13,7 @@ def _modules() -> tuple[ModuleType, ...]:
         menus,
         operators,
         panels,
+        preferences,
         properties,
         running,
         sequence,
@@ -20,6 +21,7 @@ def _modules() -> tuple[ModuleType, ...]:
 
     return (
         properties,
+        preferences,
         operators,
         export,
         import_points,

@@ -18,6 +18,7 @@ from ..core.reconstruction import reconstruct
 from ..core.report import report
 from ..core.settings import OPTIONS, SAMPLING_OPTIONS
 from . import running
+from .preferences import memory_limit
 from .properties import SamplingProperties, choice, draw_sampling, number, settings_from, switch
 from .watched import Watched
 
@@ -48,7 +49,7 @@ class OBJECT_OT_medial_axis(Watched, SamplingProperties, bpy.types.Operator):
         draw_sampling(self.layout.box().column(), self)
 
     def work(self, shape):
-        return partial(compute_axis, shape, settings_from(self))
+        return partial(compute_axis, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, computation, frame):
         return write_result(thing, computation, frame) if computation.axis.facets else None
@@ -101,7 +102,7 @@ class OBJECT_OT_medial_axis_sampling_report(Watched, SamplingProperties, bpy.typ
         check_report_writable(thing) if self.target == "COPY" else check_source_writable(thing)
 
     def work(self, shape):
-        return partial(report, shape, settings_from(self))
+        return partial(report, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, found, frame):
         if self.target == "SOURCE":
@@ -128,7 +129,7 @@ class OBJECT_OT_tight_cocone_surface(Watched, bpy.types.Operator):
         return list(dict.fromkeys(map(_made_anew, super().sources(context))))
 
     def work(self, shape):
-        return partial(reconstruct, shape.points)
+        return partial(reconstruct, shape.points, limit=memory_limit())
 
     def write(self, thing, found, frame):
         return write_surface(thing, found, frame)

@@ -48,7 +48,10 @@ def number(name, update=None):
 
 def integer(name):
     """An IntProperty for an option."""
-    option = OPTIONS[name]
+    return integer_of(OPTIONS[name])
+
+
+def integer_of(option, update=None):
     return IntProperty(
         name=option.label,
         description=option.description,
@@ -57,12 +60,16 @@ def integer(name):
         max=option.maximum,
         soft_min=option.soft_minimum,
         soft_max=option.soft_maximum,
+        update=update,
     )
 
 
 def choice(name, update=None):
     """An EnumProperty for an option."""
-    option = OPTIONS[name]
+    return choice_of(OPTIONS[name], update)
+
+
+def choice_of(option, update=None):
     return EnumProperty(
         name=option.label,
         description=option.description,

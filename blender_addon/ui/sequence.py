@@ -15,6 +15,7 @@ from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.frames import output_path, parse_frames
 from ..core.job import run_task
 from . import running
+from .preferences import memory_limit
 from .properties import settings_from
 from .sources import sources
 from .watched import FromSelection
@@ -88,6 +89,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         """What there is to do, frame by frame; False when it cannot be done, which was reported."""
         try:
             self._settings = settings_from(context.scene.medial_axis)
+            self._limit = memory_limit()
             pattern = _folder(self.directory) / "{name}_####.npz"
             self._items = list(_items(sources(context), self._frames(context.scene), str(pattern)))
         except (MedialAxisError, ValueError) as error:
@@ -105,7 +107,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         """The next item, read; None when there is nothing to compute of it."""
         item = self._items.pop(0)
         try:
-            begun = begin(item, self._settings)
+            begun = begin(item, self._settings, limit=self._limit)
         except MedialAxisError as error:
             self._fail(item, error)
             return None

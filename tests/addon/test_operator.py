@@ -421,15 +421,6 @@ def test_changed_mesh_is_analysed_again():
     assert analyses() == before + 1
 
 
-def test_kept_analyses_are_bounded():
-    cache = addon("core.cache").AnalysisCache(entries=2, points=100)
-    for key, points in (("a", 40), ("b", 40), ("c", 40)):
-        cache.put(key, key, points)
-    assert cache.get("a") is None and cache.get("b") == "b" and cache.get("c") == "c"
-    cache.put("d", "d", 1000)
-    assert len(cache) == 1 and cache.get("d") == "d"
-
-
 def test_edit_mode_is_flushed_not_refused():
     source = ellipsoid()
     bpy.ops.object.mode_set(mode="EDIT")

@@ -1,0 +1,92 @@
+"""How much memory can be had on this machine now without swapping."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+_GROUPS = Path("/sys/fs/cgroup")
+# Of a control group, version 2 and 1: limit, use, and the part of the use that can be dropped.
+_FILES = (
+    ("", "memory.max", "memory.current", "inactive_file"),
+    ("memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
+)
+
+
+def free_memory() -> int | None:
+    """Bytes; None where the system does not say.
+
+    Linux: what is available, also in the containers round this process. Windows: the physical memory
+    that is available. Elsewhere: all memory of the machine.
+    """
+    if sys.platform == "win32":
+        return _of_windows()
+    try:
+        found = [_available(Path("/proc/meminfo").read_text(encoding="ascii"))]
+        groups = Path("/proc/self/cgroup").read_text(encoding="utf-8")
+        return min([*found, *_left_in_groups(groups, _GROUPS)])
+    except (OSError, ValueError):
+        return _installed()
+
+
+def _available(text: str) -> int:
+    """Of /proc/meminfo."""
+    found = re.search(r"^MemAvailable:\s+(\d+) kB$", text, re.MULTILINE)
+    if found is None:
+        raise ValueError("no MemAvailable")
+    return 1024 * int(found[1])
+
+
+def _left_in_groups(text: str, root: Path) -> Iterator[int]:
+    """What the control groups of a process leave of their limits; `text` is of /proc/self/cgroup."""
+    for line in text.splitlines():
+        _, controllers, path = line.split(":", 2)
+        for controller, *files in _FILES:
+            if controller in controllers.split(","):
+                top = root / controller
+                place = top / path.strip("/")
+                # A container may show its own group at the top, under the path of the machine.
+                for folder in (place, *place.parents):
+                    if folder.is_relative_to(top) and (left := _left(folder, *files)) is not None:
+                        yield left
+
+
+def _left(folder: Path, limit: str, use: str, droppable: str) -> int | None:
+    """None where a group has no limit."""
+    try:
+        most = int((folder / limit).read_text(encoding="ascii"))
+        used = int((folder / use).read_text(encoding="ascii"))
+        stat = (folder / "memory.stat").read_text(encoding="ascii")
+    except (OSError, ValueError):  # 'max'
+        return None
+    cached = re.search(rf"^{droppable} (\d+)$", stat, re.MULTILINE)
+    return max(0, most - used + (int(cached[1]) if cached else 0))
+
+
+def _installed() -> int | None:
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, OSError, ValueError):
+        return None
+
+
+class _MemoryStatus(ctypes.Structure):
+    """MEMORYSTATUSEX of Windows."""
+
+    _fields_ = (
+        ("length", ctypes.c_uint32),
+        ("load", ctypes.c_uint32),
+        ("physical", ctypes.c_uint64),
+        ("available", ctypes.c_uint64),
+        ("others", ctypes.c_uint64 * 5),
+    )
+
+
+def _of_windows() -> int | None:
+    status = _MemoryStatus(length=ctypes.sizeof(_MemoryStatus))
+    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+    return status.available if done else None

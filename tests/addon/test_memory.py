@@ -1,0 +1,179 @@
+"""Memory in Blender: what is kept, how it is freed, and the limit of an analysis, with and without faces."""
+
+import bpy
+import pytest
+from scene import (
+    MODULE,
+    addon,
+    analyses,
+    compute,
+    compute_or_not,
+    contents,
+    ellipsoid,
+    on_ellipsoid,
+    refuse,
+    reports,
+    result_of,
+    scan,
+    select,
+)
+
+MEGABYTE = 1 << 20
+
+
+def preferences():
+    return bpy.context.preferences.addons[MODULE].preferences
+
+
+def cache():
+    return addon("core.cache").CACHE
+
+
+@pytest.fixture(autouse=True)
+def defaults():
+    """The preferences as they were, and their room for the cache."""
+    yield
+    for name in ("cache_size", "memory_limit", "above_limit"):
+        preferences().property_unset(name)
+    cache().room = preferences().cache_size * MEGABYTE
+
+
+@pytest.fixture
+def tight(monkeypatch):
+    """A machine on which the analysis of 1,500 points just fits."""
+    memory = addon("core.memory")
+    monkeypatch.setattr(memory, "free_memory", lambda: memory.memory_needed(1500) - cache().bytes)
+
+
+# --- what is kept
+
+
+def test_preferences_are_what_settings_say():
+    settings = addon("core.settings")
+    for name, option in {"cache_size": settings.CACHE_SIZE, **settings.LIMITS}.items():
+        shown = preferences().bl_rna.properties[name]
+        assert (shown.name, shown.description) == (option.label, option.description)
+        if shown.type == "ENUM":
+            assert shown.default == option.default.name
+        else:
+            assert (shown.default, shown.hard_min, shown.hard_max) == (
+                option.default,
+                option.minimum,
+                option.maximum,
+            )
+    assert cache().room == settings.CACHE_SIZE.default * MEGABYTE
+
+
+def test_smaller_cache_forgets_at_once():
+    ellipsoid()
+    compute()
+    assert cache().bytes > 0
+    preferences().cache_size = 0
+    assert cache().bytes == len(cache()) == 0
+    compute()
+    assert len(cache()) == 0
+    bpy.context.scene.medial_axis.theta = 1.2
+    assert "no longer in memory" in bpy.context.scene.medial_axis.note
+
+
+def test_saved_preferences_hold_from_the_first_computation():
+    """Blender sets saved values without calling `update`."""
+    ellipsoid()
+    preferences().cache_size = 0
+    cache().room = MEGABYTE << 10
+    compute()
+    assert cache().room == 0 and len(cache()) == 0
+
+
+def test_kept_analyses_are_freed_on_demand(capfd):
+    source = ellipsoid(segments=5)
+    compute()
+    size, count = cache().bytes, len(result_of(source).data.polygons)
+    assert size > MEGABYTE / 2
+    reports(capfd)
+    assert bpy.ops.wm.medial_axis_free_memory() == {"FINISHED"}
+    assert reports(capfd) == [("Info", f"{size / MEGABYTE:,.0f} MB were freed")]
+    assert cache().bytes == 0 and len(result_of(source).data.polygons) == count
+
+
+def test_kept_analyses_are_freed_with_the_addon():
+    ellipsoid()
+    compute()
+    old = cache()
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    assert len(old) == 0
+    bpy.ops.preferences.addon_enable(module=MODULE)
+
+
+# --- the limit
+
+
+@pytest.mark.parametrize("operator", ["medial_axis", "tight_cocone_surface"])
+def test_too_many_points_are_refused(tight, operator):
+    scan()
+    before = analyses()
+    said = refuse(r"fits into the free memory of .* MB, found 2,000, which need about", operator)
+    assert analyses() == before and "Memory Limit" in said
+
+
+def test_limit_of_the_preferences_refuses():
+    scan(points=on_ellipsoid(20_000)[0])
+    preferences().memory_limit = 1
+    refuse("fits into the limit of 1 MB, found 20,000, which need about")
+    preferences().memory_limit = 10_000
+    compute()
+
+
+@pytest.mark.parametrize("operator", ["medial_axis", "tight_cocone_surface"])
+def test_clouds_are_thinned(tight, capfd, operator):
+    source = scan()
+    preferences().above_limit = "THIN"
+    reports(capfd)
+    assert getattr(bpy.ops.object, operator)() == {"FINISHED"}
+    made = next(thing for thing in bpy.data.objects if thing is not source)
+    assert 500 < made["ma_points"] <= 1500
+    kept = f"{made['ma_points']:,} of the 2,000 points, evenly spread, were kept"
+    assert kept in made["ma_warnings"]
+    assert [text for kind, text in reports(capfd) if kind == "Warning" and kept in text]
+
+
+def test_surfaces_are_thinned(tight):
+    source = ellipsoid(segments=5)
+    assert len(source.data.vertices) > 1500
+    refuse("fits into the free memory")
+    preferences().above_limit = "THIN"
+    assert compute_or_not() == {"FINISHED"}
+    result = result_of(source)
+    assert result["ma_points"] <= 1500 and result["ma_sampling"] == "SURFACE"
+    assert "samples of the surface were taken" in result["ma_warnings"]
+
+
+def test_reports_of_the_sampling_have_the_limit(tight):
+    select(ellipsoid(segments=5))
+    before = contents()
+    with pytest.raises(RuntimeError, match="fits into the free memory"):
+        bpy.ops.object.medial_axis_sampling_report(sampling="SURFACE")
+    assert contents() == before
+    preferences().above_limit = "THIN"
+    assert bpy.ops.object.medial_axis_sampling_report(sampling="SURFACE") == {"FINISHED"}
+
+
+def test_sequences_have_the_limit(tight, tmp_path):
+    scan()
+    with pytest.raises(RuntimeError, match="Expected medial axes of 1 frames, found none"):
+        bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1")
+    preferences().above_limit = "THIN"
+    done = bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1")
+    assert done == {"FINISHED"} and len(list(tmp_path.glob("*.npz"))) == 1
+
+
+def test_other_thresholds_of_what_was_thinned_are_found_in_the_cache(tight):
+    source = scan()
+    preferences().above_limit = "THIN"
+    compute()
+    before = analyses()
+    bpy.context.scene.medial_axis.rho = 4.0
+    assert bpy.context.scene.medial_axis.note == ""
+    select(source)
+    compute(rho=3.0)
+    assert analyses() == before

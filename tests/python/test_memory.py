@@ -1,0 +1,428 @@
+"""Memory: what the cache holds, what an analysis may need, and what is done when it needs more."""
+
+import argparse
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core import cache, free_memory, memory, option_words, sampling
+from medial_axis.core.analysis import compute_axis, refilter
+from medial_axis.core.cache import CACHE, AnalysisCache
+from medial_axis.core.errors import InvalidInputError, MemoryLimitError
+from medial_axis.core.memory import MemoryLimit, memory_needed
+from medial_axis.core.reconstruction import reconstruct
+from medial_axis.core.report import report
+from medial_axis.core.settings import MEGABYTE, AboveLimit, Sampling, Settings
+from medial_axis.core.shape import Shape
+from medial_axis.core.thinning import spread_rows
+from scipy.spatial import ConvexHull, cKDTree
+
+GOLDEN = np.pi * (1 + 5**0.5)
+THIN = AboveLimit.THIN
+NO_FACES = np.empty((0, 3), np.int32)
+
+
+def egg(count):
+    """(n, 3) points of an ellipsoid, along a spiral."""
+    height = 1 - (2 * np.arange(count) + 1) / count
+    angle, level = GOLDEN * np.arange(count), np.sqrt(1 - height**2)
+    sphere = np.column_stack([level * np.cos(angle), level * np.sin(angle), height])
+    return sphere * [1.0, 0.7, 0.5]
+
+
+def cloud(count=20_000):
+    return Shape(egg(count), NO_FACES)
+
+
+def ball(rings=60):
+    """A closed mesh of about 2 rings^2 vertices on an ellipsoid."""
+    points = egg(2 * rings * rings)
+    triangles = ConvexHull(points).simplices.astype(np.int32)
+    a, b, c = (points[triangles[:, corner]] for corner in range(3))
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a) < 0
+    triangles[inward] = triangles[inward][:, ::-1]
+    return Shape(points, triangles)
+
+
+@pytest.fixture(autouse=True)
+def empty_cache():
+    CACHE.clear()
+    yield
+    CACHE.clear()
+
+
+@pytest.fixture
+def room(monkeypatch):
+    """(points) -> a machine on which, without a cache, the analysis of so many points just fits."""
+
+    def set_room(points):
+        monkeypatch.setattr(memory, "free_memory", lambda: memory_needed(points) - CACHE.bytes)
+
+    return set_room
+
+
+# --- the cache
+
+
+def test_oldest_analyses_go_first():
+    kept = AnalysisCache(room=100)
+    for key in "abc":
+        kept.put(key, key.upper(), 40)
+    assert kept.get("a") is None and kept.get("b") == "B" and kept.get("c") == "C"
+    assert (len(kept), kept.bytes, kept.analyses) == (2, 80, 3)
+
+
+def test_asking_for_an_analysis_makes_it_young():
+    kept = AnalysisCache(room=100)
+    kept.put("a", "A", 40)
+    kept.put("b", "B", 40)
+    kept.get("a")
+    kept.put("c", "C", 40)
+    assert kept.get("b") is None and kept.get("a") == "A"
+
+
+def test_what_exceeds_all_room_is_not_kept_and_drops_nothing():
+    kept = AnalysisCache(room=100)
+    kept.put("a", "A", 40)
+    kept.put("b", "B", 101)
+    assert kept.get("b") is None and kept.get("a") == "A" and kept.analyses == 2
+
+
+def test_less_room_drops_at_once():
+    kept = AnalysisCache(room=100)
+    for key in "ab":
+        kept.put(key, key, 40)
+    kept.room = 50
+    assert kept.get("a") is None and kept.get("b") == "b"
+    kept.room = 0
+    assert len(kept) == kept.bytes == 0
+
+
+def test_giving_back_drops_as_much_as_is_needed():
+    kept = AnalysisCache(room=100)
+    for key in "abc":
+        kept.put(key, key, 30)
+    kept.give_back(0)
+    kept.give_back(-5)
+    assert len(kept) == 3
+    kept.give_back(31)
+    assert len(kept) == 1
+    kept.give_back(1000)
+    assert len(kept) == 0
+
+
+def test_the_same_key_is_counted_once():
+    kept = AnalysisCache(room=100)
+    kept.put("a", "A", 60)
+    kept.put("a", "B", 70)
+    assert (len(kept), kept.bytes, kept.get("a")) == (1, 70, "B")
+
+
+def test_kept_bytes_are_those_of_analyses_and_arrays():
+    found = compute_axis(cloud(2000), Settings()).sampled.samples
+    assert CACHE.bytes == found.bytes >= found.analysis.bytes + found.points.nbytes
+    assert found.analysis.bytes > 100 * len(found.points)
+
+
+def test_an_analysis_larger_than_the_cache_serves_its_own_run(monkeypatch):
+    monkeypatch.setattr(cache, "CACHE", AnalysisCache(1000))
+    monkeypatch.setattr(sampling, "CACHE", cache.CACHE)
+    found = compute_axis(cloud(2000), Settings())
+    assert found.axis.facets > 0 and len(cache.CACHE) == 0
+    assert refilter(found.key, found.settings) is None
+
+
+# --- the memory that is free
+
+
+def test_free_memory_is_less_than_all_memory():
+    assert 0 < free_memory.free_memory() <= free_memory._installed()
+
+
+def test_free_memory_of_linux():
+    text = "MemTotal:       24684084 kB\nMemAvailable:   22233264 kB\n"
+    assert free_memory._available(text) == 22233264 * 1024
+    with pytest.raises(ValueError, match="MemAvailable"):
+        free_memory._available("MemTotal: 1 kB\n")
+
+
+@pytest.mark.parametrize(
+    ("line", "folder", "names", "dropped"),
+    [
+        ("0::/a/b", "a", ("memory.max", "memory.current"), "inactive_file 50"),
+        ("0::/elsewhere", ".", ("memory.max", "memory.current"), "inactive_file 50"),
+        (
+            "4:memory:/a/b",
+            "memory/a/b",
+            ("memory.limit_in_bytes", "memory.usage_in_bytes"),
+            "total_inactive_file 50",
+        ),
+    ],
+)
+def test_free_memory_of_control_groups(tmp_path, line, folder, names, dropped):
+    place = tmp_path / folder
+    place.mkdir(parents=True, exist_ok=True)
+    for name, text in (*zip(names, ("1000\n", "300\n"), strict=True), ("memory.stat", dropped)):
+        (place / name).write_text(text)
+    lines = f"9:name=systemd:/\n{line}\n"
+    assert list(free_memory._left_in_groups(lines, tmp_path)) == [750]
+    (place / names[0]).write_text("max\n")
+    assert list(free_memory._left_in_groups(lines, tmp_path)) == []
+
+
+# --- what an analysis needs
+
+
+def test_memory_needed_grows_with_the_points():
+    needed = [memory_needed(10**power) for power in range(9)]
+    assert needed == sorted(set(needed))
+    assert 200 * 10**6 < memory_needed(10**6) < 4000 * 10**6
+
+
+def test_limit_in_megabytes_is_the_limit(room):
+    room(1)
+    limit = MemoryLimit(100)
+    most = limit.points
+    assert memory_needed(most) <= 100 * MEGABYTE < memory_needed(most + 1)
+    limit.check(most)
+    with pytest.raises(MemoryLimitError, match="fits into the limit of 100 MB, found") as caught:
+        limit.check(most + 1)
+    assert caught.value.points == most + 1
+
+
+def test_automatic_is_what_is_free(room):
+    room(5000)
+    MemoryLimit().check(5000)
+    with pytest.raises(MemoryLimitError, match="the free memory of .* MB, found 5,001, which need"):
+        MemoryLimit().check(5001)
+    assert 4300 < MemoryLimit().points <= 5000
+    most = MemoryLimit().points
+    room(most + 1)
+    assert MemoryLimit().points == most
+
+
+def test_where_nothing_is_known_nothing_is_refused(monkeypatch):
+    monkeypatch.setattr(memory, "free_memory", lambda: None)
+    MemoryLimit().check(10**8)
+
+
+def test_kept_analyses_make_way_for_a_new_one(room):
+    room(2000)
+    CACHE.put("a", "A", memory_needed(2000) - memory_needed(1000))
+    CACHE.put("b", "B", 0)
+    MemoryLimit().check(1000)
+    assert len(CACHE) == 2
+    MemoryLimit().check(1001)
+    assert CACHE.get("a") is None and CACHE.get("b") == "B"
+
+
+@pytest.mark.parametrize("megabytes", [-1, 1 << 25])
+def test_limits_out_of_range_are_refused(megabytes):
+    with pytest.raises(InvalidInputError, match="Expected memory_limit from 0 to"):
+        MemoryLimit(megabytes)
+
+
+# --- refusing
+
+
+@pytest.mark.parametrize("work", [compute_axis, report])
+@pytest.mark.parametrize("settings", [Settings(), Settings(sampling=Sampling.SURFACE)])
+def test_too_many_points_are_refused_before_they_are_analysed(room, work, settings):
+    room(2000)
+    before = CACHE.analyses
+    with pytest.raises(MemoryLimitError, match=r"Expected points .* found (7,200|16,000), which"):
+        work(ball(), settings)
+    assert CACHE.analyses == before
+
+
+def test_a_surface_of_too_many_points_is_refused(room):
+    room(2000)
+    with pytest.raises(MemoryLimitError, match="found 20,000, which"):
+        reconstruct(cloud().points)
+
+
+def test_a_fine_spacing_is_refused_before_it_is_sampled(room, monkeypatch):
+    room(50_000)
+    settings = Settings(sampling=Sampling.SURFACE, spacing=0.01)
+    with pytest.raises(MemoryLimitError, match=r"found \d\d\d,\d\d\d,\d\d\d, which"):
+        compute_axis(ball(), settings)
+
+
+def test_what_is_kept_is_never_refused(room):
+    shape, settings = cloud(), Settings()
+    first = compute_axis(shape, settings)
+    room(2000)
+    again = compute_axis(shape, settings)
+    assert again.sampled.samples.analysis is first.sampled.samples.analysis
+
+
+# --- thinning
+
+
+def test_thinned_clouds_keep_what_fits_evenly_spread(room):
+    room(5000)
+    shape = cloud()
+    found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
+    assert 3000 < found.points <= 5000
+    assert (
+        f"20,000 points need about {-(-memory_needed(20_000) // MEGABYTE)} MB, more than the free "
+        f"memory of {-(-memory_needed(5000) // MEGABYTE)} MB: {found.points:,} of the 20,000 points, "
+        "evenly spread, were kept"
+    ) == found.warnings[0]
+    rows = found.sampled.samples.rows
+    assert (shape.points[rows] == found.sampled.samples.points).all()
+    assert found.axis.facets > 0
+
+
+def test_generators_of_thinned_clouds_are_rows_of_the_whole_cloud(room):
+    room(5000)
+    shape = cloud()
+    found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
+    for axis in (found.axis, refilter(found.key, Settings(rho=9.0, side=found.settings.side))):
+        ends = shape.points[axis.generators[0]]
+        vertex = axis.vertices[axis.face_vertices[axis.face_offsets[0]]]
+        assert np.linalg.norm(ends - vertex, axis=1) == pytest.approx(
+            axis.radius[axis.face_vertices[axis.face_offsets[0]]], rel=1e-6
+        )
+        assert set(axis.generators.ravel()) <= set(found.sampled.samples.rows)
+
+
+def test_a_thinned_cloud_is_no_cloud_of_its_own_in_the_cache(room):
+    room(5000)
+    shape = cloud()
+    found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
+    alone = compute_axis(Shape(found.sampled.samples.points, NO_FACES), Settings())
+    assert (found.axis.generators == found.sampled.samples.rows[alone.axis.generators]).all()
+
+
+def test_thinned_normals_stay_with_their_points(room):
+    room(5000)
+    shape = Shape(egg(20_000), NO_FACES, egg(20_000))
+    found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN)).sampled
+    assert (found.samples.normals == found.samples.points).all()
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        Settings(sampling=Sampling.VERTICES),
+        Settings(),
+        Settings(sampling=Sampling.SURFACE),
+        Settings(sampling=Sampling.SURFACE, spacing=0.5),
+        Settings(sampling=Sampling.SURFACE, samples=500, keep_vertices=True),
+        Settings(sampling=Sampling.ADAPTIVE, samples=3000, epsilon=0.02),
+    ],
+    ids=["vertices", "automatic", "count", "spacing", "keep vertices", "budget"],
+)
+def test_thinned_surfaces_have_fewer_samples(room, settings):
+    room(5000)
+    found = compute_axis(ball(), settings, limit=MemoryLimit(0, THIN))
+    assert found.points <= 5000 and found.axis.facets > 0
+    assert (
+        ": at most " in found.warnings[0]
+        and "samples of the surface were taken" in found.warnings[0]
+    )
+    if not settings.keep_vertices:
+        assert found.points > 0.9 * 0.95 * MemoryLimit().points
+
+
+def test_what_fits_is_not_thinned(room):
+    room(20_000)
+    found = compute_axis(cloud(), Settings(), limit=MemoryLimit(0, THIN))
+    assert found.points == 20_000 and not found.sampled.thinned
+
+
+def test_a_small_spacing_that_fits_stays(room):
+    """Only the budget of the later passes is more than fits."""
+    room(5000)
+    settings = Settings(sampling=Sampling.ADAPTIVE, spacing=3.0, epsilon=0.02)
+    found = compute_axis(ball(), settings, limit=MemoryLimit(0, THIN))
+    alone = compute_axis(ball(), Settings(sampling=Sampling.SURFACE, spacing=3.0))
+    assert found.sampled.samples.spacing == alone.sampled.samples.spacing
+
+
+def test_too_little_for_anything_is_refused(room):
+    room(90)
+    for shape in (cloud(), ball()):
+        with pytest.raises(MemoryLimitError):
+            compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
+
+
+def test_thinned_surfaces_through_points(room):
+    room(5000)
+    found = reconstruct(cloud().points, limit=MemoryLimit(0, THIN))
+    assert 3000 < found.points <= 5000 and "evenly spread, were kept" in found.warnings[0]
+
+
+def test_thinning_is_deterministic_and_close():
+    points = egg(20_000)
+    rows = spread_rows(points, 3000)
+    assert rows.tolist() == spread_rows(points.copy(), 3000).tolist() == sorted(set(rows.tolist()))
+    assert 2000 < len(rows) <= 3000 and rows.dtype == np.int32
+    far = cKDTree(points[rows]).query(points)[0].max()
+    spacing = np.sqrt(4 * np.pi * 0.5 / len(rows))
+    assert far < 3 * spacing
+
+
+@pytest.mark.parametrize("extent", [1e-40, 1e40])
+def test_thinning_knows_no_scale(extent):
+    points = egg(5000)
+    assert (spread_rows(points * extent, 1000) == spread_rows(points, 1000)).all()
+
+
+def test_equal_points_are_one():
+    assert spread_rows(np.ones((500, 3)), 100).tolist() == [0]
+
+
+def test_points_that_are_not_finite_are_not_thinned():
+    points = egg(500)
+    points[7, 1] = np.nan
+    with pytest.raises(InvalidInputError, match="Expected finite coordinates"):
+        spread_rows(points, 100)
+
+
+# --- the command line
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    np.save(tmp_path / "egg.npy", egg(20_000))
+    return tmp_path
+
+
+def test_command_line_refuses(here, capsys):
+    megabytes = memory_needed(20_000) // MEGABYTE
+    code = cli.main(["egg.npy", "egg.ma", "--memory-limit", str(megabytes)])
+    assert code == cli.FAILED and not (here / "egg.ma").exists()
+    assert f"fits into the limit of {megabytes} MB, found 20,000" in capsys.readouterr().err
+
+
+def test_command_line_thins_and_resumes(here, capsys):
+    megabytes = str(memory_needed(20_000) // MEGABYTE)
+    words = ["egg.npy", "egg.ma", "--memory-limit", megabytes, "--above-limit", "thin", "--json"]
+    assert cli.main(words) == cli.DONE
+    said = capsys.readouterr()
+    assert "evenly spread, were kept" in said.err and '"status": "done"' in said.out
+    assert cli.main(words) == cli.DONE
+    assert '"status": "kept"' in capsys.readouterr().out
+    assert cli.main(["egg.npy", "egg.ma", "--json"]) == cli.DONE  # all points: another output
+    assert '"status": "done"' in capsys.readouterr().out
+    assert cli.main(words) == cli.DONE  # more than was asked for is kept
+    assert '"status": "kept"' in capsys.readouterr().out
+
+
+def test_command_line_says_what_it_expects(here, capsys):
+    assert cli.main(["egg.npy", "egg.ma", "--memory-limit", "-5"]) == cli.USAGE
+    assert "Expected memory_limit from 0 to" in capsys.readouterr().err
+    assert cli.main(["egg.npy", "egg.ma", "--above-limit", "swap"]) == cli.USAGE
+
+
+def test_words_of_the_limits_are_those_of_the_settings():
+    parser = argparse.ArgumentParser()
+    option_words.add_limits(parser)
+    found = option_words.limit_from(
+        parser.parse_args(["--memory-limit", "7", "--above-limit", "thin"])
+    )
+    assert found == MemoryLimit(7, THIN)
+    assert option_words.limit_from(parser.parse_args([])) == MemoryLimit()
