@@ -17,6 +17,7 @@ Exit codes: 0 all went well, 1 something failed, 2 a tool or package is missing.
 from __future__ import annotations
 
 import argparse
+import html
 import json
 import os
 import re
@@ -307,6 +308,7 @@ def pack() -> Path:
     DIST.mkdir(exist_ok=True)
     files = {path.relative_to(ADDON).as_posix(): path for path in packed_files()}
     files["LICENSE"] = ROOT / "LICENSE"
+    files |= manual_pages(BUILD)
     archive, extension = archives()
     write_zip(archive, {f"{PACKAGE}/{name}": path.read_bytes() for name, path in files.items()})
     contents = {name: path.read_bytes() for name, path in files.items()}
@@ -339,6 +341,46 @@ def write_zip(target: Path, contents: dict[str, bytes]) -> None:
             archive.writestr(entry, content)
     os.replace(fresh, target)
     print(f"{target.relative_to(ROOT)}: {target.stat().st_size / 1e6:.1f} MB")
+
+
+def manual_pages(folder: Path) -> dict[str, Path]:
+    """docs/ as pages for the add-on, which every browser shows without a network."""
+    pages = {}
+    for page in sorted((ROOT / "docs").glob("*.md")):
+        name = f"manual/{page.stem}.html"
+        pages[name] = folder / name
+        pages[name].parent.mkdir(parents=True, exist_ok=True)
+        pages[name].write_text(manual_page(page.read_text(encoding="utf-8")), encoding="utf-8")
+    return pages
+
+
+def manual_page(markdown: str) -> str:
+    """Markdown as people write it, with headings and links between pages that lead somewhere; no pictures."""
+    parts = re.split(r"^```.*\n", html.escape(markdown, quote=False), flags=re.MULTILINE)
+    for number, text in enumerate(parts):
+        if number % 2:  # code
+            parts[number] = f"<pre>{text}</pre>"
+            continue
+        text = re.sub(r"^(#+) (.+)$", heading, text, flags=re.MULTILINE)
+        text = re.sub(r"!\[([^]]*)\]\([^)]+\)", "", text)
+        text = re.sub(r"\[([^]]+)\]\(([\w.]*)\.md(#[\w-]+)?\)", r'<a href="\2.html\3">\1</a>', text)
+        parts[number] = f"<div>{text}</div>"
+    return MANUAL_PAGE.format("\n".join(parts))
+
+
+def heading(found: re.Match) -> str:
+    level, text = len(found[1]), found[2]
+    name = re.sub(r"[^\w -]", "", text.lower()).replace(" ", "-")
+    return f'<h{level} id="{name}">{text}</h{level}>'
+
+
+MANUAL_PAGE = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>Medial Axis</title>
+<style>body {{ max-width: 60em; margin: 2em auto; font-family: monospace }} div {{ white-space: pre-wrap }}</style>
+</head><body>
+{}
+</body></html>
+"""
 
 
 def packed_files() -> list[Path]:

@@ -62,8 +62,7 @@ def own_errors() -> Iterator[ModuleType]:
         raise Cancelled(str(error)) from error
     except MemoryError as error:
         raise OutOfMemoryError(
-            "Expected enough memory, about 1.5 KB per point, found too little; "
-            "close other programs or use fewer points"
+            "Expected enough memory, found too little; close other programs or use fewer points"
         ) from error
 
 
@@ -71,13 +70,19 @@ def problem() -> str:
     """Why `load` would fail, in one sentence, or "". Loads nothing; cheap enough for a panel."""
     if _module is not None or _failure:
         return _failure
-    if any((LIB / f"{NAME}{suffix}").is_file() for suffix in EXTENSION_SUFFIXES):
+    if file() is not None:
         return ""
     found = ", ".join(found_abis()) or "none"
     return (
         f"Expected the compiled module for {expected_abi()}, found {found}; "
         "install the add-on's zip made for this Blender and system"
     )
+
+
+def file() -> Path | None:
+    """The compiled module that `load` takes, or None."""
+    files = (LIB / f"{NAME}{suffix}" for suffix in EXTENSION_SUFFIXES)
+    return next((file for file in files if file.is_file()), None)
 
 
 def expected_abi() -> str:

@@ -10,17 +10,20 @@ def _modules() -> tuple[ModuleType, ...]:
         command,
         export,
         import_points,
+        manual,
         menus,
         operators,
         panels,
         preferences,
         properties,
         running,
+        self_test,
         sequence,
     )
 
     return (
         properties,
+        self_test,
         preferences,
         operators,
         export,
@@ -28,6 +31,7 @@ def _modules() -> tuple[ModuleType, ...]:
         panels,
         sequence,
         menus,
+        manual,
         running,
         command,
     )

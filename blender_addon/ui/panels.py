@@ -1,7 +1,5 @@
 """The sidebar tab of the 3D viewport."""
 
-import textwrap
-
 import bpy
 
 from ..bridge import made, results, sampling_report, surfaces
@@ -9,9 +7,8 @@ from ..bridge.material import LIMIT
 from ..core import native
 from . import running
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
+from .sentence import draw_sentence
 from .sources import obstacle
-
-_CHARACTER = 7  # pixels of an average character; only decides where lines break
 
 
 class _Tab:
@@ -29,11 +26,11 @@ class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         if problem := native.problem():
-            _sentence(context, layout.box(), problem, "ERROR")
+            draw_sentence(context, layout.box(), problem, "ERROR")
         _draw_settings(context, layout)
         _draw_compute(context, layout)
         for note in context.scene.medial_axis.note.splitlines():
-            _sentence(context, layout, note, "INFO")
+            draw_sentence(context, layout, note, "INFO")
 
 
 class VIEW3D_PT_medial_axis_sampling(_Tab, bpy.types.Panel):
@@ -117,7 +114,7 @@ def _draw_compute(context, layout):
     )
     reason = obstacle(context)
     if reason and reason != native.problem():
-        _sentence(context, layout, reason, "INFO")
+        draw_sentence(context, layout, reason, "INFO")
 
 
 def _draw_progress(context, layout, job):
@@ -147,7 +144,7 @@ def _draw_figures(context, layout, result):
     )
     for name in (made.SAMPLED, made.DENSITY, results.INSIDE):
         if sentence := result.get(name):
-            _sentence(context, layout, sentence, "INFO")
+            draw_sentence(context, layout, sentence, "INFO")
     _draw_warnings(context, layout, result)
 
 
@@ -183,7 +180,7 @@ def _draw_report(context, layout, report):
             "Worst": f"{worst[0]:.2g}",
         },
     )
-    _sentence(context, layout, report.get(made.SAMPLED, ""), "INFO")
+    draw_sentence(context, layout, report.get(made.SAMPLED, ""), "INFO")
     _draw_warnings(context, layout, report)
 
 
@@ -198,16 +195,7 @@ def _draw_table(layout, thing, figures):
 
 def _draw_warnings(context, layout, thing):
     for warning in thing.get(made.WARNINGS, "").splitlines():
-        _sentence(context, layout, warning, "ERROR")
-
-
-def _sentence(context, layout, text, icon):
-    """A sentence over as many lines as the sidebar needs; Blender's labels do not wrap."""
-    width = context.region.width / context.preferences.system.ui_scale - 60
-    column = layout.column(align=True)
-    column.scale_y = 0.8
-    for number, line in enumerate(textwrap.wrap(text, max(20, int(width / _CHARACTER)))):
-        column.label(text=line, icon="BLANK1" if number else icon)
+        draw_sentence(context, layout, warning, "ERROR")
 
 
 CLASSES = (

@@ -1,22 +1,36 @@
-"""Edit > Preferences > Add-ons > Medial Axis: memory."""
+"""Edit > Preferences > Add-ons > Medial Axis: what is installed, memory, a test of it, and the manual."""
+
+import os
 
 import bpy
 
+from .. import __version__
+from ..core import native
 from ..core.cache import CACHE
 from ..core.memory import MemoryLimit
 from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
+from . import self_test
+from .manual import draw_manual
 from .properties import choice_of, integer_of
+from .sentence import draw_sentence
 
 ADDON = __package__.rpartition(".")[0]
 
 
 def memory_limit() -> MemoryLimit:
-    """What the user allows an analysis; and the cache is told its room, for saved preferences call no `update`."""
+    """What the user allows an analysis; the cache is told its room, for saved preferences call no `update`."""
     addon = bpy.context.preferences.addons.get(ADDON)
     if addon is None:  # registered by a script, without preferences
         return MemoryLimit()
     _give_room(addon.preferences)
     return MemoryLimit(addon.preferences.memory_limit, AboveLimit[addon.preferences.above_limit])
+
+
+def threads() -> int:
+    """How many a computation has."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def _give_room(preferences, _context=None):
@@ -30,20 +44,51 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
     memory_limit: integer_of(LIMITS["memory_limit"])
     above_limit: choice_of(LIMITS["above_limit"])
 
-    def draw(self, _context):
-        column = self.layout.column()
-        column.use_property_split = True
-        for name in ("cache_size", "memory_limit", "above_limit"):
-            column.prop(self, name)
-        row = column.row()
-        row.label(text=f"{len(CACHE)} analyses are kept, {CACHE.bytes / MEGABYTE:,.0f} MB")
-        row.operator("wm.medial_axis_free_memory", icon="TRASH")
+    def draw(self, context):
+        _draw_installed(context, self.layout.box().column())
+        _draw_memory(self.layout.box().column(), self)
+        _draw_test(context, self.layout.box().column())
+        draw_manual(self.layout)
+
+
+def _draw_installed(context, layout):
+    if problem := native.problem():
+        draw_sentence(context, layout, problem, "ERROR")
+    file = native.file()
+    table = {
+        "Version": __version__,
+        "Compiled For": native.expected_abi() if file else ", ".join(native.found_abis()),
+        "Compiled Module": str(file or ""),
+        "Threads": str(threads()),
+    }
+    for label, text in table.items():
+        row = layout.split(factor=0.2)
+        row.label(text=label)
+        row.label(text=text, translate=False)
+
+
+def _draw_memory(layout, preferences):
+    column = layout.column()
+    column.use_property_split = True
+    for name in ("cache_size", "memory_limit", "above_limit"):
+        column.prop(preferences, name)
+    row = layout.split(factor=0.7)
+    row.label(text=f"{len(CACHE)} analyses are kept, {CACHE.bytes / MEGABYTE:,.0f} MB")
+    row.operator("wm.medial_axis_free_memory", icon="TRASH")
+
+
+def _draw_test(context, layout):
+    layout.operator("wm.medial_axis_self_test", icon="CHECKMARK")
+    for check in self_test.last():
+        draw_sentence(context, layout, check.found, "CHECKMARK" if check.passed else "ERROR")
 
 
 class WM_OT_medial_axis_free_memory(bpy.types.Operator):
     bl_idname = "wm.medial_axis_free_memory"
     bl_label = "Free Memory"
-    bl_description = "Forget the kept analyses; the medial axes stay, and other thresholds need another computation"
+    bl_description = (
+        "Forget the kept analyses; medial axes stay, and other thresholds need another computation"
+    )
 
     def execute(self, _context):
         size = CACHE.bytes

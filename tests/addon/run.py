@@ -25,6 +25,10 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ADDON = HERE.parents[1] / "blender_addon"
+sys.path.insert(0, str(HERE.parents[1]))
+
+from build_addon import manual_pages  # noqa: E402 - it lies above this folder
+
 PACKAGE = "medial_axis"
 
 
@@ -106,6 +110,8 @@ def pack(folder: Path) -> Path:
         for path in sorted(ADDON.rglob("*")):
             if path.is_file() and "__pycache__" not in path.parts:
                 archive.write(path, f"{PACKAGE}/{path.relative_to(ADDON).as_posix()}")
+        for name, path in manual_pages(folder).items():
+            archive.write(path, f"{PACKAGE}/{name}")
     return target
 
 

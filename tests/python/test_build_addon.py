@@ -272,3 +272,24 @@ def test_clean_removes_what_was_made(script, tmp_path, monkeypatch):
     assert sorted(p.name for p in tmp_path.rglob("*") if p.is_file()) == ["a.png", "keep.py"]
     assert script.main(["clean", "--all"]) == 0
     assert [p.name for p in tmp_path.rglob("*") if p.is_file()] == ["keep.py"]
+
+
+def test_manual_pages_are_whole(script, tmp_path):
+    """Every page of docs/ is there, and every link between pages leads to a page and a heading."""
+    pages = {name: path.read_text() for name, path in script.manual_pages(tmp_path).items()}
+    documents = sorted((ROOT / "docs").glob("*.md"))
+    assert list(pages) == [f"manual/{path.stem}.html" for path in documents]
+    for page, document in zip(pages.values(), documents, strict=True):
+        assert page.count("<pre>") == document.read_text().count("\n```") // 2
+        for name, place in re.findall(r'<a href="([\w.]+)(?:#([\w-]+))?">', page):
+            target = pages[f"manual/{name}"]
+            assert not place or f'id="{place}"' in target
+
+
+def test_manual_page_shows_markdown_as_it_is(script):
+    page = script.manual_page(
+        "# Big & *small*\n\na < b [x](other.md#y-z) ![p](q.png)\n```python\n# no heading\n```\nend\n"
+    )
+    assert '<h1 id="big-amp-small">Big &amp; *small*</h1>' in page
+    assert 'a &lt; b <a href="other.html#y-z">x</a> \n' in page
+    assert "<pre># no heading\n</pre>" in page and "q.png" not in page

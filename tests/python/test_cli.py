@@ -21,7 +21,7 @@ from medial_axis.core.export import export_axis
 from medial_axis.core.frames import at_frame, output_path, parse_frames
 from medial_axis.core.import_points import import_points
 from medial_axis.core.load_axis import load_axis
-from medial_axis.core.settings import OPTIONS, Choice, Settings, Side, Switch
+from medial_axis.core.settings import LIMITS, OPTIONS, Choice, Settings, Side, Switch
 
 ROOT = Path(__file__).resolve().parents[2]
 GOLDEN = np.pi * (1 + 5**0.5)
@@ -476,7 +476,7 @@ def test_documented_options_are_all():
     """The table of the page names every option, with its default."""
     text = (ROOT / "docs" / "command_line.md").read_text(encoding="utf-8")
     table = dict(re.findall(r"^\| `--([a-z-]+)[^`]*` \| ([^|]+?) \|", text, re.MULTILINE))
-    for name, option in OPTIONS.items():
+    for name, option in {**OPTIONS, **LIMITS}.items():
         shown = option_words._outward(option, option.default)
         if isinstance(option, Switch):
             shown = "on" if shown else "off"

@@ -1,0 +1,33 @@
+"""Does what is installed here compute a medial axis that is known, and does Blender take it?"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+
+from ..core.analysis import MedialAxis
+from ..core.errors import MedialAxisError
+from ..core.self_test import Check, checks_of, compute_box
+from .attributes import attributes
+from .write_object import new_mesh
+
+
+def self_test() -> list[Check]:
+    """Every check; what is made for it is removed again."""
+    try:
+        box = compute_box()
+        return [*checks_of(box), _check_mesh(box.axis)]
+    except MedialAxisError as error:
+        return [Check(False, str(error))]
+
+
+def _check_mesh(axis: MedialAxis) -> Check:
+    mesh = new_mesh(axis, "Medial Axis Self-Test", attributes())
+    try:
+        radius = np.empty(len(mesh.vertices), np.float32)
+        mesh.attributes["ma_radius"].data.foreach_get("value", radius)
+        facets = len(mesh.polygons)
+        same = facets == axis.facets and np.array_equal(radius, axis.radius.astype(np.float32))
+        return Check(same, f"Blender has a mesh of {facets:,} faces with these radii")
+    finally:
+        bpy.data.meshes.remove(mesh)

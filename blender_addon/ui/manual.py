@@ -1,0 +1,47 @@
+"""The manual that comes with the add-on: buttons, and Online Manual in Blender's context menus."""
+
+from pathlib import Path
+
+import bpy
+
+_FOLDER = Path(__file__).resolve().parent.parent / "manual"
+_PAGES = {
+    "user_guide.html": "User Guide",
+    "troubleshooting.html": "Troubleshooting",
+    "command_line.html": "Command Line",
+}
+# What Blender calls operators and properties, in lower case, and where the manual speaks of them.
+_PLACES = (
+    ("bpy.ops.object.medial_axis_sampling_report*", "user_guide.html#report-sampling"),
+    ("bpy.ops.object.medial_axis_sequence*", "user_guide.html#animation"),
+    ("bpy.ops.import_scene.medial_axis_sequence*", "user_guide.html#animation"),
+    ("bpy.types.scene.medial_axis_folder*", "user_guide.html#animation"),
+    ("bpy.ops.object.medial_axis*", "user_guide.html#the-settings"),
+    ("bpy.types.medialaxispanelsettings*", "user_guide.html#the-settings"),
+    ("bpy.ops.object.tight_cocone_surface*", "user_guide.html#reconstruct-surface"),
+    ("bpy.ops.import_mesh.points_*", "user_guide.html#scans-and-point-clouds"),
+    ("bpy.ops.export_scene.medial_axis*", "user_guide.html#exporting"),
+    ("bpy.types.medialaxispreferences*", "user_guide.html#preferences"),
+    ("bpy.ops.wm.medial_axis_*", "user_guide.html#preferences"),
+)
+
+
+def draw_manual(layout):
+    """A button for each page that is there; a copy of the sources has none."""
+    row = layout.row()
+    for name, label in _PAGES.items():
+        if (_FOLDER / name).is_file():
+            row.operator("wm.url_open", text=label, icon="HELP").url = (_FOLDER / name).as_uri()
+
+
+def places():
+    """As `bpy.utils.register_manual_map` wants them."""
+    return f"{_FOLDER.as_uri()}/", _PLACES if _FOLDER.is_dir() else ()
+
+
+def register():
+    bpy.utils.register_manual_map(places)
+
+
+def unregister():
+    bpy.utils.unregister_manual_map(places)

@@ -1,0 +1,169 @@
+"""The preferences page: what is installed, the self-test, and the manual."""
+
+import os
+from pathlib import Path
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from scene import MODULE, addon, contents, reports
+
+CHECKS = 7
+
+
+class Layout:
+    """Records what is drawn, and knows no way to do anything slow."""
+
+    def __init__(self, drawn=None):
+        self.drawn = [] if drawn is None else drawn
+
+    def _child(self, **_):
+        return Layout(self.drawn)
+
+    box = column = row = split = _child
+
+    def label(self, text="", icon="NONE", translate=True):
+        self.drawn.append(text)
+
+    def prop(self, owner, name, **_):
+        assert name in owner.bl_rna.properties
+        self.drawn.append(name)
+
+    def operator(self, name, text="", icon="NONE"):
+        self.drawn.append(text or name)
+        return SimpleNamespace()
+
+
+def page():
+    """What the preferences show."""
+    layout = Layout()
+    region = SimpleNamespace(width=10_000)
+    system = SimpleNamespace(ui_scale=1.0)
+    context = SimpleNamespace(region=region, preferences=SimpleNamespace(system=system))
+    draw = addon("ui.preferences").MedialAxisPreferences.draw
+    owner = bpy.context.preferences.addons[MODULE].preferences
+    shown = SimpleNamespace(
+        layout=layout, bl_rna=owner.bl_rna, **dict.fromkeys(owner.bl_rna.properties.keys(), 0)
+    )
+    draw(shown, context)
+    return layout.drawn
+
+
+@pytest.fixture(autouse=True)
+def no_last_test():
+    addon("ui.self_test")._last.clear()
+
+
+def test_page_names_what_is_installed():
+    drawn = page()
+    native = addon("core.native")
+    assert native.file().parent == Path(addon().__file__).parent / "lib"
+    for text in (addon().__version__, native.expected_abi(), str(native.file())):
+        assert text in drawn
+    assert str(len(os.sched_getaffinity(0))) in drawn
+    assert {"cache_size", "memory_limit", "above_limit", "wm.medial_axis_self_test"} <= set(drawn)
+
+
+def test_page_loads_and_computes_nothing(monkeypatch):
+    native = addon("core.native")
+    monkeypatch.setattr(native, "load", lambda: pytest.fail("loaded"))
+    assert "wm.medial_axis_free_memory" in page()
+
+
+def test_page_says_when_the_module_is_missing(monkeypatch, tmp_path):
+    native = addon("core.native")
+    monkeypatch.setattr(native, "LIB", tmp_path)
+    monkeypatch.setattr(native, "_module", None)
+    assert any(text.startswith("Expected the compiled module for") for text in page())
+
+
+def test_self_test_passes_and_says_so(capfd):
+    before = contents()
+    reports(capfd)
+    assert bpy.ops.wm.medial_axis_self_test() == {"FINISHED"}
+    said = reports(capfd)
+    assert [kind for kind, _ in said] == ["Info"] * CHECKS
+    assert all(text.startswith("Passed: ") for _, text in said)
+    assert contents() == before
+    assert [text.removeprefix("Passed: ") for _, text in said] == page()[-CHECKS - 3 : -3]
+
+
+def test_self_test_fails_without_the_module(monkeypatch, tmp_path):
+    native = addon("core.native")
+    monkeypatch.setattr(native, "LIB", tmp_path)
+    monkeypatch.setattr(native, "_module", None)
+    with pytest.raises(RuntimeError, match="Failed: Expected the compiled module for"):
+        bpy.ops.wm.medial_axis_self_test()
+    assert not addon("ui.self_test").last()[0].passed
+
+
+def moved(axis, by):
+    """The axis elsewhere, with the same radii."""
+    fields = {name: getattr(axis, name) for name in axis.__dataclass_fields__}
+    return type(axis)(**fields | {"vertices": axis.vertices + by})
+
+
+@pytest.mark.parametrize(
+    ("change", "failed"),
+    [
+        (lambda axis: moved(axis, np.array([0.0, 0.0, 0.2])), {1, 2, 4}),
+        (lambda axis: type(axis)(**vars(axis) | {"radius": 1.3 * axis.radius}), {2, 3}),
+        (lambda axis: moved(axis, -0.3 * axis.vertices), {1, 2, 4}),
+    ],
+    ids=["moved", "radii", "shrunk"],
+)
+def test_self_test_notices(change, failed):
+    core = addon("core.self_test")
+    box = core.compute_box()
+    checks = core._of_shape(change(box.axis), box.sampled.samples.spacing)
+    assert {number for number, check in enumerate(checks, 1) if not check.passed} >= failed - {4}
+    assert all(check.passed for check in core._of_shape(box.axis, box.sampled.samples.spacing))
+
+
+def test_self_test_notices_an_empty_axis():
+    core = addon("core.self_test")
+    axis = core.compute_box().axis
+    empty = type(axis)(**vars(axis) | {"face_offsets": np.zeros(1, np.int32)})
+    assert [check.passed for check in core._of_shape(empty, 0.1)] == [False]
+
+
+# --- the manual
+
+
+def lookup(name):
+    """Where Online Manual leads for a button."""
+    return bpy.types.WM_OT_doc_view_manual._lookup_rna_url(name, verbose=False)
+
+
+NAMES = (
+    "bpy.ops.object.medial_axis",
+    "bpy.ops.object.medial_axis_sampling_report",
+    "bpy.ops.object.medial_axis_sequence",
+    "bpy.ops.object.tight_cocone_surface",
+    "bpy.ops.export_scene.medial_axis",
+    "bpy.ops.import_mesh.points_xyz",
+    "bpy.ops.import_mesh.points_off",
+    "bpy.ops.import_scene.medial_axis_sequence",
+    "bpy.ops.wm.medial_axis_self_test",
+    "bpy.types.MedialAxisPanelSettings.theta",
+    "bpy.types.MedialAxisPreferences.cache_size",
+    "bpy.types.Scene.medial_axis_folder",
+)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_online_manual_leads_to_the_manual_that_is_installed(name):
+    url = lookup(name)
+    page, _, place = url.partition("#")
+    file = Path(addon().__file__).parent / "manual" / page.rpartition("/")[2]
+    assert page == file.as_uri()
+    assert f'id="{place}"' in file.read_text(encoding="utf-8")
+
+
+def test_online_manual_of_blender_is_left_alone():
+    assert lookup("bpy.ops.mesh.primitive_cube_add").startswith("https://docs.blender.org/")
+
+
+def test_page_has_buttons_for_the_manual():
+    assert page()[-3:] == ["User Guide", "Troubleshooting", "Command Line"]
