@@ -6,6 +6,7 @@ from ..bridge import made, results, sampling_report, surfaces
 from ..bridge.material import LIMIT
 from ..core import native
 from . import running
+from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
 from .sentence import draw_sentence
 from .sources import obstacle
@@ -22,6 +23,9 @@ class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
 
     bl_label = "Medial Axis"
     bl_idname = "VIEW3D_PT_medial_axis"
+
+    def draw_header_preset(self, _context):
+        VIEW3D_PT_medial_axis_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         layout = self.layout

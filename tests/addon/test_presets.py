@@ -1,0 +1,102 @@
+"""Presets of the panel: those that come with the add-on, and the user's own."""
+
+import math
+from pathlib import Path
+
+import bpy
+import pytest
+from scene import addon
+
+FOLDER = Path(addon().__file__).parent / "presets" / "medial_axis"
+# What each changes of the defaults.
+SHIPPED = {
+    "As_Published": {"sampling": "VERTICES"},
+    "Defaults": {},
+    "Low_Poly": {"sharp_angle": math.pi / 3},
+    "Noisy_Scan": {"rule": "BOTH"},
+    "Thin_Parts": {"sampling": "ADAPTIVE"},
+    "Tubes_and_Fingers": {"rho": 16.0, "limit_set": True},
+}
+OTHERS = {"theta": 0.1, "side": "OUTER", "samples": 777, "smooth": False, "seed": 5}
+
+
+def execute(path):
+    done = bpy.ops.script.execute_preset(
+        filepath=str(path), menu_idname="VIEW3D_PT_medial_axis_presets"
+    )
+    assert done == {"FINISHED"}
+
+
+def set_all(values):
+    for name, value in values.items():
+        setattr(bpy.context.scene.medial_axis, name, value)
+
+
+def shown():
+    return addon("ui.properties").settings_from(bpy.context.scene.medial_axis)
+
+
+def expected(changes):
+    settings = addon("core.settings")
+    values = {
+        name: type(settings.OPTIONS[name].default)[value]
+        if isinstance(settings.OPTIONS[name], settings.Choice)
+        else value
+        for name, value in changes.items()
+    }
+    return settings.Settings(**values)
+
+
+def drawn(monkeypatch):
+    """Names and files that the menu of presets shows."""
+    files = {}
+    panel = addon("ui.presets").VIEW3D_PT_medial_axis_presets
+
+    class Menu:
+        preset_subdir = panel.preset_subdir
+        preset_operator = panel.preset_operator
+        path_menu = panel.path_menu
+
+    def record(_self, paths, operator, **_options):
+        assert operator == "script.execute_preset"
+        for folder in map(Path, paths):
+            files.update((file.stem, file) for file in folder.glob("*.py"))
+
+    monkeypatch.setattr(bpy.types.Menu, "path_menu", record)
+    bpy.types.Menu.draw_preset(Menu(), bpy.context)
+    return files
+
+
+def test_shipped_presets_are_these():
+    assert sorted(file.stem for file in FOLDER.iterdir() if file.suffix == ".py") == sorted(SHIPPED)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_shipped_presets_say_every_setting(name):
+    set_all(OTHERS)
+    execute(FOLDER / f"{name}.py")
+    settings, wanted = shown(), expected(SHIPPED[name])
+    for option in addon("core.settings").OPTIONS:
+        value = getattr(wanted, option)
+        same = pytest.approx(value, rel=1e-6) if isinstance(value, float) else value
+        assert getattr(settings, option) == same
+
+
+def test_menu_shows_what_is_shipped_and_what_was_added(monkeypatch):
+    assert {name: FOLDER / f"{name}.py" for name in SHIPPED} == drawn(monkeypatch)
+    set_all(OTHERS)
+    assert bpy.ops.scene.medial_axis_preset_add(name="My Own") == {"FINISHED"}
+    mine = drawn(monkeypatch)["My_Own"]
+    assert mine.is_relative_to(bpy.utils.user_resource("SCRIPTS"))
+    kept = shown()
+    execute(FOLDER / "Defaults.py")
+    assert shown() != kept
+    execute(mine)
+    assert shown() == kept
+    bpy.ops.scene.medial_axis_preset_add(name="My_Own", remove_name=True)
+    assert not mine.exists() and set(drawn(monkeypatch)) == set(SHIPPED)
+
+
+def test_operators_have_presets_of_their_own():
+    for name in ("OBJECT_OT_medial_axis", "EXPORT_SCENE_OT_medial_axis"):
+        assert "PRESET" in getattr(bpy.types, name).bl_options
