@@ -75,7 +75,7 @@ MATRIX_NEEDS = {**TEST_NEEDS, "Debian in a folder, by root alone": "debootstrap"
 
 # The Pythons of the Blenders that the zip is for, and the Debian suite that has their headers.
 PYTHONS = {"3.11": "bookworm", "3.13": "trixie", "3.14": "sid"}
-ZIPPED_SUFFIXES = {".py", ".toml", ".so", ".png", ".svg", ".js", ".yaml"}
+ZIPPED_SUFFIXES = {".py", ".po", ".toml", ".so", ".png", ".svg", ".js", ".yaml"}
 
 
 class Failure(Exception):

@@ -70,6 +70,11 @@ class Job:
         return (self._current + self._progress[self._current].fraction) / len(self._progress)
 
     @property
+    def name(self) -> str:
+        """Of the task that runs."""
+        return self.names[self._current]
+
+    @property
     def stage(self) -> str:
         """'Poles', or '1 of 2: Poles' when there are several tasks."""
         count = len(self.names)
@@ -79,7 +84,7 @@ class Job:
     @property
     def text(self) -> str:
         """'Suzanne, 1 of 2: Poles, 42 %'."""
-        return f"{', '.join((self.names[self._current], self.stage))}, {100 * self.fraction:.0f} %"
+        return f"{self.name}, {self.stage}, {100 * self.fraction:.0f} %"
 
     def wait(self, seconds: float) -> bool:
         """Wait so long at most; whether it is done.

@@ -65,8 +65,8 @@ class MemoryLimit:
         return most >> spare << spare
 
     def __str__(self) -> str:
-        kind = "the limit of" if self.memory_limit else "the free memory of"
-        return f"{kind} {megabytes(self._room())}"
+        room = megabytes(self._room())
+        return f"the limit of {room}" if self.memory_limit else f"the free memory of {room}"
 
     def _room(self) -> int:
         """Bytes."""

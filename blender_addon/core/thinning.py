@@ -42,8 +42,10 @@ def thinned_rows(
         A coordinate is not finite.
     """
     rows = spread_rows(points, _most(limit, error))
-    kept = f"{len(rows):,} of the {len(points):,} points, evenly spread, were kept"
-    return rows, f"{_found(limit, error)}: {kept}"
+    return rows, (
+        f"{error.points:,} points need about {_needed(error)}, more than {limit}: {len(rows):,} of "
+        f"the {len(points):,} points, evenly spread, were kept"
+    )
 
 
 def fewer_samples(
@@ -65,7 +67,10 @@ def fewer_samples(
     MemoryLimitError
     """
     most, vertices = _most(limit, error), len(shape.points)
-    sentence = f"{_found(limit, error)}: at most {most:,} samples of the surface were taken"
+    sentence = (
+        f"{error.points:,} points need about {_needed(error)}, more than {limit}: at most {most:,} "
+        "samples of the surface were taken"
+    )
     if settings.sampling is Sampling.VERTICES or error.points == vertices > most:
         settings, first = replace(settings, sampling=Sampling.SURFACE), vertices
     if first > most:
@@ -104,6 +109,5 @@ def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
     return most
 
 
-def _found(limit: MemoryLimit, error: MemoryLimitError) -> str:
-    needed = megabytes(memory_needed(error.points))
-    return f"{error.points:,} points need about {needed}, more than {limit}"
+def _needed(error: MemoryLimitError) -> str:
+    return megabytes(memory_needed(error.points))

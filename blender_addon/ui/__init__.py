@@ -20,9 +20,11 @@ def _modules() -> tuple[ModuleType, ...]:
         running,
         self_test,
         sequence,
+        translation,
     )
 
     return (
+        translation,
         properties,
         self_test,
         preferences,

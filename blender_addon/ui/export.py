@@ -11,6 +11,7 @@ from ..bridge.read_axis import find_axis, read_axis, world_matrix
 from ..core.errors import MedialAxisError
 from ..core.export import FORMATS, export_axis
 from .paths import RELATIVE
+from .translation import say
 
 _EXTENSIONS = {suffix[1:].upper(): suffix for suffix in FORMATS}
 
@@ -38,7 +39,7 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
     def poll(cls, context: bpy.types.Context) -> bool:
         if find_axis(context.active_object) is None:
             cls.poll_message_set(
-                "Select a medial axis, or an object whose medial axis was computed before"
+                say("Select a medial axis, or an object whose medial axis was computed before")
             )
             return False
         return True
@@ -76,9 +77,9 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
             axis = read_axis(result)
             written = export_axis(axis, path, world_matrix(result))
         except MedialAxisError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, say(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, f"Wrote {axis.facets:,} facets to {written.name}")
+        self.report({"INFO"}, say(f"Wrote {axis.facets:,} facets to '{written.name}'"))
         return {"FINISHED"}
 
 

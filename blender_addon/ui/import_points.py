@@ -10,6 +10,7 @@ from ..bridge.new_points import new_points
 from ..core.errors import MedialAxisError
 from ..core.import_points import import_points
 from .paths import RELATIVE
+from .translation import say
 
 
 class ImportPoints(ImportHelper):
@@ -61,13 +62,13 @@ class ImportPoints(ImportHelper):
             name = bpy.path.display_name_from_filepath(path)
             thing, warnings = new_points(found, name, turn, self.global_scale)
         except MedialAxisError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, say(error))
             return None
         for warning in warnings:
-            self.report({"WARNING"}, f"'{thing.name}': {warning}")
+            self.report({"WARNING"}, say(f"'{thing.name}': {warning}"))
         normals = ", with normals" if found.normals is not None else ""
         counts = f"{len(thing.data.vertices):,} points, {len(thing.data.polygons):,} faces"
-        self.report({"INFO"}, f"'{thing.name}': {counts}{normals}")
+        self.report({"INFO"}, say(f"'{thing.name}': {counts}{normals}"))
         return thing
 
 

@@ -20,6 +20,7 @@ from ..core.settings import OPTIONS, SAMPLING_OPTIONS
 from . import running
 from .preferences import memory_limit
 from .properties import SamplingProperties, choice, draw_sampling, number, settings_from, switch
+from .translation import say
 from .watched import Watched
 
 
@@ -152,7 +153,7 @@ class OBJECT_OT_medial_axis_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, _context):
         if running.job() is None:
-            cls.poll_message_set("Nothing is being computed")
+            cls.poll_message_set(say("Nothing is being computed"))
         return running.job() is not None
 
     def execute(self, _context):

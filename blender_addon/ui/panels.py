@@ -10,6 +10,7 @@ from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
 from .sentence import draw_sentence
 from .sources import obstacle
+from .translation import say
 
 
 class _Tab:
@@ -123,16 +124,17 @@ def _draw_compute(context, layout):
 
 def _draw_progress(context, layout, job):
     if hasattr(layout, "progress"):  # from 4.0
-        layout.progress(factor=job.fraction, text=f"{job.stage}, {100 * job.fraction:.0f} %")
+        layout.progress(factor=job.fraction, text=f"{say(job.stage)}, {100 * job.fraction:.0f} %")
     else:
         row = layout.row()
         row.enabled = False
         bar = context.window_manager.medial_axis_progress
-        row.prop(bar, "percentage", text=job.stage, slider=True)
+        row.prop(bar, "percentage", text=say(job.stage), slider=True)
     layout.operator("object.medial_axis_cancel", icon="CANCEL")
 
 
 def _draw_figures(context, layout, result):
+    smallest, largest = results.radius_range(result)
     _draw_table(
         layout,
         result,
@@ -143,7 +145,7 @@ def _draw_figures(context, layout, result):
             "Vertices": f"{len(result.data.vertices):,}",
             "Unbounded": f"{result.get(results.UNBOUNDED, 0):,}",
             "Without Area": f"{result.get(results.ZERO_AREA, 0):,}",
-            "Radius": "{:.3g} to {:.3g}".format(*results.radius_range(result)),
+            "Radius": f"{smallest:.3g} to {largest:.3g}",
         },
     )
     for name in (made.SAMPLED, made.DENSITY, results.INSIDE):
@@ -189,12 +191,12 @@ def _draw_report(context, layout, report):
 
 
 def _draw_table(layout, thing, figures):
-    layout.label(text=thing.name, icon="OUTLINER_OB_MESH")
+    layout.label(text=thing.name, icon="OUTLINER_OB_MESH", translate=False)
     column = layout.column(align=True)
     for label, text in figures.items():
         row = column.split(factor=0.45)
         row.label(text=label)
-        row.label(text=text)
+        row.label(text=say(text), translate=False)
 
 
 def _draw_warnings(context, layout, thing):

@@ -13,6 +13,7 @@ from . import self_test
 from .manual import draw_manual
 from .properties import choice_of, integer_of
 from .sentence import draw_sentence
+from .translation import say
 
 ADDON = __package__.rpartition(".")[0]
 
@@ -73,7 +74,8 @@ def _draw_memory(layout, preferences):
     for name in ("cache_size", "memory_limit", "above_limit"):
         column.prop(preferences, name)
     row = layout.split(factor=0.7)
-    row.label(text=f"{len(CACHE)} analyses are kept, {CACHE.bytes / MEGABYTE:,.0f} MB")
+    kept = f"{len(CACHE)} analyses are kept, {CACHE.bytes / MEGABYTE:,.0f} MB"
+    row.label(text=say(kept), translate=False)
     row.operator("wm.medial_axis_free_memory", icon="TRASH")
 
 
@@ -93,7 +95,7 @@ class WM_OT_medial_axis_free_memory(bpy.types.Operator):
     def execute(self, _context):
         size = CACHE.bytes
         CACHE.clear()
-        self.report({"INFO"}, f"{size / MEGABYTE:,.0f} MB were freed")
+        self.report({"INFO"}, say(f"{size / MEGABYTE:,.0f} MB were freed"))
         return {"FINISHED"}
 
 

@@ -8,6 +8,7 @@ from bpy.app.handlers import persistent
 from ..core import native
 from ..core.cache import CACHE
 from ..core.job import Job, Task
+from .translation import say
 
 _job: Job | None = None
 _product = ""
@@ -45,7 +46,10 @@ def stop() -> None:
 def show(context: bpy.types.Context) -> None:
     """Stage and percentage in the status bar and the panel."""
     if _job is not None and context.workspace is not None:
-        context.workspace.status_text_set(f"{_product.title()} of {_job.text}    Esc: Cancel")
+        share = f"{100 * _job.fraction:.0f} %"
+        what = f"{say(_product.title())}: {_job.name}, {say(_job.stage)}, {share}"
+        hint = say("Esc: Cancel")
+        context.workspace.status_text_set(f"{what}    {hint}")
     redraw()
 
 

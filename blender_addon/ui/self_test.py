@@ -3,6 +3,7 @@
 import bpy
 
 from ..bridge.self_test import self_test
+from .translation import say
 
 _last = []  # the checks of the last test, for the preferences
 
@@ -23,8 +24,8 @@ class WM_OT_medial_axis_self_test(bpy.types.Operator):
         _last[:] = self_test()
         for check in _last:
             if check.passed:
-                self.report({"INFO"}, f"Passed: {check.found}")
-        failed = [f"Failed: {check.found}" for check in _last if not check.passed]
+                self.report({"INFO"}, say(f"Passed: {check.found}"))
+        failed = [say(f"Failed: {check.found}") for check in _last if not check.passed]
         if failed:
             self.report({"ERROR"}, "\n".join(failed))
             return {"CANCELLED"}

@@ -2,6 +2,8 @@
 
 import textwrap
 
+from .translation import say
+
 _CHARACTER = 7  # pixels of an average character; only decides where lines break
 
 
@@ -10,5 +12,5 @@ def draw_sentence(context, layout, text, icon):
     width = context.region.width / context.preferences.system.ui_scale - 60
     column = layout.column(align=True)
     column.scale_y = 0.8
-    for number, line in enumerate(textwrap.wrap(text, max(20, int(width / _CHARACTER)))):
-        column.label(text=line, icon="BLANK1" if number else icon)
+    for number, line in enumerate(textwrap.wrap(say(text), max(20, int(width / _CHARACTER)))):
+        column.label(text=line, icon="BLANK1" if number else icon, translate=False)

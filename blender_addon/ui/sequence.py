@@ -18,6 +18,7 @@ from . import running
 from .preferences import memory_limit
 from .properties import settings_from
 from .sources import sources
+from .translation import say
 from .watched import FromSelection
 
 _PRODUCT = "medial axis"
@@ -66,7 +67,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
     def modal(self, context, event):
         if event.type == "ESC" and event.value == "PRESS":
             self._stop(context)
-            self.report({"WARNING"}, "The sequence was cancelled; finished frames are kept")
+            self.report({"WARNING"}, say("The sequence was cancelled; finished frames are kept"))
             return self._end(context)
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
@@ -93,7 +94,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
             pattern = _folder(self.directory) / "{name}_####.npz"
             self._items = list(_items(sources(context), self._frames(context.scene), str(pattern)))
         except (MedialAxisError, ValueError) as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, say(error))
             return False
         self._count, self._shown = len(self._items), context.scene.frame_current
         self._done, self._failed, self._kept = {}, 0, 0
@@ -127,7 +128,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
 
     def _fail(self, item, error):
         self._failed += 1
-        self.report({"WARNING"}, f"'{item.name}': {error}")
+        self.report({"WARNING"}, say(f"'{item.name}': {error}"))
 
     def _remember(self, item):
         self._done.setdefault(item.object, {})[item.frame] = item.output
@@ -152,7 +153,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
             self._finish(self._begun, self._job.outcomes()[0])
         except Cancelled:
             self._items.clear()
-            self.report({"WARNING"}, "The sequence was cancelled; finished frames are kept")
+            self.report({"WARNING"}, say("The sequence was cancelled; finished frames are kept"))
 
     def _stop(self, context):
         if self._job is not None:
@@ -172,13 +173,13 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
             try:
                 write_sequence(name, dict(sorted(files.items())))
             except MedialAxisError as error:
-                self.report({"ERROR"}, str(error))
+                self.report({"ERROR"}, say(error))
                 return {"CANCELLED"}
         if not written:
-            self.report({"ERROR"}, f"Expected medial axes of {self._count} frames, found none")
+            self.report({"ERROR"}, say(f"Expected medial axes of {self._count} frames, found none"))
             return {"CANCELLED"}
         text = f"{written} of {self._count} frames are there, {self._kept} were before"
-        self.report({"WARNING"} if self._failed else {"INFO"}, text)
+        self.report({"WARNING"} if self._failed else {"INFO"}, say(text))
         return {"FINISHED"}
 
 
@@ -219,9 +220,9 @@ class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
         try:
             for name, files in by_frame(paths).items():
                 collection = write_sequence(name, files)
-                self.report({"INFO"}, f"'{collection.name}': {len(files)} frames")
+                self.report({"INFO"}, say(f"'{collection.name}': {len(files)} frames"))
         except MedialAxisError as error:
-            self.report({"ERROR"}, str(error))
+            self.report({"ERROR"}, say(error))
             return {"CANCELLED"}
         return {"FINISHED"}
 

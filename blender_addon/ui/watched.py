@@ -9,6 +9,7 @@ from ..core.errors import Cancelled, MedialAxisError
 from ..core.job import Task, run_task
 from . import running
 from .sources import Source, obstacle, sources
+from .translation import say
 
 
 class FromSelection:
@@ -18,7 +19,7 @@ class FromSelection:
     def poll(cls, context):
         reason = obstacle(context)
         if reason:
-            cls.poll_message_set(reason)
+            cls.poll_message_set(say(reason))
         return not reason
 
 
@@ -91,7 +92,7 @@ class Watched(FromSelection):
 
     def _tell(self, context, kind, text):
         """Report, and keep what went wrong in the panel: Blender's message fades in seconds."""
-        self.report({kind}, text)
+        self.report({kind}, say(text))
         if kind != "INFO":
             panel = context.scene.medial_axis
             panel.note = f"{panel.note}\n{text}".strip()
@@ -140,7 +141,7 @@ class Watched(FromSelection):
             if made is None:
                 self._tell(context, "WARNING", text)
             else:  # the panel shows them with the result
-                self.report({"WARNING"}, text)
+                self.report({"WARNING"}, say(text))
         if made is not None:
             text = f"'{source.name}': {self.summary(outcome.value)}; {seconds:.2f} s"
             self._tell(context, "INFO", text)

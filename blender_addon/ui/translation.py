@@ -1,0 +1,83 @@
+"""The language of the user interface.
+
+Blender translates labels and descriptions by itself. Sentences from below the user interface are English; `say`
+knows them by their words, whatever names and figures stand between these.
+"""
+
+import ast
+import re
+from functools import cache, lru_cache
+from pathlib import Path
+
+import bpy
+
+_ADDON = __package__.rpartition(".")[0]
+_FOLDER = Path(__file__).resolve().parent.parent / "translations"
+_ENTRY = re.compile(r"^msgid (\".+\")\nmsgstr (\".+\")$", re.MULTILINE)  # of a .po file
+_CONTEXTS = ("*", "Operator")  # in which Blender looks labels up
+
+
+def say(text) -> str:
+    """A sentence in the language of the user interface, as far as there is a translation."""
+    return _said(str(text), bpy.app.translations.pgettext_iface("Medial Axis"))
+
+
+@lru_cache(maxsize=512)
+def _said(text, language):
+    """`language` is whatever changes with it."""
+    templates = _templates()
+    if text in templates:
+        return bpy.app.translations.pgettext_iface(text)
+    for template, (pattern, named) in templates.items():
+        if found := pattern.fullmatch(text):
+            parts = (
+                part if name else _said(part, language)
+                for part, name in zip(found.groups(), named, strict=True)
+            )
+            return bpy.app.translations.pgettext_iface(template).format(*parts)
+    if "; " in text:
+        return "; ".join(_said(part, language) for part in text.split("; "))
+    return text
+
+
+@cache
+def languages():
+    """{locale: {text: translation}}, one of each `.po` file; each text in one line there."""
+    return {
+        file.stem: {
+            ast.literal_eval(text): ast.literal_eval(other)
+            for text, other in _ENTRY.findall(file.read_text(encoding="utf-8"))
+        }
+        for file in sorted(_FOLDER.glob("*.po"))
+    }
+
+
+@cache
+def _templates():
+    """{template: (pattern, whether each {} is a name in quotes)}, those with the most words first."""
+    known = {template for texts in languages().values() for template in texts}
+    found = {}
+    for template in sorted(known, key=lambda text: (-len(text.replace("{}", "")), text)):
+        pieces = template.split("{}")
+        named = [piece.endswith("'") for piece in pieces[:-1]]
+        # Only at the end, or as a name, can a part be several sentences.
+        parts = ["(.+?)" if name else "((?:(?!; ).)+?)" for name in named]
+        if not pieces[-1]:
+            parts[-1] = "(.+)"
+        pattern = re.escape(pieces[0]) + "".join(
+            part + re.escape(piece) for part, piece in zip(parts, pieces[1:], strict=True)
+        )
+        found[template] = re.compile(pattern, re.DOTALL), named
+    return found
+
+
+def register():
+    translations = {
+        locale: {(context, text): other for text, other in texts.items() for context in _CONTEXTS}
+        for locale, texts in languages().items()
+    }
+    bpy.app.translations.register(_ADDON, translations)
+
+
+def unregister():
+    bpy.app.translations.unregister(_ADDON)

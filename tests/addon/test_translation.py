@@ -1,0 +1,197 @@
+"""The user interface in German: every text has its translation, none is left over, and sentences find theirs."""
+
+import ctypes
+import re
+from types import SimpleNamespace
+
+import bpy
+import pytest
+import texts
+from scene import MODULE, addon, ellipsoid, link, on_ellipsoid, opened, scan, select
+
+ENGLISH = re.compile(
+    r"\b(the|of|and|found|choose|are|is|were|which|for|with|points?|facets?|samples?|none)\b"
+)
+
+
+def entries():
+    return addon("ui.translation").languages()["de_DE"]
+
+
+def say(text):
+    return addon("ui.translation").say(text)
+
+
+@pytest.fixture
+def german():
+    """Blender speaks German."""
+    view = bpy.context.preferences.view
+    kept = view.language
+    view.language = "de_DE"
+    yield
+    view.language = kept
+
+
+def test_every_text_has_a_translation_and_no_translation_is_dead():
+    shown, translated = texts.shown(), set(entries())
+    assert shown - translated == set()
+    assert translated - shown == set()
+
+
+def test_translations_have_as_many_places_as_texts():
+    for text, other in entries().items():
+        assert text.count("{}") == other.count("{}"), text
+        assert other and other == other.strip(), text
+
+
+def test_english_is_left_as_it_is():
+    for text in texts.shown():
+        filled = text.format(*"12345678")
+        assert say(filled) == filled
+
+
+def test_labels_and_descriptions_are_translated(german):
+    for text in texts.labels():
+        said = bpy.app.translations.pgettext_iface(text)
+        assert said != text or entries()[text] == text
+
+
+def test_operators_are_translated_in_their_own_context(german):
+    name = bpy.app.translations.pgettext_iface("Compute Medial Axis", "Operator")
+    assert name == "Mediale Achse berechnen"
+
+
+def test_every_sentence_is_translated(german):
+    for text, other in entries().items():
+        if text not in texts.FRAMES:
+            filled = text.format(*"12345678")
+            assert say(filled) == bpy.app.translations.pgettext_iface(text).format(*"12345678")
+            assert other == text or say(filled) != filled
+
+
+@pytest.mark.parametrize(
+    ("text", "other"),
+    [
+        ("'Cube': as chosen", "'Cube': wie gewählt"),
+        (
+            "'Surface': the faces are closed; 0.12 s",
+            "'Surface': die Flächen sind geschlossen; 0.12 s",
+        ),
+        (
+            "Inside from Surface: the mesh is open at 1,234 edges",
+            "Innen nach Oberfläche: das Mesh ist an 1,234 Kanten offen",
+        ),
+        (
+            "The 162 vertices, dense enough; Epsilon: median 0.40, 95 % below 0.44, 0 % above 0.25; "
+            "with sharp edges 12 %",
+            "Die 162 Ecken, dicht genug; Epsilon: Median 0.40, 95 % unter 0.44, 0 % über 0.25; "
+            "mit scharfen Kanten 12 %",
+        ),
+        ("1 of 2: Poles", "1 von 2: Pole"),
+        ("'x; y': no such text", "'x; y': no such text"),
+        ("no such text", "no such text"),
+    ],
+)
+def test_sentences_are_found_by_their_words(german, text, other):
+    assert say(text) == other
+
+
+def test_names_are_not_translated(german):
+    thing = link("Surface", [(0, 0, 0)])
+    text = f"Expected '{thing.name}' in object mode, found it in edit mode; leave that mode and "
+    assert say(text + "compute again").startswith("Erwartet: 'Surface' im")
+
+
+def reports(capfd):
+    """What operators reported since the last call; Blender says in its language of which kind."""
+    ctypes.CDLL(None).fflush(None)
+    kinds = "(?:Info|Warning|Warnung|Error|Fehler)"
+    return re.findall(rf"^{kinds}: (.*)$", capfd.readouterr().out, re.MULTILINE)
+
+
+def meet(capfd):
+    """Everything that is reported in a tour through the operators, errors included."""
+    said = []
+
+    def run(operator, **words):
+        try:
+            getattr(bpy.ops.object, operator)(**words)
+        except RuntimeError as error:
+            said.extend(re.sub("^.*poll\\(\\) |^\\w+: ", "", str(error)).splitlines())
+        said.extend(reports(capfd))
+
+    reports(capfd)
+    run("medial_axis")
+    bpy.ops.object.light_add()
+    run("medial_axis")
+    link("Flat", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    run("medial_axis")
+    run("medial_axis", sampling="VERTICES")
+    run("tight_cocone_surface")
+    link("Few", [(0, 0, 0), (1, 0, 0)])
+    run("medial_axis")
+    run("medial_axis", sampling="SURFACE")
+    run("medial_axis", sampling="VERTICES", sides="NORMALS")
+    opened()
+    run("medial_axis")
+    run("medial_axis", sides="TIGHT_COCONE", sampling="VERTICES")
+    ellipsoid(segments=2)
+    run("medial_axis", samples=500, sampling="ADAPTIVE", epsilon=0.02, budget=2000)
+    run("medial_axis_sampling_report")
+    run("medial_axis", theta=1.5, rho=1000.0)
+    points, normals = on_ellipsoid()
+    scan(points=points, normals=-normals)
+    run("medial_axis")
+    run("tight_cocone_surface")
+    preferences = bpy.context.preferences.addons[MODULE].preferences
+    preferences.memory_limit = 1
+    scan(points=on_ellipsoid(20_000)[0])
+    run("medial_axis")
+    preferences.above_limit = "THIN"
+    run("medial_axis")
+    for name in ("memory_limit", "above_limit"):
+        preferences.property_unset(name)
+    bpy.ops.wm.medial_axis_self_test()
+    bpy.ops.wm.medial_axis_free_memory()
+    said.extend(reports(capfd))
+    return said
+
+
+def test_a_tour_in_german_meets_no_english(german, capfd):
+    said = meet(capfd)
+    assert len(said) > 25
+    for text in said:
+        assert not ENGLISH.search(re.sub("'.*?'", "", text)), text
+
+
+def test_the_same_tour_in_english_meets_no_german(capfd):
+    said = " ".join(meet(capfd))
+    assert not re.search("[äöüß]|Erwartet", said)
+
+
+def test_panels_keep_english_and_show_german(german):
+    select(ellipsoid())
+    bpy.ops.object.medial_axis(sampling="VERTICES")
+    result = bpy.context.object
+    assert result["ma_inside"] == "Inside from Surface: the faces are closed"
+    lines = []
+
+    class Column:
+        def label(self, text="", icon="NONE", translate=True):
+            lines.append(text)
+
+    layout = SimpleNamespace(column=lambda align: Column())
+    context = SimpleNamespace(
+        region=SimpleNamespace(width=2000),
+        preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
+    )
+    addon("ui.sentence").draw_sentence(context, layout, result["ma_inside"], "INFO")
+    assert lines == ["Innen nach Oberfläche: die Flächen sind geschlossen"]
+
+
+def test_translations_leave_with_the_addon(german):
+    assert bpy.app.translations.pgettext_iface("Compute Medial Axis") == "Mediale Achse berechnen"
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    assert bpy.app.translations.pgettext_iface("Compute Medial Axis") == "Compute Medial Axis"
+    bpy.ops.preferences.addon_enable(module=MODULE)
+    assert say("as chosen") == "wie gewählt"
