@@ -195,7 +195,7 @@ def _draw_table(layout, thing, figures):
     column = layout.column(align=True)
     for label, text in figures.items():
         row = column.split(factor=0.45)
-        row.label(text=label)
+        row.label(text=say(label), translate=False)
         row.label(text=say(text), translate=False)
 
 

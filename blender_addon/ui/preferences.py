@@ -64,7 +64,7 @@ def _draw_installed(context, layout):
     }
     for label, text in table.items():
         row = layout.split(factor=0.2)
-        row.label(text=label)
+        row.label(text=say(label), translate=False)
         row.label(text=text, translate=False)
 
 

@@ -14,7 +14,6 @@ _FOLDER = "medial_axis"
 
 class VIEW3D_PT_medial_axis_presets(PresetPanel, bpy.types.Panel):
     bl_space_type = "VIEW_3D"
-    bl_label = "Medial Axis Presets"
     preset_subdir = _FOLDER
     preset_operator = "script.execute_preset"
     preset_add_operator = "scene.medial_axis_preset_add"
@@ -32,8 +31,8 @@ class SCENE_OT_medial_axis_preset_add(AddPresetBase, bpy.types.Operator):
 
     preset_menu = "VIEW3D_PT_medial_axis_presets"
     preset_subdir = _FOLDER
-    preset_defines = ("settings = bpy.context.scene.medial_axis",)
-    preset_values = tuple(f"settings.{name}" for name in OPTIONS)
+    preset_defines = ()
+    preset_values = tuple(f"bpy.context.scene.medial_axis.{name}" for name in OPTIONS)
 
 
 CLASSES = (VIEW3D_PT_medial_axis_presets, SCENE_OT_medial_axis_preset_add)

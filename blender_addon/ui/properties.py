@@ -25,6 +25,7 @@ from ..core.settings import (
     applies,
 )
 from . import running
+from .translation import IN_CONTEXT
 
 
 def number(name, update=None):
@@ -42,6 +43,7 @@ def number(name, update=None):
         description=option.description,
         default=option.default,
         update=update,
+        **IN_CONTEXT,
         **limits,
     )
 
@@ -61,6 +63,7 @@ def integer_of(option, update=None):
         soft_min=option.soft_minimum,
         soft_max=option.soft_maximum,
         update=update,
+        **IN_CONTEXT,
     )
 
 
@@ -76,6 +79,7 @@ def choice_of(option, update=None):
         items=[(member.name, *words) for member, words in option.items.items()],
         default=option.default.name,
         update=update,
+        **IN_CONTEXT,
     )
 
 
@@ -83,7 +87,11 @@ def switch(name, update=None):
     """A BoolProperty for an option."""
     option = OPTIONS[name]
     return BoolProperty(
-        name=option.label, description=option.description, default=option.default, update=update
+        name=option.label,
+        description=option.description,
+        default=option.default,
+        update=update,
+        **IN_CONTEXT,
     )
 
 

@@ -14,12 +14,19 @@ import bpy
 _ADDON = __package__.rpartition(".")[0]
 _FOLDER = Path(__file__).resolve().parent.parent / "translations"
 _ENTRY = re.compile(r"^msgid (\".+\")\nmsgstr (\".+\")$", re.MULTILINE)  # of a .po file
-_CONTEXTS = ("*", "Operator")  # in which Blender looks labels up
+CONTEXT = "Medial Axis"  # where our own words go before Blender's for the same text
+# For properties; Blender before 4.0 or so shows its own words for a few short labels.
+IN_CONTEXT = (
+    {"translation_context": CONTEXT}
+    if "translation_context" in bpy.props.IntProperty.__doc__
+    else {}
+)
+_CONTEXTS = ("*", "Operator", CONTEXT)
 
 
 def say(text) -> str:
     """A sentence in the language of the user interface, as far as there is a translation."""
-    return _said(str(text), bpy.app.translations.pgettext_iface("Medial Axis"))
+    return _said(str(text), _translated("Medial Axis"))
 
 
 @lru_cache(maxsize=512)
@@ -27,17 +34,21 @@ def _said(text, language):
     """`language` is whatever changes with it."""
     templates = _templates()
     if text in templates:
-        return bpy.app.translations.pgettext_iface(text)
+        return _translated(text)
     for template, (pattern, named) in templates.items():
         if found := pattern.fullmatch(text):
             parts = (
                 part if name else _said(part, language)
                 for part, name in zip(found.groups(), named, strict=True)
             )
-            return bpy.app.translations.pgettext_iface(template).format(*parts)
+            return _translated(template).format(*parts)
     if "; " in text:
         return "; ".join(_said(part, language) for part in text.split("; "))
     return text
+
+
+def _translated(text):
+    return bpy.app.translations.pgettext_iface(text, CONTEXT)
 
 
 @cache

@@ -1,10 +1,12 @@
 """Every text that the add-on shows: labels and descriptions of what is registered, and sentences of its sources."""
 
 import ast
+import inspect
 import re
 from pathlib import Path
 
 import bpy
+from bl_ui.utils import PresetPanel
 from scene import MODULE, addon
 
 # Sources whose texts nobody sees in Blender's windows, and texts that are data or belong to Blender.
@@ -54,7 +56,7 @@ def labels():
             module, _, name = cls.bl_idname.partition(".")
             rna = getattr(getattr(bpy.ops, module), name).get_rna_type()
             found.add(rna.description)
-        if hasattr(cls, "bl_label"):
+        if hasattr(cls, "bl_label") and not issubclass(cls, PresetPanel):  # it has that of a preset
             found.add(cls.bl_label)
         for prop in own_properties(cls, rna):
             found |= {prop.name, prop.description}
@@ -62,7 +64,11 @@ def labels():
                 found |= {t for item in prop.enum_items for t in (item.name, item.description)}
     folder = bpy.types.Scene.bl_rna.properties["medial_axis_folder"]
     found |= {folder.name, folder.description}
-    return {text for text in found if re.match("[A-Z]", text)}
+    front = Path(addon().__file__).read_text(encoding="utf-8")  # what was loaded is of the manifest
+    found |= set(re.findall('^    "(?:name|description|location)": "(.+)",$', front, re.MULTILINE))
+    manifest = (Path(addon().__file__).parent / "blender_manifest.toml").read_text(encoding="utf-8")
+    found |= set(re.findall('^(?:tagline|files) = "(.+)"$', manifest, re.MULTILINE))
+    return {text for text in found if re.match("[A-Z3]", text)}
 
 
 def registered():
@@ -86,7 +92,7 @@ def own_properties(cls, rna):
         name
         for base in cls.__mro__
         if base.__module__.startswith(f"{MODULE}.")
-        for name in vars(base).get("__annotations__", ())
+        for name in inspect.get_annotations(base)
     }
     found = [rna.properties[name] for name in sorted(names - HELPERS) if name in rna.properties]
     return [prop for prop in found if not prop.is_hidden]

@@ -31,6 +31,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "sequence": True,
     "cancel_sequence_with_escape": True,
     "quit_while_running": True,
+    "german": True,
     "missing_module": False,
 }
 

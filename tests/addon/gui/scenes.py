@@ -28,6 +28,7 @@ THETA_LEFT, THETA_RIGHT = (120, 46), (50, 46)
 COMPUTE = (102, 238)
 RECONSTRUCT = (102, 269)
 CANCEL = (102, 260)
+GERMAN_TAB = (13, 270)
 SAMPLING = (102, 302)
 REPORT = (102, 515)
 
@@ -585,6 +586,29 @@ def scene_quit_while_running():
     cloud()
     yield from start_long_run()
     assert threads()
+
+
+def scene_german():
+    """The sidebar with a result, and the preferences with a self-test, where Blender speaks German."""
+    bpy.context.preferences.view.language = "de_DE"
+    select(bpy.data.objects["Cube"])
+    viewport().spaces.active.show_region_ui = True
+    yield 1.0
+    yield from click(*at(GERMAN_TAB))
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        bpy.ops.object.medial_axis("INVOKE_DEFAULT")
+    yield result_exists
+    yield 1.0
+    look("sidebar")
+    area = viewport()
+    area.type = "PREFERENCES"
+    bpy.context.preferences.active_section = "ADDONS"
+    bpy.context.window_manager.addon_search = "Medial"
+    yield 1.5  # the list knows its add-ons when it was drawn
+    bpy.ops.preferences.addon_expand(module=os.environ["MEDIAL_AXIS_MODULE"])
+    assert bpy.ops.wm.medial_axis_self_test() == {"FINISHED"}
+    yield 1.5
+    look("preferences")
 
 
 def scene_missing_module():
