@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import importlib
+import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib.machinery import EXTENSION_SUFFIXES
+from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 
@@ -38,7 +41,7 @@ def load() -> ModuleType:
         if reason := problem():
             raise NativeModuleError(reason)
         try:
-            _module = importlib.import_module(f"{_package}.lib.{NAME}")
+            _module = _imported(f"{_package}.lib.{NAME}")
         except ImportError as error:
             _failure = (
                 f"Expected a compiled module for {expected_abi()} that loads, but the system says "
@@ -46,6 +49,29 @@ def load() -> ModuleType:
             )
             raise NativeModuleError(_failure) from error
     return _module
+
+
+def _imported(name: str) -> ModuleType:
+    """The module, from a copy in memory where the system has such files.
+
+    Blender before 4.2 updates an add-on by writing over its files: over a mapped one, that is the end of Blender.
+    """
+    if name in sys.modules or not hasattr(os, "memfd_create"):
+        return importlib.import_module(name)
+    copy = os.memfd_create(NAME)
+    try:
+        with open(copy, "wb", closefd=False) as stream:
+            stream.write(file().read_bytes())
+        path = f"/proc/self/fd/{copy}"
+        spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
+        module = module_from_spec(spec)
+        spec.loader.exec_module(module)
+    except ImportError as error:
+        raise ImportError(str(error).replace(path, str(file()))) from error
+    finally:
+        os.close(copy)
+    sys.modules[name] = module
+    return module
 
 
 @contextmanager
