@@ -66,7 +66,7 @@ def fewer_samples(
     ------
     MemoryLimitError
     """
-    most, vertices = _most(limit, error), len(shape.points)
+    most, vertices = min(_most(limit, error), OPTIONS["samples"].maximum), len(shape.points)
     sentence = (
         f"{error.points:,} points need about {_needed(error)}, more than {limit}: at most {most:,} "
         "samples of the surface were taken"

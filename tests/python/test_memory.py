@@ -12,9 +12,9 @@ from medial_axis.core.errors import InvalidInputError, MemoryLimitError
 from medial_axis.core.memory import MemoryLimit, memory_needed
 from medial_axis.core.reconstruction import reconstruct
 from medial_axis.core.report import report
-from medial_axis.core.settings import MEGABYTE, AboveLimit, Sampling, Settings
+from medial_axis.core.settings import MEGABYTE, OPTIONS, AboveLimit, Sampling, Settings
 from medial_axis.core.shape import Shape
-from medial_axis.core.thinning import spread_rows
+from medial_axis.core.thinning import fewer_samples, spread_rows
 from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)
@@ -339,6 +339,14 @@ def test_a_small_spacing_that_fits_stays(room):
     found = compute_axis(ball(), settings, limit=MemoryLimit(0, THIN))
     alone = compute_axis(ball(), Settings(sampling=Sampling.SURFACE, spacing=3.0))
     assert found.sampled.samples.spacing == alone.sampled.samples.spacing
+
+
+def test_no_more_samples_are_asked_for_than_there_may_be(room):
+    room(20_000_000)
+    vast = Shape(np.broadcast_to(np.zeros(3), (30_000_000, 3)), np.zeros((1, 3), np.int32))
+    error = MemoryLimitError("too much", 30_000_000)
+    found, _ = fewer_samples(vast, Settings(), 16_000, MemoryLimit(0, THIN), error)
+    assert (found.sampling, found.samples) == (Sampling.SURFACE, OPTIONS["samples"].maximum)
 
 
 def test_too_little_for_anything_is_refused(room):
