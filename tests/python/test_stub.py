@@ -176,7 +176,9 @@ def test_the_fields_of_the_result_are_those_of_the_add_on(medial):
     from medial_axis.core.analysis import MedialAxis
 
     assert set(MedialAxis.__dataclass_fields__) == {
-        name for owner, name in PROPERTIES if owner == "MedialMesh"
+        name
+        for owner, name in PROPERTIES
+        if owner == "MedialMesh" and name != "rings"  # a count of work
     }
 
 
