@@ -595,6 +595,30 @@ def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int
     triangles : (m, 3) int32
     """
 
+def polygon_edges(
+    face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32], vertices: int
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """The edges of polygons that share vertices, as of a `MedialMesh`.
+
+    Parameters
+    ----------
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+    vertices : int
+        Number of vertices; every corner is below it.
+
+    Returns
+    -------
+    edges : (e, 2) int32
+        Lower vertex first, in lexicographic order.
+    corner_edges : (c,) int32
+        The row of the edge from each corner to the next one of its polygon.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
 def winding_number(
     queries: NDArray[np.float64], vertices: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> NDArray[np.float64]:

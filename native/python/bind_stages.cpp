@@ -4,6 +4,7 @@
 #include "bindings.h"
 #include "medial/buried.h"
 #include "medial/cocone.h"
+#include "medial/polygon_edges.h"
 #include "medial/samples.h"
 #include "medial/surface.h"
 #include "medial/umbrellas.h"
@@ -74,6 +75,15 @@ constexpr const char* kBuriedDoc =
     "Returns\n-------\nburied : (n,) bool\n    The winding number is above 1/2 on both sides of "
     "the surface, at points +- offset * normals, or on\n    neither. False for a zero normal.\n\n"
     "Raises\n------\nInvalidInputError, Cancelled";
+
+constexpr const char* kPolygonEdgesDoc =
+    "The edges of polygons that share vertices, as of a `MedialMesh`.\n\n"
+    "Parameters\n----------\nface_offsets : (f + 1,) int32\nface_vertices : (c,) int32\n"
+    "vertices : int\n    Number of vertices; every corner is below it.\n\n"
+    "Returns\n-------\nedges : (e, 2) int32\n    Lower vertex first, in lexicographic order.\n"
+    "corner_edges : (c,) int32\n    The row of the edge from each corner to the next one of its "
+    "polygon.\n\n"
+    "Raises\n------\nInvalidInputError";
 
 Run all_cores() { return {thread_count(0), nullptr}; }
 
@@ -211,6 +221,30 @@ int64_t open_edges(const py::object& points, const py::object& triangles) {
   return make_surface(face_span, samples.sample_of_row, samples.count(), all_cores()).open_edges();
 }
 
+// A view of the caller's ids.
+std::span<const int32_t> ids_of(const py::object& ids, const char* name) {
+  using Ids = py::array_t<int32_t, py::array::c_style>;
+  if (!py::isinstance<Ids>(ids) || py::cast<Ids>(ids).ndim() != 1) {
+    throw InvalidInputError("Expected " + std::string(name) +
+                            " as a contiguous int32 array, found " + describe(ids) +
+                            "; convert it.");
+  }
+  const auto view = py::reinterpret_borrow<Ids>(ids);
+  return {view.data(), static_cast<size_t>(view.size())};
+}
+
+py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& face_vertices,
+                            int32_t vertices) {
+  const auto offsets = ids_of(face_offsets, "face_offsets");
+  const auto corners = ids_of(face_vertices, "face_vertices");
+  PolygonEdges edges = [&] {
+    const py::gil_scoped_release release;
+    return polygon_edges(offsets, corners, vertices, all_cores());
+  }();
+  return py::make_tuple(array_of<int32_t>(std::move(edges.ends)),
+                        array_of<int32_t>(std::move(edges.of_corner)));
+}
+
 py::array winding_numbers(const py::object& queries, const py::object& vertices,
                           const py::object& triangles) {
   const Points query_rows(queries, "queries"), vertex_rows(vertices, "vertices");
@@ -259,6 +293,8 @@ void bind_stages(py::module_& m) {
   m.def("umbrellas", &umbrella_triangles, kUmbrellasDoc, py::arg("points"));
   m.def("cocone", &cocone_parts, kCoconeDoc, py::arg("points"), py::arg("options") = py::none());
   m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
+  m.def("polygon_edges", &edges_of_polygons, kPolygonEdgesDoc, py::arg("face_offsets"),
+        py::arg("face_vertices"), py::arg("vertices"));
   m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"),
         py::arg("triangles"));
   m.def("buried", &buried_points, kBuriedDoc, py::arg("points"), py::arg("normals"),
