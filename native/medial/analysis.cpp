@@ -149,6 +149,7 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   tell_sides(surface, corners.points, input.normals.value_or(std::span<const Vec3>()), incident,
              options.cocone, run);
   watch.lap("sides");
+  begin_stage(progress, "Inside and outside", 0.99, 1);
   advance(progress, 1);
 }
 
