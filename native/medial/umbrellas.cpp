@@ -71,7 +71,7 @@ class Collector {
 
 Umbrellas umbrellas(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
                     const Csr<int32_t>& incident, const Run& run) {
-  begin_stage(run.progress, "Poles and umbrellas", 0.68, 0.8);
+  begin_stage(run.progress, "Umbrellas", 0.68, 0.8);
   std::vector<std::optional<Collector>> collectors(run.threads);
   Umbrellas result;
   result.offsets = array<int64_t>(static_cast<size_t>(incident.size()) + 1, 0, run);
