@@ -115,7 +115,8 @@ def patience(seconds):
 def open_tab():
     viewport().spaces.active.show_region_ui = True
     yield 1.0
-    yield from click(*at(TAB))
+    if getattr(sidebar(), "active_panel_category", "") != "Medial Axis":  # else a click folds it
+        yield from click(*at(TAB))
     yield 0.5
     if hasattr(sidebar(), "active_panel_category"):  # from 4.2
         assert sidebar().active_panel_category == "Medial Axis", "the tab was missed"
