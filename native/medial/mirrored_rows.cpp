@@ -92,7 +92,7 @@ std::optional<SurfacePlace> walk_from_edge(const TriangleMesh& mesh, const Creas
     const int32_t next = creases.find(base[out], flat.third);
     if (creases.edges[next].crease != Crease::kNone) return {};
     const Edge& sides = creases.edges[next].triangles;
-    const double size = std::hypot(slope, flat.y);
+    const double size = std::sqrt(slope * slope + flat.y * flat.y);
     triangle = sides[sides[0] == triangle];
     base = {base[out], flat.third};
     start = way * into / flat.y * size;
