@@ -5,7 +5,9 @@
 namespace medial {
 namespace {
 
-constexpr int kMostCuts = 15;  // as many as a path holds
+constexpr int kMostCuts = 15;         // as many as a path holds
+constexpr double kLittleArea = 0.25;  // in squared spacings: a sample or less
+constexpr double kOneSpacing = 2;  // spacings that differ by less are one
 
 Barycentric middle(const Barycentric& p, const Barycentric& q) {
   return {0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
@@ -43,17 +45,30 @@ class Cutter {
         spacing_.field ? spacing_(patch_.point(centre(corners))) : spacing_.scale;
     const std::array<Vec3, 3> at{patch_.point(corners[0]), patch_.point(corners[1]),
                                  patch_.point(corners[2])};
-    if (depth < cuts_ || (spacing_.field && depth < kMostCuts && wider(at, 2 * spacing))) {
+    const double area = area_of(at);
+    if (depth < cuts_ || (spacing_.field && depth < kMostCuts && wider(at, 2 * spacing) &&
+                          !(area < kLittleArea * spacing * spacing && even(at, spacing)))) {
       for (uint32_t i = 0; i < 4; ++i) cut(path << 2 | i, quarter(corners, i), depth + 1);
       return;
     }
-    const double area = area_of(at);
     if (area > 0) out_.push_back({triangle_, path, area, spacing});
   }
 
  private:
   static bool wider(const std::array<Vec3, 3>& p, double width) {
     return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])}) > width;
+  }
+
+  // Quarters of a needle are needles, so it would take the square of its length in spacings to cut
+  // it into short pieces: where the spacing is the same all along, a long one does.
+  bool even(const std::array<Vec3, 3>& p, double spacing) const {
+    for (int i = 0; i < 3; ++i) {
+      for (const Vec3& place : {p[i], 0.5 * p[i] + 0.5 * p[(i + 1) % 3]}) {
+        const double other = spacing_(place);
+        if (other > kOneSpacing * spacing || spacing > kOneSpacing * other) return false;
+      }
+    }
+    return true;
   }
 
   Patch patch_;

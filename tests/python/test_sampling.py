@@ -1,5 +1,8 @@
 """Samples of triangulated surfaces: blue noise without holes, creases covered, deterministic, for any mesh."""
 
+import subprocess
+import sys
+
 import distance
 import meshes
 import numpy as np
@@ -438,6 +441,31 @@ def test_needles_and_flat_triangles(medial):
 
 
 SOUPS = range(12)
+
+
+WIRE = """
+import importlib.util, resource, sys
+import numpy as np
+resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+spec = importlib.util.spec_from_file_location("_medial", sys.argv[1])
+medial = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(medial)
+angle = np.arange(8) * np.pi / 4
+ring = np.column_stack([0.001 * np.cos(angle), 0.001 * np.sin(angle), 0 * angle])
+walls = [((i, j, 8 + j), (i, 8 + j, 8 + i)) for i, j in zip(range(8), [*range(1, 8), 0])]
+vertices = np.concatenate([ring, ring + [0, 0, 1]])
+triangles = np.array(walls, np.int32).reshape(-1, 3)
+sites = np.array([[0, 0, 0.2], [0, 0, 0.8]])
+print(len(medial.sample_surface(vertices, triangles, sizing=(sites, np.array([2e-4, 3e-4]))).points))
+"""
+
+
+def test_a_wire_needs_memory_for_its_samples_only(medial):
+    """Faces a thousand times as long as wide, and five thousand spacings long."""
+    command = [sys.executable, "-c", WIRE, medial.__file__]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert 50_000 < int(done.stdout) < 250_000
 
 
 def soup(seed):
