@@ -49,8 +49,6 @@ class Heap {
   void give_back(void* memory, size_t bytes);
   // Has the first bytes touched, where the system can do so beside those who use them.
   void touch(size_t bytes, const std::stop_token& stop);
-  size_t used() const;  // bytes that were taken and not given back
-  size_t peak() const;  // the most that ever were
   // Memory that the system has given; what was touched stays.
   size_t held() const;
 
@@ -61,7 +59,6 @@ class Heap {
   std::byte* block_;
   size_t capacity_;
   std::map<size_t, size_t> free_;  // offset: bytes; no two touch
-  size_t used_ = 0, peak_ = 0;
   size_t touched_ = 0, elsewhere_ = 0;  // of the block; beside it
 };
 
@@ -83,8 +80,6 @@ inline bool Heap::owns(const void* memory) const {
 inline void* Heap::take(size_t bytes) {
   {
     const std::lock_guard lock(mutex_);
-    used_ += bytes;
-    peak_ = std::max(peak_, used_);
     const size_t size = detail::rounded_up(bytes, detail::kLine);
     const auto room = bytes < detail::kSmall
                           ? free_.end()
@@ -106,7 +101,6 @@ inline void Heap::give_back(void* memory, size_t bytes) {
   const bool own = owns(memory);
   if (!own) ::operator delete(memory);
   const std::lock_guard lock(mutex_);
-  used_ -= bytes;
   if (!own) {
     elsewhere_ -= bytes;
     return;
@@ -133,16 +127,6 @@ inline void Heap::touch(size_t bytes, const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     touched_ = std::max(touched_, std::min(at + detail::kStep, end));
   }
-}
-
-inline size_t Heap::used() const {
-  const std::lock_guard lock(mutex_);
-  return used_;
-}
-
-inline size_t Heap::peak() const {
-  const std::lock_guard lock(mutex_);
-  return peak_;
 }
 
 inline size_t Heap::held() const {
