@@ -462,7 +462,9 @@ print(len(medial.sample_surface(vertices, triangles, sizing=(sites, np.array([2e
 
 def test_a_wire_needs_memory_for_its_samples_only(medial):
     """Faces a thousand times as long as wide, and five thousand spacings long."""
-    command = [sys.executable, "-c", WIRE, medial.__file__]
+    from medial_axis.core import native
+
+    command = [sys.executable, "-c", WIRE, str(native.file())]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert 50_000 < int(done.stdout) < 250_000
