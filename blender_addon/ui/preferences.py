@@ -101,12 +101,4 @@ class WM_OT_medial_axis_free_memory(bpy.types.Operator):
 
 CLASSES = (MedialAxisPreferences, WM_OT_medial_axis_free_memory)
 
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

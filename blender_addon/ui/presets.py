@@ -37,12 +37,4 @@ class SCENE_OT_medial_axis_preset_add(AddPresetBase, bpy.types.Operator):
 
 CLASSES = (VIEW3D_PT_medial_axis_presets, SCENE_OT_medial_axis_preset_add)
 
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)
