@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Fetches the headers of a Python that is not installed, and of a pybind11 that knows it, from Debian.
+"""Fetches the headers of another Python, and of a pybind11 that knows it, from Debian or from this machine.
 
     python3 native/python/headers.py 3.13 trixie build/python/3.13
+    python3 native/python/headers.py 3.10 installed build/python/3.10
 
-A private apt verifies the suite's signature and the packages' hashes. Nothing is installed, and of
-the packages only python3.X/, its pyconfig.h and pybind11/ are unpacked: headers of another C library
-never meet the compiler's own. Exit code 1 and one sentence when they cannot be had.
+The first takes Debian's packages: a private apt verifies the suite's signature and the packages'
+hashes. Nothing is installed, and of the packages only python3.X/, its pyconfig.h and pybind11/ are
+unpacked: headers of another C library never meet the compiler's own. The second is for a Python that
+no Debian has. Exit code 1 and one sentence when they cannot be had.
 """
 
 import shutil
@@ -15,7 +17,13 @@ import tempfile
 from pathlib import Path
 
 KEYRING = Path("/usr/share/keyrings/debian-archive-keyring.gpg")
-DEFAULT_MIRROR = "http://deb.debian.org/debian"
+INSTALLED = "installed"  # instead of a suite
+# Where Pythons lie that are not on PATH.
+FOLDERS = ("/usr/bin", "/usr/local/bin", str(Path.home() / ".pyenv/versions/{}*/bin"))
+TELL = """
+import platform, sysconfig
+print(sysconfig.get_path("include"), sysconfig.get_config_h_filename(), platform.python_version())
+"""
 STAMP = "packages.txt"  # written last: what was unpacked, by version
 
 
@@ -23,18 +31,43 @@ def main(version, suite, folder):
     """Fill the folder; returns the packages that it came from, such as ['pybind11-dev 3.1.0-1']."""
     stamp = folder / STAMP
     if not stamp.exists():
-        require(version)
-        with tempfile.TemporaryDirectory() as private:
-            packages = download(Path(private), suite, [f"libpython{version}-dev", "pybind11-dev"])
-            fresh = folder.with_name(f"{folder.name}.new")
-            shutil.rmtree(fresh, ignore_errors=True)
-            for package in packages:
-                unpack(package, version, fresh)
-        names = sorted(" ".join(package.name.split("_")[:2]) for package in packages)
+        fresh = folder.with_name(f"{folder.name}.new")
+        shutil.rmtree(fresh, ignore_errors=True)
+        names = copy(version, fresh) if suite == INSTALLED else fetch(version, suite, fresh)
         (fresh / STAMP).write_text("\n".join(names) + "\n", encoding="utf-8")
         shutil.rmtree(folder, ignore_errors=True)
         fresh.rename(folder)
     return stamp.read_text(encoding="utf-8").split("\n")[:-1]
+
+
+def copy(version, folder):
+    """The headers of a Python of this machine; its pybind11 is the compiler's own."""
+    for python in interpreters(version):
+        done = subprocess.run([python, "-c", TELL], capture_output=True, text=True)
+        include, config, found = (done.stdout.split() or [""] * 3)[:3]
+        if include and Path(include, "Python.h").exists() and Path(config).exists():
+            shutil.copytree(include, folder / f"python{version}")
+            shutil.copy(config, folder / f"python{version}" / "pyconfig.h")
+            return [f"that of {python.parent}, {found}"]
+    raise SystemExit(f"expected a python{version} with its headers; Debian has none to install")
+
+
+def interpreters(version):
+    """The Pythons of a version on this machine."""
+    name = f"python{version}"
+    on_path = [Path(found)] if (found := shutil.which(name)) else []
+    patterns = [f"{folder.format(version)}/{name}"[1:] for folder in FOLDERS]
+    return on_path + [path for pattern in patterns for path in sorted(Path("/").glob(pattern))]
+
+
+def fetch(version, suite, folder):
+    """The headers of Debian's packages."""
+    require(version)
+    with tempfile.TemporaryDirectory() as private:
+        packages = download(Path(private), suite, [f"libpython{version}-dev", "pybind11-dev"])
+        for package in packages:
+            unpack(package, version, folder)
+    return sorted(" ".join(package.name.split("_")[:2]) for package in packages)
 
 
 def require(version):
@@ -49,7 +82,10 @@ def mirror():
     """Where this machine gets its Debian packages from."""
     query = ["apt-get", "indextargets", "--format", "$(SITE)", "Identifier: Packages"]
     sites = subprocess.run(query, capture_output=True, text=True).stdout.split()
-    return next((site for site in sites if site.rstrip("/").endswith("/debian")), DEFAULT_MIRROR)
+    mirrors = [site for site in sites if site.rstrip("/").endswith("/debian")]
+    if not mirrors:
+        raise SystemExit("expected a Debian mirror among apt's sources, found none")
+    return mirrors[0]
 
 
 def download(private, suite, packages):

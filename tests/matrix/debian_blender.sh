@@ -13,7 +13,10 @@ stamp=$folder/.medial_axis_packages
 
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin
 if [[ ! -x $folder/usr/bin/apt-get ]]; then
-  mirror=$(apt-get indextargets --format '$(SITE)' 'Identifier: Packages' | grep -m1 '/debian/*$' || echo http://deb.debian.org/debian)
+  mirror=$(apt-get indextargets --format '$(SITE)' 'Identifier: Packages' | grep -m1 '/debian/*$') || {
+    echo "expected a Debian mirror among apt's sources, found none" >&2
+    exit 1
+  }
   debootstrap --variant=minbase --keyring=/usr/share/keyrings/debian-archive-keyring.gpg "$suite" "$folder" "$mirror"
   printf '#!/bin/sh\nexit 101\n' >"$folder/usr/sbin/policy-rc.d" # no services
   chmod +x "$folder/usr/sbin/policy-rc.d"

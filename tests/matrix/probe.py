@@ -1,11 +1,11 @@
-"""Runs inside any Blender with the installed add-on: one computation, its export, its picture, and what ran it.
+"""Runs inside any Blender with the installed add-on: one mesh by the operator, the export and the command line,
+its picture, and what ran it.
 
 Arguments: the file that the answer is written to, as JSON, and the render engines to try, whose pictures are
 written beside it.
 """
 
-import hashlib
-import itertools
+import importlib
 import json
 import os
 import platform
@@ -16,6 +16,10 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from egg import command_line, digest, egg
+
 ANSWER, *ENGINES = sys.argv[sys.argv.index("--") + 1 :]
 # What an engine is called; EEVEE has changed its name twice.
 NAMES = {
@@ -23,30 +27,6 @@ NAMES = {
     "EEVEE": ("BLENDER_EEVEE", "BLENDER_EEVEE_NEXT"),
     "Workbench": ("BLENDER_WORKBENCH",),
 }
-
-
-def egg(steps=12):
-    """Vertices and triangles of a closed surface: an octahedron's grid pushed outwards, by +, *, / and
-    sqrt alone, which round alike everywhere, and a little uneven."""
-    number, vertices, triangles = {}, [], []
-
-    def vertex(*place):
-        if place not in number:
-            number[place] = len(vertices)
-            unevenness = ((len(vertices) * 7919) % 1009 - 504) / 504000
-            x, y, z = place
-            size = (x * x + y * y + z * z) ** 0.5 * (1 + unevenness)
-            vertices.append((x / size, 0.7 * y / size, 0.4 * z / size))
-        return number[place]
-
-    grid = [(a, b) for a in range(steps) for b in range(steps - a)]
-    cells = [((a, b), (a + 1, b), (a, b + 1)) for a, b in grid]
-    cells += [((a + 1, b), (a + 1, b + 1), (a, b + 1)) for a, b in grid if a + b < steps - 1]
-    for sx, sy, sz in itertools.product((1, -1), repeat=3):
-        for cell in cells:
-            corners = [vertex(sx * a, sy * b, sz * (steps - a - b)) for a, b in cell]
-            triangles.append(corners[:: sx * sy * sz])  # outward after a mirror, too
-    return vertices, triangles
 
 
 def source():
@@ -66,9 +46,7 @@ def exported(folder):
     path = folder / "egg.ma"
     assert bpy.ops.object.medial_axis(side="INNER") == {"FINISHED"}
     assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
-    content = path.read_bytes()
-    assert len(content) > 10_000
-    return hashlib.sha256(content).hexdigest()
+    return digest(path)
 
 
 def set_stage():
@@ -111,6 +89,7 @@ def main():
             "numpy": np.__version__,
             "installed": "extension" if module.startswith("bl_ext.") else "legacy add-on",
             "export": exported(Path(folder)),
+            "command": command_line(importlib.import_module(f"{module}.cli").main, Path(folder)),
         }
     thing.hide_render = True
     set_stage()

@@ -4,8 +4,9 @@
     python3 tests/matrix/run.py ZIP EXTENSION_ZIP [--quick] [--keep FOLDER] [--table docs/compatibility.md]
 
 In each: the zip passes Blender's own check and is installed, the tests run without a window and in one,
-one mesh is computed, exported and rendered. The exported files must be the same, byte for byte. --quick
-runs the main things, and none of the official bpy modules. Screenshots and logs go to the folder that
+one mesh is computed, exported and rendered, and given to the command line. The files must be the same,
+byte for byte. In Python 3.10, for which there is no Blender here, the Python tests run and the command line.
+--quick runs the main things, and none of the official bpy modules. Screenshots and logs go to the folder that
 --keep names, and --table writes the results. What cannot be had is skipped by name; exit code 1 when
 something failed in a Blender that runs.
 """
@@ -16,20 +17,24 @@ import argparse
 import json
 import os
 import re
-import shlex
 import shutil
 import subprocess
 import sys
+import zipfile
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 TESTS = ROOT / "tests" / "addon" / "run.py"
-CHROOTS = Path(os.environ.get("MEDIAL_AXIS_BLENDERS", ROOT / "build" / "blenders"))
-FOLDERS = ("/usr/bin", "/usr/local/bin", str(Path.home() / ".pyenv/versions/{}*/bin"))  # of Pythons
+sys.path.insert(0, str(HERE))
+
+from places import Bpy, Chroot, Installed, UnavailableError, WithoutBlender  # noqa: E402 - beside this
 
 QUICK_SCENES = ["compute_drag_undo", "missing_module"]
+HASHES = ("export", "command")  # of the .ma files of the operator and of the command line
+OF_THE_BUILD = ("bench", "build_addon", "checklist", "matrix")  # tests not of the zip
 MARK = "<!-- written by tests/matrix/run.py: do not edit below -->"
 HEADER = (
     "Blender",
@@ -41,11 +46,8 @@ HEADER = (
     "Window",
     "Rendered",
     "Export, SHA-256",
+    "Command line, SHA-256",
 )
-
-
-class UnavailableError(Exception):
-    """A Blender that cannot be had here, and why."""
 
 
 @dataclass
@@ -61,7 +63,7 @@ class Row:
 
     def cells(self) -> tuple[str, ...]:
         if self.skipped:
-            return ("", self.source, *[""] * 6, f"not tested: {self.skipped}")
+            return ("", self.source, *[""] * 7, f"not tested: {self.skipped}")
         facts = self.facts
         colours = facts.get("colours", {})
         return (
@@ -72,91 +74,10 @@ class Row:
             facts.get("installed", "?"),
             self.tests,
             self.window,
-            ", ".join(colours) or "?",
-            f"`{facts.get('export', 'none')[:16]}`",
+            ", ".join(colours) or "none",
+            facts.get("export", "none")[:16],
+            facts.get("command", "none")[:16],
         )
-
-
-def system() -> str:
-    """The name of this machine's system, such as 'Debian 12'."""
-    words = Path("/etc/os-release").read_text(encoding="utf-8").splitlines()
-    names = dict(word.replace('"', "").split("=", 1) for word in words if "=" in word)
-    return f"{names['NAME'].split()[0]} {names.get('VERSION_ID', '')}".strip()
-
-
-class Installed:
-    """The Blender of this machine."""
-
-    engines = ("Cycles", "EEVEE", "Workbench")
-    quick = True
-    quick_tests = False  # `build_addon.py test` runs them anyway
-
-    def __init__(self, program: str) -> None:
-        self.source, self.words = system(), [program]
-
-    def prepare(self, log: Path) -> list[str]:
-        """The options that make tests/addon/run.py use it; raises UnavailableError."""
-        if shutil.which(self.words[0]) is None:
-            raise UnavailableError(f"no program {self.words[0]}")
-        return ["--blender", shlex.join(self.words)]
-
-
-class Chroot(Installed):
-    """The Blender of another Debian, in a folder."""
-
-    quick_tests = True
-
-    def __init__(self, suite: str, source: str) -> None:
-        self.suite, self.source = suite, source
-        self.words = [str(HERE / "enter.sh"), str(CHROOTS / suite), "blender"]
-
-    def prepare(self, log: Path) -> list[str]:
-        if os.geteuid() != 0:
-            raise UnavailableError("only root can make and enter a chroot")
-        if shutil.which("debootstrap") is None:
-            raise UnavailableError("debootstrap is not installed")
-        CHROOTS.mkdir(parents=True, exist_ok=True)
-        run_logged([HERE / "debian_blender.sh", self.suite, CHROOTS / self.suite], log)
-        return super().prepare(log)
-
-
-class Bpy:
-    """Blender as a Python module, from the package index that pip uses: the official builds."""
-
-    engines = ("Cycles", "Workbench")
-    quick = False
-
-    def __init__(self, version: str, python: str) -> None:
-        self.version, self.python = version, python
-        self.source = f"bpy {version}"
-        self.words: list[str] = []
-
-    def prepare(self, log: Path) -> list[str]:
-        found = [
-            path
-            for pattern in FOLDERS
-            for path in Path("/").glob(f"{pattern.format(self.python)}/python{self.python}"[1:])
-            if subprocess.run([path, "-c", "import ensurepip"], capture_output=True).returncode == 0
-        ]
-        if not found:
-            raise UnavailableError(f"no Python {self.python} that makes virtual environments")
-        folder = CHROOTS / f"bpy-{self.version}"
-        run_logged([found[0], "-m", "venv", folder], log)
-        packages = [f"bpy=={self.version}.*", "pytest", "scipy"]
-        install = ["-m", "pip", "install", "--upgrade", "--only-binary", ":all:", *packages]
-        run_logged([folder / "bin" / "python", *install], log)
-        return ["--bpy", str(folder / "bin" / "python")]
-
-
-def run_logged(command: list, log: Path) -> None:
-    """Run what brings a Blender; raises UnavailableError with its last word."""
-    with open(log, "ab") as output:
-        code = subprocess.run(
-            list(map(str, command)), stdout=output, stderr=subprocess.STDOUT
-        ).returncode
-    if code != 0:
-        last = (log.read_text(encoding="utf-8", errors="replace").strip() or "?").splitlines()[-1]
-        raise UnavailableError(f"{Path(command[0]).name} failed: {last.strip()[:200]} (see {log})")
 
 
 def examine(blender, arguments: argparse.Namespace) -> Row:
@@ -169,16 +90,43 @@ def examine(blender, arguments: argparse.Namespace) -> Row:
     except UnavailableError as reason:
         row.skipped = str(reason)
         return row
+    if isinstance(blender, WithoutBlender):
+        run_without_blender(row, use, keep, arguments)
+        return row
     probe(row, blender, use, keep, arguments)
     if arguments.quick and not blender.quick_tests:
         return row
-    code, text = run_tests([*use, "--zip", arguments.zip], keep / "tests.log")
-    row.tests = summary_of(text)
-    if code != 0:
-        row.failures.append(f"tests: {row.tests} (see {keep / 'tests.log'})")
+    judge_tests(row, *run_tests([*use, "--zip", arguments.zip], keep / "tests.log"), keep)
     if blender.words:
         window(row, use, keep, arguments)
     return row
+
+
+def run_without_blender(
+    row: Row, use: list[str], keep: Path, arguments: argparse.Namespace
+) -> None:
+    """The unpacked zip in a Python of its own: the tests of everything but Blender, and the command line."""
+    folder, answer = (keep / "unpacked").resolve(), (keep / "probe.json").resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    answer.unlink(missing_ok=True)
+    with zipfile.ZipFile(arguments.zip) as archive:
+        archive.extractall(folder)
+    package = {"MEDIAL_AXIS_PACKAGE": str(folder / "medial_axis"), "PYTHONDONTWRITEBYTECODE": "1"}
+    script = [HERE / "without_blender.py", answer, folder]
+    code, _ = logged([*use, *script], keep / "probe.log", package)
+    if code != 0 or not answer.exists():
+        row.failures.append(f"no result (see {keep / 'probe.log'})")
+        return
+    row.facts = json.loads(answer.read_text(encoding="utf-8"))
+    tests = ["-m", "pytest", "-q", "-p", "no:cacheprovider", ROOT / "tests" / "python"]
+    tests += [f"--ignore-glob=*/test_{name}.py" for name in OF_THE_BUILD]
+    judge_tests(row, *logged([*use, *tests], keep / "tests.log", package), keep)
+
+
+def judge_tests(row: Row, code: int, text: str, keep: Path) -> None:
+    row.tests = summary_of(text)
+    if code != 0:
+        row.failures.append(f"tests: {row.tests} (see {keep / 'tests.log'})")
 
 
 def probe(row: Row, blender, use: list[str], keep: Path, arguments: argparse.Namespace) -> None:
@@ -203,7 +151,7 @@ def probe(row: Row, blender, use: list[str], keep: Path, arguments: argparse.Nam
             checked = subprocess.run(list(map(str, validate)), capture_output=True, text=True)
             if checked.returncode != 0:
                 row.failures.append(f"validate {archive.name}: {checked.stdout}{checked.stderr}")
-    if answers[0]["export"] != answers[1]["export"]:
+    if any(answers[0][what] != answers[1][what] for what in HASHES):
         row.failures.append("the two zips give different exports")
     dull = [engine for engine, colours in row.facts["colours"].items() if colours < 100]
     if dull:
@@ -228,8 +176,18 @@ def window(row: Row, use: list[str], keep: Path, arguments: argparse.Namespace) 
 
 def run_tests(options: list, log: Path) -> tuple[int, str]:
     """tests/addon/run.py with its output in a log; returns its exit code and output."""
-    command = [sys.executable, str(TESTS), *map(str, options)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return logged([sys.executable, TESTS, *options], log)
+
+
+def logged(command: list, log: Path, environment: Mapping[str, str] = {}) -> tuple[int, str]:
+    """Run a command with its output in a log; returns its exit code and output."""
+    done = subprocess.run(
+        list(map(str, command)),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env={**os.environ, **environment},
+    )
     log.write_text(done.stdout, encoding="utf-8")
     return done.returncode, done.stdout
 
@@ -242,13 +200,14 @@ def summary_of(text: str) -> str:
 
 
 def compare(rows: list[Row]) -> list[str]:
-    """The sentence that says that exports differ, if they do."""
-    exports = {row.facts["export"]: row.facts["blender"] for row in rows if "export" in row.facts}
-    if len(exports) < 2:
-        return []
-    return [
-        "the same mesh gives different .ma files: " + ", ".join(map(" in ".join, exports.items()))
-    ]
+    """The sentences that say that files differ, if they do."""
+    different = []
+    for what in HASHES:
+        found = {row.facts[what]: row.source for row in rows if what in row.facts}
+        if len(found) > 1:
+            places = ", ".join(map(" in ".join, found.items()))
+            different.append(f"the same mesh gives different .ma files ({what}): {places}")
+    return different
 
 
 def table(rows: list[tuple[str, ...]]) -> str:
@@ -280,6 +239,7 @@ def main() -> int:
         Installed(arguments.blender),
         Chroot("trixie", "Debian 13"),
         Chroot("sid", "Debian sid"),
+        WithoutBlender(),
         *map(Bpy, ("4.2", "4.5", "5.0", "5.2"), ("3.11", "3.11", "3.11", "3.13")),
     ]
     rows = []

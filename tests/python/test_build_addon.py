@@ -172,6 +172,35 @@ def test_headers_that_are_there_are_used_without_a_network(script, tmp_path, mon
     assert capsys.readouterr().out == "Python 3.13: libpython3.13-dev 1, pybind11-dev 2\n"
 
 
+@pytest.mark.parametrize("there", [True, False])
+def test_headers_of_a_python_that_no_debian_has_are_of_this_machine(
+    script, tmp_path, monkeypatch, capsys, there
+):
+    """A stand-in for Python 9.9, which has one header and its configuration apart, as Debian's Pythons have."""
+    include, config = tmp_path / "include", tmp_path / "apart" / "pyconfig.h"
+    for path in (include / "Python.h", config):
+        path.parent.mkdir()
+        path.write_text(path.name)
+    if there:
+        (tmp_path / "python9.9").write_text(f"#!/bin/sh\necho {include} {config} 9.9.1\n")
+        (tmp_path / "python9.9").chmod(0o755)
+    monkeypatch.setattr(script, "BUILD", tmp_path)
+    monkeypatch.setattr(script, "PYTHONS", {"9.9": "installed"})
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    folder = tmp_path / "python" / "9.9"
+    assert script.other_headers("cpython-311-x86_64-linux-gnu") == (
+        {"9.9": folder} if there else {}
+    )
+    out = capsys.readouterr().out
+    if there:
+        assert out == f"Python 9.9: that of {tmp_path}, 9.9.1\n"
+        found = sorted(path.name for path in (folder / "python9.9").iterdir())
+        assert found == ["Python.h", "pyconfig.h"]
+    else:
+        assert out.startswith("No module for Python 9.9: expected a python9.9 with its headers")
+        assert not folder.exists()
+
+
 def compile_library(folder, source, *options):
     """A shared library of one C++ source."""
     target = folder / "_medial.so"

@@ -1,0 +1,117 @@
+"""Where Blenders come from: this machine, other Debians in folders, the package index of Python."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+CHROOTS = Path(os.environ.get("MEDIAL_AXIS_BLENDERS", ROOT / "build" / "blenders"))
+sys.path.insert(0, str(ROOT / "native" / "python"))
+
+from headers import interpreters  # noqa: E402 - it lies in that folder
+
+
+class UnavailableError(Exception):
+    """A Blender that cannot be had here, and why."""
+
+
+def system() -> str:
+    """The name of this machine's system, such as 'Debian 12'."""
+    words = Path("/etc/os-release").read_text(encoding="utf-8").splitlines()
+    names = dict(word.replace('"', "").split("=", 1) for word in words if "=" in word)
+    return f"{names['NAME'].split()[0]} {names.get('VERSION_ID', '')}".strip()
+
+
+class Installed:
+    """The Blender of this machine."""
+
+    engines = ("Cycles", "EEVEE", "Workbench")
+    quick = True
+    quick_tests = False  # `build_addon.py test` runs them anyway
+
+    def __init__(self, program: str) -> None:
+        self.source, self.words = system(), [program]
+
+    def prepare(self, log: Path) -> list[str]:
+        """The options that make tests/addon/run.py use it; raises UnavailableError."""
+        if shutil.which(self.words[0]) is None:
+            raise UnavailableError(f"no program {self.words[0]}")
+        return ["--blender", shlex.join(self.words)]
+
+
+class Chroot(Installed):
+    """The Blender of another Debian, in a folder."""
+
+    quick_tests = True
+
+    def __init__(self, suite: str, source: str) -> None:
+        self.suite, self.source = suite, source
+        self.words = [str(HERE / "enter.sh"), str(CHROOTS / suite), "blender"]
+
+    def prepare(self, log: Path) -> list[str]:
+        if os.geteuid() != 0:
+            raise UnavailableError("only root can make and enter a chroot")
+        if shutil.which("debootstrap") is None:
+            raise UnavailableError("debootstrap is not installed")
+        CHROOTS.mkdir(parents=True, exist_ok=True)
+        run_logged([HERE / "debian_blender.sh", self.suite, CHROOTS / self.suite], log)
+        return super().prepare(log)
+
+
+class Bpy:
+    """Blender as a Python module, from the package index that pip uses: the official builds."""
+
+    engines = ("Cycles", "Workbench")
+    quick = False
+    words: tuple[str, ...] = ()
+
+    def __init__(self, version: str, python: str) -> None:
+        self.source, self.folder, self.python = f"bpy {version}", f"bpy-{version}", python
+        self.packages = [f"bpy=={version}.*", "pytest", "scipy"]
+
+    def prepare(self, log: Path) -> list[str]:
+        return ["--bpy", str(self.environment(log))]
+
+    def environment(self, log: Path) -> Path:
+        """The Python of a virtual environment with the packages; raises UnavailableError."""
+        found = [path for path in interpreters(self.python) if makes_environments(path)]
+        if not found:
+            raise UnavailableError(f"no Python {self.python} that makes virtual environments")
+        folder = CHROOTS / self.folder
+        run_logged([found[0], "-m", "venv", folder], log)
+        install = ["-m", "pip", "install", "--upgrade", "--only-binary", ":all:", *self.packages]
+        run_logged([folder / "bin" / "python", *install], log)
+        return folder / "bin" / "python"
+
+
+def makes_environments(python: Path) -> bool:
+    return subprocess.run([python, "-c", "import ensurepip"], capture_output=True).returncode == 0
+
+
+class WithoutBlender(Bpy):
+    """The Python and the NumPy of blender.org's Blender 3.4 to 4.0, which is in no package index."""
+
+    def __init__(self) -> None:
+        self.source, self.folder, self.python = "Python 3.10", "python-3.10", "3.10"
+        self.packages = ["numpy==1.23.*", "pytest", "scipy"]
+
+    def prepare(self, log: Path) -> list[str]:
+        """The words that a command begins with."""
+        return [str(self.environment(log))]
+
+
+def run_logged(command: list, log: Path) -> None:
+    """Run what brings a Blender; raises UnavailableError with its last word."""
+    with open(log, "ab") as output:
+        code = subprocess.run(
+            list(map(str, command)), stdout=output, stderr=subprocess.STDOUT
+        ).returncode
+    if code != 0:
+        last = (log.read_text(encoding="utf-8", errors="replace").strip() or "?").splitlines()[-1]
+        raise UnavailableError(f"{Path(command[0]).name} failed: {last.strip()[:200]} (see {log})")
