@@ -27,7 +27,10 @@ def german():
     """Blender speaks German."""
     view = bpy.context.preferences.view
     kept = view.language
-    view.language = "de_DE"
+    try:
+        view.language = "de_DE"
+    except TypeError:  # the bpy of some versions comes without Blender's own translations
+        pytest.skip("this Blender speaks English only")
     yield
     view.language = kept
 
