@@ -36,7 +36,10 @@ LIBRARY = ADDON / "lib"
 BUILD = ROOT / "build"
 DIST = ROOT / "dist"
 PACKAGE = "medial_axis"  # the add-on's name inside Blender and the top folder of its zip
-PLATFORM = "linux-x64"  # as extensions.blender.org calls it
+PLATFORMS = {
+    "linux-x64": ".so",
+    "windows-x64": ".pyd",
+}  # as extensions.blender.org calls them; of their modules
 
 # What is needed -> the Debian package that brings it, by command.
 BUILD_NEEDS = {
@@ -71,11 +74,13 @@ BENCH_NEEDS = {
     "software OpenGL": "libgl1-mesa-dri",
 }
 
+WINDOWS_NEEDS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
 MATRIX_NEEDS = {**TEST_NEEDS, "Debian in a folder, by root alone": "debootstrap"}
 
 # The Pythons of the Blenders that the zip is for, and the suite of Debian that has their headers; 3.10 is in none.
 PYTHONS = {"3.10": "installed", "3.11": "bookworm", "3.13": "trixie", "3.14": "sid"}
-ZIPPED_SUFFIXES = {".py", ".po", ".toml", ".so", ".png", ".svg", ".js", ".yaml"}
+WINDOWS_PYTHONS = {"3.11": "bookworm", "3.13": "trixie"}
+ZIPPED_SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".js", ".yaml"}
 
 
 class Failure(Exception):
@@ -228,15 +233,15 @@ def blender_python(blender: Path) -> tuple[Path, str]:
 # --- building
 
 
-def build_modules(blender: Path, local: bool = False) -> None:
+def build_modules(blender: Path, local: bool = False, windows: bool = False) -> None:
     """Compile the release modules into blender_addon/lib: for Blender's own Python and, unless `local`, the others."""
     say("Building the native modules")
     python, abi = blender_python(blender)
     folders = {} if local else other_headers(abi)
-    headers = ";".join(map(str, folders.values()))
-    build_preset("release", f"-DPython_EXECUTABLE={python}", f"-DMEDIAL_PYTHON_HEADERS={headers}")
+    build_preset("release", f"-DPython_EXECUTABLE={python}", definition_of(folders))
     abis = [abi, *(re.sub(r"\d+", version.replace(".", ""), abi, count=1) for version in folders)]
     modules = [put_into_library(BUILD / "release" / f"_medial.{abi}.so") for abi in abis]
+    modules += build_windows_modules() if windows else []
     for old in set(LIBRARY.glob("_medial.*")) - set(modules):
         old.unlink()
     checker = ROOT / "native" / "python" / "check_module.py"
@@ -244,14 +249,41 @@ def build_modules(blender: Path, local: bool = False) -> None:
     print(output_of(python, "-c", IMPORT_MODULE, modules[0]).strip())
 
 
+def build_windows_modules() -> list[Path]:
+    """Compile those for Windows here."""
+    folders = headers_of(WINDOWS_PYTHONS, BUILD / "python" / "windows", "--windows")
+    build_preset("mingw", definition_of(folders))
+    names = [f"_medial.cp{version.replace('.', '')}-win_amd64.pyd" for version in folders]
+    return [put_into_library(BUILD / "mingw" / name, "x86_64-w64-mingw32-strip") for name in names]
+
+
+def definition_of(folders: dict[str, Path]) -> str:
+    return f"-DMEDIAL_PYTHON_HEADERS={';'.join(map(str, folders.values()))}"
+
+
 def other_headers(abi: str) -> dict[str, Path]:
-    """Folders with the headers of the Pythons that Blender here does not use; those not to be had are named."""
+    """Folders with the headers of the Pythons that Blender here does not use."""
+    others = {
+        version: suite
+        for version, suite in PYTHONS.items()
+        if f"cpython-{version.replace('.', '')}-" not in abi
+    }
+    return headers_of(others, BUILD / "python")
+
+
+def headers_of(pythons: dict[str, str], parent: Path, *options: str) -> dict[str, Path]:
+    """Folders with headers, by version; those not to be had are named."""
     folders = {}
-    for version, suite in PYTHONS.items():
-        if f"cpython-{version.replace('.', '')}-" in abi:
-            continue
-        folder = BUILD / "python" / version
-        fetch = [sys.executable, ROOT / "native/python/headers.py", version, suite, folder]
+    for version, suite in pythons.items():
+        folder = parent / version
+        fetch = [
+            sys.executable,
+            ROOT / "native/python/headers.py",
+            version,
+            suite,
+            folder,
+            *options,
+        ]
         done = subprocess.run(list(map(str, fetch)), capture_output=True, text=True)
         if done.returncode == 0:
             print(f"Python {version}: {', '.join(done.stdout.splitlines())}")
@@ -261,14 +293,14 @@ def other_headers(abi: str) -> dict[str, Path]:
     return folders
 
 
-def put_into_library(built: Path) -> Path:
+def put_into_library(built: Path, strip: str = "strip") -> Path:
     """Strip a module into blender_addon/lib; renamed at the end: a running Blender keeps the file that it has open."""
     if not built.exists():
         raise Failure(f"Expected {built.relative_to(ROOT)}, found none; run clean first")
     LIBRARY.mkdir(exist_ok=True)
     module = LIBRARY / built.name
     fresh = module.with_suffix(".new")
-    run("strip", "--strip-unneeded", "-o", fresh, built)
+    run(strip, "--strip-unneeded", "-o", fresh, built)
     os.replace(fresh, module)
     return module
 
@@ -302,33 +334,45 @@ def version() -> str:
 
 
 def pack() -> Path:
-    """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension), and the one for the extensions
-    platform, which wants its files at the top. Same files, same bytes. Returns the first."""
+    """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension), and those for the extensions
+    platform, which wants one per system and the files at its top. Same files, same bytes. Returns the first."""
     say("Packing the add-on")
     DIST.mkdir(exist_ok=True)
     files = {path.relative_to(ADDON).as_posix(): path for path in packed_files()}
     files["LICENSE"] = ROOT / "LICENSE"
     files |= manual_pages(BUILD)
-    archive, extension = archives()
-    write_zip(archive, {f"{PACKAGE}/{name}": path.read_bytes() for name, path in files.items()})
     contents = {name: path.read_bytes() for name, path in files.items()}
-    contents["blender_manifest.toml"] = for_platform(contents["blender_manifest.toml"])
-    write_zip(extension, contents)
-    abis = sorted(name.split(".")[1] for name in files if name.startswith("lib/_medial."))
-    print(f"{len(files)} files each; compiled for {', '.join(abis) or 'no Python'}")
+    archive = archive_for()
+    write_zip(archive, {f"{PACKAGE}/{name}": content for name, content in contents.items()})
+    for platform in PLATFORMS:
+        archive_for(platform).unlink(missing_ok=True)
+        if own := for_platform(contents, platform):
+            write_zip(archive_for(platform), own)
+    abis = sorted(name.split(".")[1] for name in files if name.startswith(MODULES))
+    print(f"{len(files)} files; compiled for {', '.join(abis) or 'no Python'}")
     return archive
 
 
-def archives() -> tuple[Path, Path]:
-    """The zip for people, and the one for the extensions platform, named as Blender names such."""
-    stem = f"{PACKAGE}-{version()}"
-    return DIST / f"{stem}.zip", DIST / f"{stem}-{PLATFORM}.zip"
+MODULES = "lib/_medial."
 
 
-def for_platform(manifest: bytes) -> bytes:
-    """The manifest says for which system the zip is; a line of its own before the first table."""
-    line = f'platforms = ["{PLATFORM}"]\n\n['.encode()
-    return manifest.replace(b"\n[", b"\n" + line, 1)
+def archive_for(platform: str = "") -> Path:
+    """The zip for people, or one for the extensions platform, named as Blender names such."""
+    return DIST / f"{PACKAGE}-{version()}{'-' * bool(platform)}{platform}.zip"
+
+
+def for_platform(contents: dict[str, bytes], platform: str) -> dict[str, bytes]:
+    """The files for one system, if there is a module for it; the manifest says for which, before its first table."""
+    own = {
+        name: content
+        for name, content in contents.items()
+        if not name.startswith(MODULES) or name.endswith(PLATFORMS[platform])
+    }
+    if not any(name.startswith(MODULES) for name in own):
+        return {}
+    line = f'platforms = ["{platform}"]\n\n['.encode()
+    manifest = contents["blender_manifest.toml"].replace(b"\n[", b"\n" + line, 1)
+    return own | {"blender_manifest.toml": manifest}
 
 
 def write_zip(target: Path, contents: dict[str, bytes]) -> None:
@@ -395,8 +439,8 @@ def packed_files() -> list[Path]:
 
 
 def build(arguments: argparse.Namespace) -> None:
-    require(BUILD_NEEDS)
-    build_modules(find_blender(arguments.blender), arguments.local)
+    require(BUILD_NEEDS | (WINDOWS_NEEDS if arguments.windows else {}))
+    build_modules(find_blender(arguments.blender), arguments.local, arguments.windows)
     print(
         f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {pack().relative_to(ROOT)}"
     )
@@ -558,7 +602,7 @@ def test_gui(blender: Path) -> None:
 def run_inside(blender: Path, *options: object) -> None:
     """The tests of the installed zip inside Blender."""
     python, _ = blender_python(blender)
-    archive, _ = archives()
+    archive = archive_for()
     run(python, "tests/addon/run.py", "--zip", archive, "--blender", blender, *options)
 
 
@@ -572,7 +616,7 @@ def test_matrix(blender: Path) -> None:
 
 
 def run_matrix(blender: Path, *options: object) -> None:
-    zips = archives()
+    zips = archive_for(), archive_for("linux-x64")
     keep = BUILD / "matrix"
     run(
         sys.executable, "tests/matrix/run.py", *zips, "--blender", blender, "--keep", keep, *options
@@ -685,6 +729,9 @@ def parse(words: list[str]) -> argparse.Namespace:
     add_build.add_argument(
         "--local", action="store_true", help="for this machine's Blender alone; no network needed"
     )
+    add_build.add_argument(
+        "--windows", action="store_true", help="the modules for Windows, too, by mingw-w64"
+    )
     add_bench = add("bench", bench, "measure beside the bare Delaunay triangulation", BENCH_HELP)
     add_bench.add_argument(
         "--quick", action="store_true", help="inputs of at most 200,000 points, once each"
@@ -723,7 +770,8 @@ headers are those of a python3.10 of this machine.
 Puts the modules into blender_addon/lib/,
 checks that they need no library that Blender brings too and no newer system than others have, and packs
 dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer, and
-dist/medial_axis-VERSION-{PLATFORM}.zip for the extensions platform."""
+for the extensions platform one like it per system, such as dist/medial_axis-VERSION-linux-x64.zip. With --windows the
+modules for Windows x64 and Python {" and ".join(WINDOWS_PYTHONS)} are compiled, too, by mingw-w64."""
 
 DEMO_HELP = """Installs the zip into a private Blender profile, computes the medial axis of Blender's Suzanne and of a
 mesh of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .ply, .ma and a rendered

@@ -58,14 +58,14 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
 
     def check(self, context: bpy.types.Context) -> bool:
         """Keep name and format together while the file browser is open: what was changed last wins."""
-        path = Path(self.filepath)
+        # Not a Path, which takes Blender's // for a network folder of Windows
+        path, (stem, suffix) = self.filepath, os.path.splitext(self.filepath)
         chosen, self._shown_format = self.file_format != self._shown_format, self.file_format
-        if not chosen and path.suffix.lower() in FORMATS:
-            self.file_format = self._shown_format = path.suffix[1:].upper()
+        if not chosen and suffix.lower() in FORMATS:
+            self.file_format = self._shown_format = suffix[1:].upper()
             return False
-        stem = path.with_suffix("") if path.suffix.lower() in FORMATS else path
-        self.filepath = f"{stem}{self.filename_ext}"
-        return self.filepath != str(path)
+        self.filepath = (stem if suffix.lower() in FORMATS else path) + self.filename_ext
+        return self.filepath != path
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()  # scripts may have moved the object

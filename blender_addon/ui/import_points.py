@@ -1,6 +1,6 @@
 """File > Import > Points: `.xyz`, `.xyzn` and `.off` files as mesh objects."""
 
-from pathlib import Path
+import os
 
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, StringProperty
@@ -52,8 +52,8 @@ class ImportPoints(ImportHelper):
 
     def _paths(self):
         names = [element.name for element in self.files if element.name]
-        paths = [Path(self.directory, name) for name in names] or [self.filepath]
-        return [bpy.path.abspath(str(path)) for path in paths]
+        folder = bpy.path.abspath(self.directory)
+        return [os.path.join(folder, name) for name in names] or [bpy.path.abspath(self.filepath)]
 
     def _import(self, path, turn):
         """The new object of a file; None where it is not one, which is reported."""

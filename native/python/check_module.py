@@ -5,6 +5,7 @@
 
 A module must not need libraries that Blender brings too, must export its entry point alone, and must
 run on systems as old as RHEL 9 and Ubuntu 22.04. --local allows newer ones: it is for this machine.
+One for Windows must need nothing but Python and what every Windows has.
 """
 
 import re
@@ -13,6 +14,7 @@ import sys
 from pathlib import Path
 
 FORBIDDEN = re.compile(r"lib(tbb|gmp|mpfr|python)")
+OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}
 ENTRY = "PyInit__medial"
 # The newest symbol versions that those systems have (manylinux_2_34).
 NEWEST = {"GLIBC": "2.34", "GLIBCXX": "3.4.29", "CXXABI": "1.3.13"}
@@ -20,6 +22,31 @@ NEWEST = {"GLIBC": "2.34", "GLIBCXX": "3.4.29", "CXXABI": "1.3.13"}
 
 def check(module, local=False):
     """Lines to print about a module; raises SystemExit with one sentence."""
+    return check_windows(module) if module.suffix == ".pyd" else check_linux(module, local)
+
+
+def check_windows(module):
+    text = output("x86_64-w64-mingw32-objdump", "-p", module)
+    libraries = re.findall(r"DLL Name: (\S+)", text)
+    python = re.sub(r".*\.cp(\d+)-.*", r"python\1.dll", module.name)
+    unwanted = set(libraries) - {python, *OF_WINDOWS}
+    if unwanted or python not in libraries:
+        refuse(module, f"must need {python} and what every Windows has, found {libraries}")
+    names = re.search(r"^\[Ordinal/Name Pointer\] Table.*\n((?:\t.*\n)*)", text, re.MULTILINE)
+    only_entry(module, [line.split()[-1] for line in names[1].splitlines()] if names else [])
+    size = module.stat().st_size / 1e6
+    return [
+        f"{module.name}: {size:.1f} MB, needs {', '.join(libraries)}",
+        f"  exports {ENTRY} only",
+    ]
+
+
+def only_entry(module, exported):
+    if exported != [ENTRY]:
+        refuse(module, f"must export {ENTRY} only, found {len(exported)}: {exported[:5]}")
+
+
+def check_linux(module, local):
     libraries = re.findall(r"\(NEEDED\).*\[(.+)\]", output("readelf", "-d", module))
     unwanted = [library for library in libraries if FORBIDDEN.match(library)]
     if unwanted:
@@ -27,8 +54,7 @@ def check(module, local=False):
     exported = [
         line.split()[-1] for line in output("nm", "-D", "--defined-only", module).splitlines()
     ]
-    if exported != [ENTRY]:
-        refuse(module, f"must export {ENTRY} only, found {len(exported)}: {exported[:5]}")
+    only_entry(module, exported)
     symbols = output("objdump", "-T", module)
     found = {name: newest(name, symbols) for name in NEWEST}
     for name, version in found.items():

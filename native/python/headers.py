@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Fetches the headers of another Python, and of a pybind11 that knows it, from Debian or from this machine.
+"""Fetches the headers of another Python, and of a pybind11 that knows it.
 
     python3 native/python/headers.py 3.13 trixie build/python/3.13
     python3 native/python/headers.py 3.10 installed build/python/3.10
+    python3 native/python/headers.py 3.13 trixie build/python/windows-3.13 --windows
 
-The first takes Debian's packages: a private apt verifies the suite's signature and the packages'
-hashes. Nothing is installed, and of the packages only python3.X/, its pyconfig.h and pybind11/ are
-unpacked: headers of another C library never meet the compiler's own. The second is for a Python that
-no Debian has. Exit code 1 and one sentence when they cannot be had.
+The first takes Debian's packages of another suite. Nothing is installed, and of the packages only
+python3.X/, its pyconfig.h and pybind11/ are unpacked: headers of another C library never meet the
+compiler's own. The second takes those of a Python of this machine, for one that no Debian has. The
+third is for a Python on Windows. Exit code 1 and one sentence when they cannot be had.
 """
 
 import shutil
@@ -16,7 +17,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-KEYRING = Path("/usr/share/keyrings/debian-archive-keyring.gpg")
+from debian import download
+from headers_for_windows import fetch_for_windows
+
 INSTALLED = "installed"  # instead of a suite
 # Where Pythons lie that are not on PATH.
 FOLDERS = ("/usr/bin", "/usr/local/bin", str(Path.home() / ".pyenv/versions/{}*/bin"))
@@ -27,20 +30,21 @@ print(sysconfig.get_path("include"), sysconfig.get_config_h_filename(), platform
 STAMP = "packages.txt"  # written last: what was unpacked, by version
 
 
-def main(version, suite, folder):
-    """Fill the folder; returns the packages that it came from, such as ['pybind11-dev 3.1.0-1']."""
+def main(version, suite, folder, windows=False):
+    """Fill the folder; returns what it came from, such as ['pybind11-dev 3.1.0-1']."""
     stamp = folder / STAMP
     if not stamp.exists():
+        bring = copy if suite == INSTALLED else fetch_for_windows if windows else fetch
         fresh = folder.with_name(f"{folder.name}.new")
         shutil.rmtree(fresh, ignore_errors=True)
-        names = copy(version, fresh) if suite == INSTALLED else fetch(version, suite, fresh)
+        names = bring(version, suite, fresh)
         (fresh / STAMP).write_text("\n".join(names) + "\n", encoding="utf-8")
         shutil.rmtree(folder, ignore_errors=True)
         fresh.rename(folder)
     return stamp.read_text(encoding="utf-8").split("\n")[:-1]
 
 
-def copy(version, folder):
+def copy(version, _, folder):
     """The headers of a Python of this machine; its pybind11 is the compiler's own."""
     for python in interpreters(version):
         done = subprocess.run([python, "-c", TELL], capture_output=True, text=True)
@@ -62,57 +66,11 @@ def interpreters(version):
 
 def fetch(version, suite, folder):
     """The headers of Debian's packages."""
-    require(version)
     with tempfile.TemporaryDirectory() as private:
         packages = download(Path(private), suite, [f"libpython{version}-dev", "pybind11-dev"])
         for package in packages:
             unpack(package, version, folder)
     return sorted(" ".join(package.name.split("_")[:2]) for package in packages)
-
-
-def require(version):
-    for tool in ("apt-get", "dpkg-deb"):
-        if shutil.which(tool) is None:
-            raise SystemExit(f"Python {version}: expected {tool}, which fetches its headers")
-    if not KEYRING.exists():
-        raise SystemExit(f"Python {version}: expected {KEYRING}; install debian-archive-keyring")
-
-
-def mirror():
-    """Where this machine gets its Debian packages from."""
-    query = ["apt-get", "indextargets", "--format", "$(SITE)", "Identifier: Packages"]
-    sites = subprocess.run(query, capture_output=True, text=True).stdout.split()
-    mirrors = [site for site in sites if site.rstrip("/").endswith("/debian")]
-    if not mirrors:
-        raise SystemExit("expected a Debian mirror among apt's sources, found none")
-    return mirrors[0]
-
-
-def download(private, suite, packages):
-    """The packages of a suite as files, by an apt that sees nothing but that suite."""
-    for part in ("state/lists/partial", "cache/archives/partial"):
-        (private / part).mkdir(parents=True)
-    (private / "status").touch()
-    source = f"deb [signed-by={KEYRING}] {mirror()} {suite} main\n"
-    (private / "sources.list").write_text(source, encoding="utf-8")
-    options = {
-        "Dir::Etc::sourcelist": private / "sources.list",
-        "Dir::Etc::sourceparts": "/dev/null",
-        "Dir::State": private / "state",
-        "Dir::State::status": private / "status",
-        "Dir::Cache": private / "cache",
-        "Acquire::Languages": "none",
-        "Acquire::Check-Valid-Until": "false",  # mirrors of a moving suite may stand still
-        "APT::Sandbox::User": "root",
-        "APT::Update::Error-Mode": "any",
-    }
-    apt = ["apt-get", "-qq", *(f"-o{name}={value}" for name, value in options.items())]
-    for command in (["update"], ["download", *packages]):
-        done = subprocess.run([*apt, *command], cwd=private, capture_output=True, text=True)
-        if done.returncode != 0:
-            reason = (done.stderr.strip().splitlines() or ["no reason given"])[0]
-            raise SystemExit(f"{' '.join(packages)} of Debian {suite} cannot be had: {reason}")
-    return sorted(private.glob("*.deb"))
 
 
 def unpack(package, version, folder):
@@ -128,4 +86,5 @@ def unpack(package, version, folder):
 
 
 if __name__ == "__main__":
-    print("\n".join(main(sys.argv[1], sys.argv[2], Path(sys.argv[3]).resolve())))
+    options = {"windows": sys.argv[4:] == ["--windows"]}
+    print("\n".join(main(sys.argv[1], sys.argv[2], Path(sys.argv[3]).resolve(), **options)))

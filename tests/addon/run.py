@@ -125,7 +125,11 @@ def main() -> int:
         default="blender",
         help="the Blender to test; words may stand before it: 'tests/matrix/enter.sh FOLDER blender'",
     )
-    parser.add_argument("--bpy", metavar="PYTHON", help="test Blender as a module of this Python")
+    parser.add_argument(
+        "--bpy",
+        metavar="PYTHON",
+        help="test Blender as a module of this Python; words may stand before it here, too",
+    )
     parser.add_argument("--script", type=Path, default=HERE / "inside.py", help="what to run")
     parser.add_argument(
         "--gui", action="store_true", help="drive the window instead of background mode"
@@ -134,7 +138,7 @@ def main() -> int:
     arguments, pytest_arguments = parser.parse_known_args()
     with tempfile.TemporaryDirectory(prefix="medial_axis_test_") as folder:
         kind, program = (
-            (BpyModule, [arguments.bpy])
+            (BpyModule, shlex.split(arguments.bpy))
             if arguments.bpy
             else (Blender, shlex.split(arguments.blender))
         )

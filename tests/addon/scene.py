@@ -4,6 +4,7 @@ import ctypes
 import importlib
 import os
 import re
+import sys
 
 import bpy
 import numpy as np
@@ -185,9 +186,22 @@ def triangles_of(mesh):
     return values.reshape(-1, 3)
 
 
+def in_wine():
+    """Whether this is no real Windows."""
+    return sys.platform == "win32" and hasattr(ctypes.windll.ntdll, "wine_get_version")
+
+
+renders = pytest.mark.skipif(in_wine(), reason="Blender does not render in Wine")
+
+
+def flush():
+    """What Blender has printed leaves its buffer."""
+    ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)
+
+
 def reports(capfd):
     """What operators reported since the last call: [('Info', text), ...]."""
-    ctypes.CDLL(None).fflush(None)
+    flush()
     return re.findall(r"^(Info|Warning|Error): (.*)$", capfd.readouterr().out, re.MULTILINE)
 
 

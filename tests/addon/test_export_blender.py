@@ -257,6 +257,7 @@ def test_menu_entry():
         ("/a/axis", "OFF", "OFF", ("/a/axis.off", "OFF")),  # no extension was typed
         ("/a/axis.v2", "MA", "MA", ("/a/axis.v2.ma", "MA")),  # a dot that is no extension
         ("/a/axis.ma", "MA", "MA", ("/a/axis.ma", "MA")),
+        ("//axis", "MA", "MA", ("//axis.ma", "MA")),  # beside the .blend file
     ],
 )
 def test_file_browser_keeps_name_and_format_together(path, shown, chosen, expected):

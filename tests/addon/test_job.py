@@ -3,6 +3,7 @@
 import threading
 import time
 from functools import partial
+from importlib.machinery import EXTENSION_SUFFIXES
 
 import bpy
 import numpy as np
@@ -172,7 +173,7 @@ def test_message_of_a_compiled_module_that_does_not_load(monkeypatch, tmp_path):
     monkeypatch.setattr(native, "_failure", "")
     monkeypatch.setattr(native, "NAME", "_absent")
     monkeypatch.setattr(native, "LIB", tmp_path)
-    (tmp_path / f"_absent.{native.expected_abi()}.so").write_bytes(b"not a library")
+    (tmp_path / f"_absent{EXTENSION_SUFFIXES[0]}").write_bytes(b"not a library")
     with pytest.raises(
         addon("core.errors").NativeModuleError, match=r"Expected .* that loads, but the system says"
     ):

@@ -26,7 +26,9 @@ def blocks():
 
 
 def resident():
-    """Bytes."""
+    """Bytes; 0 where the system does not say."""
+    if not hasattr(os, "sysconf") or not STATM.exists():
+        return 0
     return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 

@@ -13,6 +13,7 @@ from scene import (
     link,
     medial_objects,
     positions,
+    renders,
     reports,
     result_of,
     scan,
@@ -340,6 +341,7 @@ def pixels_of(result, folder):
     return values[values[:, 3] > 0.9, :3]
 
 
+@renders
 def test_material_renders_the_whole_ramp_from_thin_to_thick(tmp_path):
     source = ellipsoid(axes=(1.0, 0.7, 0.3))
     compute()

@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import addon, ellipsoid, link, positions, reports, select, torus
+from scene import addon, ellipsoid, link, positions, renders, reports, select, torus
 
 
 @pytest.fixture
@@ -136,6 +136,7 @@ def test_saved_file_plays_without_the_addon(growing, tmp_path):
         assert not [h for h in handlers if h.__module__.startswith(module)]
 
 
+@renders
 def test_render_shows_the_right_frame(growing, tmp_path):
     """The extent of what Workbench draws grows as the axis does."""
     bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))

@@ -1,13 +1,12 @@
 """The user interface in German: every text has its translation, none is left over, and sentences find theirs."""
 
-import ctypes
 import re
 from types import SimpleNamespace
 
 import bpy
 import pytest
 import texts
-from scene import MODULE, addon, ellipsoid, link, on_ellipsoid, opened, scan, select
+from scene import MODULE, addon, ellipsoid, flush, link, on_ellipsoid, opened, scan, select
 
 ENGLISH = re.compile(
     r"\b(the|of|and|found|choose|are|is|were|which|for|with|points?|facets?|samples?|none)\b"
@@ -116,7 +115,7 @@ def test_names_are_not_translated(german):
 
 def reports(capfd):
     """What operators reported since the last call; Blender says in its language of which kind."""
-    ctypes.CDLL(None).fflush(None)
+    flush()
     kinds = "(?:Info|Warning|Warnung|Error|Fehler)"
     return re.findall(rf"^{kinds}: (.*)$", capfd.readouterr().out, re.MULTILINE)
 

@@ -90,6 +90,43 @@ class Bpy:
         return folder / "bin" / "python"
 
 
+class Wine(Bpy):
+    """The official builds for Windows, in Wine; their Python is an artifact of the package index of Java."""
+
+    engines = ()  # Wine has no graphics for them here, and Blender's own crash
+
+    def __init__(self, version: str, python: str, artifact: str) -> None:
+        super().__init__(version, python)
+        self.source, self.folder = f"bpy {version} for Windows, in Wine", f"windows-{version}"
+        self.artifact = f"org.bytedeco:cpython:{artifact}:jar:windows-x86_64"
+        self.packages.append("colorama")
+
+    def prepare(self, log: Path) -> list[str]:
+        for tool in ("wine", "mvn", "unzip"):
+            if shutil.which(tool) is None:
+                raise UnavailableError(f"no program {tool}")
+        pip = next(filter(makes_environments, interpreters(self.python)), None)
+        if pip is None:
+            raise UnavailableError(f"no Python {self.python} whose pip chooses packages")
+        folder = CHROOTS / self.folder
+        if not (folder / "ready").exists():
+            shutil.rmtree(folder, ignore_errors=True)
+            self.fill(folder, pip, log)
+            (folder / "ready").touch()
+        return ["--bpy", shlex.join([str(HERE / "wine.sh"), str(folder)])]
+
+    def fill(self, folder: Path, pip: Path, log: Path) -> None:
+        """Python for Windows with Blender in its folder site."""
+        copy = ["dependency:copy", f"-Dartifact={self.artifact}", f"-DoutputDirectory={folder}"]
+        run_logged(["mvn", "-q", "-B", *copy], log)
+        (archive,) = folder.glob("*.jar")
+        run_logged(["unzip", "-q", archive, "-d", folder], log)
+        run_logged(["sh", "-c", 'mv "$1"/org/bytedeco/cpython/*/* "$1"', "mv", folder], log)
+        system = ["--platform", "win_amd64", "--python-version", self.python]
+        install = ["-m", "pip", "install", "--target", folder / "site", "--only-binary", ":all:"]
+        run_logged([pip, *install, *system, *self.packages], log)
+
+
 def makes_environments(python: Path) -> bool:
     return subprocess.run([python, "-c", "import ensurepip"], capture_output=True).returncode == 0
 

@@ -30,9 +30,17 @@ ROOT = HERE.parents[1]
 TESTS = ROOT / "tests" / "addon" / "run.py"
 sys.path.insert(0, str(HERE))
 
-from places import Bpy, Chroot, Installed, UnavailableError, WithoutBlender  # noqa: E402 - beside this
+from places import (  # noqa: E402 - beside this
+    Bpy,
+    Chroot,
+    Installed,
+    UnavailableError,
+    Wine,
+    WithoutBlender,
+)
 
 QUICK_SCENES = ["compute_drag_undo", "missing_module"]
+NO_RESULT = "no result"  # as after a crash, which not everything tells by its exit code
 HASHES = ("export", "command")  # of the .ma files of the operator and of the command line
 OF_THE_BUILD = ("bench", "build_addon", "checklist", "matrix")  # tests not of the zip
 MARK = "<!-- written by tests/matrix/run.py: do not edit below -->"
@@ -125,7 +133,7 @@ def run_without_blender(
 
 def judge_tests(row: Row, code: int, text: str, keep: Path) -> None:
     row.tests = summary_of(text)
-    if code != 0:
+    if code != 0 or row.tests == NO_RESULT:
         row.failures.append(f"tests: {row.tests} (see {keep / 'tests.log'})")
 
 
@@ -196,7 +204,7 @@ def summary_of(text: str) -> str:
     """pytest's last line without its seconds: '334 passed, 5 skipped'."""
     counts = re.findall(r"^=*\s?((?:\d+ \w+,? ?)+) in [\d.]+s", text, re.M)
     kinds = [part for part in (counts[-1].split(", ") if counts else []) if "warning" not in part]
-    return ", ".join(part for part in kinds if "deselected" not in part) or "no result"
+    return ", ".join(part for part in kinds if "deselected" not in part) or NO_RESULT
 
 
 def compare(rows: list[Row]) -> list[str]:
@@ -241,6 +249,7 @@ def main() -> int:
         Chroot("sid", "Debian sid"),
         WithoutBlender(),
         *map(Bpy, ("4.2", "4.5", "5.0", "5.2"), ("3.11", "3.11", "3.11", "3.13")),
+        Wine("4.5", "3.11", "3.11.3-1.5.9"),
     ]
     rows = []
     for blender in blenders:

@@ -123,7 +123,8 @@ def long_waves(x, spacing):
     """Mean power over that of independent points."""
     top = int(0.5 * 2.0 / spacing)
     waves = np.array([(i, j) for i in range(top) for j in range(top) if 0 < np.hypot(i, j) < top])
-    power = np.abs(np.exp(1j * np.pi * (x @ waves.T)).sum(axis=0)) ** 2 / len(x)
+    phase = np.pi * (x @ waves.T)
+    power = (np.cos(phase).sum(axis=0) ** 2 + np.sin(phase).sum(axis=0) ** 2) / len(x)
     return power.mean()
 
 

@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 
@@ -126,6 +127,26 @@ def test_zip_for_the_platform_has_no_folder_and_says_what_it_is_for(script, sour
             assert platform.read(name) == ours.read(f"medial_axis/{name}")
 
 
+def test_modules_for_windows_are_in_the_zip_for_people_and_have_one_of_their_own(script, sources):
+    (sources / "lib" / "_medial.cp311-win_amd64.pyd").write_text("for Windows")
+    first = script.pack()
+    modules = {
+        system: [
+            name.rpartition("/")[2]
+            for name in zipfile.ZipFile(
+                first.with_name(f"medial_axis-1.2.3{system}.zip")
+            ).namelist()
+            if "_medial" in name
+        ]
+        for system in ("", "-linux-x64", "-windows-x64")
+    }
+    linux, windows = "_medial.cpython-311-x86_64-linux-gnu.so", "_medial.cp311-win_amd64.pyd"
+    assert modules == {"": [windows, linux], "-linux-x64": [linux], "-windows-x64": [windows]}
+    (sources / "lib" / windows).unlink()
+    script.pack()
+    assert not first.with_name("medial_axis-1.2.3-windows-x64.zip").exists(), "nothing old is left"
+
+
 def test_same_sources_same_zip(script, sources):
     first = script.pack().read_bytes()
     for path in sources.rglob("*.py"):
@@ -155,10 +176,7 @@ def test_python_whose_headers_cannot_be_had_is_named(script, tmp_path, monkeypat
     monkeypatch.setenv("PATH", str(tmp_path))  # no apt-get
     assert script.other_headers("cpython-311-x86_64-linux-gnu") == {}
     out = capsys.readouterr().out
-    assert (
-        out
-        == "No module for Python 3.99: Python 3.99: expected apt-get, which fetches its headers\n"
-    )
+    assert out == "No module for Python 3.99: expected apt-get, found none\n"
 
 
 def test_headers_that_are_there_are_used_without_a_network(script, tmp_path, monkeypatch, capsys):
@@ -228,6 +246,77 @@ def test_module_that_exports_more_is_refused(checker, tmp_path):
     module = compile_library(tmp_path, GOOD + 'extern "C" int other() { return 1; }\n')
     with pytest.raises(SystemExit, match="PyInit__medial only, found 2"):
         checker.check(module)
+
+
+WINDOWS_MODULE = """
+\tDLL Name: python311.dll
+\tDLL Name: KERNEL32.dll
+
+[Ordinal/Name Pointer] Table
+\t[   0] PyInit__medial
+
+The Function Table
+"""
+
+
+@pytest.mark.parametrize(
+    "change, told",
+    [
+        (("", ""), None),
+        (("python311", "python313"), "must need python311.dll and what every Windows has"),
+        (("KERNEL32.dll", "libstdc++-6.dll"), "must need python311.dll and what every Windows has"),
+        (("PyInit__medial", "main"), "must export PyInit__medial only, found 1: .'main'"),
+        (("medial\n\n", "medial\n\t[   1] other\n\n"), "must export PyInit__medial only, found 2"),
+    ],
+)
+def test_module_for_windows_needs_python_and_windows_alone(
+    checker, tmp_path, monkeypatch, change, told
+):
+    module = tmp_path / "_medial.cp311-win_amd64.pyd"
+    module.write_bytes(b"123")
+    monkeypatch.setattr(checker, "output", lambda *words: WINDOWS_MODULE.replace(*change))
+    if told is None:
+        assert checker.check(module)[0].endswith("needs python311.dll, KERNEL32.dll")
+    else:
+        with pytest.raises(SystemExit, match=told):
+            checker.check(module)
+
+
+@pytest.fixture
+def for_windows(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "native" / "python"))
+    return module_of(ROOT / "native" / "python" / "headers_for_windows.py")
+
+
+def test_headers_for_windows_have_its_configuration(for_windows, tmp_path):
+    names = (
+        "Include/Python.h",
+        "Include/cpython/a.h",
+        "PC/pyconfig.h.in",
+        "Modules/b.h",
+        "pyconfig.h",
+    )
+    with tarfile.open(tmp_path / "source.tar", "w") as archive:
+        for name in names:
+            (tmp_path / "file").write_text(name)
+            archive.add(tmp_path / "file", f"Python-3.13.5/{name}")
+    for_windows.unpack_headers(tmp_path / "source.tar", tmp_path / "headers")
+    found = sorted(
+        str(path.relative_to(tmp_path / "headers"))
+        for path in (tmp_path / "headers").rglob("*")
+        if path.is_file()
+    )
+    assert found == ["Python.h", "cpython/a.h", "pyconfig.h"]
+    assert (tmp_path / "headers/pyconfig.h").read_text() == "PC/pyconfig.h.in"
+
+
+def test_import_library_has_the_names_of_python_and_knows_data(for_windows, tmp_path, monkeypatch):
+    source = 'extern "C" { int PyInit(){return 0;} int _PyOther(){return 0;} int PyExc_A = 1; int other; }'
+    monkeypatch.setattr(for_windows, "DLLTOOL", "true")  # it may not be installed
+    for_windows.make_import_library(compile_library(tmp_path, source), "python399", tmp_path)
+    text = (tmp_path / "python399.def").read_text().splitlines()
+    assert text[:2] == ["LIBRARY python399.dll", "EXPORTS"]
+    assert sorted(text[2:]) == ["PyExc_A DATA", "PyInit", "_PyOther"]
 
 
 @pytest.mark.parametrize(

@@ -53,12 +53,13 @@ def played(matrix, monkeypatch, tmp_path, capsys):
         table = tmp_path / "table.md"
         table.write_text(f"By hand.\n\n{matrix.MARK}\nold\n")
         monkeypatch.setattr(matrix, "run_tests", run_tests)
-        first, *others = [*blenders, *[Unavailable()] * 8][:8]
+        first, *others = [*blenders, *[Unavailable()] * 7][:7]
         monkeypatch.setattr(matrix, "Installed", lambda program: first)
         left = iter(others)
         for kind in ("Chroot", "Bpy"):
             monkeypatch.setattr(matrix, kind, lambda *names: next(left))
         monkeypatch.setattr(matrix, "WithoutBlender", Unavailable)
+        monkeypatch.setattr(matrix, "Wine", lambda *names: Unavailable())
         words = ["run.py", "a.zip", "b.zip", "--keep", str(tmp_path), "--table", str(table)]
         monkeypatch.setattr(sys, "argv", words)
         Unavailable.error = matrix.UnavailableError
@@ -80,7 +81,7 @@ def test_blender_that_runs_is_in_the_table_and_others_are_skipped_by_name(played
     assert table.startswith("By hand.\n") and "old" not in table
     row = "| 5.2.2 | Nowhere 1 | 3.14.1 | 2.4 | extension | 3 passed, 1 skipped | none | Cycles |"
     assert f"{row} {'a' * 16} | {'c' * 16} |" in table
-    assert table.count("| Elsewhere |") == 7 and "not tested: no network |" in table
+    assert table.count("| Elsewhere |") == 8 and "not tested: no network |" in table
 
 
 def test_rows_of_blenders_that_were_not_asked_stay(matrix, tmp_path):
@@ -134,6 +135,12 @@ def test_without_blender_the_command_line_and_the_python_tests_run(
     assert row.tests == ("1 passed" if passes else "1 failed")
     assert bool(row.failures) != passes
     assert row.cells()[4:8] == ("unpacked", row.tests, "none", "none")
+
+
+def test_tests_that_end_without_a_result_are_a_failure(matrix, tmp_path):
+    row = matrix.Row("Nowhere 1")
+    matrix.judge_tests(row, 0, "....Windows fatal exception: access violation\n", tmp_path)
+    assert row.failures == [f"tests: no result (see {tmp_path / 'tests.log'})"]
 
 
 def test_different_exports_in_two_blenders_are_a_failure(played):
