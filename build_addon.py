@@ -525,7 +525,8 @@ def print_table(reports: list[dict]) -> None:
 
 
 def test(arguments: argparse.Namespace) -> None:
-    require({**BUILD_NEEDS, **(MATRIX_NEEDS if os.geteuid() == 0 else TEST_NEEDS)})
+    needs = {**BUILD_NEEDS, **(MATRIX_NEEDS if os.geteuid() == 0 else TEST_NEEDS)}
+    require(needs | (WINDOWS_NEEDS if arguments.matrix else {}))
     blender = find_blender(arguments.blender)
     parts = MATRIX_PARTS if arguments.matrix else PARTS
     unknown = set(arguments.only) - set(parts)
@@ -568,6 +569,11 @@ def test_part(name: str, part, blender: Path) -> tuple[str, float]:
 
 def test_build(blender: Path) -> None:
     build_modules(blender)
+    pack()
+
+
+def test_build_for_all(blender: Path) -> None:
+    build_modules(blender, windows=True)
     pack()
 
 
@@ -616,10 +622,16 @@ def test_matrix(blender: Path) -> None:
 
 
 def run_matrix(blender: Path, *options: object) -> None:
-    zips = archive_for(), archive_for("linux-x64")
     keep = BUILD / "matrix"
     run(
-        sys.executable, "tests/matrix/run.py", *zips, "--blender", blender, "--keep", keep, *options
+        sys.executable,
+        "tests/matrix/run.py",
+        archive_for(),
+        "--blender",
+        blender,
+        "--keep",
+        keep,
+        *options,
     )
 
 
@@ -655,7 +667,7 @@ PARTS = {
     "asan": test_asan,
     "tsan": test_tsan,
 }
-MATRIX_PARTS = {"build": test_build, "matrix": test_matrix}
+MATRIX_PARTS = {"build": test_build_for_all, "matrix": test_matrix}
 
 
 # --- bench
@@ -780,10 +792,11 @@ mesh of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .
 TEST_HELP = f"""Parts, in order: {", ".join(PARTS)}. One failing part fails the whole; a part that cannot run for
 lack of a tool is skipped by name. The parts after `build` use what `build` made.
 
---matrix builds, installs the zip into Blender 3.4, 4.3 and 5.2 of Debian 12, 13 and sid and into the official bpy
-modules, runs the add-on's tests, windows and renderings in each, without Blender the Python tests in Python 3.10, and
-writes docs/compatibility.md. Debian 13 and sid are made in build/blenders (or $MEDIAL_AXIS_BLENDERS), which needs
-root; what cannot be had is skipped by name."""
+--matrix builds for Windows, too, installs the zip into Blender 3.4, 4.3 and 5.2 of Debian 12, 13 and sid and into the
+official bpy modules, runs the add-on's tests, windows and renderings in each, without Blender the Python tests in
+Python 3.10, and writes docs/compatibility.md. Debian 13 and sid are made in build/blenders (or $MEDIAL_AXIS_BLENDERS),
+which needs root; bpy for Windows needs wine, and mvn (Debian's maven) to get a Python for Windows. What cannot be had
+is skipped by name."""
 
 BENCH_HELP = """Builds, then measures CGAL's triangulation alone and the medial axis in turns, each in a process of
 its own, on one thread and on all: random points on an ellipsoid (up to 5 million) and a torus, a noisy scan, and

@@ -31,6 +31,7 @@ def system() -> str:
 class Installed:
     """The Blender of this machine."""
 
+    platform = "linux-x64"  # as the extensions platform calls it
     engines = ("Cycles", "EEVEE", "Workbench")
     quick = True
     quick_tests = False  # `build_addon.py test` runs them anyway
@@ -67,6 +68,7 @@ class Chroot(Installed):
 class Bpy:
     """Blender as a Python module, from the package index that pip uses: the official builds."""
 
+    platform = "linux-x64"
     engines = ("Cycles", "Workbench")
     quick = False
     words: tuple[str, ...] = ()
@@ -93,7 +95,8 @@ class Bpy:
 class Wine(Bpy):
     """The official builds for Windows, in Wine; their Python is an artifact of the package index of Java."""
 
-    engines = ()  # Wine has no graphics for them here, and Blender's own crash
+    platform = "windows-x64"
+    engines = ()  # rendering crashes there
 
     def __init__(self, version: str, python: str, artifact: str) -> None:
         super().__init__(version, python)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tests the installed add-on in every Blender that this machine has or can get.
 
-    python3 tests/matrix/run.py ZIP EXTENSION_ZIP [--quick] [--keep FOLDER] [--table docs/compatibility.md]
+    python3 tests/matrix/run.py ZIP [--quick] [--keep FOLDER] [--table docs/compatibility.md]
 
 In each: the zip passes Blender's own check and is installed, the tests run without a window and in one,
 one mesh is computed, exported and rendered, and given to the command line. The files must be the same,
@@ -141,7 +141,7 @@ def probe(row: Row, blender, use: list[str], keep: Path, arguments: argparse.Nam
     """One computation with each zip that this Blender takes, and Blender's own check of them."""
     engines = blender.engines[:1] if arguments.quick else blender.engines
     answers = []
-    for archive in (arguments.zip, arguments.extension_zip):
+    for archive in (arguments.zip, extension_zip(arguments.zip, blender.platform)):
         answer = (keep / "probe.json").resolve()
         answer.unlink(missing_ok=True)
         script = ["--script", HERE / "probe.py", answer, *engines]
@@ -164,6 +164,11 @@ def probe(row: Row, blender, use: list[str], keep: Path, arguments: argparse.Nam
     dull = [engine for engine, colours in row.facts["colours"].items() if colours < 100]
     if dull:
         row.failures.append(f"empty pictures: {', '.join(dull)}")
+
+
+def extension_zip(archive: Path, platform: str) -> Path:
+    """The zip for the extensions platform, which lies beside the one for people."""
+    return archive.with_name(f"{archive.stem}-{platform}.zip")
 
 
 def window(row: Row, use: list[str], keep: Path, arguments: argparse.Namespace) -> None:
@@ -235,8 +240,8 @@ def write_table(path: Path, rows: list[Row], sources: list[str]) -> None:
 def main() -> int:
     formatter = argparse.RawTextHelpFormatter
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=formatter)
-    parser.add_argument("zip", type=Path, help="the zip with one folder in it")
-    parser.add_argument("extension_zip", type=Path, help="the zip for the extensions platform")
+    help_of_zip = "the zip with one folder in it; those for the extensions platform lie beside it"
+    parser.add_argument("zip", type=Path, help=help_of_zip)
     parser.add_argument("--blender", default="blender", help="the installed Blender")
     parser.add_argument("--quick", action="store_true", help="the main things only")
     parser.add_argument("--only", default="", help="Blenders whose source contains this word")

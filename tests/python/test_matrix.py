@@ -27,7 +27,7 @@ def matrix(monkeypatch):
 class Fake:
     """A Blender that gives the same answer always."""
 
-    source, words, engines = "Nowhere 1", [], ("Cycles",)
+    source, words, engines, platform = "Nowhere 1", [], ("Cycles",), "linux-x64"
     quick, quick_tests = True, True
 
     def prepare(self, log):
@@ -60,7 +60,7 @@ def played(matrix, monkeypatch, tmp_path, capsys):
             monkeypatch.setattr(matrix, kind, lambda *names: next(left))
         monkeypatch.setattr(matrix, "WithoutBlender", Unavailable)
         monkeypatch.setattr(matrix, "Wine", lambda *names: Unavailable())
-        words = ["run.py", "a.zip", "b.zip", "--keep", str(tmp_path), "--table", str(table)]
+        words = ["run.py", "a.zip", "--keep", str(tmp_path), "--table", str(table)]
         monkeypatch.setattr(sys, "argv", words)
         Unavailable.error = matrix.UnavailableError
         return matrix.main(), capsys.readouterr().out, table.read_text()
