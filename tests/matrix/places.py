@@ -7,11 +7,14 @@ import shlex
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CHROOTS = Path(os.environ.get("MEDIAL_AXIS_BLENDERS", ROOT / "build" / "blenders"))
+INSTALL = ("-m", "pip", "install", "--only-binary", ":all:")
+READY = "ready"  # a file that is written last
 sys.path.insert(0, str(ROOT / "native" / "python"))
 
 from headers import interpreters  # noqa: E402 - it lies in that folder
@@ -32,6 +35,7 @@ class Installed:
     """The Blender of this machine."""
 
     platform = "linux-x64"  # as the extensions platform calls it
+    module = ""  # which the zip may lack
     engines = ("Cycles", "EEVEE", "Workbench")
     quick = True
     quick_tests = False  # `build_addon.py test` runs them anyway
@@ -68,7 +72,7 @@ class Chroot(Installed):
 class Bpy:
     """Blender as a Python module, from the package index that pip uses: the official builds."""
 
-    platform = "linux-x64"
+    platform, module = "linux-x64", ""
     engines = ("Cycles", "Workbench")
     quick = False
     words: tuple[str, ...] = ()
@@ -82,20 +86,27 @@ class Bpy:
 
     def environment(self, log: Path) -> Path:
         """The Python of a virtual environment with the packages; raises UnavailableError."""
-        found = [path for path in interpreters(self.python) if makes_environments(path)]
-        if not found:
-            raise UnavailableError(f"no Python {self.python} that makes virtual environments")
         folder = CHROOTS / self.folder
-        run_logged([found[0], "-m", "venv", folder], log)
-        install = ["-m", "pip", "install", "--upgrade", "--only-binary", ":all:", *self.packages]
-        run_logged([folder / "bin" / "python", *install], log)
-        return folder / "bin" / "python"
+        run_logged([self.interpreter(), "-m", "venv", folder], log)
+        python = folder / "bin" / "python"
+        run_logged([python, *INSTALL, "--upgrade", *self.packages], log)
+        return python
+
+    def interpreter(self) -> Path:
+        """A Python of the version that brings pip; raises UnavailableError."""
+        for path in interpreters(self.python):
+            if (
+                subprocess.run([path, "-c", "import ensurepip"], capture_output=True).returncode
+                == 0
+            ):
+                return path
+        raise UnavailableError(f"no Python {self.python} that makes virtual environments")
 
 
 class Wine(Bpy):
     """The official builds for Windows, in Wine; their Python is an artifact of the package index of Java."""
 
-    platform = "windows-x64"
+    platform, module = "windows-x64", "cp311-win"
     engines = ()  # rendering crashes there
 
     def __init__(self, version: str, python: str, artifact: str) -> None:
@@ -105,37 +116,34 @@ class Wine(Bpy):
         self.packages.append("colorama")
 
     def prepare(self, log: Path) -> list[str]:
-        for tool in ("wine", "mvn", "unzip"):
+        for tool in ("wine", "mvn"):
             if shutil.which(tool) is None:
                 raise UnavailableError(f"no program {tool}")
-        pip = next(filter(makes_environments, interpreters(self.python)), None)
-        if pip is None:
-            raise UnavailableError(f"no Python {self.python} whose pip chooses packages")
         folder = CHROOTS / self.folder
-        if not (folder / "ready").exists():
+        if not (folder / READY).exists():
             shutil.rmtree(folder, ignore_errors=True)
-            self.fill(folder, pip, log)
-            (folder / "ready").touch()
+            self.fill(folder, log)
+            (folder / READY).touch()
         return ["--bpy", shlex.join([str(HERE / "wine.sh"), str(folder)])]
 
-    def fill(self, folder: Path, pip: Path, log: Path) -> None:
-        """Python for Windows with Blender in its folder site."""
+    def fill(self, folder: Path, log: Path) -> None:
+        """Python for Windows, with Blender in its folder site."""
         copy = ["dependency:copy", f"-Dartifact={self.artifact}", f"-DoutputDirectory={folder}"]
         run_logged(["mvn", "-q", "-B", *copy], log)
         (archive,) = folder.glob("*.jar")
-        run_logged(["unzip", "-q", archive, "-d", folder], log)
-        run_logged(["sh", "-c", 'mv "$1"/org/bytedeco/cpython/*/* "$1"', "mv", folder], log)
-        system = ["--platform", "win_amd64", "--python-version", self.python]
-        install = ["-m", "pip", "install", "--target", folder / "site", "--only-binary", ":all:"]
-        run_logged([pip, *install, *system, *self.packages], log)
-
-
-def makes_environments(python: Path) -> bool:
-    return subprocess.run([python, "-c", "import ensurepip"], capture_output=True).returncode == 0
+        with zipfile.ZipFile(archive) as files:
+            files.extractall(folder)
+        for path in sorted(folder.glob("org/bytedeco/cpython/windows-x86_64/*")):
+            path.rename(folder / path.name)
+        where = ["--target", folder / "site", "--platform", "win_amd64"]
+        version = ["--python-version", self.python]
+        run_logged([self.interpreter(), *INSTALL, *where, *version, *self.packages], log)
 
 
 class WithoutBlender(Bpy):
     """The Python and the NumPy of blender.org's Blender 3.4 to 4.0, which is in no package index."""
+
+    module = "cpython-310"
 
     def __init__(self) -> None:
         self.source, self.folder, self.python = "Python 3.10", "python-3.10", "3.10"

@@ -93,6 +93,9 @@ def examine(blender, arguments: argparse.Namespace) -> Row:
     keep = arguments.keep / re.sub(r"\W+", "_", blender.source)
     keep.mkdir(parents=True, exist_ok=True)
     row = Row(blender.source)
+    if blender.module and not has_module(arguments.zip, blender.module):
+        row.skipped = f"no module {blender.module} in the zip"
+        return row
     try:
         use = blender.prepare(keep / "prepare.log")
     except UnavailableError as reason:
@@ -108,6 +111,11 @@ def examine(blender, arguments: argparse.Namespace) -> Row:
     if blender.words:
         window(row, use, keep, arguments)
     return row
+
+
+def has_module(archive: Path, name: str) -> bool:
+    with zipfile.ZipFile(archive) as files:
+        return any(f"_medial.{name}" in file for file in files.namelist())
 
 
 def run_without_blender(

@@ -27,7 +27,8 @@ def matrix(monkeypatch):
 class Fake:
     """A Blender that gives the same answer always."""
 
-    source, words, engines, platform = "Nowhere 1", [], ("Cycles",), "linux-x64"
+    source, words, engines, module = "Nowhere 1", [], ("Cycles",), ""
+    platform = "linux-x64"
     quick, quick_tests = True, True
 
     def prepare(self, log):
@@ -152,3 +153,15 @@ def test_command_that_fails_is_told_with_its_last_line(matrix, tmp_path):
     places = importlib.import_module("places")  # it lies beside
     with pytest.raises(places.UnavailableError, match=r"sh failed: no such suite \(see "):
         places.run_logged(["sh", "-c", "echo first; echo no such suite; exit 3"], tmp_path / "log")
+
+
+def test_what_the_zip_has_no_module_for_is_skipped_by_name(matrix, tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.writestr("medial_axis/lib/_medial.cpython-311-x86_64-linux-gnu.so", "")
+
+    class NotThere(Fake):
+        module = "cpython-310"
+
+    arguments = SimpleNamespace(zip=tmp_path / "a.zip", keep=tmp_path)
+    row = matrix.examine(NotThere(), arguments)
+    assert row.skipped == "no module cpython-310 in the zip" and not row.failures
