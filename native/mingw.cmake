@@ -7,6 +7,7 @@ set(CMAKE_AR x86_64-w64-mingw32-gcc-ar-posix)
 set(CMAKE_RANLIB x86_64-w64-mingw32-gcc-ranlib-posix)
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 set(CMAKE_MODULE_LINKER_FLAGS_INIT "-static -Wl,--no-insert-timestamp") # the same bytes tomorrow
+find_program(CMAKE_CROSSCOMPILING_EMULATOR NAMES wine64 wine PATHS /usr/lib/wine) # for the tests
 # CGAL and Boost are headers alone, the same for all systems; those of the C library beside them are not.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/include)
 foreach(library CGAL boost)
