@@ -52,6 +52,18 @@ def test_english_is_left_as_it_is():
         assert say(filled) == filled
 
 
+def test_english_sentences_are_not_looked_up(monkeypatch):
+    module = addon("ui.translation")
+    monkeypatch.setattr(module, "_said", lambda *words: pytest.fail("looked up"))
+    assert say("1 of 2: Poles") == "1 of 2: Poles"
+
+
+def test_every_language_says_the_probe_in_another_way():
+    module = addon("ui.translation")
+    said = [module.PROBE, *(texts[module.PROBE] for texts in module.languages().values())]
+    assert len(set(said)) == len(said) >= 2
+
+
 def test_properties_have_our_words_and_not_those_of_blender(german):
     """Blender itself says Punkte for Vertices, which we need for Points."""
     owners = (
