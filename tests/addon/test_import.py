@@ -11,6 +11,7 @@ from scene import (
     compute,
     contents,
     ellipsoid,
+    in_wine,
     link,
     on_ellipsoid,
     positions,
@@ -115,6 +116,8 @@ def test_collection_that_is_not_shown(folder):
 
 def test_collection_of_another_file(folder):
     """It cannot be added to, so that the scene's own takes the object."""
+    if in_wine() and bpy.app.version >= (5, 0, 0):
+        pytest.skip("Blender does not read in Wine what it wrote there")
     bpy.data.libraries.write(str(folder / "a.blend"), {bpy.data.collections.new("Theirs")})
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     with bpy.data.libraries.load(str(folder / "a.blend"), link=True) as (_, loaded):

@@ -109,11 +109,12 @@ class Wine(Bpy):
     platform, module = "windows-x64", "cp311-win"
     engines = ()  # rendering crashes there
 
-    def __init__(self, version: str, python: str, artifact: str) -> None:
-        super().__init__(version, python)
+    artifact = "org.bytedeco:cpython:3.11.3-1.5.9:jar:windows-x86_64"
+
+    def __init__(self, version: str) -> None:
+        super().__init__(version, "3.11")
         self.source, self.folder = f"bpy {version} for Windows, in Wine", f"windows-{version}"
-        self.artifact = f"org.bytedeco:cpython:{artifact}:jar:windows-x86_64"
-        self.packages.append("colorama")
+        self.packages += ["colorama", "numpy==1.26.*"]  # a newer one calls what Wine lacks
 
     def prepare(self, log: Path) -> list[str]:
         for tool in ("wine", "mvn"):

@@ -262,7 +262,7 @@ def main() -> int:
         Chroot("sid", "Debian sid"),
         WithoutBlender(),
         *map(Bpy, ("4.2", "4.5", "5.0", "5.2"), ("3.11", "3.11", "3.11", "3.13")),
-        Wine("4.5", "3.11", "3.11.3-1.5.9"),
+        *map(Wine, ("4.2", "4.5", "5.0")),
     ]
     rows = []
     for blender in blenders:
