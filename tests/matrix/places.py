@@ -108,7 +108,6 @@ class Wine(Bpy):
 
     platform, module = "windows-x64", "cp311-win"
     engines = ()  # rendering crashes there
-
     artifact = "org.bytedeco:cpython:3.11.3-1.5.9:jar:windows-x86_64"
 
     def __init__(self, version: str) -> None:
