@@ -36,10 +36,9 @@ LIBRARY = ADDON / "lib"
 BUILD = ROOT / "build"
 DIST = ROOT / "dist"
 PACKAGE = "medial_axis"  # the add-on's name inside Blender and the top folder of its zip
-PLATFORMS = {
-    "linux-x64": ".so",
-    "windows-x64": ".pyd",
-}  # as extensions.blender.org calls them; of their modules
+MODULES = "lib/_medial."  # how the names of compiled modules begin
+# How they end, on each system, named as extensions.blender.org does.
+PLATFORMS = {"linux-x64": ".so", "windows-x64": ".pyd"}
 
 # What is needed -> the Debian package that brings it, by command.
 BUILD_NEEDS = {
@@ -274,16 +273,10 @@ def other_headers(abi: str) -> dict[str, Path]:
 def headers_of(pythons: dict[str, str], parent: Path, *options: str) -> dict[str, Path]:
     """Folders with headers, by version; those not to be had are named."""
     folders = {}
+    script = ROOT / "native/python/headers.py"
     for version, suite in pythons.items():
         folder = parent / version
-        fetch = [
-            sys.executable,
-            ROOT / "native/python/headers.py",
-            version,
-            suite,
-            folder,
-            *options,
-        ]
+        fetch = [sys.executable, script, version, suite, folder, *options]
         done = subprocess.run(list(map(str, fetch)), capture_output=True, text=True)
         if done.returncode == 0:
             print(f"Python {version}: {', '.join(done.stdout.splitlines())}")
@@ -351,9 +344,6 @@ def pack() -> Path:
     abis = sorted(name.split(".")[1] for name in files if name.startswith(MODULES))
     print(f"{len(files)} files; compiled for {', '.join(abis) or 'no Python'}")
     return archive
-
-
-MODULES = "lib/_medial."
 
 
 def archive_for(platform: str = "") -> Path:
@@ -622,17 +612,8 @@ def test_matrix(blender: Path) -> None:
 
 
 def run_matrix(blender: Path, *options: object) -> None:
-    keep = BUILD / "matrix"
-    run(
-        sys.executable,
-        "tests/matrix/run.py",
-        archive_for(),
-        "--blender",
-        blender,
-        "--keep",
-        keep,
-        *options,
-    )
+    options = ("--blender", blender, "--keep", BUILD / "matrix", *options)
+    run(sys.executable, "tests/matrix/run.py", archive_for(), *options)
 
 
 def test_asan(blender: Path) -> None:

@@ -1,7 +1,5 @@
 """File > Import > Points: `.xyz`, `.xyzn` and `.off` files as mesh objects."""
 
-import os
-
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper, axis_conversion, orientation_helper
@@ -9,7 +7,7 @@ from bpy_extras.io_utils import ImportHelper, axis_conversion, orientation_helpe
 from ..bridge.new_points import new_points
 from ..core.errors import MedialAxisError
 from ..core.import_points import import_points
-from .paths import RELATIVE
+from .paths import RELATIVE, chosen_files
 from .translation import say
 
 
@@ -46,14 +44,9 @@ class ImportPoints(ImportHelper):
     def execute(self, context):
         # Blender itself moves one of the two axes when both are set to the same
         turn = axis_conversion(from_forward=self.axis_forward, from_up=self.axis_up)
-        made = [thing for path in self._paths() if (thing := self._import(path, turn))]
+        made = [thing for path in chosen_files(self) if (thing := self._import(path, turn))]
         _select(context, made)
         return {"FINISHED"} if made else {"CANCELLED"}
-
-    def _paths(self):
-        names = [element.name for element in self.files if element.name]
-        folder = bpy.path.abspath(self.directory)
-        return [os.path.join(folder, name) for name in names] or [bpy.path.abspath(self.filepath)]
 
     def _import(self, path, turn):
         """The new object of a file; None where it is not one, which is reported."""

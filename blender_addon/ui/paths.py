@@ -1,5 +1,7 @@
 """What the operators that read or write files say about paths."""
 
+import os
+
 import bpy
 
 # Scripts may begin a path with `//`, the folder of the .blend file. From 5.0 Blender warns them where that is not said.
@@ -8,3 +10,12 @@ RELATIVE = (
     if "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties
     else set()
 )
+
+
+def chosen_files(operator):
+    """Absolute paths of what was chosen in a file browser, or by a script: several files of a folder, or one."""
+    # Not Paths, which take Blender's // for a network folder of Windows
+    folder = bpy.path.abspath(operator.directory)
+    names = [element.name for element in operator.files if element.name]
+    paths = [os.path.join(folder, name) for name in names]
+    return paths or [bpy.path.abspath(operator.filepath)]

@@ -15,6 +15,7 @@ from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.frames import output_path, parse_frames
 from ..core.job import run_task
 from . import running
+from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
 from .sources import sources
@@ -214,11 +215,8 @@ class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
 
     def execute(self, context):
-        names = [element.name for element in self.files if element.name]
-        folder = Path(bpy.path.abspath(self.directory))
-        paths = [folder / name for name in names] or [Path(bpy.path.abspath(self.filepath))]
         try:
-            for name, files in by_frame(paths).items():
+            for name, files in by_frame(map(Path, chosen_files(self))).items():
                 collection = write_sequence(name, files)
                 self.report({"INFO"}, say(f"'{collection.name}': {len(files)} frames"))
         except MedialAxisError as error:

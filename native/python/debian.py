@@ -20,6 +20,17 @@ def download_source(folder, suite, package):
     return tarball
 
 
+def extract(packages, folder):
+    """The files of packages, as they would be installed below /."""
+    for package in packages:
+        subprocess.run(["dpkg-deb", "--extract", package, folder], check=True)
+
+
+def labels(files):
+    """Names and versions, such as ['pybind11-dev 3.1.0-1']."""
+    return sorted(" ".join(file.name.split("_")[:2]) for file in files)
+
+
 def fetch(folder, kind, suite, words):
     require("apt-get", "dpkg-deb")
     if not KEYRING.exists():

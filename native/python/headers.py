@@ -6,7 +6,7 @@
     python3 native/python/headers.py 3.13 trixie build/python/windows-3.13 --windows
 
 The first takes Debian's packages of another suite. Nothing is installed, and of the packages only
-python3.X/, its pyconfig.h and pybind11/ are unpacked: headers of another C library never meet the
+python3.X/, its pyconfig.h and pybind11/ are taken: headers of another C library never meet the
 compiler's own. The second takes those of a Python of this machine, for one that no Debian has. The
 third is for a Python on Windows. Exit code 1 and one sentence when they cannot be had.
 """
@@ -17,7 +17,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from debian import download
+from debian import download, extract, labels
 from headers_for_windows import fetch_for_windows
 
 INSTALLED = "installed"  # instead of a suite
@@ -68,21 +68,11 @@ def fetch(version, suite, folder):
     """The headers of Debian's packages."""
     with tempfile.TemporaryDirectory() as private:
         packages = download(Path(private), suite, [f"libpython{version}-dev", "pybind11-dev"])
-        for package in packages:
-            unpack(package, version, folder)
-    return sorted(" ".join(package.name.split("_")[:2]) for package in packages)
-
-
-def unpack(package, version, folder):
-    """The headers alone, without the usr/include above them."""
-    folder.mkdir(parents=True, exist_ok=True)
-    archive = subprocess.run(
-        ["dpkg-deb", "--fsys-tarfile", package], check=True, capture_output=True
-    ).stdout
-    wanted = [f"./usr/include/{name}" for name in (f"python{version}", "*/pyconfig.h", "pybind11")]
-    extract = ["tar", "-x", "-C", folder, "--strip-components=3", "--wildcards", *wanted]
-    # Which of the three a package has not, tar complains about.
-    subprocess.run(extract, input=archive, stderr=subprocess.DEVNULL)
+        extract(packages, Path(private, "all"))
+        include = Path(private, "all/usr/include")
+        for path in (include / "pybind11", *include.glob(f"**/python{version}")):
+            shutil.copytree(path, folder / path.relative_to(include))
+    return labels(packages)
 
 
 if __name__ == "__main__":

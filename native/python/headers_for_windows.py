@@ -7,7 +7,7 @@ import tarfile
 import tempfile
 from pathlib import Path
 
-from debian import download, download_source, require
+from debian import download, download_source, extract, labels, require
 
 DLLTOOL = "x86_64-w64-mingw32-dlltool"
 HEADER = re.compile(r"[^/]+/(?:Include/(.+)|PC/(pyconfig\.h)(?:\.in)?)")
@@ -20,16 +20,14 @@ def fetch_for_windows(version, suite, folder):
     require(DLLTOOL)
     with tempfile.TemporaryDirectory() as private:
         source = download_source(Path(private, "source"), suite, f"python{version}")
-        packages = Path(private, "packages")
-        library, pybind11 = download(packages, suite, [f"libpython{version}", "pybind11-dev"])
-        for package in (library, pybind11):
-            subprocess.run(["dpkg-deb", "--extract", package, packages / "all"], check=True)
-        folder.mkdir(parents=True)
-        shutil.move(packages / "all/usr/include/pybind11", folder / "pybind11")
+        names = [f"libpython{version}", "pybind11-dev"]
+        packages = download(Path(private, "packages"), suite, names)
+        extract(packages, Path(private, "all"))
+        shutil.copytree(Path(private, "all/usr/include/pybind11"), folder / "pybind11")
         unpack_headers(source, folder / f"python{version}")
-        (exporting,) = packages.glob(f"all/usr/lib/*/libpython{version}.so.*.*")
+        (exporting,) = Path(private).glob(f"all/usr/lib/*/libpython{version}.so.*.*")
         make_import_library(exporting, f"python{version.replace('.', '')}", folder)
-        return sorted(" ".join(file.name.split("_")[:2]) for file in (source, library, pybind11))
+        return labels([source, *packages])
 
 
 def unpack_headers(source, folder):

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# debian_blender.sh SUITE FOLDER: a private Debian with the Blender of that suite and what the tests need.
+# debian_blender.sh SUITE FOLDER MIRROR: a private Debian with the Blender of that suite and what the tests need.
 #   trixie -> Blender 4.3, Python 3.13      sid -> Blender 5.2, Python 3.14 (a moving suite)
 # Needs root and debootstrap; does nothing when all is there. Nothing stays mounted: rm -rf FOLDER removes it.
 set -euo pipefail
-suite=$1 folder=$2
+suite=$1 folder=$2 mirror=$3
 packages=(blender python3-numpy python3-scipy python3-pytest python3-requests python3-cattr
   libgl1 libegl1 libgl1-mesa-dri libglx-mesa0 libegl-mesa0 imagemagick xdotool)
 stamp=$folder/.medial_axis_packages
@@ -13,10 +13,6 @@ stamp=$folder/.medial_axis_packages
 
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin
 if [[ ! -x $folder/usr/bin/apt-get ]]; then
-  mirror=$(apt-get indextargets --format '$(SITE)' 'Identifier: Packages' | grep -m1 '/debian/*$') || {
-    echo "expected a Debian mirror among apt's sources, found none" >&2
-    exit 1
-  }
   debootstrap --variant=minbase --keyring=/usr/share/keyrings/debian-archive-keyring.gpg "$suite" "$folder" "$mirror"
   printf '#!/bin/sh\nexit 101\n' >"$folder/usr/sbin/policy-rc.d" # no services
   chmod +x "$folder/usr/sbin/policy-rc.d"

@@ -17,7 +17,8 @@ INSTALL = ("-m", "pip", "install", "--only-binary", ":all:")
 READY = "ready"  # a file that is written last
 sys.path.insert(0, str(ROOT / "native" / "python"))
 
-from headers import interpreters  # noqa: E402 - it lies in that folder
+from debian import mirror  # noqa: E402 - it lies in that folder
+from headers import interpreters  # noqa: E402 - and so does this
 
 
 class UnavailableError(Exception):
@@ -65,7 +66,11 @@ class Chroot(Installed):
         if shutil.which("debootstrap") is None:
             raise UnavailableError("debootstrap is not installed")
         CHROOTS.mkdir(parents=True, exist_ok=True)
-        run_logged([HERE / "debian_blender.sh", self.suite, CHROOTS / self.suite], log)
+        try:
+            source = mirror()
+        except SystemExit as reason:
+            raise UnavailableError(str(reason)) from None
+        run_logged([HERE / "debian_blender.sh", self.suite, CHROOTS / self.suite, source], log)
         return super().prepare(log)
 
 
@@ -95,10 +100,8 @@ class Bpy:
     def interpreter(self) -> Path:
         """A Python of the version that brings pip; raises UnavailableError."""
         for path in interpreters(self.python):
-            if (
-                subprocess.run([path, "-c", "import ensurepip"], capture_output=True).returncode
-                == 0
-            ):
+            asked = subprocess.run([path, "-c", "import ensurepip"], capture_output=True)
+            if asked.returncode == 0:
                 return path
         raise UnavailableError(f"no Python {self.python} that makes virtual environments")
 
