@@ -18,8 +18,9 @@ from pathlib import Path
 from typing import Any
 
 from . import __version__
-from .core import native
-from .core.batch import Item, begin, failure, finish
+from .core.batch.batch.batch import Item, begin, failure, finish
+from .core.batch.batch.frames import at_frame, has_number, output_path, parse_frames
+from .core.batch.batch.option_words import add_limits, add_options, limit_from, settings_from
 from .core.errors import (
     Cancelled,
     DegenerateInputError,
@@ -27,12 +28,11 @@ from .core.errors import (
     MedialAxisError,
     ReadError,
 )
-from .core.export import FORMATS, format_of
-from .core.frames import at_frame, has_number, output_path, parse_frames
-from .core.import_points import READERS
-from .core.job import Job, Outcome, Task
-from .core.mesh_file import read_shape
-from .core.option_words import add_limits, add_options, limit_from, settings_from
+from .core.files.read import READERS
+from .core.files.read_shape import read_shape
+from .core.files.write import FORMATS, format_of
+from .core.machine import native
+from .core.machine.job import Job, Outcome, Task
 
 DONE, FAILED, USAGE, INPUT, CANCELLED = range(5)
 

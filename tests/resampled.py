@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 def by_the_addon(mesh: Mesh, **options: Any) -> Any:
     """A `Computation` of the add-on, without Blender. Options are those of its settings, else the defaults."""
-    from medial_axis.core.analysis import compute
+    from medial_axis.core.axis.compute import compute
     from medial_axis.core.settings import Settings
 
     return compute(*mesh, Settings(**options))

@@ -11,8 +11,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.analysis import MedialAxis
-    from ..core.report import SamplingReport
+    from ..core.axis.compute import MedialAxis
+    from ..core.axis.sampling_report import SamplingReport
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,14 @@ import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
-from ..core.import_rounding import rounding_warning
+from ..core.files.rounding import rounding_warning
 from .attributes import add_normals
 from .write_object import new_mesh
 
 if TYPE_CHECKING:
     from mathutils import Matrix
 
-    from ..core.import_result import ImportedPoints
+    from ..core.files.imported import ImportedPoints
 
 
 def new_points(

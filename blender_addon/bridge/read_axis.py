@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.analysis import MedialAxis
+from ..core.axis.compute import MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes
 from .made import is_gone

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ..core.axis.shape import Shape
 from ..core.errors import InvalidInputError
-from ..core.shape import Shape
 from .attributes import read_normals, read_vectors
 
 if TYPE_CHECKING:

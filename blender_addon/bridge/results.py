@@ -16,7 +16,7 @@ from .write_object import new_mesh
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..core.analysis import Computation, MedialAxis
+    from ..core.axis.compute import Computation, MedialAxis
 
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"

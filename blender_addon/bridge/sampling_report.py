@@ -18,7 +18,7 @@ from .write_object import new_mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.report import SamplingReport
+    from ..core.axis.sampling_report import SamplingReport
 
 SUFFIX = " Sampling"
 MEDIAN = "ma_epsilon_median"

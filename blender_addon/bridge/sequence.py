@@ -12,9 +12,9 @@ from pathlib import Path
 
 import bpy
 
-from ..core.analysis import MedialAxis
+from ..core.axis.compute import MedialAxis
 from ..core.errors import InvalidInputError
-from ..core.load_axis import load_axis
+from ..core.files.load_axis import load_axis
 from .attributes import attributes
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
 from .write_object import new_mesh

@@ -13,7 +13,7 @@ from .write_object import new_mesh
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..core.reconstruction import Reconstruction
+    from ..core.axis.reconstruction import Reconstruction
 
 SUFFIX = " Surface"
 OFF_SURFACE = "ma_off_surface"

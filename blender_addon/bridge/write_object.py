@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
-from ..core.native import own_errors
+from ..core.machine.native import own_errors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

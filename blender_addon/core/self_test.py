@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import __version__
-from . import native
-from .analysis import Computation, MedialAxis, compute
+from .axis.compute import Computation, MedialAxis, compute
+from .machine import native
 from .settings import Sampling, Settings
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from ..bridge.read_axis import find_axis, read_axis, world_matrix
 from ..core.errors import MedialAxisError
-from ..core.export import FORMATS, export_axis
+from ..core.files.write import FORMATS, export_axis
 from .paths import RELATIVE
 from .translation import say
 

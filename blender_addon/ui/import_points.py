@@ -6,7 +6,7 @@ from bpy_extras.io_utils import ImportHelper, axis_conversion, orientation_helpe
 
 from ..bridge.new_points import new_points
 from ..core.errors import MedialAxisError
-from ..core.import_points import import_points
+from ..core.files.read import import_points
 from .paths import RELATIVE, chosen_files
 from .translation import say
 

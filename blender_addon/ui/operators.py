@@ -13,9 +13,9 @@ from ..bridge.sampling_report import (
     write_report,
 )
 from ..bridge.surfaces import check_surface_writable, is_surface, write_surface
-from ..core.analysis import compute_axis
-from ..core.reconstruction import reconstruct
-from ..core.report import report
+from ..core.axis.compute import compute_axis
+from ..core.axis.reconstruction import reconstruct
+from ..core.axis.sampling_report import report
 from ..core.settings import OPTIONS, SAMPLING_OPTIONS
 from . import running
 from .preferences import memory_limit

@@ -4,7 +4,7 @@ import bpy
 
 from ..bridge import made, results, sampling_report, surfaces
 from ..bridge.material import LIMIT
-from ..core import native
+from ..core.machine import native
 from . import running
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface

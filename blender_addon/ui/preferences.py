@@ -5,9 +5,9 @@ import os
 import bpy
 
 from .. import __version__
-from ..core import native
-from ..core.cache import CACHE
-from ..core.memory import MemoryLimit
+from ..core.machine import native
+from ..core.machine.cache import CACHE
+from ..core.machine.memory_limit import MemoryLimit
 from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
 from . import self_test
 from .manual import draw_manual

@@ -12,7 +12,7 @@ from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.results import ANALYSIS, is_result, result_of, settings_of, update_result
 from ..bridge.sampling_report import is_report, report_of
 from ..bridge.surfaces import is_surface, surface_of
-from ..core.analysis import refilter
+from ..core.axis.compute import refilter
 from ..core.errors import MedialAxisError
 from ..core.settings import (
     ANALYSED,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
-from ..core import native
-from ..core.cache import CACHE
-from ..core.job import Job, Task
+from ..core.machine import native
+from ..core.machine.cache import CACHE
+from ..core.machine.job import Job, Task
 from .translation import say
 
 _job: Job | None = None

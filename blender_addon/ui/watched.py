@@ -6,7 +6,7 @@ import bpy
 
 from ..bridge.read_object import read_object
 from ..core.errors import Cancelled, MedialAxisError
-from ..core.job import Task, run_task
+from ..core.machine.job import Task, run_task
 from . import running
 from .sources import Source, obstacle, sources
 from .translation import say

@@ -77,19 +77,20 @@ std::vector<Vec3> unit_normals(std::span<const Vec3> normals, const Samples& sam
 
 constexpr size_t kBytesPerPoint = 900;  // samples of surfaces take at least as much
 
-std::unique_ptr<Heap> heap_for(size_t points) {
-  return std::make_unique<Heap>(2 * kBytesPerPoint * points);
+std::unique_ptr<Arena> arena_for(size_t points) {
+  return std::make_unique<Arena>(2 * kBytesPerPoint * points);
 }
 
 // Has memory ready for the stages, on a thread of its own.
-std::jthread touching(Heap& heap, size_t points, int threads) {
+std::jthread touching(Arena& arena, size_t points, int threads) {
   if (threads == 1) return {};
-  return std::jthread(
-      [&heap, points](const std::stop_token& stop) { heap.touch(kBytesPerPoint * points, stop); });
+  return std::jthread([&arena, points](const std::stop_token& stop) {
+    arena.touch(kBytesPerPoint * points, stop);
+  });
 }
 
 std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& samples) {
-  const auto end = static_cast<int64_t>(samples.sample_of_row.size());
+  const auto end = static_cast<int64_t>(samples.point_of_row.size());
   std::vector<int32_t> ids;
   ids.reserve(rows.size());
   for (const int32_t row : rows) {
@@ -97,7 +98,7 @@ std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& sa
       throw InvalidInputError("Expected rows below " + std::to_string(end) + ", found " +
                               std::to_string(row) + "; name rows of the points.");
     }
-    ids.push_back(samples.sample_of_row[row]);
+    ids.push_back(samples.point_of_row[row]);
   }
   return ids;
 }
@@ -106,8 +107,8 @@ std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& sa
 
 MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options,
                                Progress* progress)
-    : threads_(thread_count(options.threads)), heap_(heap_for(input.points.size())) {
-  const Run run{threads_, progress, heap_.get()}, quiet{threads_, nullptr, heap_.get()};
+    : threads_(thread_count(options.threads)), arena_(arena_for(input.points.size())) {
+  const Run run{threads_, progress, arena_.get()}, quiet{threads_, nullptr, arena_.get()};
   Stopwatch watch(timings_);
   begin_stage(progress, "Samples", 0, 0.02);
   require_corners(input.triangles, input.vertices.value_or(input.points).size());
@@ -120,7 +121,7 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
       input.vertices ? distinct_rows(*input.vertices, "vertex", quiet) : Samples{};
   const Samples& corners = input.vertices ? apart : samples_;
   const Surface surface =
-      make_surface(input.triangles, corners.sample_of_row, corners.count(), quiet);
+      make_surface(input.triangles, corners.point_of_row, corners.count(), quiet);
   closed_ = surface.closed();
   boundary_edges_ = surface.open_edges();
   sides_from_ = resolve(options.sides, surface, input.normals.has_value());
@@ -129,7 +130,7 @@ MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions
   watch.lap("samples");
   {
     // CGAL leaves the other cores idle.
-    const std::jthread toucher = touching(*heap_, points.size(), threads_);
+    const std::jthread toucher = touching(*arena_, points.size(), threads_);
     triangulation_ = triangulate(points, run, &watch);
   }
   watch.lap("cells");
@@ -220,7 +221,7 @@ std::vector<int32_t> MedialAnalysis::chosen(const Extraction& x, std::span<const
     return wanted.attributes(edge, ring).has_value();
   };
   return parallel_append<int32_t>(static_cast<int64_t>(edges.size()),
-                                  {threads_, progress, heap_.get()},
+                                  {threads_, progress, arena_.get()},
                                   [&](int64_t i, std::vector<int32_t>& kept, int worker) {
                                     if (is_wanted(edges[i], rings[worker]))
                                       kept.push_back(static_cast<int32_t>(i));
@@ -234,7 +235,7 @@ std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progr
 MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
   begin_stage(progress, "Facets", 0, 1);
   MedialMesh mesh = voronoi_facets(choice(x), samples_, triangulation_, voronoi_, edges_,
-                                   {threads_, progress, heap_.get()});
+                                   {threads_, progress, arena_.get()});
   advance(progress, 1);
   return mesh;
 }
@@ -322,8 +323,8 @@ std::vector<uint8_t> MedialAnalysis::edges_bounded() const {
 
 size_t MedialAnalysis::bytes() const {
   const size_t of_samples = samples_.points.capacity() * sizeof(Vec3) +
-                            (samples_.row.capacity() + samples_.sample_of_row.capacity()) * 4;
-  return heap_->held() + of_samples + sides_.capacity();
+                            (samples_.row.capacity() + samples_.point_of_row.capacity()) * 4;
+  return arena_->held() + of_samples + sides_.capacity();
 }
 
 std::vector<int32_t> MedialAnalysis::sample_rows() const {

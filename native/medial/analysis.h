@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
-#include "feature_size.h"
-#include "medial_mesh.h"
-#include "selection.h"
-#include "watertight_surface.h"
+#include "axis/feature_size.h"
+#include "axis/medial_mesh.h"
+#include "axis/selection.h"
+#include "cocone/watertight_surface.h"
 
 namespace medial {
 
@@ -92,7 +92,7 @@ class MedialAnalysis {
                     std::span<const int32_t> ring) const;
 
   int threads_ = 1;
-  std::unique_ptr<Heap> heap_;  // goes after all that lies in it
+  std::unique_ptr<Arena> arena_;  // goes after all that lies in it
   Samples samples_;
   Triangulation triangulation_;
   Voronoi voronoi_;

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "medial/errors.h"
-#include "medial/stopwatch.h"
-#include "medial/vec3.h"
+#include "base/errors.h"
+#include "base/stopwatch.h"
+#include "base/vec3.h"
 
 namespace medial::python {
 

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "analysis.h"
 #include "arrays.h"
 #include "bindings.h"
-#include "medial/analysis.h"
 
 namespace medial::python {
 namespace {

@@ -3,7 +3,8 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "medial/sampling.h"
+#include "base/parallel.h"
+#include "sampling/surface_samples.h"
 
 namespace medial::python {
 namespace {

@@ -1,14 +1,14 @@
 // The stages by themselves, for study and tests: each starts from the points and ends with ids of
 // input rows.
 #include "arrays.h"
+#include "axis/umbrellas.h"
+#include "base/polygon_edges.h"
 #include "bindings.h"
-#include "medial/buried.h"
-#include "medial/cocone.h"
-#include "medial/polygon_edges.h"
-#include "medial/samples.h"
-#include "medial/surface.h"
-#include "medial/umbrellas.h"
-#include "medial/winding_number.h"
+#include "cocone/cocone.h"
+#include "delaunay/samples.h"
+#include "inside/buried.h"
+#include "inside/surface.h"
+#include "inside/winding_number.h"
 
 namespace medial::python {
 namespace {
@@ -177,9 +177,9 @@ py::tuple umbrella_triangles(const py::object& points) {
                         array_of<int32_t>(std::move(triangles)));
 }
 
-std::vector<std::array<int32_t, 3>> candidate_rows(const Stages& s, const FacetSet& candidates) {
+std::vector<std::array<int32_t, 3>> candidate_rows(const Stages& s, const FaceSet& candidates) {
   std::vector<std::array<int32_t, 3>> rows;
-  for_facets(s.triangulation, candidates, [&](const Facet& f) {
+  for_faces(s.triangulation, candidates, [&](const CellFace& f) {
     if (s.triangulation.neighbors[f.cell][f.slot] < f.cell) return;
     auto triangle = corners(s.triangulation, f);
     for (int32_t& id : triangle) id = s.samples.row[id];
@@ -218,7 +218,7 @@ int64_t open_edges(const py::object& points, const py::object& triangles) {
   const py::gil_scoped_release release;
   require_corners(face_span, row_span.size());
   const Samples samples = distinct_rows(row_span, "point", all_cores());
-  return make_surface(face_span, samples.sample_of_row, samples.count(), all_cores()).open_edges();
+  return make_surface(face_span, samples.point_of_row, samples.count(), all_cores()).open_edges();
 }
 
 // A view of the caller's ids.

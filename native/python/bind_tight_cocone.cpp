@@ -1,7 +1,7 @@
 // CoconeOptions and TightCocone for Python.
 #include "arrays.h"
 #include "bindings.h"
-#include "medial/watertight_surface.h"
+#include "cocone/watertight_surface.h"
 
 namespace medial::python {
 namespace {

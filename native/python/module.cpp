@@ -1,6 +1,6 @@
 // The Python module _medial; _medial.pyi documents it in full.
+#include "base/errors.h"
 #include "bindings.h"
-#include "medial/errors.h"
 
 namespace py = pybind11;
 

@@ -9,7 +9,7 @@ from scene import addon
 def empty_scene():
     """Every test starts with nothing: no objects, no kept analyses, paper defaults."""
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
-    addon("core.cache").CACHE.clear()
+    addon("core.machine.cache").CACHE.clear()
 
 
 def pytest_configure(config):

@@ -21,7 +21,7 @@ def program():
 
 
 def addon(path=""):
-    """A module of the installed add-on, such as addon('core.analysis')."""
+    """A module of the installed add-on, such as addon('core.axis.compute')."""
     return importlib.import_module(f"{MODULE}.{path}" if path else MODULE)
 
 
@@ -138,7 +138,7 @@ def result_of(source):
 
 def analyses():
     """How many analyses were computed since Blender started."""
-    return addon("core.cache").CACHE.analyses
+    return addon("core.machine.cache").CACHE.analyses
 
 
 def compute(**settings):
@@ -174,7 +174,7 @@ def contents():
 
 def direct(points, triangles=None, sphere=False, **settings):
     """The compiled module's answer without the add-on: a MedialMesh."""
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     return module.MedialAnalysis(points, triangles, bounding_sphere=sphere).extract(**settings)
 
 

@@ -234,7 +234,7 @@ def test_open_edges_are_counted_with_and_without_an_analysis(kind):
             np.concatenate([triangles, extra]),
             np.concatenate([points, [[9.0, 9.0, 9.0]]]),
         )
-    native = addon("core.native").load()
+    native = addon("core.machine.native").load()
     analysis = native.MedialAnalysis(points, triangles)
     gaps = native.open_edges(points, triangles)
     assert gaps == analysis.boundary_edges

@@ -65,7 +65,7 @@ def walking(path="walk.blend"):
 
 
 def load(path):
-    return addon("core.load_axis").load_axis(path)
+    return addon("core.files.load_axis").load_axis(path)
 
 
 def operator_axis(name, frame):

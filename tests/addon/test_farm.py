@@ -119,7 +119,7 @@ def test_flamenco_expressions_work_in_blender(here):
     found = {s["key"]: eval(s["eval"], names) for s in job_type["settings"] if "eval" in s}
     assert found == {"frames": "1-5", "object_name": bpy.context.object.name, "addon": MODULE}
     formats = next(s["choices"] for s in job_type["settings"] if s["key"] == "format")
-    assert {f".{name}" for name in formats} == set(addon("core.export").FORMATS)
+    assert {f".{name}" for name in formats} == set(addon("core.files.write").FORMATS)
 
 
 # --- Open Job Description
@@ -159,7 +159,9 @@ def test_openjd_parameters_are_used(template):
     for parameter in template["parameterDefinitions"]:
         assert f"{{{{Param.{parameter['name']}}}}}" in text, parameter["name"]
     formats = next(p for p in template["parameterDefinitions"] if p["name"] == "Format")
-    assert {f".{name}" for name in formats["allowedValues"]} == set(addon("core.export").FORMATS)
+    assert {f".{name}" for name in formats["allowedValues"]} == set(
+        addon("core.files.write").FORMATS
+    )
 
 
 def openjd():

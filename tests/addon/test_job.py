@@ -21,8 +21,8 @@ def task(count=60_000, name="Cloud"):
 def task_of(name, points):
     """What the operator asks for a cloud of points."""
     none, settings = np.zeros((0, 3), np.int32), addon("core.settings").Settings()
-    return addon("core.job").Task(
-        name, partial(addon("core.analysis").compute, points, none, settings)
+    return addon("core.machine.job").Task(
+        name, partial(addon("core.axis.compute").compute, points, none, settings)
     )
 
 
@@ -38,7 +38,7 @@ def wait(job, seconds=120):
 
 
 def test_job_reports_stages_and_a_fraction_that_never_falls():
-    job = addon("core.job").Job([task(name="One"), task(20_000, name="Two")])
+    job = addon("core.machine.job").Job([task(name="One"), task(20_000, name="Two")])
     seen = []
     while not job.done:
         seen.append((job.fraction, job.text))
@@ -54,10 +54,10 @@ def test_job_reports_stages_and_a_fraction_that_never_falls():
 
 def test_job_gives_what_the_script_way_gives():
     one = task(3_000)
-    job = addon("core.job").Job([one])
+    job = addon("core.machine.job").Job([one])
     mine = job.outcomes()[0].value.axis
-    addon("core.cache").CACHE.clear()
-    other = addon("core.job").run_task(one).value.axis
+    addon("core.machine.cache").CACHE.clear()
+    other = addon("core.machine.job").run_task(one).value.axis
     for name in (
         "vertices",
         "radius",
@@ -74,7 +74,7 @@ def test_job_gives_what_the_script_way_gives():
 @pytest.mark.parametrize("delay", [0.0, 0.05, 0.2, 0.5])
 def test_cancel_ends_the_job_soon_and_keeps_nothing(delay):
     before = analyses()
-    job = addon("core.job").Job([task(300_000)])
+    job = addon("core.machine.job").Job([task(300_000)])
     time.sleep(delay)
     assert not job.done
     job.cancel()
@@ -87,15 +87,15 @@ def test_cancel_ends_the_job_soon_and_keeps_nothing(delay):
 
 def test_an_error_belongs_to_its_task():
     flat = task_of("Flat", np.zeros((9, 3)))
-    bad, good = addon("core.job").Job([flat, task(1000)]).outcomes()
+    bad, good = addon("core.machine.job").Job([flat, task(1000)]).outcomes()
     assert isinstance(bad.error, addon("core.errors").DegenerateInputError) and bad.value is None
     assert good.error is None and good.value.axis.facets > 0
 
 
 def test_an_unforeseen_failure_is_raised_where_the_outcomes_are_asked_for():
-    wrong = addon("core.job").Task("Wrong", None)
+    wrong = addon("core.machine.job").Task("Wrong", None)
     with pytest.raises(TypeError):
-        addon("core.job").Job([wrong]).outcomes()
+        addon("core.machine.job").Job([wrong]).outcomes()
 
 
 def test_second_run_is_refused_while_one_runs():
@@ -126,12 +126,12 @@ def test_sliders_rest_while_a_job_runs():
 def test_loading_a_file_stops_the_job_and_forgets_analyses():
     ellipsoid()
     compute()
-    assert len(addon("core.cache").CACHE) == 1
+    assert len(addon("core.machine.cache").CACHE) == 1
     addon("ui.running").start([task(300_000)], "medial axis")
     assert threads()
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     assert threads() == [] and addon("ui.running").job() is None
-    assert len(addon("core.cache").CACHE) == 0 and medial_objects() == []
+    assert len(addon("core.machine.cache").CACHE) == 0 and medial_objects() == []
 
 
 def test_disabling_the_addon_stops_the_job():
@@ -150,7 +150,7 @@ def test_source_deleted_before_the_result_is_written(capfd):
 
 
 def test_messages_of_a_missing_compiled_module(monkeypatch, tmp_path):
-    native = addon("core.native")
+    native = addon("core.machine.native")
     expected = native.expected_abi()
     (tmp_path / "_medial.cpython-399-x86_64-linux-gnu.so").write_bytes(b"")
     monkeypatch.setattr(native, "_module", None)
@@ -168,7 +168,7 @@ def test_messages_of_a_missing_compiled_module(monkeypatch, tmp_path):
 
 
 def test_message_of_a_compiled_module_that_does_not_load(monkeypatch, tmp_path):
-    native = addon("core.native")
+    native = addon("core.machine.native")
     monkeypatch.setattr(native, "_module", None)
     monkeypatch.setattr(native, "_failure", "")
     monkeypatch.setattr(native, "NAME", "_absent")

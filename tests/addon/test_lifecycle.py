@@ -41,7 +41,7 @@ def change(source, run):
 
 def test_runs_leave_no_blocks_and_no_memory():
     source = ellipsoid(segments=5)
-    cache = addon("core.cache").CACHE
+    cache = addon("core.machine.cache").CACHE
     before = cache.analyses
     for run in range(RUNS // 10):
         change(source, run)
@@ -163,7 +163,7 @@ def test_update_of_an_older_version(blender, tmp_path):
         if bpy.app.version >= (4, 2, 0):  # before, Blender lays new files over the old ones
             assert not (Path(addon().__file__).parent / "core" / "leftover.py").exists()
         compute()
-        assert addon("core.cache").CACHE.room == 77 << 20
+        assert addon("core.machine.cache").CACHE.room == 77 << 20
         assert bpy.ops.wm.medial_axis_self_test() == {{"FINISHED"}}
         """
     play(blender, tmp_path, name, new)

@@ -26,7 +26,7 @@ def preferences():
 
 
 def cache():
-    return addon("core.cache").CACHE
+    return addon("core.machine.cache").CACHE
 
 
 @pytest.fixture(autouse=True)
@@ -41,7 +41,7 @@ def defaults():
 @pytest.fixture
 def tight(monkeypatch):
     """A machine on which the analysis of 1,500 points just fits."""
-    memory = addon("core.memory")
+    memory = addon("core.machine.memory_limit")
     monkeypatch.setattr(memory, "free_memory", lambda: memory.memory_needed(1500) - cache().bytes)
 
 

@@ -105,7 +105,7 @@ def test_result_is_the_compiled_modules_answer():
     source = ellipsoid()
     compute()
     points, triangles = positions(source.data), triangles_of(source.data)
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     assert result_of(source)["ma_side"] == "INNER"
     assert_holds(result_of(source), direct(points, triangles, side=module.Side.INNER))
 
@@ -127,7 +127,7 @@ def test_result_is_the_compiled_modules_answer():
 def test_every_setting_reaches_the_compiled_module(settings):
     source = torus()
     compute(**settings)
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     enums = {"side": module.Side, "rule": module.Rule, "criteria": module.Criteria}
     wanted = {"side": module.Side.INNER}
     for name, value in settings.items():
@@ -156,7 +156,7 @@ def test_raw_scan_gives_a_clean_inner_axis_in_one_step():
     result = result_of(source)
     assert result["ma_side"] == "INNER" and result["ma_warnings"] == ""
     assert set(attribute(result.data, "ma_side")) == {1}
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     assert_holds(result, direct(positions(source.data), side=module.Side.INNER))
     where = positions(result.data)  # the axis of an ellipsoid is a flat elliptic disc
     assert np.abs(where[:, 2]).max() < 0.05
@@ -372,7 +372,7 @@ def test_theta_and_rho_are_filtered_from_the_kept_analysis():
     compute(theta=0.2)
     assert len(result_of(source).data.polygons) == counts[0.2]
     assert analyses() == before
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     points, triangles = positions(source.data), triangles_of(source.data)
     theta = float(np.float32(0.2))
     assert_holds(result_of(source), direct(points, triangles, side=module.Side.INNER, theta=theta))
@@ -405,7 +405,7 @@ def test_slider_that_leaves_nothing_leaves_the_result_as_it_was():
 def test_slider_without_kept_analysis_asks_for_compute():
     source = ellipsoid()
     compute()
-    addon("core.cache").CACHE.clear()
+    addon("core.machine.cache").CACHE.clear()
     count = len(result_of(source).data.polygons)
     bpy.context.scene.medial_axis.theta = 1.2
     assert len(result_of(source).data.polygons) == count
@@ -433,7 +433,7 @@ def test_edit_mode_is_flushed_not_refused():
     bpy.ops.object.mode_set(mode="OBJECT")
     points = positions(source.data)
     assert np.abs(points).max() == pytest.approx(2.0, rel=0.01)
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     assert_holds(
         result_of(source), direct(points, triangles_of(source.data), side=module.Side.INNER)
     )

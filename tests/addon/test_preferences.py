@@ -57,7 +57,7 @@ def no_last_test():
 
 def test_page_names_what_is_installed():
     drawn = page()
-    native = addon("core.native")
+    native = addon("core.machine.native")
     assert native.file().parent == Path(addon().__file__).parent / "lib"
     for text in (addon().__version__, native.expected_abi(), str(native.file())):
         assert text in drawn
@@ -67,13 +67,13 @@ def test_page_names_what_is_installed():
 
 
 def test_page_loads_and_computes_nothing(monkeypatch):
-    native = addon("core.native")
+    native = addon("core.machine.native")
     monkeypatch.setattr(native, "load", lambda: pytest.fail("loaded"))
     assert "wm.medial_axis_free_memory" in page()
 
 
 def test_page_says_when_the_module_is_missing(monkeypatch, tmp_path):
-    native = addon("core.native")
+    native = addon("core.machine.native")
     monkeypatch.setattr(native, "LIB", tmp_path)
     monkeypatch.setattr(native, "_module", None)
     assert any(text.startswith("Expected the compiled module for") for text in page())
@@ -91,7 +91,7 @@ def test_self_test_passes_and_says_so(capfd):
 
 
 def test_self_test_fails_without_the_module(monkeypatch, tmp_path):
-    native = addon("core.native")
+    native = addon("core.machine.native")
     monkeypatch.setattr(native, "LIB", tmp_path)
     monkeypatch.setattr(native, "_module", None)
     with pytest.raises(RuntimeError, match="Failed: Expected the compiled module for"):

@@ -91,7 +91,7 @@ def test_clean_scan_becomes_a_closed_surface(make, euler, capfd):
 def test_it_is_the_compiled_modules_answer():
     source = scan()
     reconstruct()
-    found = addon("core.native").load().TightCocone(positions(source.data))
+    found = addon("core.machine.native").load().TightCocone(positions(source.data))
     surface = surface_of(source)
     np.testing.assert_array_equal(triangles_of(surface.data), found.triangles)
 
@@ -327,11 +327,11 @@ def test_undo_is_one_step():
 
 def test_cancelled_job_leaves_nothing():
     points, _ = on_ellipsoid(200_000)
-    task = addon("core.job").Task(
-        "Scan", lambda progress: addon("core.reconstruction").reconstruct(points, progress)
+    task = addon("core.machine.job").Task(
+        "Scan", lambda progress: addon("core.axis.reconstruction").reconstruct(points, progress)
     )
     before = contents()
-    job = addon("core.job").Job([task])
+    job = addon("core.machine.job").Job([task])
     while job.stage == "Preparing":
         assert not job.done
     job.cancel()
@@ -342,9 +342,9 @@ def test_cancelled_job_leaves_nothing():
 
 def test_progress_is_told():
     points, _ = on_ellipsoid(60_000)
-    work = addon("core.reconstruction").reconstruct
-    job = addon("core.job").Job(
-        [addon("core.job").Task("Scan", lambda progress: work(points, progress))]
+    work = addon("core.axis.reconstruction").reconstruct
+    job = addon("core.machine.job").Job(
+        [addon("core.machine.job").Task("Scan", lambda progress: work(points, progress))]
     )
     seen = []
     while not job.done:
@@ -358,8 +358,8 @@ def test_progress_is_told():
 def test_refusal_while_another_computation_runs_names_it():
     scan()
     points, _ = on_ellipsoid(300_000)
-    work = addon("core.reconstruction").reconstruct
-    task = addon("core.job").Task("Big", lambda progress: work(points, progress))
+    work = addon("core.axis.reconstruction").reconstruct
+    task = addon("core.machine.job").Task("Big", lambda progress: work(points, progress))
     addon("ui.running").start([task], "surface")
     for operator in ("tight_cocone_surface", "medial_axis"):
         refuse("A surface is being computed; wait", operator=operator)

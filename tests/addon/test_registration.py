@@ -90,7 +90,7 @@ def test_importing_needs_no_blender():
 def test_one_version():
     manifest = (Path(addon().__file__).parent / "blender_manifest.toml").read_text(encoding="utf-8")
     assert f'version = "{addon().__version__}"' in manifest
-    assert addon("core.native").load().__version__ == addon().__version__
+    assert addon("core.machine.native").load().__version__ == addon().__version__
 
 
 @pytest.mark.parametrize("name", OPTIONS)
@@ -140,7 +140,7 @@ def test_all_options_are_tested_here():
 
 def test_defaults_are_those_of_the_compiled_module():
     settings = addon("core.settings")
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     default = settings.Settings()
     # pybind11 writes the types in other words from version to version.
     signature = module.MedialAnalysis.extract.__doc__.splitlines()[0]

@@ -58,7 +58,11 @@ def sound(result):
 
 
 def winding(points, mesh):
-    return addon("core.native").load().winding_number(points, positions(mesh), triangles_of(mesh))
+    return (
+        addon("core.machine.native")
+        .load()
+        .winding_number(points, positions(mesh), triangles_of(mesh))
+    )
 
 
 # --- the shapes people try first: distance into the solid (negative outside), largest radius
@@ -368,7 +372,7 @@ def data_of(result):
 def test_the_same_click_gives_the_same_bytes_and_another_seed_others():
     source = torus()
     first = data_of(click(sampling="SURFACE", samples=2_000))
-    addon("core.cache").CACHE.clear()
+    addon("core.machine.cache").CACHE.clear()
     select(source)
     assert data_of(click(sampling="SURFACE", samples=2_000)) == first
     select(source)
@@ -462,8 +466,8 @@ def test_cancel_works_in_every_pass(delay):
     wanted = settings.Settings(
         sampling=settings.Sampling.ADAPTIVE, samples=200_000, budget=1_000_000, epsilon=0.02
     )
-    work = partial(addon("core.report").report, shape, wanted)
-    job = addon("core.job").Job([addon("core.job").Task("Rod", work)])
+    work = partial(addon("core.axis.sampling_report").report, shape, wanted)
+    job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
     seen, end = [], time.monotonic() + delay
     while time.monotonic() < end:
         seen.append(job.fraction)
@@ -479,8 +483,8 @@ def test_progress_is_one_bar_over_all_passes():
     shape = addon("bridge.read_object").read_object(source, bpy.context.evaluated_depsgraph_get())
     settings = addon("core.settings")
     wanted = settings.Settings(sampling=settings.Sampling.ADAPTIVE, samples=3_000)
-    work = partial(addon("core.report").report, shape, wanted)
-    job = addon("core.job").Job([addon("core.job").Task("Rod", work)])
+    work = partial(addon("core.axis.sampling_report").report, shape, wanted)
+    job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
     seen = []
     while not job.done:
         seen.append((job.fraction, job.stage))

@@ -57,7 +57,7 @@ def test_faces_of_a_report_are_the_surface_that_samples_see():
     found = report(ellipsoid(), **EVEN)
     mesh = found.data
     assert mesh.validate() is False
-    winding = addon("core.native").load().winding_number
+    winding = addon("core.machine.native").load().winding_number
     corners = triangles_of(mesh)
     inside = winding(np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), positions(mesh), corners)
     np.testing.assert_allclose(inside, [1.0, 0.0], atol=1e-6)

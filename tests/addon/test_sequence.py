@@ -55,7 +55,7 @@ def test_files_and_playback(growing, tmp_path):
 
 def test_attributes_come_from_the_file(growing, tmp_path):
     bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="3")
-    axis = addon("core.load_axis").load_axis(tmp_path / "Body_0003.npz")
+    axis = addon("core.files.load_axis").load_axis(tmp_path / "Body_0003.npz")
     back = addon("bridge.read_axis").read_axis(play().objects[0])
     for name in ("radius", "theta", "rho"):
         np.testing.assert_allclose(getattr(back, name), getattr(axis, name), rtol=1e-6)
@@ -67,11 +67,11 @@ def test_again_keeps_files_and_replaces_objects(growing, tmp_path, capfd):
     bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
     reports(capfd)
     counts = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.actions)]
-    analyses = addon("core.cache").CACHE.analyses
+    analyses = addon("core.machine.cache").CACHE.analyses
     select(growing)
     bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
     assert ("Info", "4 of 4 frames are there, 4 were before") in reports(capfd)
-    assert addon("core.cache").CACHE.analyses == analyses
+    assert addon("core.machine.cache").CACHE.analyses == analyses
     assert counts == [len(d) for d in (bpy.data.objects, bpy.data.meshes, bpy.data.actions)]
     assert len(bpy.data.collections) == 1
 

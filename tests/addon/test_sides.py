@@ -81,7 +81,7 @@ def test_automatic_says_which_and_why(make, sides, sentence, capfd):
     assert result["ma_inside"] == sentence
     assert any(f"; {sentence}; " in text for kind, text in reports(capfd) if kind == "Info")
     assert set(attribute(result.data, "ma_side")) == {1}
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     expected = module.MedialAnalysis(
         positions(source.data),
         triangles_of(source.data) if sides == "SURFACE" else None,
@@ -101,7 +101,7 @@ def test_chosen_source_is_used_although_all_are_there(sides):
     compute(sides=sides)
     result = result_of(source)
     assert result["ma_sides"] == sides and result["ma_inside"].endswith(": as chosen")
-    samples = addon("core.cache").CACHE.get(result["ma_analysis"])
+    samples = addon("core.machine.cache").CACHE.get(result["ma_analysis"])
     assert samples.analysis.sides_from.name == sides
 
 
@@ -294,7 +294,7 @@ def test_sliders_keep_what_told_inside_from_outside():
     assert 0 < len(result.data.polygons) < count and panel.note == ""
     assert (result["ma_sides"], result["ma_side"]) == ("TIGHT_COCONE", "INNER")
     assert result["ma_inside"] == inside and analyses() == before
-    module = addon("core.native").load()
+    module = addon("core.machine.native").load()
     expected = direct(
         positions(source.data),
         side=module.Side.INNER,

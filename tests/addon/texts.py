@@ -12,9 +12,9 @@ from scene import MODULE, addon
 # Sources whose texts nobody sees in Blender's windows, and texts that are data or belong to Blender.
 HIDDEN = {
     "bridge/material.py",
-    "core/batch.py",
-    "core/free_memory.py",
-    "core/option_words.py",
+    "core/batch/batch.py",
+    "core/machine/free_memory.py",
+    "core/batch/option_words.py",
     "ui/translation.py",
 }
 DATA = {

@@ -20,7 +20,7 @@ def load():
     )
     sys.modules["medial_axis"] = package = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(package)
-    from medial_axis.core import native
+    from medial_axis.core.machine import native
 
     return native.load()
 

@@ -69,7 +69,7 @@ def run() -> dict:
     seconds, cpu = {"run": time.perf_counter() - start}, {"run": time.process_time() - cpu}
     show()
     result = bpy.context.object
-    kept = importlib.import_module(f"{MODULE}.core.cache").CACHE.get(result["ma_analysis"])
+    kept = importlib.import_module(f"{MODULE}.core.machine.cache").CACHE.get(result["ma_analysis"])
     seconds["analysis"] = sum(kept.analysis.timings.values())
     facets = len(result.data.polygons)
     return {"seconds": seconds, "cpu": cpu, "bytes": memory.peak, "facets": facets}

@@ -1,4 +1,4 @@
-#include "medial/analysis.h"
+#include "analysis.h"
 
 #include <gtest/gtest.h>
 

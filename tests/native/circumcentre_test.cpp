@@ -1,4 +1,4 @@
-#include "medial/circumcentre.h"
+#include "delaunay/circumcentre.h"
 
 #include <gtest/gtest.h>
 

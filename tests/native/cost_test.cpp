@@ -4,8 +4,8 @@
 #include <array>
 #include <string>
 
+#include "analysis.h"
 #include "counted_new.h"
-#include "medial/analysis.h"
 #include "shapes.h"
 
 namespace medial {
@@ -13,8 +13,8 @@ namespace {
 
 struct Cost {
   double held;         // bytes per point, by the analysis when it is done: its peak
-  double beside;       // at the peak beside its heap, the axis among it, the input not counted
-  double allocations;  // per 1000 points, beside the heap
+  double beside;       // at the peak beside its arena, the axis among it, the input not counted
+  double allocations;  // per 1000 points, beside the arena
   double rings;        // walked by the extract, per facet
 };
 

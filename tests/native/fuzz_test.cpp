@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "medial/analysis.h"
+#include "analysis.h"
 #include "shapes.h"
 
 namespace medial {

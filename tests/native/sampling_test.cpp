@@ -1,8 +1,7 @@
-#include "medial/sampling.h"
-
 #include <gtest/gtest.h>
 
-#include "medial/poisson_disk.h"
+#include "sampling/poisson_disk.h"
+#include "sampling/surface_samples.h"
 #include "shapes.h"
 
 namespace medial {

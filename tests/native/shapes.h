@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "medial/boundary.h"
-#include "medial/vec3.h"
+#include "base/vec3.h"
+#include "inside/boundary.h"
 
 namespace medial::test {
 

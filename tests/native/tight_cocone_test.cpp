@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "medial/analysis.h"
+#include "analysis.h"
 #include "shapes.h"
 
 namespace medial {
@@ -18,19 +18,19 @@ double volume(std::span<const Vec3> points, std::span<const Triangle> triangles)
   return sum;
 }
 
-TEST(FacetSet, ATurnAboutAnEdgeMeetsAllItsTrianglesAndComesBack) {
+TEST(FaceSet, ATurnAboutAnEdgeMeetsAllItsTrianglesAndComesBack) {
   const auto points = make_samples(test::random_points(60, 3), {1, nullptr}).points;
   const Triangulation t = triangulate(points, {1, nullptr});
-  FacetSet all(t);
+  FaceSet all(t);
   for (int32_t cell = 0; cell < t.cell_count(); ++cell) {
     for (int i = 0; i < 4; ++i) all.insert({cell, i});
   }
   std::vector<int32_t> ring;
   for (int32_t cell = 0; cell < t.finite_cells; ++cell) {
-    const Facet start{cell, 3};
+    const CellFace start{cell, 3};
     const auto [p, q, x] = corners(t, start);
     ring_of_cells(t, {p, q}, cell, ring);
-    Facet f = start;
+    CellFace f = start;
     size_t turns = 0;
     do {
       f = mirror(t, next_about_edge(t, all, f, p, q));
@@ -40,11 +40,11 @@ TEST(FacetSet, ATurnAboutAnEdgeMeetsAllItsTrianglesAndComesBack) {
   }
 }
 
-TEST(FacetSet, ALonelyTriangleIsItsOwnNeighbour) {
+TEST(FaceSet, ALonelyTriangleIsItsOwnNeighbour) {
   const auto points = make_samples(test::random_points(60, 4), {1, nullptr}).points;
   const Triangulation t = triangulate(points, {1, nullptr});
-  const Facet lonely{t.finite_cells / 2, 1};
-  FacetSet set(t);
+  const CellFace lonely{t.finite_cells / 2, 1};
+  FaceSet set(t);
   insert_both(t, set, lonely);
   for (const int32_t x : corners(t, lonely)) {
     const auto [p, q] = link_of(corners(t, lonely), x);
@@ -52,8 +52,8 @@ TEST(FacetSet, ALonelyTriangleIsItsOwnNeighbour) {
   }
 }
 
-TEST(FacetSet, LinksChainToADiscOnlyWhenEachIsPassedOnce) {
-  const auto is_disc = [](std::vector<Edge> links) { return chain(links); };
+TEST(FaceSet, LinksChainToADiscOnlyWhenEachIsPassedOnce) {
+  const auto is_disc = [](std::vector<Edge> links) { return put_in_cycle(links); };
   EXPECT_TRUE(is_disc({{1, 2}, {3, 2}, {1, 3}}));
   EXPECT_TRUE(is_disc({{1, 2}, {4, 3}, {2, 3}, {1, 4}}));
   EXPECT_FALSE(is_disc({}));

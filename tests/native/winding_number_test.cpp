@@ -1,4 +1,4 @@
-#include "medial/winding_number.h"
+#include "inside/winding_number.h"
 
 #include <gtest/gtest.h>
 

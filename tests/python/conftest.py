@@ -49,7 +49,7 @@ def pytest_collection_modifyitems(config, items):
 @pytest.fixture(scope="session")
 def medial():
     """The compiled module. Its absence is a failure: there is nothing to test without it."""
-    from medial_axis.core import native
+    from medial_axis.core.machine import native
 
     return native.load()
 

@@ -14,13 +14,13 @@ import numpy as np
 import pytest
 from conftest import PACKAGE
 from medial_axis import cli
-from medial_axis.core import batch, option_words
-from medial_axis.core.analysis import compute
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.batch import batch, option_words
+from medial_axis.core.batch.frames import at_frame, output_path, parse_frames
 from medial_axis.core.errors import ExportError
-from medial_axis.core.export import export_axis
-from medial_axis.core.frames import at_frame, output_path, parse_frames
-from medial_axis.core.import_points import import_points
-from medial_axis.core.load_axis import load_axis
+from medial_axis.core.files.load_axis import load_axis
+from medial_axis.core.files.read import import_points
+from medial_axis.core.files.write import export_axis
 from medial_axis.core.settings import LIMITS, OPTIONS, Choice, Settings, Side, Switch
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from medial_axis.core import sampling
-from medial_axis.core.cache import CACHE
-from medial_axis.core.density import Density, estimate, percent
-from medial_axis.core.nearness import near
-from medial_axis.core.report import report
+from medial_axis.core.axis import sampling
+from medial_axis.core.axis.density import Density, estimate, percent
+from medial_axis.core.axis.nearness import near
+from medial_axis.core.axis.sampling_report import report
+from medial_axis.core.axis.shape import Shape
+from medial_axis.core.machine.cache import CACHE
 from medial_axis.core.settings import Sampling, Settings
-from medial_axis.core.shape import Shape
 from meshes import icosphere
 from shapes import SHAPES
 

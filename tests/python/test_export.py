@@ -1,4 +1,4 @@
-"""Files written by core/export.py: counts, exact numbers, valid references, and writing whole or not at all."""
+"""Files written by core/files/write.py: counts, exact numbers, valid references, and writing whole or not at all."""
 
 import os
 import resource
@@ -10,9 +10,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from medial_axis.core import export as export_module
 from medial_axis.core.errors import ExportError
-from medial_axis.core.export import FORMATS, export_axis
+from medial_axis.core.files import write as export_module
+from medial_axis.core.files.write import FORMATS, export_axis
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
 
@@ -240,7 +240,7 @@ def test_same_axis_same_bytes(extension, tmp_path):
 @pytest.mark.parametrize("extension", EXTENSIONS)
 def test_more_faces_than_one_chunk(extension, tmp_path, monkeypatch):
     """Pieces of the file join without a seam: tiny chunks give the same bytes as one large one."""
-    from medial_axis.core import triangulate as triangulate_module
+    from medial_axis.core.files import triangulate as triangulate_module
 
     whole = export_axis(AXES["sheets"], tmp_path / ("a" + extension)).read_bytes()
     monkeypatch.setattr(export_module, "_CHUNK", 7)

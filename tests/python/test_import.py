@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from medial_axis.core import import_text
 from medial_axis.core.errors import MedialAxisError, ReadError
-from medial_axis.core.export import export_axis
-from medial_axis.core.import_points import import_points
-from medial_axis.core.import_rounding import rounding_warning
+from medial_axis.core.files import text as import_text
+from medial_axis.core.files.read import import_points
+from medial_axis.core.files.rounding import rounding_warning
+from medial_axis.core.files.write import export_axis
 from test_export import AXES
 
 THREE = np.array([[0.1, -2.5e3, 3.0], [4.0, 5.0, -6.25], [7.0, 8.0, 9.0]])

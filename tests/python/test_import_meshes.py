@@ -7,9 +7,9 @@ import struct
 import numpy as np
 import pytest
 from medial_axis.core.errors import MedialAxisError, ReadError
-from medial_axis.core.import_points import READERS, import_points
-from medial_axis.core.mesh_file import read_shape
-from medial_axis.core.triangulate import triangulate
+from medial_axis.core.files.read import READERS, import_points
+from medial_axis.core.files.read_shape import read_shape
+from medial_axis.core.files.triangulate import triangulate
 
 POINTS = np.array(list(itertools.product((0.0, 1.0), repeat=3)))
 QUADS = np.array(

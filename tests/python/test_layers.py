@@ -1,7 +1,7 @@
-"""The dependency rule, read from the sources: ui -> bridge -> core -> _medial -> analysis -> stages -> vocabulary.
+"""The dependency rule, read from the sources: ui -> bridge -> core -> _medial -> analysis -> the rooms of the core.
 
-No bpy in core, no ui in bridge, no NumPy in ui, no CGAL outside native/medial/triangulation, no pybind11 outside
-native/python, and nothing looks upwards.
+The rooms are folders, and what each may see is written down here, room by room. No bpy in core, no ui in bridge, no
+NumPy in ui, no CGAL outside native/medial/delaunay/triangulation.cpp, no pybind11 outside native/python.
 """
 
 import ast
@@ -15,12 +15,22 @@ ADDON = ROOT / "blender_addon"
 NATIVE = ROOT / "native"
 
 BLENDER_MODULES = {"bpy", "bpy_extras", "bmesh", "mathutils", "gpu", "blf", "addon_utils"}
-# What each room may import of the package; "" is the package itself (its name and version).
+# What each room may import of the package beside itself; "" is the package itself (its name and version).
+CORE = {"core", "core/machine", "core/axis", "core/files", "core/batch"}
 MAY_IMPORT = {
-    "core": {"core", "lib", ""},
-    "bridge": {"bridge", "core", ""},
-    "ui": {"ui", "bridge", "core", ""},
+    "core": {
+        "core/machine",
+        "core/axis",
+        "",
+    },  # errors and settings, which all may see; the self-test on top
+    "core/machine": {"core", "lib"},
+    "core/axis": {"core", "core/machine"},
+    "core/files": {"core", "core/machine", "core/axis"},
+    "core/batch": {"core", "core/machine", "core/axis", "core/files", ""},
+    "bridge": {*CORE, ""},
+    "ui": {*CORE, "bridge", ""},
 }
+ON_TOP = {"core.self_test"}  # of core; the rooms below do not see it
 
 
 # --- Python
@@ -47,7 +57,14 @@ def dotted(path):
 
 
 def python_files(room):
-    return sorted((ADDON / room).rglob("*.py"))
+    return sorted((ADDON / room).glob("*.py"))
+
+
+def room_of(name):
+    """The room that a dotted name inside the package lies in: its folder, "" for the package itself."""
+    first, *rest = name.split(".")
+    nested = f"{first}/{rest[0]}" if rest else ""
+    return nested if nested in MAY_IMPORT else first if first in {*MAY_IMPORT, "lib"} else ""
 
 
 PYTHON_FILES = [(room, path) for room in MAY_IMPORT for path in python_files(room)]
@@ -65,8 +82,18 @@ def test_rooms_have_files():
 
 def test_python_looks_down_only(python_file):
     room, (_, inside) = python_file
-    rooms = {name.split(".")[0] if "." in name or name in MAY_IMPORT else "" for name in inside}
-    assert rooms <= MAY_IMPORT[room]
+    assert {room_of(name) for name in inside} <= {room, *MAY_IMPORT[room]}
+
+
+def test_what_is_on_top_of_core_is_seen_from_above_only(python_file):
+    room, (_, inside) = python_file
+    seen = {".".join(name.split(".")[:2]) for name in inside}
+    assert not (seen & ON_TOP and room.startswith("core"))
+
+
+def test_every_folder_of_core_is_a_room():
+    folders = {p.parent.relative_to(ADDON).as_posix() for p in (ADDON / "core").rglob("*.py")}
+    assert folders == CORE
 
 
 def test_package_imports_are_relative(python_file):
@@ -78,7 +105,7 @@ def test_package_imports_are_relative(python_file):
 
 def test_core_imports_no_blender(python_file):
     room, (outside, _) = python_file
-    if room == "core":
+    if room.startswith("core"):
         assert not {name for name in outside if name.split(".")[0] in BLENDER_MODULES}
 
 
@@ -125,21 +152,34 @@ def users_of(*prefixes):
     ]
 
 
+MEDIAL = NATIVE / "medial"
+# What each room of the core may see beside itself: the paper's pipeline, read downwards.
+MAY_INCLUDE = {
+    "base": set(),
+    "delaunay": {"base"},
+    "inside": {"base", "delaunay"},
+    "axis": {"base", "delaunay", "inside"},
+    "cocone": {"base", "delaunay", "inside", "axis"},
+    "sampling": {"base", "inside"},
+    ".": {"base", "delaunay", "inside", "axis", "cocone", "sampling"},  # the analysis, on top
+}
+
+
 def test_cgal_has_one_home():
-    assert users_of("CGAL/") == [NATIVE / "medial" / "triangulation.cpp"]
+    assert users_of("CGAL/") == [MEDIAL / "delaunay" / "triangulation.cpp"]
 
 
 def test_each_part_of_boost_has_one_home():
     """Exact integers of the exact circumcentres, and the tree of points; what CGAL itself includes does not count."""
-    assert users_of("boost/multiprecision/") == [NATIVE / "medial" / "circumcentre.cpp"]
-    assert users_of("boost/geometry/") == [NATIVE / "medial" / "nearest.cpp"]
+    assert users_of("boost/multiprecision/") == [MEDIAL / "delaunay" / "circumcentre.cpp"]
+    assert users_of("boost/geometry/") == [MEDIAL / "base" / "nearest.cpp"]
     assert users_of("boost/") == [
-        NATIVE / "medial" / f"{unit}.cpp" for unit in ("circumcentre", "nearest")
+        MEDIAL / unit for unit in ("base/nearest.cpp", "delaunay/circumcentre.cpp")
     ]
 
 
 def test_the_system_has_one_home():
-    assert users_of("sys/") == [NATIVE / "medial" / "heap.h"]
+    assert users_of("sys/") == [MEDIAL / "base" / "arena.h"]
 
 
 def test_pybind_and_python_have_one_home():
@@ -150,32 +190,40 @@ def test_tbb_and_openmp_have_no_home():
     assert users_of("tbb/", "oneapi/", "omp.h") == []
 
 
-# A unit with a .cpp is a stage; native/CMakeLists.txt lists the stages in pipeline order. Headers alone are vocabulary.
-STAGES = re.findall(
-    r"^\s*medial/(\w+)\.cpp", (NATIVE / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE
+def native_room(path):
+    return path.parent.relative_to(MEDIAL).as_posix()
+
+
+@pytest.mark.parametrize(
+    "path", native_files("medial"), ids=lambda path: path.relative_to(MEDIAL).as_posix()
 )
-VOCABULARY = {path.stem for path in native_files("medial")} - set(STAGES)
-
-
-@pytest.mark.parametrize("path", native_files("medial"), ids=lambda path: path.name)
 def test_native_looks_down_only(path):
-    """A stage includes itself, earlier stages, the vocabulary and the standard library; the vocabulary only itself."""
-    own = {
-        name
-        for name in includes_of(path)
-        if name.endswith(".h") and not name.startswith(("CGAL/", "sys/"))
-    }
-    below = STAGES[: STAGES.index(path.stem) + 1] if path.stem in STAGES else []
-    assert {name.removesuffix(".h") for name in own} <= {*below, *VOCABULARY}
+    """Own headers are named with their room; a unit sees its own room and those that the table allows."""
+    foreign = ("CGAL/", "boost/", "sys/")
+    own = [n for n in includes_of(path) if n.endswith((".h", ".hpp")) and not n.startswith(foreign)]
+    rooms = {str(Path(name).parent.as_posix()) for name in own}
+    room = native_room(path)
+    assert rooms <= {room, *MAY_INCLUDE[room]}
+    assert all((MEDIAL / name).is_file() for name in own)
 
 
-def test_stages_are_listed():
-    """Every .cpp is built; the pipeline begins with the samples and ends with the whole analysis."""
-    assert sorted(STAGES) == sorted(
-        path.stem for path in native_files("medial") if path.suffix == ".cpp"
+def test_every_folder_of_the_core_is_a_room():
+    assert {native_room(path) for path in native_files("medial")} == set(MAY_INCLUDE)
+
+
+def test_the_table_has_no_circle():
+    order = list(MAY_INCLUDE)
+    assert all(
+        order.index(seen) < order.index(room) for room in order for seen in MAY_INCLUDE[room]
     )
-    assert (STAGES[0], STAGES[-1]) == ("samples", "analysis")
-    assert {"vec3", "csr", "parallel", "progress", "errors"} <= VOCABULARY
+
+
+@pytest.mark.parametrize("room", [room for room in MAY_INCLUDE if room != "."])
+def test_each_room_lists_its_units(room):
+    listed = re.findall(
+        r"^\s*(\w+\.cpp)", (MEDIAL / room / "CMakeLists.txt").read_text(), re.MULTILINE
+    )
+    assert sorted(listed) == sorted(path.name for path in (MEDIAL / room).glob("*.cpp"))
 
 
 # --- the readers above see what they should
@@ -184,11 +232,11 @@ def test_stages_are_listed():
 def test_import_reader_resolves_relative_imports():
     source = (
         "import bpy.types\nfrom numpy import array\nfrom . import x\n"
-        "from ..core.export import y\nfrom .. import bl_info"
+        "from ..core.files.write import y\nfrom .. import bl_info"
     )
     outside, inside = imports_of(source, "ui.export")
     assert outside == {"bpy.types", "numpy"}
-    assert inside == {"ui.x", "core.export.y", "bl_info"}
+    assert inside == {"ui.x", "core.files.write.y", "bl_info"}
 
 
 def test_import_reader_resolves_the_package_of_a_room():

@@ -5,16 +5,19 @@ import argparse
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core import cache, free_memory, memory, option_words, sampling
-from medial_axis.core.analysis import compute_axis, refilter
-from medial_axis.core.cache import CACHE, AnalysisCache
+from medial_axis.core.axis import sampling
+from medial_axis.core.axis.compute import compute_axis, refilter
+from medial_axis.core.axis.reconstruction import reconstruct
+from medial_axis.core.axis.sampling_report import report
+from medial_axis.core.axis.shape import Shape
+from medial_axis.core.axis.thinning import fewer_samples, spread_rows
+from medial_axis.core.batch import option_words
 from medial_axis.core.errors import InvalidInputError, MemoryLimitError
-from medial_axis.core.memory import MemoryLimit, memory_needed
-from medial_axis.core.reconstruction import reconstruct
-from medial_axis.core.report import report
+from medial_axis.core.machine import cache, free_memory
+from medial_axis.core.machine import memory_limit as memory
+from medial_axis.core.machine.cache import CACHE, AnalysisCache
+from medial_axis.core.machine.memory_limit import MemoryLimit, memory_needed
 from medial_axis.core.settings import MEGABYTE, OPTIONS, AboveLimit, Sampling, Settings
-from medial_axis.core.shape import Shape
-from medial_axis.core.thinning import fewer_samples, spread_rows
 from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)

@@ -462,7 +462,7 @@ print(len(medial.sample_surface(vertices, triangles, sizing=(sites, np.array([2e
 
 def test_a_wire_needs_memory_for_its_samples_only(medial):
     """Faces a thousand times as long as wide, and five thousand spacings long."""
-    from medial_axis.core import native
+    from medial_axis.core.machine import native
 
     command = [sys.executable, "-c", WIRE, str(native.file())]
     done = subprocess.run(command, capture_output=True, text=True)

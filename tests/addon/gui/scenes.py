@@ -620,7 +620,7 @@ def scene_german():
 def scene_missing_module():
     yield from open_tab()
     look("message")
-    native = addon("core.native")
+    native = addon("core.machine.native")
     assert native.expected_abi() in native.problem() and "found none" in native.problem()
     yield from click(*at((102, 365)))  # the button lies below the message; it is grey
     yield 0.5

@@ -1,0 +1,1 @@
+"""From a shape to its medial axis: sampling, sides, the analysis, and what has to be said about them."""

@@ -1,0 +1,176 @@
+"""How densely samples lie for the shape: epsilon, the hole round a sample as a share of the feature size there.
+
+Dey & Zhao's theorem holds for epsilon-samples: every point of the surface has a sample within epsilon times
+its distance to the medial axis. Here the axis is the one that was computed, so this is an estimate.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..settings import Settings
+from .nearness import near
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+# Samples too sparse for the theorem, as a share of all, that are no reason to sample again.
+DENSE_ENOUGH = 0.1
+# So many of the samples tell shares to a percent, and cost half of what all of a million do.
+LOOKED_AT = 20_000
+_HOLE = 0.85  # radius of the largest holes between even samples, in spacings
+_PLACES = 5  # how many of the worst places are named
+_APART = 0.05  # how far apart these are, as a share of the diagonal
+
+
+@dataclass(frozen=True, eq=False)
+class Density:
+    """Estimates for each of the samples that were looked at, in the order of `_medial.MedialAnalysis.samples`.
+
+    Parameters
+    ----------
+    points : (k, 3) float64
+    spacing : (k,) float64
+        Radius of the hole round the sample.
+    feature_size : (k,) float64
+        Distance to the medial axis; infinite where none was found.
+    edges : (m, 3) float64
+        Samples of sharp edges.
+    finest : float
+        The closest that samples come to each other at sharp edges, where the feature size is 0.
+    limit : float
+        The epsilon that is dense enough.
+    """
+
+    points: NDArray[np.float64]
+    spacing: NDArray[np.float64]
+    feature_size: NDArray[np.float64]
+    edges: NDArray[np.float64]
+    finest: float
+    limit: float
+
+    @cached_property
+    def at_edge(self) -> NDArray[np.bool_]:
+        """(k,) bool: so close to a sharp edge that the finest spacing is not dense enough."""
+        return near(self.points, self.edges, self.finest / self.limit)
+
+    @cached_property
+    def epsilon(self) -> NDArray[np.float64]:
+        """(k,) float64: infinite where there is no axis to compare with, or no end of the hole."""
+        known = np.isfinite(self.feature_size) & (self.feature_size > 0.0)
+        unknown = np.full(len(self.spacing), np.inf)
+        return np.divide(self.spacing, self.feature_size, out=unknown, where=known)
+
+    @cached_property
+    def share(self) -> float:
+        """Share of the samples above the limit, of those that are not at a sharp edge."""
+        return _mean(self.epsilon[~self.at_edge] > self.limit)
+
+    @cached_property
+    def share_of_all(self) -> float:
+        """Share of the samples above the limit, sharp edges included."""
+        return _mean(self.epsilon > self.limit)
+
+    @cached_property
+    def median(self) -> float:
+        return self._quantile(0.5)
+
+    @cached_property
+    def p95(self) -> float:
+        """95 percent of the samples that are not at a sharp edge are below this."""
+        return self._quantile(0.95)
+
+    @property
+    def dense_enough(self) -> bool:
+        return self.share <= DENSE_ENOUGH
+
+    def is_improved_by(self, spacing: float) -> bool:
+        """Whether even samples so far apart are denser where it matters; in noise they are not."""
+        area = np.minimum(self.spacing, float(np.ptp(self.points, axis=0).max())) ** 2
+        too_wide = (self.epsilon > self.limit) & (self.spacing > _HOLE * spacing)
+        return area[too_wide].sum() > DENSE_ENOUGH * area.sum()
+
+    @cached_property
+    def worst(self) -> list[tuple[tuple[float, ...], float]]:
+        """The worst places, a position and epsilon each, apart from each other, not at sharp edges."""
+        apart = _APART * float(np.linalg.norm(np.ptp(self.points, axis=0)))
+        left = np.flatnonzero(~self.at_edge)
+        left = left[np.argsort(-self.epsilon[left], kind="stable")]
+        found = []
+        while len(left) and len(found) < _PLACES:
+            place = self.points[left[0]]
+            found.append((tuple(place.tolist()), float(self.epsilon[left[0]])))
+            left = left[np.linalg.norm(self.points[left] - place, axis=1) > apart]
+        return found
+
+    def __str__(self) -> str:
+        text = (
+            f"Epsilon: median {_figure(self.median)}, 95 % below {_figure(self.p95)}, "
+            f"{percent(self.share)} above {self.limit:g}"
+        )
+        if self.at_edge.any():
+            text += f"; with sharp edges {percent(self.share_of_all)}"
+        return text
+
+    def _quantile(self, share: float) -> float:
+        counted = self.epsilon if self.at_edge.all() else self.epsilon[~self.at_edge]
+        rank = math.ceil(share * (len(counted) - 1))  # the higher one: some are infinite
+        return float(np.partition(counted, rank)[rank])
+
+
+def estimate(
+    analysis: Any,
+    points: NDArray[np.float64],
+    edges: NDArray[np.float64],
+    finest: float,
+    limit: float,
+    most: int | None = None,
+) -> Density:
+    """The density of an analysis, by the facets that the published thresholds select, whatever is shown.
+
+    Parameters
+    ----------
+    analysis : _medial.MedialAnalysis
+    points : (n, 3) float64
+        What it is of.
+    edges : (m, 3) float64
+    finest, limit : float
+    most : int, optional
+        Look at so many samples; default all.
+    """
+    published, rows = Settings(), analysis.samples
+    some = _spread(len(rows), most) if most and most < len(rows) else slice(None)
+    return Density(
+        points=points[rows[some]],
+        spacing=analysis.spacing[some],
+        feature_size=analysis.feature_size(published.theta, published.rho, rows=rows[some]),
+        edges=edges,
+        finest=finest,
+        limit=limit,
+    )
+
+
+def _spread(count: int, most: int) -> NDArray[np.intp]:
+    """At most so many numbers below `count`, spread evenly but in step with no grid: multiples of the golden ratio."""
+    return np.unique(
+        (np.arange(most) * ((math.sqrt(5.0) - 1.0) / 2.0) % 1.0 * count).astype(np.intp)
+    )
+
+
+def percent(share: float) -> str:
+    """'0 %', '0.3 %', '12 %'."""
+    places = 0 if share == 0.0 or share >= 0.095 else 1
+    return f"{100 * share:.{places}f} %"
+
+
+def _figure(value: float) -> str:
+    return f"{value:.2f}" if np.isfinite(value) else "unknown"
+
+
+def _mean(flags: NDArray[np.bool_]) -> float:
+    return float(flags.mean()) if len(flags) else 0.0

@@ -1,0 +1,113 @@
+"""Fewer points for less memory: fewer samples of the faces, or some of the points of a cloud."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import InvalidInputError, MemoryLimitError
+from ..machine.memory_limit import MemoryLimit, megabytes, memory_needed
+from ..settings import OPTIONS, AboveLimit, Sampling
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..settings import Settings
+    from .shape import Shape
+
+_KEPT = 0.95  # of what fits, for a number of samples is met within some percent
+_PER_OCTAVE = 8  # grids that are tried
+_OCTAVES = 20
+
+
+def thinned_rows(
+    points: NDArray[np.float64], limit: MemoryLimit, error: MemoryLimitError
+) -> tuple[NDArray[np.int32], str]:
+    """(k,) rows of a cloud that can be analysed within a limit, ascending, and a sentence that says so.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    limit : MemoryLimit
+    error : MemoryLimitError
+        What an analysis of all of them raised; it is raised again when nothing may be thinned.
+
+    Raises
+    ------
+    MemoryLimitError
+    InvalidInputError
+        A coordinate is not finite.
+    """
+    rows = spread_rows(points, _most(limit, error))
+    return rows, (
+        f"{error.points:,} points need about {_needed(error)}, more than {limit}: {len(rows):,} of "
+        f"the {len(points):,} points, evenly spread, were kept"
+    )
+
+
+def fewer_samples(
+    shape: Shape, settings: Settings, first: int, limit: MemoryLimit, error: MemoryLimitError
+) -> tuple[Settings, str]:
+    """Settings by which the samples of the faces can be analysed within a limit, and a sentence that says so.
+
+    Parameters
+    ----------
+    shape : Shape
+    settings : Settings
+    first : int
+        How many samples the first pass would have.
+    limit, error
+        As for `thinned_rows`.
+
+    Raises
+    ------
+    MemoryLimitError
+    """
+    most, vertices = min(_most(limit, error), OPTIONS["samples"].maximum), len(shape.points)
+    sentence = (
+        f"{error.points:,} points need about {_needed(error)}, more than {limit}: at most {most:,} "
+        "samples of the surface were taken"
+    )
+    if settings.sampling is Sampling.VERTICES or error.points == vertices > most:
+        settings, first = replace(settings, sampling=Sampling.SURFACE), vertices
+    if first > most:
+        settings = replace(settings, samples=most, spacing=0.0)
+    keep_vertices = settings.keep_vertices and vertices < most
+    budget = min(settings.budget, most)
+    return replace(settings, budget=budget, keep_vertices=keep_vertices), sentence
+
+
+def spread_rows(points: NDArray[np.float64], most: int) -> NDArray[np.int32]:
+    """(k,) rows, ascending: the first point in each cell of the finest grid that leaves at most so many.
+
+    Every point is nearer to one of them than the diagonal of a cell.
+    """
+    if not np.isfinite(points).all():
+        raise InvalidInputError(
+            "Expected finite coordinates, found NaN or infinity; repair or remove these points"
+        )
+    low, extent = points.min(axis=0), float(np.ptp(points, axis=0).max()) or 1.0
+
+    def rows(step: int) -> NDArray[np.intp]:
+        cells = int(2 ** (step / _PER_OCTAVE))
+        x, y, z = np.minimum((points - low) * (cells / extent), cells - 1).astype(np.int64).T
+        return np.unique((x * cells + y) * cells + z, return_index=True)[1]
+
+    steps = range(_PER_OCTAVE * _OCTAVES)
+    finest = bisect_right(steps, most, key=lambda step: len(rows(step))) - 1
+    return np.sort(rows(finest)).astype(np.int32)
+
+
+def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
+    """Points that are left; the error again when these are none, or nothing may be thinned."""
+    most = int(_KEPT * limit.points)
+    if limit.above_limit is not AboveLimit.THIN or most < OPTIONS["samples"].minimum:
+        raise error
+    return most
+
+
+def _needed(error: MemoryLimitError) -> str:
+    return megabytes(memory_needed(error.points))

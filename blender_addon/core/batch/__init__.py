@@ -1,0 +1,1 @@
+"""Many axes, one after the other: names of files, frames, stamps, and options as words."""

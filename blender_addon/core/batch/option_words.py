@@ -1,0 +1,100 @@
+"""The options of core.settings as words of a command line, and back."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ..machine.memory_limit import MemoryLimit
+from ..settings import LIMITS, OPTIONS, Choice, Settings, Switch
+
+_UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB"}
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """An argument `--name` for every option of the method; what is not given is left to Settings."""
+    _add(parser, OPTIONS)
+
+
+def add_limits(parser: argparse.ArgumentParser) -> None:
+    """As `add_options`, for MemoryLimit."""
+    _add(parser, LIMITS)
+
+
+def _add(parser: argparse.ArgumentParser, options: Mapping[str, Any]) -> None:
+    for name, option in options.items():
+        flag = "--" + name.replace("_", "-")
+        words = {"dest": name, "default": argparse.SUPPRESS}
+        if isinstance(option, Switch):
+            words["action"] = argparse.BooleanOptionalAction
+            shown = "on" if option.default else "off"
+        elif isinstance(option, Choice):
+            words["choices"] = [_word(member) for member in option.items]
+            words["type"] = lambda text: text.lower().replace("_", "-")
+            shown = _word(option.default)
+        else:
+            words["type"] = type(option.default)
+            words["metavar"] = _UNITS.get(option.unit, name[0].upper())
+            shown = f"{_outward(option, option.default):g}"
+        parser.add_argument(flag, help=_help(option, shown), **words)
+
+
+def settings_from(words: argparse.Namespace) -> Settings:
+    """The settings that a parsed command line means.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+    return Settings(**_given(words, OPTIONS))
+
+
+def limit_from(words: argparse.Namespace) -> MemoryLimit:
+    """The limit that a parsed command line means.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+    return MemoryLimit(**_given(words, LIMITS))
+
+
+def as_words(settings: Settings) -> dict[str, str | float | bool]:
+    """{option: value} as one would write it on the command line."""
+    return {name: _outward(option, getattr(settings, name)) for name, option in OPTIONS.items()}
+
+
+def _given(words: argparse.Namespace, options: Mapping[str, Any]) -> dict[str, Any]:
+    given = {name: value for name, value in vars(words).items() if name in options}
+    return {name: _inward(options[name], value) for name, value in given.items()}
+
+
+def _help(option: Any, shown: str) -> str:
+    """argparse replaces % itself."""
+    return f"{option.description} (default: {shown})".replace("%", "%%")
+
+
+def _word(member: Any) -> str:
+    return member.name.lower().replace("_", "-")
+
+
+def _outward(option: Any, value: Any) -> Any:
+    if isinstance(option, Choice):
+        return _word(value)
+    if getattr(option, "unit", "") == "rad":
+        return float(f"{math.degrees(value):.12g}")
+    return value
+
+
+def _inward(option: Any, value: Any) -> Any:
+    if isinstance(option, Choice):
+        return next(member for member in option.items if _word(member) == value)
+    if getattr(option, "unit", "") == "rad":
+        radians = math.radians(value)
+        known = (option.default, option.minimum, option.maximum)
+        return next((x for x in known if math.isclose(x, radians, rel_tol=1e-12)), radians)
+    return value

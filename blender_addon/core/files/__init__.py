@@ -1,0 +1,1 @@
+"""Points, meshes and axes as files; docs/formats.md describes them."""

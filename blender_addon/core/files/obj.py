@@ -1,0 +1,76 @@
+"""`.obj`: points and polygons as text (docs/formats.md)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ReadError
+from .imported import ImportedPoints, checked
+from .text import open_file
+
+
+def read_obj(path: str | os.PathLike) -> ImportedPoints:
+    """Points and faces; normals only of points without faces, one each, as scans have them.
+
+    Normals of faces belong to their corners, of which a point has several.
+    """
+    name = Path(path).name
+    points: list[list[float]] = []
+    normals: list[list[float]] = []
+    sizes: list[int] = []
+    corners: list[int] = []
+    with open_file(path, "r", encoding="latin-1") as stream:
+        for number, words in _statements(stream):
+            try:
+                if words[0] == "v":
+                    points.append(_three(words))
+                elif words[0] == "vn":
+                    normals.append(_three(words))
+                elif words[0] == "f":
+                    face = [_corner(word, len(points)) for word in words[1:]]
+                    sizes.append(len(face))
+                    corners += face
+            except ValueError:
+                raise ReadError(
+                    f"Expected numbers after '{words[0]}' in line {number} of '{name}', found "
+                    f"{' '.join(words[1:])[:24]!a}; mend that line"
+                ) from None
+    of_points = bool(points) and len(normals) == len(points) and not sizes
+    return checked(
+        name,
+        np.array(points, np.float64).reshape(-1, 3),
+        np.array(normals, np.float64) if of_points else None,
+        np.array(sizes, np.int64),
+        np.array(corners, np.int64),
+    )
+
+
+def _statements(stream: Iterator[str]) -> Iterator[tuple[int, list[str]]]:
+    """The words of every statement with the number of its last line; a backslash continues a line."""
+    begun = ""
+    for number, line in enumerate(stream, 1):
+        begun += line.partition("#")[0].rstrip()
+        if begun.endswith("\\"):
+            begun = begun[:-1] + " "
+            continue
+        words = begun.split()
+        begun = ""
+        if words:
+            yield number, words
+
+
+def _three(words: list[str]) -> list[float]:
+    """x y z; weights and colours behind them are left."""
+    if len(words) < 4:
+        raise ValueError
+    return [float(word) for word in words[1:4]]
+
+
+def _corner(word: str, points: int) -> int:
+    """'7/2/3' is the seventh point, '-1' the last one so far."""
+    corner = int(word.partition("/")[0])
+    return corner - 1 if corner > 0 else points + corner if corner < 0 else -1

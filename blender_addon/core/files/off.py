@@ -1,0 +1,110 @@
+"""`.off`: points and polygons as text, with a header OFF, NOFF, COFF, STOFF or several of these (docs/formats.md)."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import ReadError
+from .imported import ImportedPoints, are_normals, left_out
+from .text import Lines, Rows
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_HEADER = re.compile(r"(?:ST|C|N)*OFF")
+
+
+def read_off(lines: Lines) -> ImportedPoints:
+    """Colours and texture coordinates are left."""
+    kind = _read_header(lines)
+    points, faces = _read_counts(lines)
+    rows = lines.rows()
+    if points == 0:
+        raise ReadError(f"Expected points, found none in '{lines.name}'; choose another file")
+    if len(rows) != points + faces:
+        raise ReadError(
+            f"Expected {points} lines of points and {faces} of faces in '{lines.name}', as its header "
+            f"says, found {len(rows)} lines; take the file from its source again"
+        )
+    least, what = (6, "x y z nx ny nz") if "N" in kind else (3, "x y z")
+    table = rows.part(0, points).table(least, what)
+    normals = _normals(table, "C" in kind, lines.name) if "N" in kind else None
+    offsets, corners, small = _read_faces(rows.part(points, points + faces), points)
+    warnings = left_out(table.shape[1], normals)
+    if small:
+        warnings.append(f"Left out faces of fewer than three corners: {small:,}")
+    return ImportedPoints(table[:, :3], normals, offsets, corners, tuple(warnings))
+
+
+def _read_header(lines: Lines) -> str:
+    """The keyword before OFF, such as CN; what follows in its line is left to be read."""
+    keyword, *rest = lines.line.split() or [""]
+    if not _HEADER.fullmatch(keyword):
+        raise ReadError(
+            f"Expected OFF, NOFF, COFF or STOFF in {lines.place()}, found {keyword[:24]!a}; "
+            "only OFF files in three dimensions are read"
+        )
+    if rest[:1] == ["BINARY"]:
+        raise ReadError(
+            f"Expected OFF as text, found OFF BINARY in {lines.place()}; save it as text"
+        )
+    lines.line = " ".join(rest)
+    if not rest:
+        lines.advance()
+    return keyword.removesuffix("OFF")
+
+
+def _read_counts(lines: Lines) -> tuple[int, int]:
+    """How many points and faces there are; that of edges is not used by anyone."""
+    words = lines.line.split()
+    if len(words) not in (2, 3) or not all(re.fullmatch("[0-9]{1,18}", word) for word in words):
+        raise ReadError(
+            f"Expected the numbers of points, faces and edges in {lines.place()}, "
+            f"found {lines.line.strip()[:24]!a}; mend that line"
+        )
+    lines.advance()
+    return int(words[0]), int(words[1])
+
+
+def _normals(table: NDArray[np.float64], coloured: bool, name: str) -> NDArray[np.float64]:
+    """Columns 4 to 6; beside colours Geomview writes normals first and MeshLab last."""
+    if not coloured:
+        return table[:, 3:6]
+    places = (table[:, first : first + 3] for first in (3, 6, 7))
+    found = next((x for x in places if x.shape[1] == 3 and are_normals(x)), None)
+    if found is None:
+        raise ReadError(
+            f"Expected normals of length 1 beside the colours in '{name}', found none; "
+            "save it without colours"
+        )
+    return found
+
+
+def _read_faces(rows: Rows, points: int) -> tuple[NDArray[np.int32], NDArray[np.int32], int]:
+    """Offsets and corners of the polygons, and how many had fewer than three corners and were left.
+
+    A line holds the number of corners, the corners, and perhaps a colour.
+    """
+    starts, words = rows.offsets[:-1], np.diff(rows.offsets)
+    sizes = rows.values[starts]
+    bad = np.flatnonzero((sizes != np.floor(sizes)) | (sizes < 0) | (sizes >= words))
+    if len(bad):
+        raise ReadError(
+            f"Expected a number of corners and as many corners in {rows.place(bad[0])}, "
+            f"found {sizes[bad[0]]:.17g} and {words[bad[0]] - 1}; mend that line"
+        )
+    kept = np.flatnonzero(sizes >= 3)
+    offsets = np.concatenate([[0], np.cumsum(sizes[kept], dtype=np.int64)])
+    first = np.repeat(starts[kept] + 1 - offsets[:-1], np.diff(offsets))
+    corners = rows.values[first + np.arange(offsets[-1])]
+    bad = np.flatnonzero((corners != np.floor(corners)) | (corners < 0) | (corners >= points))
+    if len(bad):
+        face = kept[np.searchsorted(offsets, bad[0], side="right") - 1]
+        raise ReadError(
+            f"Expected corners from 0 to {points - 1} in {rows.place(face)}, "
+            f"found {corners[bad[0]]:.17g}; mend that line"
+        )
+    return offsets.astype(np.int32), corners.astype(np.int32), len(rows) - len(kept)

@@ -1,0 +1,302 @@
+"""`.ply`: points and polygons, as text or binary (docs/formats.md)."""
+
+from __future__ import annotations
+
+import io
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
+
+import numpy as np
+
+from ..errors import ReadError
+from .imported import ImportedPoints, checked
+from .text import Lines, Rows, open_file
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_TYPES = {
+    **dict.fromkeys(("char", "int8"), "i1"),
+    **dict.fromkeys(("uchar", "uint8"), "u1"),
+    **dict.fromkeys(("short", "int16"), "i2"),
+    **dict.fromkeys(("ushort", "uint16"), "u2"),
+    **dict.fromkeys(("int", "int32"), "i4"),
+    **dict.fromkeys(("uint", "uint32"), "u4"),
+    **dict.fromkeys(("float", "float32"), "f4"),
+    **dict.fromkeys(("double", "float64"), "f8"),
+}
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_POSITION, _NORMAL = ("x", "y", "z"), ("nx", "ny", "nz")
+_CORNERS = ("vertex_indices", "vertex_index")
+_LONGEST = 1 << 16  # bytes of a line of the header; a file that is no PLY may have no lines
+
+
+@dataclass
+class _Property:
+    name: str
+    type: str  # of NumPy, without byte order
+    count: str = ""  # type of the length of a list; "" for a single number
+
+
+@dataclass
+class _Element:
+    name: str
+    rows: int
+    properties: list[_Property] = field(default_factory=list)
+
+    @property
+    def lists(self) -> list[_Property]:
+        return [entry for entry in self.properties if entry.count]
+
+
+@dataclass
+class _Table:
+    """The rows of an element: columns of single numbers, and one list per row, of corners."""
+
+    columns: dict[str, NDArray]
+    sizes: NDArray
+    corners: NDArray
+
+
+def read_ply(path: str | os.PathLike) -> ImportedPoints:
+    """Only positions, normals and faces are read."""
+    name = Path(path).name
+    with open_file(path) as stream:
+        order, elements, lines = _read_header(stream, name)
+        body = _Binary(stream.read(), order, name) if order else _Text(stream, lines, name)
+        tables = {}
+        for element in elements:
+            tables[element.name] = body.read(element)
+            if {"vertex", "face"} <= tables.keys():
+                break
+    return _found(tables, name)
+
+
+def _found(tables: dict[str, _Table], name: str) -> ImportedPoints:
+    vertex, face = tables.get("vertex"), tables.get("face")
+    if vertex is None or not set(_POSITION) <= vertex.columns.keys():
+        raise ReadError(
+            f"Expected an element 'vertex' with x, y and z in '{name}', found none; "
+            "choose another file"
+        )
+    points, normals = (
+        np.column_stack([vertex.columns[axis] for axis in axes]).astype(np.float64)
+        if set(axes) <= vertex.columns.keys()
+        else None
+        for axes in (_POSITION, _NORMAL)
+    )
+    sizes, corners = (None, None) if face is None else (face.sizes, face.corners)
+    return checked(name, points, normals, sizes, corners)
+
+
+# --- header
+
+
+def _read_header(stream: BinaryIO, name: str) -> tuple[str, list[_Element], int]:
+    """Byte order ("" for text), the elements, and how many lines that were."""
+    if stream.readline(_LONGEST).strip() != b"ply":
+        raise ReadError(f"Expected 'ply' as the first line of '{name}', found none; check the file")
+    order, elements, lines = None, [], 1
+    while True:
+        line = stream.readline(_LONGEST)
+        words = line.decode("latin-1").split()
+        lines += 1
+        try:
+            if words[:1] == ["end_header"]:
+                break
+            if words and words[0] not in ("comment", "obj_info"):
+                order = _take(words, order, elements)
+        except (KeyError, IndexError, ValueError):
+            words = []
+        if not line or not words:
+            raise ReadError(
+                f"Expected a header of PLY in line {lines} of '{name}', found "
+                f"{line[:24].decode('latin-1')!a}; take the file from its source again"
+            )
+    if order is None:
+        raise ReadError(f"Expected a line 'format' in the header of '{name}', found none; add it")
+    return order, elements, lines
+
+
+def _take(words: list[str], order: str | None, elements: list[_Element]) -> str | None:
+    """Take one line of the header; the byte order as far as it is known."""
+    if words[0] == "format":
+        return _ORDERS[words[1]]
+    if words[0] == "element":
+        elements.append(_Element(words[1], int(words[2])))
+        if elements[-1].rows < 0:
+            raise ValueError
+    elif words[:2] == ["property", "list"]:
+        entry = _Property(words[4], _TYPES[words[3]], _TYPES[words[2]])
+        if entry.count.startswith("f"):
+            raise ValueError
+        elements[-1].properties.append(entry)
+    elif words[0] == "property":
+        elements[-1].properties.append(_Property(words[2], _TYPES[words[1]]))
+    else:
+        raise ValueError
+    return order
+
+
+# --- text
+
+
+class _Text:
+    """The elements of a text file, a row per line."""
+
+    def __init__(self, stream: BinaryIO, header: int, name: str) -> None:
+        text = io.TextIOWrapper(stream, encoding="latin-1")
+        lines = Lines(text, name)
+        lines.number += header
+        self._rows, self._next, self._name = lines.rows(), 0, name
+        text.detach()
+
+    def read(self, element: _Element) -> _Table:
+        rows = self._rows.part(self._next, self._next + element.rows)
+        self._next += element.rows
+        if len(rows) != element.rows:
+            raise _too_short(self._name, element)
+        if len(rows) == 0:
+            return _Table({}, np.zeros(0, np.int64), np.zeros(0))
+        if not element.lists:
+            table = rows.table(len(element.properties), f"{len(element.properties)} numbers")
+            columns = {entry.name: table[:, i] for i, entry in enumerate(element.properties)}
+            return _Table(columns, np.zeros(0, np.int64), np.zeros(0))
+        return self._read_lists(element, rows)
+
+    def _read_lists(self, element: _Element, rows: Rows) -> _Table:
+        """The corners of each row; what stands behind them is left."""
+        before = _numbers_before_corners(element, self._name)
+        starts, words = rows.offsets[:-1] + before, np.diff(rows.offsets) - before
+        sizes = np.where(words > 0, rows.values[np.minimum(starts, len(rows.values) - 1)], -1)
+        bad = np.flatnonzero((sizes != np.floor(sizes)) | (sizes < 0) | (sizes >= words))
+        if len(bad):
+            raise ReadError(
+                f"Expected a number of corners and as many corners in {rows.place(bad[0])}, found "
+                "another number of them; mend that line"
+            )
+        sizes = sizes.astype(np.int64)
+        first = np.repeat(starts + 1 - (np.cumsum(sizes) - sizes), sizes)
+        corners = rows.values[first + np.arange(sizes.sum())]
+        bad = np.flatnonzero(corners != np.floor(corners))
+        if len(bad):
+            raise ReadError(
+                f"Expected whole numbers as corners in '{self._name}', found "
+                f"{corners[bad[0]]:.17g}; take the file from its source again"
+            )
+        return _Table({}, sizes, corners)
+
+
+def _numbers_before_corners(element: _Element, name: str) -> int:
+    if element.name != "face":
+        return 0  # its lists are not used
+    for before, entry in enumerate(element.properties):
+        if entry.count and entry.name in _CORNERS:
+            return before
+        if entry.count:
+            break
+    raise ReadError(
+        f"Expected the list {_CORNERS[0]} before other lists of the faces of '{name}', found "
+        f"'{element.properties[0].name}'; save it with the corners first"
+    )
+
+
+def _too_short(name: str, element: _Element) -> ReadError:
+    return ReadError(
+        f"Expected {element.rows:,} rows of '{element.name}' in '{name}', as its header says, "
+        "found the end of the file; take it from its source again"
+    )
+
+
+# --- binary
+
+
+class _Binary:
+    """The elements of a binary file, one after the other."""
+
+    def __init__(self, data: bytes, order: str, name: str) -> None:
+        self._data, self._order, self._name = data, order, name
+        self._at = 0
+
+    def read(self, element: _Element) -> _Table:
+        """Rows of one length are read at once; others row by row."""
+        if not element.lists:
+            rows = self._take(element, self._row_type(element, ()))
+            columns = {entry.name: rows[str(i)] for i, entry in enumerate(element.properties)}
+            return _Table(columns, np.zeros(0, np.int64), np.zeros(0))
+        place = self._place_of_corners(element)
+        return self._read_even(element, place) or self._read_uneven(element, place)
+
+    def _row_type(self, element: _Element, lengths: tuple[int, ...]) -> np.dtype:
+        """The layout of a row whose lists have these lengths; fields are '0', 'n0' for counts."""
+        left, fields = list(lengths), []
+        for i, entry in enumerate(element.properties):
+            kind = self._order + entry.type
+            if entry.count:
+                fields.append((f"n{i}", self._order + entry.count))
+                fields.append((f"{i}", kind, (left.pop(0),)))
+            else:
+                fields.append((f"{i}", kind))
+        return np.dtype(fields)
+
+    def _take(self, element: _Element, row: np.dtype) -> NDArray:
+        if self._at + element.rows * row.itemsize > len(self._data):
+            raise _too_short(self._name, element)
+        rows = np.frombuffer(self._data, row, element.rows, self._at)
+        self._at += rows.nbytes
+        return rows
+
+    def _place_of_corners(self, element: _Element) -> int:
+        """Which property holds the corners; of other elements than faces any list, which is not used."""
+        for i, entry in enumerate(element.properties):
+            if entry.count and (entry.name in _CORNERS or element.name != "face"):
+                return i
+        raise ReadError(
+            f"Expected the list {_CORNERS[0]} of the faces of '{self._name}', found none; "
+            "choose another file"
+        )
+
+    def _read_even(self, element: _Element, place: int) -> _Table | None:
+        """All rows at once, when all their lists are as long as those of the first; else None."""
+        if element.rows == 0:
+            return _Table({}, np.zeros(0, np.int64), np.zeros(0))
+        lengths = tuple(len(part) for part in self._lists(element))
+        row, start = self._row_type(element, lengths), self._at
+        if start + element.rows * row.itemsize > len(self._data):
+            return None
+        rows = self._take(element, row)
+        counts = [f"n{i}" for i, entry in enumerate(element.properties) if entry.count]
+        if any((rows[n] != length).any() for n, length in zip(counts, lengths, strict=True)):
+            self._at = start
+            return None
+        corners = rows[str(place)]
+        return _Table({}, np.full(len(rows), corners.shape[1]), corners.ravel())
+
+    def _read_uneven(self, element: _Element, place: int) -> _Table:
+        which = [i for i, entry in enumerate(element.properties) if entry.count].index(place)
+        found = []
+        for _ in range(element.rows):
+            found.append(self._lists(element, keep=True)[which])
+        sizes = np.fromiter(map(len, found), np.int64, len(found))
+        return _Table({}, sizes, np.concatenate(found))
+
+    def _lists(self, element: _Element, keep: bool = False) -> list[NDArray]:
+        """The lists of the next row, which is taken when it is to be kept."""
+        at, lists = self._at, []
+        try:
+            for entry in element.properties:
+                length = 1
+                if entry.count:
+                    count = np.frombuffer(self._data, self._order + entry.count, 1, at)
+                    length, at = int(count[0]), at + count.nbytes
+                values = np.frombuffer(self._data, self._order + entry.type, max(length, 0), at)
+                at += values.nbytes
+                if entry.count:
+                    lists.append(values)
+        except ValueError:
+            raise _too_short(self._name, element) from None
+        if keep:
+            self._at = at
+        return lists

@@ -1,0 +1,62 @@
+"""Points from files, with normals and polygons where a file has them (docs/formats.md)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from ..errors import OutOfMemoryError, ReadError
+from .arrays import read_npy, read_npz
+from .imported import ImportedPoints
+from .obj import read_obj
+from .off import read_off
+from .ply import read_ply
+from .stl import read_stl
+from .text import Lines, open_lines
+from .xyz import read_xyz, read_xyzn
+
+
+def _of_lines(read: Callable[[Lines], ImportedPoints]) -> Callable[[Path], ImportedPoints]:
+    def read_file(path: Path) -> ImportedPoints:
+        with open_lines(path) as lines:
+            return read(lines)
+
+    return read_file
+
+
+READERS: dict[str, Callable[[Path], ImportedPoints]] = {
+    ".xyz": _of_lines(read_xyz),
+    ".xyzn": _of_lines(read_xyzn),
+    ".off": _of_lines(read_off),
+    ".ply": read_ply,
+    ".obj": read_obj,
+    ".stl": read_stl,
+    ".npy": read_npy,
+    ".npz": read_npz,
+}
+
+
+def import_points(path: str | os.PathLike) -> ImportedPoints:
+    """Read points, and normals and polygons where the file has them; the extension says which kind it is.
+
+    Raises
+    ------
+    ReadError
+        Unknown extension, the system refuses, or the file is not what it says; all or nothing is read.
+    OutOfMemoryError
+    """
+    path = Path(path)
+    suffix = path.suffix.lower()
+    if suffix not in READERS:
+        raise ReadError(
+            f"Expected a file name that ends in {', '.join(READERS)}, found '{path.name}'; "
+            "choose another file"
+        )
+    try:
+        return READERS[suffix](path)
+    except MemoryError as error:
+        raise OutOfMemoryError(
+            f"Expected enough memory for the points of '{path.name}', found too little; "
+            "close other programs or use fewer points"
+        ) from error

@@ -1,0 +1,21 @@
+"""A file as the shape that the method takes: points, triangles, normals."""
+
+from __future__ import annotations
+
+import os
+
+from ..axis.shape import Shape
+from .read import import_points
+from .triangulate import triangulate
+
+
+def read_shape(path: str | os.PathLike) -> tuple[Shape, tuple[str, ...]]:
+    """What a file holds, and what was left in it, a sentence each.
+
+    Raises
+    ------
+    ReadError, OutOfMemoryError
+    """
+    found = import_points(path)
+    triangles = triangulate(found.vertices, found.face_offsets, found.face_vertices, convex=False)
+    return Shape(found.vertices, triangles, found.normals), found.warnings

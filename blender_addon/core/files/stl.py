@@ -1,0 +1,67 @@
+"""`.stl`: triangles, as text or binary (docs/formats.md)."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import ReadError
+from .imported import ImportedPoints, checked
+from .text import open_file
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_HEADER = 84  # bytes before the triangles of a binary file; the last four count them
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("colour", "<u2")])
+_VERTEX = re.compile(rb"(?i)\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
+
+
+def read_stl(path: str | os.PathLike) -> ImportedPoints:
+    """Corners with equal coordinates become one point, in the order of the file."""
+    name = Path(path).name
+    with open_file(path) as stream:
+        data = stream.read()
+    count = int.from_bytes(data[_HEADER - 4 : _HEADER], "little")
+    if len(data) >= _HEADER and len(data) == _HEADER + count * _TRIANGLE.itemsize:
+        corners = np.frombuffer(data, _TRIANGLE, count, _HEADER)["corners"].reshape(-1, 3)
+    elif data[:5].lower() == b"solid":
+        corners = _read_text(data, name)
+    else:
+        raise ReadError(
+            f"Expected 'solid' at the start of '{name}', or {count:,} triangles as its header "
+            f"says, found {len(data):,} bytes; take the file from its source again"
+        )
+    points, rows = _merged(corners.astype(np.float64))
+    return checked(name, points, None, np.full(len(rows) // 3, 3), rows)
+
+
+def _read_text(data: bytes, name: str) -> NDArray[np.float64]:
+    words = _VERTEX.findall(data)
+    if len(words) % 3 or len(words) != 3 * len(re.findall(rb"(?i)\bendfacet\b", data)):
+        raise ReadError(
+            f"Expected three corners of each facet in '{name}', found {len(words):,} corners in "
+            "all; take the file from its source again"
+        )
+    try:
+        return np.array(words).astype(np.float64).reshape(-1, 3)
+    except ValueError as error:
+        raise ReadError(
+            f"Expected three numbers after each 'vertex' in '{name}', but {error}; mend that line"
+        ) from error
+
+
+def _merged(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The distinct rows in the order in which they appear first, and the row of each corner."""
+    if len(corners) == 0:
+        return corners, np.zeros(0, np.int64)
+    corners = corners + 0.0  # -0 is 0
+    _, first, inverse = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    place = np.empty(len(order), np.int64)
+    place[order] = np.arange(len(order))
+    return corners[first[order]], place[inverse.ravel()]

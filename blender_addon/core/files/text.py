@@ -1,0 +1,225 @@
+"""Text files of numbers, one row per line: what `.xyz` and `.off` have in common.
+
+From `#` or `//` to the end of a line is comment. Comments and blank lines are passed over. Any byte
+may stand in a comment, so that bytes are characters here (Latin-1); numbers are ASCII.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, TextIO
+
+import numpy as np
+
+from ..errors import ReadError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_CHUNK = 1 << 17  # characters parsed at once; few, so that they stay in the cache
+_BYTE_ORDER_MARK = "\xef\xbb\xbf"  # of UTF-8
+_COMMENT = re.compile(r"(?:#|//).*")
+_BLANK = np.isin(np.arange(256), list(b" \t\n\r\v\f"))  # as bytes.split() sees them
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Lines of numbers.
+
+    Parameters
+    ----------
+    values : (t,) float64
+        Finite, line after line.
+    offsets : (r + 1,) int64
+        Row i is `values[offsets[i]:offsets[i + 1]]`, never empty.
+    lines : (r,) int64
+        Number of each line in the file, counted from 1.
+    name : str
+        Of the file.
+    """
+
+    values: NDArray[np.float64]
+    offsets: NDArray[np.int64]
+    lines: NDArray[np.int64]
+    name: str
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+    def part(self, start: int, stop: int) -> Rows:
+        """Rows `start` to `stop`, without the latter."""
+        offsets = self.offsets[start : stop + 1]
+        values = self.values[offsets[0] : offsets[-1]]
+        return Rows(values, offsets - offsets[0], self.lines[start:stop], self.name)
+
+    def table(self, least: int, what: str) -> NDArray[np.float64]:
+        """(r, k) the rows as a table of points; k is at least `least`, the columns called `what`."""
+        widths = np.diff(self.offsets)
+        if widths[0] < least:
+            raise ReadError(
+                f"Expected {what}, at least {least} numbers, in {self.place(0)}, found {widths[0]}; "
+                "write one point per line"
+            )
+        other = np.flatnonzero(widths != widths[0])
+        if len(other):
+            raise ReadError(
+                f"Expected {widths[0]} numbers in {self.place(other[0])}, as in line {self.lines[0]}, "
+                f"found {widths[other[0]]}; mend that line or take the file from its source again"
+            )
+        return self.values.reshape(len(self), -1)
+
+    def place(self, row: int) -> str:
+        """Where a row is, for messages."""
+        return f"line {self.lines[row]} of '{self.name}'"
+
+
+class Lines:
+    """The lines of a text file that hold something, one after the other.
+
+    Attributes
+    ----------
+    line : str
+        The first one that was not taken yet, without comment; empty at the end of the file.
+    number : int
+        Of that line in the file, counted from 1.
+    name : str
+        Of the file.
+    """
+
+    def __init__(self, stream: TextIO, name: str) -> None:
+        self._stream = stream
+        self.name = name
+        self.number = 1
+        self.line = _COMMENT.sub("", stream.readline().removeprefix(_BYTE_ORDER_MARK))
+        if "\0" in self.line:
+            raise ReadError(
+                f"Expected text in '{name}', found a binary file or UTF-16; save it as UTF-8 text"
+            )
+        if not self.line.strip():
+            self.advance()
+
+    def advance(self) -> None:
+        """Take the line."""
+        while raw := self._stream.readline():
+            self.number += 1
+            self.line = _COMMENT.sub("", raw)
+            if self.line.strip():
+                return
+        self.line = ""
+
+    def place(self) -> str:
+        """Where the line is, for messages."""
+        return f"line {self.number} of '{self.name}'"
+
+    def rows(self, delimiter: str = "") -> Rows:
+        """Take all lines that are left: numbers with `delimiter`, or else blanks, between them."""
+        parts = [self._parse(text, first, delimiter) for first, text in self._chunks()]
+        values, widths, lines = map(np.concatenate, zip(*parts, strict=True))
+        return Rows(values, np.concatenate([[0], np.cumsum(widths)]), lines, self.name)
+
+    def _chunks(self) -> Iterator[tuple[int, str]]:
+        """Pieces of whole lines, each with the number of its first line."""
+        text, first = self.line + self._whole_lines(), self.number
+        while text:
+            yield first, text
+            first += text.count("\n")
+            text = self._whole_lines()
+        self.line = ""
+        yield first, ""  # so that there is always one
+
+    def _whole_lines(self) -> str:
+        text = self._stream.read(_CHUNK) + self._stream.readline()
+        return _COMMENT.sub("", text) if "#" in text or "//" in text else text
+
+    def _parse(
+        self, text: str, first: int, delimiter: str
+    ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+        """Numbers of a piece, how many each line has, and the numbers of those lines."""
+        if delimiter:
+            self._check_fields(text, first, delimiter)
+            text = text.replace(delimiter, " ")
+        data = text.encode("latin-1")
+        words, widths = data.split(), _words_per_line(data)
+        try:
+            values = np.array(list(map(float, words)), np.float64)
+        except ValueError:
+            values = np.array([np.nan])
+        if b"_" in data or not np.isfinite(values).all():
+            bad = next(i for i, word in enumerate(words) if not _is_finite(word))
+            line = first + np.searchsorted(np.cumsum(widths), bad, side="right")
+            raise ReadError(
+                f"Expected finite numbers in line {line} of '{self.name}', "
+                f"found {_shown(words[bad])}; mend or remove that line"
+            )
+        filled = np.flatnonzero(widths)
+        return values, widths[filled], first + filled
+
+    def _check_fields(self, text: str, first: int, delimiter: str) -> None:
+        """Every field holds one word: '1,,2' or '1,5 2,5' are not what they seem."""
+        blank = r"[ \t]"
+        leading = f"(?m)^{blank}*{delimiter}"
+        empty = f"{delimiter}{blank}*{delimiter}"
+        double = rf"{blank}(?<=[^\s{delimiter}]{blank}){blank}*[^\s{delimiter}]"
+        for pattern in (leading, empty, double):  # one after the other, which is much faster
+            if found := re.search(pattern, text):
+                line = first + text.count("\n", 0, found.end() - 1)
+                raise ReadError(
+                    f"Expected one number between each two '{delimiter}' in line {line} of "
+                    f"'{self.name}', found none or several; use one kind of separator, and points in decimals"
+                )
+
+
+@contextmanager
+def open_file(path: str | os.PathLike, mode: str = "rb", **options: str) -> Iterator[IO]:
+    """A file to read; what the system refuses becomes a ReadError."""
+    if not os.path.isfile(path):
+        raise ReadError(f"Expected a file, found none at '{path}'; choose another one")
+    try:
+        with open(path, mode, **options) as stream:
+            yield stream
+    except ReadError:
+        raise
+    except OSError as error:
+        raise ReadError(
+            f"Expected to read '{path}', but the system says '{error.strerror or error}'; "
+            "choose another file"
+        ) from error
+
+
+@contextmanager
+def open_lines(path: str | os.PathLike) -> Iterator[Lines]:
+    """The lines of a text file."""
+    with open_file(path, "r", encoding="latin-1") as stream:
+        yield Lines(stream, Path(path).name)
+
+
+def is_number(word: str | bytes) -> bool:
+    """Also NaN, infinity and 1_000, so that these are not taken for words."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _is_finite(word: bytes) -> bool:
+    return is_number(word) and math.isfinite(float(word)) and b"_" not in word
+
+
+def _shown(word: bytes) -> str:
+    """A word for messages; a binary file may hold a very long one."""
+    return ascii(word[:24].decode("latin-1")) + ("..." if len(word) > 24 else "")
+
+
+def _words_per_line(data: bytes) -> NDArray[np.int64]:
+    """How many words each line has; the last one is not ended, or empty."""
+    symbols = np.frombuffer(b"\n" + data + b"\n", np.uint8)
+    blank = _BLANK[symbols]
+    starts = np.flatnonzero(blank[:-1] > blank[1:])
+    return np.diff(np.searchsorted(starts, np.flatnonzero(symbols == ord("\n"))))

@@ -1,0 +1,54 @@
+"""Files that appear whole or not at all: written beside their target, then renamed onto it."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Callable
+from pathlib import Path
+from typing import BinaryIO
+
+from ..errors import ExportError
+
+
+def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], None]) -> Path:
+    """Write a file.
+
+    Parameters
+    ----------
+    path : path of the file; a link is followed
+    write : callable
+        Fills the binary stream that it is given.
+
+    Returns
+    -------
+    path : Path
+        With links resolved.
+
+    Raises
+    ------
+    ExportError
+        The system refused; an old file is then unchanged.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        raise ExportError(
+            f"Expected the name of a file, found '{path}', which is not one; choose another name"
+        )
+    temporary = target.parent / f".medial_axis_{secrets.token_hex(8)}.tmp"
+    try:
+        try:
+            with open(temporary, "xb") as stream:
+                write(stream)
+                stream.flush()
+                os.fsync(stream.fileno())
+            os.replace(temporary, target)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise ExportError(
+            f"Expected to write '{path}', but the system says '{error.strerror or error}'; "
+            "choose another folder or free some space (no file was changed)"
+        ) from error
+    return target

@@ -1,0 +1,267 @@
+"""Medial axes as files: `.ma`, `.ply`, `.obj`, `.off` and `.npz` (docs/formats.md).
+
+A file appears whole or not at all: it is written beside its target and renamed. Numbers in text have 17
+significant digits, so that reading them back gives the same float64. Lines end in LF everywhere.
+"""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+
+from ..axis.compute import MedialAxis
+from ..errors import ExportError
+from .triangulate import triangulate
+from .whole_file import write_whole
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_CHUNK = 1 << 16  # rows formatted at once; bounds the memory of one write
+
+
+@dataclass(frozen=True)
+class Format:
+    """One kind of file.
+
+    Parameters
+    ----------
+    label : str
+        For people: menus and file dialogs.
+    write : callable
+        Takes the axis and a binary stream.
+    """
+
+    label: str
+    write: Callable[[Any, BinaryIO], None]
+
+
+def export_axis(
+    axis: MedialAxis, path: str | os.PathLike, transform: NDArray | None = None
+) -> Path:
+    """Write a medial axis; the extension of `path` chooses the format.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+    path : path of the file; its folder must exist. A file of that name is replaced.
+    transform : (3, 4) or (4, 4) float64, optional
+        Where the axis lies in the world. It may move, turn, mirror and scale evenly, for only then balls
+        stay balls; the radii are scaled with it.
+
+    Returns
+    -------
+    path : Path
+        The file that was written, with links resolved.
+
+    Raises
+    ------
+    ExportError
+        Unknown extension, unfit transform, or the system refused to write; an old file is then unchanged.
+    """
+    write = format_of(path).write
+    placed = axis if transform is None else _place(axis, np.asarray(transform, np.float64))
+    return write_whole(path, lambda stream: write(placed, stream))
+
+
+def format_of(path: str | os.PathLike) -> Format:
+    """The format that the extension of `path` names."""
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        raise ExportError(
+            f"Expected a file name that ends in {known_extensions()}, found '{Path(path).name}'; "
+            "add one of these extensions"
+        )
+    return FORMATS[suffix]
+
+
+def known_extensions() -> str:
+    """'.ma, .ply, ... or .npz', for messages."""
+    *first, last = FORMATS
+    return f"{', '.join(first)} or {last}"
+
+
+# --- placing
+
+
+_FIELDS = tuple(MedialAxis.__dataclass_fields__)
+
+
+def _place(axis: MedialAxis, transform: NDArray[np.float64]) -> SimpleNamespace:
+    """The same fields, seen in the world."""
+    if transform.shape not in ((3, 4), (4, 4)) or not np.isfinite(transform).all():
+        raise ExportError(
+            f"Expected a finite 3x4 or 4x4 transform, found shape {transform.shape}; pass a world matrix"
+        )
+    linear, offset = transform[:3, :3], transform[:3, 3]
+    scale = _even_scale(linear)
+    fields = {name: getattr(axis, name) for name in _FIELDS}
+    fields["vertices"] = axis.vertices @ linear.T + offset
+    fields["radius"] = axis.radius if scale == 1.0 else axis.radius * scale
+    if np.linalg.det(linear) < 0:
+        fields["face_vertices"] = _turned(axis.face_offsets, axis.face_vertices)
+    return SimpleNamespace(**fields)
+
+
+def _even_scale(linear: NDArray[np.float64]) -> float:
+    """The factor by which `linear` scales all lengths; exactly 1 for a rigid frame in float32."""
+    stretches = np.linalg.svd(linear, compute_uv=False)
+    rounding = (
+        16 * np.finfo(np.float32).eps
+    )  # world matrices are products of a few float32 matrices
+    if stretches[0] == 0.0 or stretches[0] - stretches[2] > rounding * stretches[0]:
+        raise ExportError(
+            "Expected a medial axis that is scaled evenly, found scales from "
+            f"{stretches[2]:.6g} to {stretches[0]:.6g}; scale the source instead and compute its axis again"
+        )
+    scale = float(stretches.mean())
+    return 1.0 if abs(scale - 1.0) <= rounding else scale
+
+
+def _turned(face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Each polygon the other way round, from the same first corner: as a mirror shows it."""
+    first = np.repeat(face_offsets[:-1], np.diff(face_offsets))
+    last = np.repeat(face_offsets[1:], np.diff(face_offsets))
+    corner = np.arange(len(face_vertices))
+    return face_vertices[np.where(corner == first, corner, first + last - corner)]
+
+
+# --- formats
+
+
+def _write_rows(stream: BinaryIO, row: str, *columns: NDArray) -> None:
+    """Write one line per row of `columns`, (n,) or (n, k) arrays; `row` is the %-format of one line."""
+    for start in range(0, len(columns[0]), _CHUNK):
+        parts = [column[start : start + _CHUNK] for column in columns]
+        table = np.column_stack(parts)
+        stream.write(((row * len(table)) % tuple(table.ravel().tolist())).encode("ascii"))
+
+
+def _write_polygons(
+    stream: BinaryIO,
+    row_of: Callable[[int], str],
+    counts: NDArray[np.int32],
+    tokens: NDArray[np.int32],
+) -> None:
+    """Write one line per polygon; `row_of(count)` is the %-format of a polygon of so many corners."""
+    rows = {int(count): row_of(int(count)) for count in np.unique(counts)}
+    ends = np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
+    for start in range(0, len(counts), _CHUNK):
+        chunk = counts[start : start + _CHUNK].tolist()
+        text = "".join([rows[count] for count in chunk])
+        values = tokens[ends[start] : ends[start + len(chunk)]]
+        stream.write((text % tuple(values.tolist())).encode("ascii"))
+
+
+def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
+    """Q-MAT's plain variant: `nv ne nf`, then `v x y z r`, every edge once, and triangles."""
+    triangles = triangulate(axis.vertices, axis.face_offsets, axis.face_vertices)
+    edges = _edges(triangles, len(axis.vertices))
+    stream.write(b"%d %d %d\n" % (len(axis.vertices), len(edges), len(triangles)))
+    _write_rows(stream, "v %.17g %.17g %.17g %.17g\n", axis.vertices, axis.radius)
+    _write_rows(stream, "e %d %d\n", edges)
+    _write_rows(stream, "f %d %d %d\n", triangles)
+
+
+def _edges(triangles: NDArray[np.int32], vertex_count: int) -> NDArray[np.int64]:
+    """(e, 2) the edges of triangles, each once, i < j, in lexicographic order."""
+    ends = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).astype(np.int64)
+    keys = np.unique(ends[:, 0] * vertex_count + ends[:, 1])
+    return np.stack(np.divmod(keys, max(vertex_count, 1)), axis=1)
+
+
+def _write_obj(axis: MedialAxis, stream: BinaryIO) -> None:
+    _write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
+    _write_polygons(
+        stream,
+        lambda count: "f" + " %d" * count + "\n",
+        np.diff(axis.face_offsets),
+        axis.face_vertices + 1,  # OBJ counts from 1
+    )
+
+
+def _write_off(axis: MedialAxis, stream: BinaryIO) -> None:
+    stream.write(b"OFF\n%d %d 0\n" % (len(axis.vertices), len(axis.face_offsets) - 1))
+    _write_rows(stream, "%.17g %.17g %.17g\n", axis.vertices)
+    _write_polygons(
+        stream,
+        lambda count: str(count) + " %d" * count + "\n",
+        np.diff(axis.face_offsets),
+        axis.face_vertices,
+    )
+
+
+def _write_ply(axis: MedialAxis, stream: BinaryIO) -> None:
+    counts = np.diff(axis.face_offsets)
+    count_type = "uchar" if counts.max(initial=0) < 256 else "int"
+    header = f"""ply
+format binary_little_endian 1.0
+comment medial axis: radius of the empty ball per vertex, angles in radians
+element vertex {len(axis.vertices)}
+property double x
+property double y
+property double z
+property double radius
+element face {len(counts)}
+property list {count_type} int vertex_indices
+property double theta
+property double rho
+property int side
+property int generator_p
+property int generator_q
+end_header
+"""
+    stream.write(header.encode("ascii"))
+    stream.write(np.column_stack([axis.vertices, axis.radius]).astype("<f8").tobytes())
+    for faces in _ply_faces(axis, counts, "u1" if count_type == "uchar" else "<i4"):
+        stream.write(faces)
+
+
+def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> Iterator[bytes]:
+    """The face element in pieces: rows of one length are packed together and scattered to their places."""
+    fixed = [("theta", "<f8"), ("rho", "<f8"), ("side", "<i4"), ("generators", "<i4", (2,))]
+    for start in range(0, len(counts), _CHUNK):
+        chunk = counts[start : start + _CHUNK]
+        row_sizes = np.dtype([("count", count_type), *fixed]).itemsize + 4 * chunk.astype(np.int64)
+        row_ends = np.cumsum(row_sizes)
+        row_starts = row_ends - row_sizes
+        piece = np.empty(row_ends[-1], np.uint8)
+        for count in np.unique(chunk):
+            local = np.flatnonzero(chunk == count)
+            ids = start + local
+            rows = np.empty(
+                len(ids), [("count", count_type), ("corners", "<i4", (int(count),)), *fixed]
+            )
+            rows["count"] = count
+            rows["corners"] = axis.face_vertices[axis.face_offsets[ids][:, None] + np.arange(count)]
+            for name, *_ in fixed:
+                rows[name] = getattr(axis, name)[ids]
+            places = row_starts[local][:, None] + np.arange(rows.itemsize)
+            piece[places] = rows.view(np.uint8).reshape(len(rows), -1)
+        yield piece.tobytes()
+
+
+def _write_npz(axis: MedialAxis, stream: BinaryIO) -> None:
+    """What np.savez writes; np.savez itself leaves an open archive behind when the disk is full."""
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name in _FIELDS:
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
+                np.lib.format.write_array(
+                    entry, np.asarray(getattr(axis, name)), allow_pickle=False
+                )
+
+
+FORMATS: dict[str, Format] = {
+    ".ma": Format("Medial axis, triangles and radii", _write_ma),
+    ".ply": Format("PLY, polygons with radius, theta, rho, side and generators", _write_ply),
+    ".obj": Format("Wavefront OBJ, polygons", _write_obj),
+    ".off": Format("OFF, polygons", _write_off),
+    ".npz": Format("NumPy arrays, everything", _write_npz),
+}

@@ -1,0 +1,73 @@
+"""`.xyz` and `.xyzn`: a point per line, x y z, then nx ny nz (docs/formats.md)."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import ReadError
+from .imported import ImportedPoints, are_normals, left_out
+from .text import Lines, is_number
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def read_xyz(lines: Lines) -> ImportedPoints:
+    """Columns 4 to 6 are normals where they look like ones (`are_normals`): other files have colours there."""
+    table = _read_table(lines, 3, "x y z")
+    normals = table[:, 3:6] if table.shape[1] >= 6 and are_normals(table[:, 3:6]) else None
+    return _found(table, normals)
+
+
+def read_xyzn(lines: Lines) -> ImportedPoints:
+    """Columns 4 to 6 are normals, for the name of the file says so."""
+    table = _read_table(lines, 6, "x y z nx ny nz")
+    return _found(table, table[:, 3:6])
+
+
+def _read_table(lines: Lines, least: int, what: str) -> NDArray[np.float64]:
+    """(n, k) the points; a count and a title may stand before them."""
+    stated = _skip_count(lines)
+    _skip_title(lines, stated)
+    rows = lines.rows(delimiter=next((mark for mark in ";," if mark in lines.line), ""))
+    if len(rows) == 0:
+        raise ReadError(f"Expected points, found none in '{lines.name}'; choose another file")
+    if stated is not None and stated != len(rows):
+        raise ReadError(
+            f"Expected {stated} points, as '{lines.name}' says in its first line, found {len(rows)}; "
+            "take the file from its source again, or remove that line"
+        )
+    return rows.table(least, what)
+
+
+def _skip_count(lines: Lines) -> int | None:
+    """The number of points, where it stands alone in the first line."""
+    word = lines.line.strip()
+    if not re.fullmatch("[0-9]{1,18}", word):
+        return None
+    lines.advance()
+    return int(word)
+
+
+def _skip_title(lines: Lines, stated: int | None) -> None:
+    """Names of columns; after a count, as in files of molecules, any words."""
+    words = re.findall(r"[^\s,;]+", lines.line)
+    numbers = sum(map(is_number, words))
+    if words and (numbers == 0 if stated is None else numbers < len(words)):
+        lines.advance()
+
+
+def _found(table: NDArray[np.float64], normals: NDArray[np.float64] | None) -> ImportedPoints:
+    columns = table.shape[1]
+    if normals is None and columns >= 6:
+        why = (
+            "columns 4 to 6 are not all of length 1, with negative numbers too, so that they may be "
+            "colours; name the file .xyzn if they are normals"
+        )
+        warnings = left_out(columns, normals, why)
+    else:
+        warnings = left_out(columns, normals)
+    return ImportedPoints(table[:, :3], normals, warnings=tuple(warnings))

@@ -1,0 +1,135 @@
+"""Work on several shapes: at once, or in a thread that can be watched and cancelled."""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import Cancelled, MedialAxisError
+from .progress import Progress
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """Work on one shape, called with a `Progress` or None; `name` is for messages."""
+
+    name: str
+    work: Callable[[Progress | None], Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What became of a task: what its work returned, or an error."""
+
+    value: Any | None
+    error: MedialAxisError | None
+
+
+def run_task(task: Task, progress: Progress | None = None) -> Outcome:
+    """Do the work; of our errors only `Cancelled` leaves as an exception."""
+    try:
+        return Outcome(task.work(progress), None)
+    except Cancelled:
+        raise
+    except MedialAxisError as error:
+        return Outcome(None, error)
+
+
+class Job:
+    """A thread that runs tasks one after the other; ended by `outcomes`, `stop` or Python's end."""
+
+    def __init__(self, tasks: Sequence[Task]) -> None:
+        self.names = tuple(task.name for task in tasks)
+        self._progress = tuple(Progress() for _ in tasks)
+        self._current = 0
+        self._cancelled = False
+        self._outcomes: list[Outcome] = []
+        self._failure: BaseException | None = None
+        self._ended = threading.Event()
+        self._thread = threading.Thread(
+            target=self._run, args=(tuple(tasks),), name="medial axis", daemon=True
+        )
+        # A daemon thread inside the compiled module must not outlive the interpreter.
+        atexit.register(self.stop)
+        self._thread.start()
+
+    @property
+    def done(self) -> bool:
+        return not self._thread.is_alive()
+
+    @property
+    def cancelled(self) -> bool:
+        return self._cancelled
+
+    @property
+    def fraction(self) -> float:
+        """Share of all tasks that is done, 0 to 1."""
+        return (self._current + self._progress[self._current].fraction) / len(self._progress)
+
+    @property
+    def name(self) -> str:
+        """Of the task that runs."""
+        return self.names[self._current]
+
+    @property
+    def stage(self) -> str:
+        """'Poles', or '1 of 2: Poles' when there are several tasks."""
+        count = len(self.names)
+        which = f"{self._current + 1} of {count}: " if count > 1 else ""
+        return which + (self._progress[self._current].stage or "Preparing")
+
+    @property
+    def text(self) -> str:
+        """'Suzanne, 1 of 2: Poles, 42 %'."""
+        return f"{self.name}, {self.stage}, {100 * self.fraction:.0f} %"
+
+    def wait(self, seconds: float) -> bool:
+        """Wait so long at most; whether it is done.
+
+        Not by joining the thread: a Ctrl-C in `Thread.join` makes Python 3.11 believe that it ended.
+        """
+        return self._ended.wait(seconds)
+
+    def cancel(self) -> None:
+        """Ask the thread to end; it does within 0.3 s."""
+        self._cancelled = True
+        for progress in self._progress:
+            progress.cancel()
+
+    def stop(self) -> None:
+        """Cancel and wait."""
+        self.cancel()
+        self._thread.join()
+        atexit.unregister(self.stop)
+
+    def outcomes(self) -> list[Outcome]:
+        """One for each task, in order; waits for the thread.
+
+        Raises
+        ------
+        Cancelled
+        """
+        self._thread.join()
+        atexit.unregister(self.stop)
+        if self._failure is not None:
+            raise self._failure
+        if self._cancelled:
+            raise Cancelled("The computation was cancelled; nothing was changed")
+        return self._outcomes
+
+    def _run(self, tasks: tuple[Task, ...]) -> None:
+        try:
+            for number, task in enumerate(tasks):
+                self._current = number
+                self._outcomes.append(run_task(task, self._progress[number]))
+                if self._cancelled:
+                    return
+        except Cancelled:
+            self._cancelled = True
+        except BaseException as failure:  # raised where the outcomes are asked for
+            self._failure = failure
+        finally:
+            self._ended.set()

@@ -1,0 +1,126 @@
+"""The compiled module `_medial`: found late and once; `lib/` has one file per Python ABI."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+
+from ..errors import (
+    Cancelled,
+    DegenerateInputError,
+    InvalidInputError,
+    NativeModuleError,
+    OutOfMemoryError,
+)
+
+LIB = Path(__file__).resolve().parents[2] / "lib"
+NAME = "_medial"
+
+_package = __package__.removesuffix(".core.machine")
+_module: ModuleType | None = None
+_failure: str = ""  # why the file that is there does not load; trying again would not help
+
+
+def load() -> ModuleType:
+    """The compiled module.
+
+    Raises
+    ------
+    NativeModuleError
+        No file for this Python, or one that does not load.
+    """
+    global _module, _failure
+    if _module is None:
+        if reason := problem():
+            raise NativeModuleError(reason)
+        try:
+            _module = _imported(f"{_package}.lib.{NAME}")
+        except ImportError as error:
+            _failure = (
+                f"Expected a compiled module for {expected_abi()} that loads, but the system says "
+                f"'{error}'; install the add-on's zip made for this system"
+            )
+            raise NativeModuleError(_failure) from error
+    return _module
+
+
+def _imported(name: str) -> ModuleType:
+    """The module, from a copy in memory where the system has such files.
+
+    Blender before 4.2 updates an add-on by writing over its files: over a mapped one, that is the end of Blender.
+    """
+    if name in sys.modules or not hasattr(os, "memfd_create"):
+        return importlib.import_module(name)
+    copy = os.memfd_create(NAME)
+    try:
+        with open(copy, "wb", closefd=False) as stream:
+            stream.write(file().read_bytes())
+        path = f"/proc/self/fd/{copy}"
+        spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
+        module = module_from_spec(spec)
+        spec.loader.exec_module(module)
+    except ImportError as error:
+        raise ImportError(str(error).replace(path, str(file()))) from error
+    finally:
+        os.close(copy)
+    sys.modules[name] = module
+    return module
+
+
+@contextmanager
+def own_errors() -> Iterator[ModuleType]:
+    """The compiled module; its errors are raised as ours, which exist without it."""
+    module = load()
+    try:
+        yield module
+    except module.InvalidInputError as error:
+        raise InvalidInputError(str(error)) from error
+    except module.DegenerateInputError as error:
+        raise DegenerateInputError(str(error)) from error
+    except module.Cancelled as error:
+        raise Cancelled(str(error)) from error
+    except MemoryError as error:
+        raise OutOfMemoryError(
+            "Expected enough memory, found too little; close other programs or use fewer points"
+        ) from error
+
+
+def problem() -> str:
+    """Why `load` would fail, in one sentence, or "". Loads nothing; cheap enough for a panel."""
+    if _module is not None or _failure:
+        return _failure
+    if file() is not None:
+        return ""
+    found = ", ".join(found_abis()) or "none"
+    return (
+        f"Expected the compiled module for {expected_abi()}, found {found}; "
+        "install the add-on's zip made for this Blender and system"
+    )
+
+
+def file() -> Path | None:
+    """The compiled module that `load` takes, or None."""
+    files = (LIB / f"{NAME}{suffix}" for suffix in EXTENSION_SUFFIXES)
+    return next((file for file in files if file.is_file()), None)
+
+
+def expected_abi() -> str:
+    """The tag in the file name that this Python loads, such as 'cpython-311-x86_64-linux-gnu'."""
+    return _tag(EXTENSION_SUFFIXES[0])
+
+
+def found_abis() -> list[str]:
+    """The tags of the compiled modules that are installed."""
+    files = [*LIB.glob(f"{NAME}.*.so"), *LIB.glob(f"{NAME}.*.pyd")]
+    return sorted(_tag(file.name.removeprefix(NAME)) for file in files)
+
+
+def _tag(suffix: str) -> str:
+    return suffix.strip(".").rpartition(".")[0]

@@ -1,0 +1,100 @@
+#include "axis/feature_size.h"
+
+#include <array>
+#include <atomic>
+#include <bit>
+
+#include "base/nearest.h"
+
+namespace medial {
+namespace {
+
+// A cell of the grid whose width goes with the radius of the balls at the vertices in it.
+using GridCell = std::array<double, 4>;
+
+// Per cell: its Voronoi vertex is one of a facet.
+std::vector<uint8_t> cells_round(std::span<const int32_t> edge_ids, const Triangulation& t,
+                                 const Edges& edges, const Run& run) {
+  std::vector<uint8_t> marked(t.cells.size(), 0);
+  parallel_chunks(static_cast<int64_t>(edge_ids.size()), run, [&](int64_t begin, int64_t end, int) {
+    std::vector<int32_t> ring;
+    for (int64_t i = begin; i < end; ++i) {
+      ring_of_cells(t, edges.ends[edge_ids[i]], edges.cell[edge_ids[i]], ring);
+      for (const int32_t cell : ring) {
+        std::atomic_ref(marked[cell]).store(1, std::memory_order_relaxed);
+      }
+    }
+  });
+  return marked;
+}
+
+// Vertices in the same cell are no farther apart than kThinning times the smaller of their balls,
+// and no sample lies in these.
+GridCell grid_cell(const Vec3& centre, double radius) {
+  const int level = std::ilogb(radius);
+  const double scale = std::ldexp(std::sqrt(3.0) / kThinning, -level);
+  return {static_cast<double>(level), std::floor(scale * centre.x), std::floor(scale * centre.y),
+          std::floor(scale * centre.z)};
+}
+
+// Remembers the last cell that fell into each of its slots.
+class RecentCells {
+ public:
+  // Whether it is new, as far as is remembered.
+  bool insert(const GridCell& cell) {
+    uint64_t hash = 0;
+    for (const double x : cell) hash = (hash ^ std::bit_cast<uint64_t>(x)) * 0x9E3779B97F4A7C15u;
+    GridCell& slot = slots_[hash >> 52];
+    if (slot == cell) return false;
+    slot = cell;
+    return true;
+  }
+
+ private:
+  std::vector<GridCell> slots_{1 << 12, GridCell{HUGE_VAL}};
+};
+
+// Hardly more than one vertex per cell of the grid: what shares one lies close together along the
+// surface, and so mostly in one chunk.
+std::vector<Vec3> sites(std::span<const Vec3> points, const Triangulation& t,
+                        const Voronoi& voronoi, std::span<const uint8_t> marked, const Run& run) {
+  constexpr int64_t kChunk = 1 << 15;
+  std::vector<std::vector<Vec3>> parts(static_cast<size_t>(t.finite_cells / kChunk + 1));
+  const auto collect = [&](int64_t begin, int64_t end, int) {
+    RecentCells seen;
+    for (int64_t c = begin; c < end; ++c) {
+      if (!marked[c]) continue;
+      const Vec3& centre = voronoi.centre[c];
+      const double radius = distance(centre, points[t.cells[c][0]]);
+      if (radius < HUGE_VAL && seen.insert(grid_cell(centre, radius))) {
+        parts[begin / kChunk].push_back(centre);
+      }
+    }
+  };
+  parallel_chunks(t.finite_cells, run, collect, kChunk);
+  std::vector<Vec3> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<double> feature_size(std::span<const Vec3> points, std::span<const int32_t> at,
+                                 const Triangulation& t, const Voronoi& voronoi, const Edges& edges,
+                                 std::span<const int32_t> edge_ids, const Run& run) {
+  const auto marked = cells_round(edge_ids, t, edges, run);
+  const Nearest nearest(sites(points, t, voronoi, marked, run));
+  // In the order of the points, which is spatial: neighbours meet the same part of the tree.
+  std::vector<uint8_t> wanted(points.size(), 0);
+  for (const int32_t p : at) wanted[p] = 1;
+  std::vector<double> size(points.size());
+  parallel_for(static_cast<int64_t>(points.size()), run, [&](int64_t p) {
+    if (wanted[p]) size[p] = nearest.distance(points[p]);
+  });
+  std::vector<double> result;
+  result.reserve(at.size());
+  for (const int32_t p : at) result.push_back(size[p]);
+  return result;
+}
+
+}  // namespace medial

@@ -1,0 +1,23 @@
+// Poles (Dey & Zhao, Definition 1).
+#pragma once
+
+#include "delaunay/edges.h"
+#include "delaunay/voronoi.h"
+
+namespace medial {
+
+struct Poles {
+  Array<Vec3>
+      vector;  // v_p = p+ - p; for an unbounded cell the mean direction of its infinite edges
+  Array<uint8_t> unbounded;  // the pole is at infinity
+};
+
+// Of one sample, whose cells are `cells`. `room` to work in.
+Vec3 pole(const Vec3& p, std::span<const int32_t> cells, const Triangulation& triangulation,
+          const Voronoi& voronoi, std::vector<int32_t>& room);
+
+// `incident` as from incident_cells.
+Poles poles(std::span<const Vec3> points, const Triangulation& triangulation,
+            const Voronoi& voronoi, const Csr<int32_t>& incident, const Run& run);
+
+}  // namespace medial

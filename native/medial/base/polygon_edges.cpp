@@ -1,0 +1,92 @@
+#include "base/polygon_edges.h"
+
+#include <algorithm>
+#include <atomic>
+#include <compare>
+#include <string>
+
+#include "base/csr.h"
+#include "base/errors.h"
+
+namespace medial {
+namespace {
+
+void check(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
+           int32_t vertices) {
+  const bool whole = !face_offsets.empty() && face_offsets.front() == 0 &&
+                     face_offsets.back() == static_cast<int64_t>(corners.size()) &&
+                     std::is_sorted(face_offsets.begin(), face_offsets.end());
+  if (!whole) {
+    throw InvalidInputError("Expected face_offsets that ascend from 0 to the number of corners, " +
+                            std::to_string(corners.size()) + ", found others; rebuild the faces.");
+  }
+  const auto outside = [&](int32_t v) { return v < 0 || v >= vertices; };
+  const auto bad = std::find_if(corners.begin(), corners.end(), outside);
+  if (bad != corners.end()) {
+    throw InvalidInputError("Expected corners in [0, " + std::to_string(vertices) + "), found " +
+                            std::to_string(*bad) + "; rebuild the faces.");
+  }
+}
+
+// Of a polygon, seen from the lower end.
+struct PolygonSide {
+  int32_t high;    // the other end
+  int32_t corner;  // that it begins at
+
+  friend auto operator<=>(const PolygonSide&, const PolygonSide&) = default;
+};
+
+bool starts_edge(std::span<const PolygonSide> sorted, size_t i) {
+  return i == 0 || sorted[i].high != sorted[i - 1].high;
+}
+
+}  // namespace
+
+PolygonEdges polygon_edges(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
+                           int32_t vertices, const Run& run) {
+  check(face_offsets, corners, vertices);
+  // A bucket for each vertex: the corners whose edges have it as the lower end. After the counting
+  // next[v] is where bucket v begins, after the filling where it ends.
+  std::vector<int64_t> next(static_cast<size_t>(vertices) + 1, 0);
+  std::vector<PolygonSide> sides(corners.size());
+  const auto for_sides = [&](const auto& body) {
+    parallel_for(static_cast<int64_t>(face_offsets.size()) - 1, run, [&](int64_t face) {
+      const int32_t begin = face_offsets[face], end = face_offsets[face + 1];
+      for (int32_t corner = begin; corner < end; ++corner) {
+        const int32_t other = corners[corner + 1 < end ? corner + 1 : begin];
+        const auto [low, high] = std::minmax(corners[corner], other);
+        body(corner, std::atomic_ref(next[low]), high);
+      }
+    });
+  };
+  for_sides([](int32_t, auto count, int32_t) { count.fetch_add(1, std::memory_order_relaxed); });
+  counts_to_offsets(next);
+  for_sides([&](int32_t corner, auto place, int32_t high) {
+    sides[place.fetch_add(1, std::memory_order_relaxed)] = {high, corner};
+  });
+  const auto bucket = [&](int64_t v) {
+    const auto begin = static_cast<size_t>(v == 0 ? 0 : next[v - 1]);
+    return std::span(sides).subspan(begin, static_cast<size_t>(next[v]) - begin);
+  };
+  std::vector<int64_t> first(static_cast<size_t>(vertices) + 1, 0);
+  parallel_for(vertices, run, [&](int64_t v) {
+    const auto sorted = bucket(v);
+    std::sort(sorted.begin(), sorted.end());
+    for (size_t i = 0; i < sorted.size(); ++i) first[v] += starts_edge(sorted, i);
+  });
+  counts_to_offsets(first);
+  PolygonEdges edges;
+  edges.ends.resize(static_cast<size_t>(first.back()));
+  edges.of_corner.resize(corners.size());
+  parallel_for(vertices, run, [&](int64_t v) {
+    auto id = static_cast<int32_t>(first[v]) - 1;
+    const auto sorted = bucket(v);
+    for (size_t i = 0; i < sorted.size(); ++i) {
+      if (starts_edge(sorted, i)) edges.ends[++id] = {static_cast<int32_t>(v), sorted[i].high};
+      edges.of_corner[sorted[i].corner] = id;
+    }
+  });
+  return edges;
+}
+
+}  // namespace medial

@@ -1,0 +1,22 @@
+// The edges of polygons that share vertices.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/triangle.h"
+
+namespace medial {
+
+struct PolygonEdges {
+  std::vector<Edge> ends;          // lower vertex first, in lexicographic order
+  std::vector<int32_t> of_corner;  // which leads from a corner to the next one of its polygon
+};
+
+// Polygon i has the corners [face_offsets[i], face_offsets[i + 1]), vertices in [0, vertices).
+// Throws InvalidInputError.
+PolygonEdges polygon_edges(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
+                           int32_t vertices, const Run& run);
+
+}  // namespace medial

@@ -1,0 +1,66 @@
+// Sorting ids: a counting sort into buckets by all threads, then small sorts within the buckets.
+#pragma once
+
+#include <algorithm>
+
+#include "base/csr.h"
+#include "base/parallel.h"
+
+namespace medial {
+
+// Puts 0, ..., count - 1 into ascending order of bucket_of(id) in [0, buckets), then of
+// key_of(id), then of the ids themselves: calls placed(position, id) for each.
+template <typename BucketOf, typename KeyOf, typename Placed>
+void bucket_sort(int64_t count, size_t buckets, const Run& run, const BucketOf& bucket_of,
+                 const KeyOf& key_of, const Placed& placed) {
+  auto next = array<int32_t>(buckets + 1, 0, run);
+  const auto place = [&](int64_t id) {
+    return std::atomic_ref(next[bucket_of(id)]).fetch_add(1, std::memory_order_relaxed);
+  };
+  parallel_for(count, run, place);
+  counts_to_offsets(next);
+  auto ids = array<int32_t>(static_cast<size_t>(count), run);
+  parallel_for(count, run, [&](int64_t id) { ids[place(id)] = static_cast<int32_t>(id); });
+  // Now next[b] is the end of bucket b.
+  using Keyed = std::pair<decltype(key_of(0)), int32_t>;
+  parallel_chunks(static_cast<int64_t>(buckets), run, [&](int64_t begin, int64_t end, int) {
+    std::vector<Keyed> bucket;
+    for (int64_t b = begin; b < end; ++b) {
+      int32_t position = b == 0 ? 0 : next[b - 1];
+      bucket.clear();
+      for (int32_t i = position; i < next[b]; ++i) bucket.emplace_back(key_of(ids[i]), ids[i]);
+      std::sort(bucket.begin(), bucket.end());
+      for (const Keyed& keyed : bucket) placed(position++, keyed.second);
+    }
+  });
+}
+
+// The same as a list of the ids.
+template <typename BucketOf, typename KeyOf>
+Array<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
+                            const BucketOf& bucket_of, const KeyOf& key_of) {
+  auto order = array<int32_t>(static_cast<size_t>(count), run);
+  bucket_sort(count, buckets, run, bucket_of, key_of,
+              [&](int32_t position, int32_t id) { order[position] = id; });
+  return order;
+}
+
+// The rows of a table in lexicographic order, equal ones by their ids; first entries lie in [0,
+// ids).
+template <typename Row>
+Array<int32_t> lexicographic_order(std::span<const Row> table, size_t ids, const Run& run) {
+  return bucket_order(
+      static_cast<int64_t>(table.size()), ids, run, [&](int64_t i) { return table[i][0]; },
+      [&](int64_t i) { return table[i]; });
+}
+
+// Puts values into an order.
+template <typename T>
+void reorder(std::vector<T>& values, std::span<const int32_t> order, const Run& run) {
+  std::vector<T> sorted(values.size());
+  parallel_for(static_cast<int64_t>(order.size()), run,
+               [&](int64_t i) { sorted[i] = values[order[i]]; });
+  values = std::move(sorted);
+}
+
+}  // namespace medial

@@ -1,0 +1,78 @@
+// Disjoint sets of ids 0..n-1 as parent pointers; a set is represented by its lowest id.
+#pragma once
+
+#include <numeric>
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace medial {
+
+class UnionFind {
+ public:
+  explicit UnionFind(size_t count, const Run& run = {}) : parent_(array<int32_t>(count, run)) {
+    parallel_for(static_cast<int64_t>(count), run,
+                 [&](int64_t id) { parent_[id] = static_cast<int32_t>(id); });
+  }
+
+  int32_t find(int32_t id) {
+    while (parent_[id] != id) id = parent_[id] = parent_[parent_[id]];
+    return id;
+  }
+  void unite(int32_t a, int32_t b) {
+    a = find(a);
+    b = find(b);
+    if (a == b) return;
+    if (a < b) std::swap(a, b);
+    parent_[a] = b;
+    joined_.push_back(a);
+  }
+  // Representative of every id.
+  Array<int32_t> representatives() && {
+    for (const int32_t id : joined_) parent_[id] = find(id);
+    return std::move(parent_);
+  }
+
+ private:
+  Array<int32_t> parent_;
+  std::vector<int32_t> joined_;  // whoever is no representative
+};
+
+// Disjoint sets of things that can be turned over: within a set it is known which of them are
+// turned relative to its lowest id.
+class OrientedUnionFind {
+ public:
+  explicit OrientedUnionFind(size_t count) : parent_(count), turned_(count, 0) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  struct Found {
+    int32_t root;
+    bool turned;  // relative to the root
+  };
+  Found find(int32_t id) {
+    bool turned = false;
+    while (parent_[id] != id) {
+      const int32_t above = parent_[id];
+      turned_[id] ^= turned_[above];  // a root is never turned
+      parent_[id] = parent_[above];
+      turned ^= turned_[id] != 0;
+      id = parent_[id];
+    }
+    return {id, turned};
+  }
+  // `turned`: b relative to a. Without effect when they are in one set already.
+  void unite(int32_t a, int32_t b, bool turned) {
+    Found high = find(a), low = find(b);
+    if (high.root == low.root) return;
+    if (high.root < low.root) std::swap(high, low);
+    parent_[high.root] = low.root;
+    turned_[high.root] = high.turned != (low.turned != turned);
+  }
+
+ private:
+  std::vector<int32_t> parent_;
+  std::vector<uint8_t> turned_;  // relative to the parent
+};
+
+}  // namespace medial

@@ -1,0 +1,37 @@
+// Circumcentres and triangle normals that stay right for nearly flat simplices: doubles with an
+// error bound, and exact integer arithmetic where the bound is too large.
+#pragma once
+
+#include "base/vec3.h"
+
+namespace medial {
+
+// Coarsest relative error that is let through: that of a float, the precision in which meshes are
+// stored.
+inline constexpr double kCoarsestError = 0x1p-24;
+
+struct Circumcentre {
+  Vec3 centre;
+  double error;  // the exact centre is no farther than this
+};
+
+// Centre of the sphere through four points that are not coplanar; error <= kCoarsestError * radius,
+// plus the rounding of absolute coordinates.
+Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+struct UnitNormal {
+  Vec3 direction;
+  double error;  // the exact unit normal is no farther than this
+};
+
+// (b - a) x (c - a), normalized; zero for collinear points.
+UnitNormal unit_normal(const Vec3& a, const Vec3& b, const Vec3& c);
+
+// Of a triangle.
+inline double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  return squared_length(u) * squared_length(v) * squared_length(c - b) /
+         (4 * squared_length(cross(u, v)));
+}
+
+}  // namespace medial

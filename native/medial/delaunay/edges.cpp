@@ -1,0 +1,113 @@
+#include "delaunay/edges.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace medial {
+namespace {
+
+// An edge to another sample, in a cell.
+struct Way {
+  int32_t to, cell;
+};
+
+// Tells the edges from a sample to those of higher rows.
+class Ways {
+ public:
+  Ways(const Triangulation& triangulation, const Csr<int32_t>& incident,
+       std::span<const int32_t> row)
+      : t_(triangulation), incident_(incident), row_(row), seen_(row.size(), 0) {}
+
+  // Appends them in ascending order of their rows; returns their number.
+  int32_t append(int32_t p, std::vector<Way>& out) {
+    const size_t count = find(p);
+    order_.clear();
+    for (size_t i = 0; i < count; ++i) {
+      order_.push_back(static_cast<uint64_t>(row_[ways_[i].to]) << 32 | i);
+    }
+    std::sort(order_.begin(), order_.end());
+    for (const uint64_t next : order_) out.push_back(ways_[next & 0xffffffffu]);
+    return static_cast<int32_t>(count);
+  }
+
+ private:
+  // Fills the front of `ways_`; returns their number. Each corner is written, and counts if it is
+  // new and of a higher row: a branch would be taken wrong too often.
+  size_t find(int32_t p) {
+    const auto cells = incident_[p];
+    if (ways_.size() < 4 * cells.size()) ways_.resize(4 * cells.size());
+    ++call_;
+    size_t count = 0;
+    // Backwards: infinite cells come last, so that an unbounded facet is known by its cell.
+    for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
+      for (const int32_t q : t_.cells[*cell]) {
+        if (static_cast<uint32_t>(q) >= seen_.size()) continue;
+        ways_[count] = {q, *cell};
+        count += static_cast<size_t>((seen_[q] != call_) & (row_[q] > row_[p]));
+        seen_[q] = call_;
+      }
+    }
+    return count;
+  }
+
+  const Triangulation& t_;
+  const Csr<int32_t>& incident_;
+  std::span<const int32_t> row_;
+  uint32_t call_ = 0;
+  std::vector<uint32_t> seen_;  // per sample: the last call that met it
+  std::vector<Way> ways_;
+  std::vector<uint64_t> order_;
+};
+
+// kNext[i][j] = k so that the permutation (i, j, k, l) of (0, 1, 2, 3) is even.
+constexpr int kNext[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
+
+}  // namespace
+
+Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples, const Run& run) {
+  return rows_containing(std::span<const Cell>(t.cells), samples, run);
+}
+
+Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident,
+                     std::span<const int32_t> row, const Run& run) {
+  std::vector<std::optional<Ways>> ways(run.threads);
+  Edges edges;
+  edges.first = array<int32_t>(row.size() + 1, 0, run);
+  const auto parts =
+      parallel_parts<Way>(incident.size(), run, [&](int64_t p, auto& out, int worker) {
+        if (!ways[worker]) ways[worker].emplace(t, incident, row);
+        edges.first[p] = ways[worker]->append(static_cast<int32_t>(p), out);
+      });
+  counts_to_offsets(edges.first);
+  edges.ends = array<Edge>(static_cast<size_t>(edges.first.back()), run);
+  edges.cell = array<int32_t>(static_cast<size_t>(edges.first.back()), run);
+  parallel_chunks(incident.size(), run, [&](int64_t begin, int64_t end, int) {
+    auto way = parts[static_cast<size_t>(begin / kGrain)].begin();
+    for (int64_t p = begin; p < end; ++p) {
+      for (int32_t e = edges.first[p]; e < edges.first[p + 1]; ++e, ++way) {
+        edges.ends[e] = {static_cast<int32_t>(p), way->to};
+        edges.cell[e] = way->cell;
+      }
+    }
+  });
+  return edges;
+}
+
+void ring_of_cells(const Triangulation& t, const Edge& ends, int32_t cell,
+                   std::vector<int32_t>& ring) {
+  ring.clear();
+  const int i = slot_of(t.cells[cell], ends[0]), j = slot_of(t.cells[cell], ends[1]);
+  int leave = kNext[i][j];
+  int32_t keep = t.cells[cell][6 - i - j - leave];
+  int32_t c = cell;
+  do {
+    ring.push_back(c);
+    c = t.neighbors[c][leave];
+    // Across the facet (ends, keep): next time `keep` is left behind, and the fourth corner kept.
+    leave = slot_of(t.cells[c], keep);
+    const Cell& ids = t.cells[c];
+    keep = ids[0] + ids[1] + ids[2] + ids[3] - ends[0] - ends[1] - keep;
+  } while (c != cell);
+}
+
+}  // namespace medial

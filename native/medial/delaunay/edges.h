@@ -1,0 +1,32 @@
+// The Delaunay edges and their dual Voronoi facets, as rings of cells.
+#pragma once
+
+#include "base/csr.h"
+#include "base/triangle.h"
+#include "delaunay/triangulation.h"
+
+namespace medial {
+
+// Delaunay edges between samples 0..n-1, each once: from the end with the lower input row.
+struct Edges {
+  Array<Edge> ends;      // sample ids
+  Array<int32_t> cell;   // a cell of the ring; infinite exactly when the dual facet is unbounded
+  Array<int32_t> first;  // (n + 1) those from sample p are first[p] .. first[p + 1]
+
+  int64_t count() const { return static_cast<int64_t>(ends.size()); }
+};
+
+// Cells, finite ones first, at each of the first `samples` points.
+Csr<int32_t> incident_cells(const Triangulation& triangulation, int32_t samples, const Run& run);
+
+// `row`: of each sample in the input. Those from one sample are in ascending order of the rows of
+// their other ends.
+Edges delaunay_edges(const Triangulation& triangulation, const Csr<int32_t>& incident,
+                     std::span<const int32_t> row, const Run& run);
+
+// The cells round an edge, counter-clockwise about the direction from ends[0] to ends[1], starting
+// at `cell`: the Voronoi facet's vertices. Appends to `ring` after clearing it.
+void ring_of_cells(const Triangulation& triangulation, const Edge& ends, int32_t cell,
+                   std::vector<int32_t>& ring);
+
+}  // namespace medial

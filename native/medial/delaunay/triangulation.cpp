@@ -1,0 +1,222 @@
+#include "delaunay/triangulation.h"
+
+// CGAL's containers, too, take their memory from the arena of the run.
+#define CGAL_ALLOCATOR(T) medial::RunAllocator<T>
+#include "base/arena.h"
+
+namespace medial {
+
+inline thread_local Arena* run_heap = nullptr;
+
+struct InHeap {
+  explicit InHeap(Arena* arena) { run_heap = arena; }
+  ~InHeap() { run_heap = nullptr; }
+  InHeap(const InHeap&) = delete;
+};
+
+template <typename T>
+struct RunAllocator : ArenaAllocator<T> {
+  RunAllocator() : ArenaAllocator<T>(run_heap) {}
+  template <typename U>
+  RunAllocator(const RunAllocator<U>& other) : ArenaAllocator<T>(other.arena) {}
+  template <typename U>
+  struct rebind {
+    using other = RunAllocator<U>;
+  };
+};
+
+// A module that is loaded late finds its thread-local variables by a call, and the compiler makes
+// one at each use: in CGAL's innermost loop they took a tenth of its time. This address is found
+// once.
+template <typename T>
+T& found_once(T& variable) {
+  T* address = &variable;
+#ifdef __GNUC__
+  asm("" : "+r"(address));  // the compiler no longer knows whose it is
+#endif
+  return *address;
+}
+
+}  // namespace medial
+
+#include <CGAL/tss.h>
+#undef CGAL_STATIC_THREAD_LOCAL_VARIABLE_0
+#define CGAL_STATIC_THREAD_LOCAL_VARIABLE_0(TYPE, VARIABLE) \
+  static thread_local TYPE VARIABLE##_of_thread;            \
+  TYPE& VARIABLE = medial::found_once(VARIABLE##_of_thread)
+
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+
+#include "base/sort.h"
+
+namespace medial {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int32_t, Kernel>;
+using CellBase =
+    CGAL::Triangulation_cell_base_with_info_3<int32_t, Kernel,
+                                              CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
+using Delaunay =
+    CGAL::Delaunay_triangulation_3<Kernel,
+                                   CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
+using CellHandle = Delaunay::Cell_handle;
+
+uint64_t scrambled(uint64_t x) {  // SplitMix64 (Steele, Lea, Flood 2014)
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// Biased randomized insertion order (Amenta, Choi, Rote 2003): each round is an eighth of the next,
+// and keeps the spatial order of the ids.
+std::vector<int32_t> insertion_order(int32_t count) {
+  std::vector<std::vector<int32_t>> rounds(1);
+  for (int32_t id = 0; id < count; ++id) {
+    size_t level = 0;
+    for (uint64_t bits = scrambled(static_cast<uint64_t>(id)); bits % 8 == 0 && level < 20;
+         bits /= 8) {
+      ++level;
+    }
+    if (level >= rounds.size()) rounds.resize(level + 1);
+    rounds[level].push_back(id);
+  }
+  std::vector<int32_t> order;
+  order.reserve(static_cast<size_t>(count));
+  for (auto round = rounds.rbegin(); round != rounds.rend(); ++round) {
+    order.insert(order.end(), round->begin(), round->end());
+  }
+  return order;
+}
+
+void insert_all(Delaunay& delaunay, std::span<const Vec3> points, Progress* progress) {
+  constexpr size_t kStep = 512;
+  CellHandle hint;
+  const auto order = insertion_order(static_cast<int32_t>(points.size()));
+  for (size_t i = 0; i < order.size(); ++i) {
+    if (i % kStep == 0)
+      advance(progress, static_cast<double>(i) / static_cast<double>(order.size()));
+    const Vec3& p = points[order[i]];
+    const auto vertex = delaunay.insert({p.x, p.y, p.z}, hint);
+    vertex->info() = order[i];
+    hint = vertex->cell();
+  }
+}
+
+// A cell in canonical order, and how it got there: slots[j] is where its corner j went.
+struct CanonicalCell {
+  Cell ids;  // sorted but for the last two, which keep the orientation positive
+  std::array<int8_t, 4> slots;
+
+  // The lowest finite id, infinite cells after the finite ones.
+  int32_t bucket(int32_t points) const { return ids[0] == kInfinite ? points + ids[1] : ids[0]; }
+  // In the order of the sorted ids but for the first.
+  std::pair<uint64_t, int32_t> key() const {
+    const auto [low, high] = std::minmax(ids[2], ids[3]);
+    return {static_cast<uint64_t>(ids[1]) << 32 | static_cast<uint32_t>(low), high};
+  }
+};
+
+// By ranks: cells come in any order, so that a sort by branches would guess wrong half of the time.
+CanonicalCell canonical(const Cell& x) {
+  const int a = x[0] > x[1], b = x[0] > x[2], c = x[0] > x[3];
+  const int d = x[1] > x[2], e = x[1] > x[3], f = x[2] > x[3];
+  const int odd = a ^ b ^ c ^ d ^ e ^ f;
+  const std::array rank{a + b + c, 1 - a + d + e, 2 - b - d + f, 3 - c - e - f};
+  CanonicalCell cell{};
+  for (int j = 0; j < 4; ++j) {
+    const int slot = rank[j] ^ (odd & (rank[j] >> 1));
+    cell.ids[slot] = x[j];
+    cell.slots[j] = static_cast<int8_t>(slot);
+  }
+  return cell;
+}
+
+Array<CellHandle> handles_of(const Delaunay& delaunay, const Run& run) {
+  auto handles = array<CellHandle>(0, run);
+  handles.reserve(delaunay.tds().number_of_cells());
+  for (auto cell = delaunay.all_cells_begin(); cell != delaunay.all_cells_end(); ++cell) {
+    handles.push_back(cell);
+  }
+  return handles;
+}
+
+Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run) {
+  begin_stage(run.progress, "Delaunay cells", 0.5, 0.52);
+  const auto handles = handles_of(delaunay, run);
+  const auto count = static_cast<int64_t>(handles.size());
+  auto found = array<CanonicalCell>(handles.size(), run);
+  parallel_for(count, run, [&](int64_t i) {
+    Cell ids;
+    for (int j = 0; j < 4; ++j) ids[j] = handles[i]->vertex(j)->info();
+    found[i] = canonical(ids);
+  });
+  begin_stage(run.progress, "Delaunay cells", 0.52, 0.54);
+  auto place = array<int32_t>(handles.size(), run);
+  bucket_sort(
+      count, 2 * static_cast<size_t>(points), {run.threads, nullptr, run.arena},
+      [&](int64_t i) { return found[i].bucket(points); }, [&](int64_t i) { return found[i].key(); },
+      [&](int32_t position, int32_t i) { place[i] = position; });
+  parallel_for(count, run, [&](int64_t i) { handles[i]->info() = place[i]; });
+  begin_stage(run.progress, "Delaunay cells", 0.54, 0.58);
+  Triangulation result{array<Cell>(handles.size(), run), array<Cell>(handles.size(), run)};
+  parallel_for(count, run, [&](int64_t i) {
+    const auto& [ids, slots] = found[i];
+    result.cells[place[i]] = ids;
+    Cell& neighbors = result.neighbors[place[i]];
+    for (int j = 0; j < 4; ++j) neighbors[slots[j]] = handles[i]->neighbor(j)->info();
+  });
+  const auto infinite = std::partition_point(result.cells.begin(), result.cells.end(),
+                                             [](const Cell& ids) { return ids[0] != kInfinite; });
+  result.finite_cells = static_cast<int32_t>(infinite - result.cells.begin());
+  return result;
+}
+
+Kernel::Point_3 point(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+// 0: one place, 1: one line, 2: one plane, 3: a volume.
+int affine_dimension(std::span<const Vec3> points) {
+  const auto first = points.begin(), end = points.end();
+  const auto second = std::find_if(first, end, [&](const Vec3& p) { return p != *first; });
+  if (second == end) return 0;
+  const auto third = std::find_if(second, end, [&](const Vec3& p) {
+    return !CGAL::collinear(point(*first), point(*second), point(p));
+  });
+  if (third == end) return 1;
+  const auto fourth = std::find_if(third, end, [&](const Vec3& p) {
+    return !CGAL::coplanar(point(*first), point(*second), point(*third), point(p));
+  });
+  return fourth == end ? 2 : 3;
+}
+
+}  // namespace
+
+void require_volume(std::span<const Vec3> points) {
+  const char* const found[] = {"in one place", "on one line", "in one plane"};
+  const int dimension = points.empty() ? 0 : affine_dimension(points);
+  if (dimension == 3) return;
+  throw DegenerateInputError("Expected points that span a volume, found all " +
+                             std::to_string(points.size()) + " " + found[dimension] +
+                             "; add points off it.");
+}
+
+Triangulation triangulate(std::span<const Vec3> points, const Run& run, Stopwatch* watch) {
+  begin_stage(run.progress, "Delaunay triangulation", 0.02, 0.5);
+  try {
+    const InHeap in_heap(run.arena);
+    Delaunay delaunay;
+    insert_all(delaunay, points, run.progress);
+    delaunay.infinite_vertex()->info() = kInfinite;
+    if (watch) watch->lap("triangulation");
+    return as_arrays(delaunay, static_cast<int32_t>(points.size()), run);
+  } catch (const CGAL::Failure_exception& failure) {
+    throw DegenerateInputError(std::string("Expected points that CGAL can triangulate, found: ") +
+                               failure.what() + "; move or thin the points.");
+  }
+}
+
+}  // namespace medial

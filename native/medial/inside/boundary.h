@@ -1,0 +1,18 @@
+// Where a triangle soup is not closed.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/csr.h"
+#include "base/triangle.h"
+
+namespace medial {
+
+// The directed edges that the triangles use more often than their opposites, once per surplus use:
+// the boundary of the triangles. Empty: closed, and the winding number is an integer off
+// the surface. `fans` lists the triangles at each vertex.
+std::vector<Edge> boundary_edges(std::span<const Triangle> triangles, const Csr<int32_t>& fans,
+                                 const Run& run);
+
+}  // namespace medial

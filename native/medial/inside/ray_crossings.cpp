@@ -1,0 +1,109 @@
+#include "inside/ray_crossings.h"
+
+#include <cfloat>
+
+#include "delaunay/circumcentre.h"
+
+namespace medial {
+namespace {
+
+constexpr int32_t kLeafTriangles = 4;
+
+Vec3 inverse(const Vec3& v) { return {1 / v.x, 1 / v.y, 1 / v.z}; }
+
+// Slabs; the far end is stretched by more than the rounding of both (Ize 2013), so that no hit is
+// lost.
+bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, double reach) {
+  double near = 0, far = reach;
+  const auto clip = [&](double low, double high, double o, double i) {
+    const double t0 = (low - o) * i, t1 = (high - o) * i;
+    near = std::max(near, std::min(t0, t1));
+    far = std::min(far, std::max(t0, t1));
+  };
+  clip(box.low.x, box.high.x, origin.x, inverse_direction.x);
+  clip(box.low.y, box.high.y, origin.y, inverse_direction.y);
+  clip(box.low.z, box.high.z, origin.z, inverse_direction.z);
+  return near <= far * (1 + 8 * DBL_EPSILON);
+}
+
+// +1: the ray leaves through the triangle, -1: it enters, 0: it misses; nothing: too close to an
+// edge to tell.
+std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& direction,
+                            double reach) {
+  const Vec3 a = t.a - origin, b = t.b - origin, c = t.c - origin;
+  // Volumes of the ray with each edge; rounding errors stay below 16 epsilon |b||c| for a unit
+  // direction.
+  const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)),
+               w = dot(direction, cross(a, b));
+  const double la = length(a), lb = length(b), lc = length(c), tiny = 16 * DBL_EPSILON;
+  const double eu = tiny * lb * lc, ev = tiny * lc * la, ew = tiny * la * lb;
+  const bool may_leave = u > -eu && v > -ev && w > -ew, may_enter = u < eu && v < ev && w < ew;
+  if (!may_leave && !may_enter) return 0;
+  // The line meets the plane at volume / flux.
+  const double volume = dot(a, cross(b, c)), flux = u + v + w, error = tiny * la * lb * lc;
+  const bool in_plane = std::abs(volume) <= error;
+  // A ray from a point of the triangle, or of its edge, starts beyond it.
+  const double farthest = std::max({la, lb, lc});
+  const bool at_once = in_plane && error <= kCoarsestError * std::abs(flux) * farthest;
+  if (at_once && reach == HUGE_VAL) return 0;
+  const bool leaves = u > eu && v > ev && w > ew, enters = u < -eu && v < -ev && w < -ew;
+  if (!leaves && !enters) return std::nullopt;
+  if (reach < HUGE_VAL) {
+    const double end = volume - reach * flux;
+    if (in_plane || std::abs(end) <= error + reach * (eu + ev + ew)) return std::nullopt;
+    if ((end > 0) == leaves) return 0;
+  }
+  if ((volume > 0) != leaves) return 0;
+  return leaves ? 1 : -1;
+}
+
+}  // namespace
+
+RayCrossings::RayCrossings(std::vector<Corners> triangles, const Progress* progress)
+    : corners_(std::move(triangles)) {
+  nodes_.reserve(corners_.size() + 2);
+  if (!corners_.empty()) build(0, static_cast<int32_t>(corners_.size()), progress);
+}
+
+int32_t RayCrossings::build(int32_t begin, int32_t end, const Progress* progress) {
+  if (end - begin > 1 << 14) throw_if_cancelled(progress);
+  const auto id = static_cast<int32_t>(nodes_.size());
+  Node& node = nodes_.emplace_back();
+  node.begin = begin;
+  node.end = end;
+  for (int32_t i = begin; i < end; ++i) {
+    for (const Vec3& p : {corners_[i].a, corners_[i].b, corners_[i].c}) node.box.add(p);
+  }
+  if (end - begin <= kLeafTriangles) return id;
+  const int32_t middle = split_in_half(corners_, begin, end);
+  build(begin, middle, progress);
+  const int32_t right = build(middle, end, progress);
+  nodes_[id].right = right;
+  return id;
+}
+
+std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& direction,
+                                            double reach) const {
+  const Vec3 inverse_direction = inverse(direction);
+  std::array<int32_t, 64> stack;  // halved at every level, the tree is less than 32 deep
+  int top = 0, sum = 0;
+  if (!nodes_.empty()) stack[top++] = 0;
+  while (top > 0) {
+    const int32_t id = stack[--top];
+    const Node& node = nodes_[id];
+    if (!meets(node.box, origin, inverse_direction, reach)) continue;
+    if (node.right >= 0) {
+      stack[top++] = node.right;
+      stack[top++] = id + 1;
+      continue;
+    }
+    for (int32_t i = node.begin; i < node.end; ++i) {
+      const auto found = crossing(corners_[i], origin, direction, reach);
+      if (!found) return std::nullopt;
+      sum += *found;
+    }
+  }
+  return sum;
+}
+
+}  // namespace medial

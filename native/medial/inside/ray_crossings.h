@@ -1,0 +1,36 @@
+// How often a ray, or a segment, leaves a triangle soup minus how often it enters. For a closed
+// soup that is the winding number at the origin of the ray, or the drop of the winding number along
+// the segment.
+#pragma once
+
+#include <optional>
+
+#include "base/progress.h"
+#include "inside/solid_angle.h"
+
+namespace medial {
+
+class RayCrossings {
+ public:
+  RayCrossings(std::vector<Corners> triangles, const Progress* progress);
+
+  // `direction` is a unit vector. Nothing when an edge, or the end of the segment, is so close that
+  // doubles cannot tell.
+  std::optional<int> operator()(const Vec3& origin, const Vec3& direction,
+                                double reach = HUGE_VAL) const;
+  std::span<const Corners> triangles() const { return corners_; }
+
+ private:
+  struct Node {
+    Box box;
+    int32_t begin = 0, end = 0;
+    int32_t right = -1;  // the left child follows its parent; -1: a leaf
+  };
+
+  int32_t build(int32_t begin, int32_t end, const Progress* progress);
+
+  std::vector<Corners> corners_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace medial

@@ -1,0 +1,157 @@
+#include "inside/solid_angle.h"
+
+#include <numbers>
+
+namespace medial {
+namespace {
+
+constexpr double kFull = 4 * std::numbers::pi;
+constexpr int32_t kLeafTriangles = 4;
+
+// Signed solid angle of a triangle seen from the origin (van Oosterom & Strackee 1983).
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double la = length(a), lb = length(b), lc = length(c);
+  const double numerator = dot(a, cross(b, c));
+  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return 2 * std::atan2(numerator, denominator);
+}
+
+void add_scaled(std::array<Vec3, 3>& moment, const Vec3& offset, const Vec3& area_vector) {
+  moment[0] = moment[0] + offset.x * area_vector;
+  moment[1] = moment[1] + offset.y * area_vector;
+  moment[2] = moment[2] + offset.z * area_vector;
+}
+
+}  // namespace
+
+double solid_angle_sum(std::span<const Corners> triangles, const Vec3& query) {
+  double total = 0;
+  for (const auto& [a, b, c] : triangles) total += solid_angle(a - query, b - query, c - query);
+  return total / kFull;
+}
+
+int32_t split_in_half(std::vector<Corners>& corners, int32_t begin, int32_t end) {
+  Box box;
+  for (int32_t i = begin; i < end; ++i) box.add(corners[i].a);
+  const Vec3 extent = box.extent();
+  double Vec3::*axis = extent.x >= extent.y && extent.x >= extent.z ? &Vec3::x
+                       : extent.y >= extent.z                       ? &Vec3::y
+                                                                    : &Vec3::z;
+  const int32_t middle = begin + (end - begin) / 2;
+  std::nth_element(corners.begin() + begin, corners.begin() + middle, corners.begin() + end,
+                   [&](const Corners& s, const Corners& t) { return s.a.*axis < t.a.*axis; });
+  return middle;
+}
+
+SolidAngle::SolidAngle(std::vector<Corners> triangles) : corners_(std::move(triangles)) {
+  nodes_.reserve(corners_.size() + 2);
+  if (!corners_.empty()) build(0, static_cast<int32_t>(corners_.size()));
+}
+
+int32_t SolidAngle::build(int32_t begin, int32_t end) {
+  const auto id = static_cast<int32_t>(nodes_.size());
+  Node& node = nodes_.emplace_back();
+  node.begin = begin;
+  node.end = end;
+  if (end - begin <= kLeafTriangles) {
+    describe_leaf(nodes_[id]);
+    return id;
+  }
+  const int32_t middle = split_in_half(corners_, begin, end);
+  const int32_t left = build(begin, middle), right = build(middle, end);
+  nodes_[id].right = right;
+  describe_parent(nodes_[id], nodes_[left], nodes_[right]);
+  return id;
+}
+
+void SolidAngle::describe_leaf(Node& node) const {
+  Vec3 weighted, plain;
+  for (int32_t i = node.begin; i < node.end; ++i) {
+    const auto& [a, b, c] = corners_[i];
+    const Vec3 area_vector = 0.5 * cross(b - a, c - a);
+    const double area = length(area_vector);
+    const Vec3 sum = a + b + c;
+    node.area += area;
+    node.area_vector = node.area_vector + area_vector;
+    weighted = weighted + (area / 3) * sum;
+    plain = plain + (1.0 / 3) * sum;
+  }
+  node.centroid =
+      node.area > 0 ? (1 / node.area) * weighted : (1.0 / (node.end - node.begin)) * plain;
+  for (int32_t i = node.begin; i < node.end; ++i) {
+    const Vec3 a = corners_[i].a - node.centroid, b = corners_[i].b - node.centroid,
+               c = corners_[i].c - node.centroid;
+    const Vec3 area_vector = 0.5 * cross(b - a, c - a), sum = a + b + c;
+    add_scaled(node.moment, (1.0 / 3) * sum, area_vector);
+    node.spread += length(area_vector) / 12 * (dot(a, a) + dot(b, b) + dot(c, c) + dot(sum, sum));
+    node.radius = std::max({node.radius, length(a), length(b), length(c)});
+  }
+}
+
+void SolidAngle::describe_parent(Node& node, const Node& left, const Node& right) const {
+  node.area = left.area + right.area;
+  node.area_vector = left.area_vector + right.area_vector;
+  const double share = node.area > 0 ? left.area / node.area : 0.5;
+  node.centroid = share * left.centroid + (1 - share) * right.centroid;
+  for (const Node* child : {&left, &right}) {
+    const Vec3 offset = child->centroid - node.centroid;
+    for (int k = 0; k < 3; ++k) node.moment[k] = node.moment[k] + child->moment[k];
+    add_scaled(node.moment, offset, child->area_vector);
+    node.spread += child->spread + child->area * dot(offset, offset);
+    node.radius = std::max(node.radius, child->radius + length(offset));
+  }
+}
+
+SolidAngle::Term SolidAngle::term(int32_t id, const Vec3& query) const {
+  const Node& node = nodes_[id];
+  const Vec3 y = node.centroid - query;
+  const double yy = dot(y, y), r = std::sqrt(yy), gap = r - node.radius;
+  // The third derivatives of 1/r are at most 6/r^4: Taylor's remainder after the linear term.
+  const double error = 3 * node.spread / (gap * gap * gap * gap);
+  if (gap <= 0 || error > kFull) return {HUGE_VAL, 0, id};
+  const double trace = node.moment[0].x + node.moment[1].y + node.moment[2].z;
+  const Vec3 my{dot(node.moment[0], y), dot(node.moment[1], y), dot(node.moment[2], y)};
+  const double value = (dot(node.area_vector, y) + trace - 3 * dot(y, my) / yy) / (yy * r);
+  return {error, value, id};
+}
+
+// Replaces the cluster with the largest bound by its children, or by its triangles, until the
+// bounds cannot matter.
+bool SolidAngle::is_below(double bound, const Vec3& query) const {
+  const auto smaller = [](const Term& s, const Term& t) { return s.error < t.error; };
+  std::vector<Term> heap;
+  heap.reserve(64);
+  int unbounded = 0;  // terms in the heap without a finite bound
+  double total = 0, error = 0;
+  const auto count = [&](const Term& t, int sign) {
+    total += sign * t.value;
+    if (t.error == HUGE_VAL) {
+      unbounded += sign;
+    } else {
+      error += sign * t.error;
+    }
+  };
+  const auto push = [&](const Term& t) {
+    heap.push_back(t);
+    std::push_heap(heap.begin(), heap.end(), smaller);
+    count(t, 1);
+  };
+  if (!nodes_.empty()) push(term(0, query));
+  while (!heap.empty() && (unbounded > 0 || std::abs(total - bound * kFull) <= error)) {
+    std::pop_heap(heap.begin(), heap.end(), smaller);
+    const Term top = heap.back();
+    heap.pop_back();
+    count(top, -1);
+    const Node& node = nodes_[top.node];
+    if (node.right < 0) {
+      const std::span<const Corners> triangles(corners_);
+      total += kFull * solid_angle_sum(triangles.subspan(node.begin, node.end - node.begin), query);
+    } else {
+      push(term(top.node + 1, query));
+      push(term(node.right, query));
+    }
+  }
+  return total < bound * kFull;
+}
+
+}  // namespace medial

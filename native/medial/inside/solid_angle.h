@@ -1,0 +1,60 @@
+// Solid angle of a triangle soup seen from a point, in full turns (over 4 pi): summed exactly, or
+// hierarchically with Taylor's remainder as a rigorous bound for the expansion of distant clusters
+// (Barill et al. 2018).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace medial {
+
+struct Corners {
+  Vec3 a, b, c;
+};
+
+// Sum over all triangles, in full turns.
+double solid_angle_sum(std::span<const Corners> triangles, const Vec3& query);
+
+// Reorders a range along the longest axis of its box, so that the lower half lies before the upper
+// one; its middle.
+int32_t split_in_half(std::vector<Corners>& corners, int32_t begin, int32_t end);
+
+class SolidAngle {
+ public:
+  explicit SolidAngle(std::vector<Corners> triangles);
+
+  double exact(const Vec3& query) const { return solid_angle_sum(corners_, query); }
+  // Whether the exact value is below `bound`; clusters are opened only as far as it takes to tell.
+  bool is_below(double bound, const Vec3& query) const;
+
+ private:
+  // A contiguous range of triangles, expanded about its area-weighted centroid.
+  struct Node {
+    int32_t begin = 0, end = 0;
+    int32_t right = -1;           // the left child follows its parent; -1: a leaf
+    double area = 0, spread = 0;  // integral of dA, and of |x - centroid|^2 dA
+    double radius = 0;            // of a ball about the centroid that holds the triangles
+    Vec3 centroid, area_vector;   // area_vector: integral of n dA
+    std::array<Vec3, 3> moment;   // moment[k] = integral of (x - centroid)_k n dA
+  };
+  // What a node adds to the sum and the bound of its error, times 4 pi; an infinite bound where it
+  // cannot be expanded.
+  struct Term {
+    double error, value;
+    int32_t node;
+  };
+
+  int32_t build(int32_t begin, int32_t end);
+  void describe_leaf(Node& node) const;
+  void describe_parent(Node& node, const Node& left, const Node& right) const;
+  Term term(int32_t id, const Vec3& query) const;
+
+  std::vector<Corners> corners_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace medial

@@ -1,0 +1,39 @@
+// Generalized winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung 2013): the solid
+// angle of all triangles, in full turns.
+//
+// Caps, triangles from the edges of each boundary loop to its middle, close the soup. The winding
+// number of the closed soup is an integer, told by the crossings of any ray; that of the few caps
+// is summed. Their difference is the answer.
+#pragma once
+
+#include <span>
+
+#include "inside/boundary.h"
+#include "inside/ray_crossings.h"
+
+namespace medial {
+
+class WindingNumber {
+ public:
+  // `boundary` as from boundary_edges.
+  WindingNumber(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                std::span<const Edge> boundary, const Progress* progress);
+
+  double operator()(const Vec3& query) const;
+
+  // Winding number of the soup with its caps.
+  int closed(const Vec3& query) const;
+  // The same, told by what lies between `query` and a point where it is known.
+  int closed_from(const Vec3& known, int closed_there, const Vec3& query) const;
+  // Whether the winding number of the soup itself exceeds 1/2; the caps are summed only as far as
+  // it takes to tell.
+  bool is_inside(const Vec3& query, int closed_here) const;
+
+ private:
+  WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps, const Progress* progress);
+
+  RayCrossings crossings_;  // of the soup with its caps
+  SolidAngle caps_;
+};
+
+}  // namespace medial

@@ -1,0 +1,326 @@
+#include "sampling/creases.h"
+
+#include <numbers>
+#include <tuple>
+
+#include "base/rows.h"
+#include "base/sort.h"
+#include "inside/surface.h"
+
+namespace medial {
+namespace {
+
+// Coordinates come from float32: heights and angles below its rounding say nothing.
+constexpr double kRounding = 0x1p-22, kAngleRounding = 1e-5;
+
+// Input row -> point, -1 for unused rows; fills points and row.
+std::vector<int32_t> weld(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                          TriangleMesh& mesh) {
+  std::vector<uint8_t> used(vertices.size(), 0);
+  for (const Triangle& t : triangles) {
+    for (const int32_t corner : t) used[corner] = 1;
+  }
+  std::vector<int32_t> order;
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    if (used[i]) order.push_back(static_cast<int32_t>(i));
+  }
+  const auto key = [&](int32_t i) {
+    const Vec3& p = vertices[i];
+    return std::tie(p.x, p.y, p.z);
+  };
+  std::sort(order.begin(), order.end(),
+            [&](int32_t a, int32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
+  std::vector<int32_t> point(vertices.size(), -1);  // first the lowest equal row
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
+    point[order[i]] = same ? point[order[i - 1]] : order[i];
+  }
+  for (int32_t i = 0; i < static_cast<int32_t>(vertices.size()); ++i) {
+    if (point[i] == i) {
+      point[i] = static_cast<int32_t>(mesh.points.size());
+      mesh.points.push_back(vertices[i]);
+      mesh.row.push_back(i);
+    } else if (point[i] >= 0) {
+      point[i] = point[point[i]];
+    }
+  }
+  return point;
+}
+
+// Triangles with a repeated corner have no area; of triangles with the same corners the first
+// stays.
+void add_triangles(std::span<const Triangle> triangles, std::span<const int32_t> point,
+                   TriangleMesh& mesh, const Run& run) {
+  std::vector<Triangle> sorted;
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const auto& [a, b, c] = triangles[i];
+    Triangle t{point[a], point[b], point[c]};
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    mesh.triangles.push_back(t);
+    mesh.source.push_back(static_cast<int32_t>(i));
+    std::sort(t.begin(), t.end());
+    sorted.push_back(t);
+  }
+  const auto order =
+      lexicographic_order(std::span<const Triangle>(sorted), mesh.points.size(), run);
+  std::vector<uint8_t> again(sorted.size(), 0);
+  for (size_t i = 1, first = 0; i < order.size(); ++i) {
+    if (sorted[order[i]] != sorted[order[i - 1]]) first = i;
+    if (first == i) continue;
+    const auto [low, high] = std::minmax(order[first], order[i]);
+    again[high] = 1;
+    if (low != order[first]) first = i;
+  }
+  size_t kept = 0;
+  for (size_t i = 0; i < again.size(); ++i) {
+    if (again[i]) continue;
+    mesh.triangles[kept] = mesh.triangles[i];
+    mesh.source[kept++] = mesh.source[i];
+  }
+  mesh.triangles.resize(kept);
+  mesh.source.resize(kept);
+}
+
+// Corner opposite the longest edge.
+int tip(const TriangleMesh& mesh, const Triangle& t) {
+  std::array<double, 3> opposite;
+  for (int i = 0; i < 3; ++i) {
+    opposite[i] = squared_length(mesh.points[t[(i + 1) % 3]] - mesh.points[t[(i + 2) % 3]]);
+  }
+  return static_cast<int>(std::max_element(opposite.begin(), opposite.end()) - opposite.begin());
+}
+
+// The lowest other triangle at the edge, which passes it the other way; -1: none.
+int32_t across(const TriangleMesh& mesh, int32_t triangle, int32_t p, int32_t q) {
+  for (const int32_t other : mesh.fans[p]) {
+    if (other == triangle) continue;
+    if (link_of(mesh.triangles[other], p)[1] == q) return other;
+  }
+  return -1;
+}
+
+// A sliver thinner than rounding continues the triangle across its longest edge, so that its other
+// two edges are as sharp as they would be without it.
+void borrow_normals(TriangleMesh& mesh, std::vector<int32_t> slivers) {
+  if (slivers.empty()) return;
+  const std::vector<Vec3> own = mesh.normal;
+  for (const int32_t t : slivers) mesh.normal[t] = {};
+  for (size_t before = slivers.size() + 1; !slivers.empty() && slivers.size() < before;) {
+    before = slivers.size();
+    std::erase_if(slivers, [&](int32_t t) {
+      const Triangle& corners = mesh.triangles[t];
+      const int i = tip(mesh, corners);
+      const int32_t other = across(mesh, t, corners[(i + 1) % 3], corners[(i + 2) % 3]);
+      if (other >= 0) mesh.normal[t] = mesh.normal[other];
+      return mesh.normal[t] != Vec3{};
+    });
+  }
+  for (const int32_t t : slivers) mesh.normal[t] = own[t];
+}
+
+void add_normals(TriangleMesh& mesh, const Run& run) {
+  Box box;
+  for (const Vec3& p : mesh.points) box.add(p);
+  const double least = mesh.points.empty() ? 0 : kRounding * max_abs(box.extent());
+  mesh.normal.resize(mesh.triangles.size());
+  const auto slivers = parallel_append<int32_t>(
+      static_cast<int64_t>(mesh.triangles.size()), run,
+      [&](int64_t i, std::vector<int32_t>& out, int) {
+        const Triangle& t = mesh.triangles[i];
+        const Vec3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+        const Vec3 doubled = cross(b - a, c - a);
+        const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
+        mesh.normal[i] = normalized(doubled);
+        if (length(doubled) <= least * longest) out.push_back(static_cast<int32_t>(i));
+      });
+  borrow_normals(mesh, slivers);
+}
+
+struct Use {
+  int32_t other, triangle;
+  bool forward;
+};
+
+Crease crease_of(const TriangleMesh& mesh, const MeshEdge& edge, size_t uses, double cosine) {
+  if (uses == 1) return Crease::kBoundary;
+  if (!edge.manifold) return Crease::kSharp;
+  const auto& [a, b] = edge.triangles;
+  if (mesh.normal[a] == Vec3{} || mesh.normal[b] == Vec3{}) return Crease::kNone;
+  return dot(mesh.normal[a], mesh.normal[b]) <= cosine ? Crease::kSharp : Crease::kNone;
+}
+
+void add_edges(const TriangleMesh& mesh, double sharp_angle, Creases& creases, const Run& run) {
+  const double cosine = std::cos(std::max(0.0, sharp_angle - kAngleRounding));
+  std::vector<std::vector<Use>> uses_of(run.threads);
+  creases.edges = parallel_append<MeshEdge>(
+      mesh.fans.size(), run, [&](int64_t point, std::vector<MeshEdge>& out, int worker) {
+        const auto p = static_cast<int32_t>(point);
+        auto& uses = uses_of[worker];
+        uses.clear();
+        for (const int32_t t : mesh.fans[p]) {
+          const auto [next, previous] = link_of(mesh.triangles[t], p);
+          if (next > p) uses.push_back({next, t, true});
+          if (previous > p) uses.push_back({previous, t, false});
+        }
+        std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+          return std::tie(a.other, a.triangle) < std::tie(b.other, b.triangle);
+        });
+        for (size_t i = 0, end = 0; i < uses.size(); i = end) {
+          while (end < uses.size() && uses[end].other == uses[i].other) ++end;
+          MeshEdge edge{{p, uses[i].other}, {uses[i].triangle, -1}};
+          if (end - i > 1) edge.triangles[1] = uses[i + 1].triangle;
+          edge.manifold = end - i == 2 && uses[i].forward != uses[i + 1].forward;
+          edge.crease = crease_of(mesh, edge, end - i, cosine);
+          out.push_back(edge);
+        }
+      });
+  creases.first_edge.assign(mesh.points.size() + 1, 0);
+  for (const MeshEdge& edge : creases.edges) ++creases.first_edge[edge.ends[0]];
+  counts_to_offsets(creases.first_edge);
+}
+
+std::vector<int32_t> crease_edges(const Creases& creases) {
+  std::vector<int32_t> ids;
+  for (size_t i = 0; i < creases.edges.size(); ++i) {
+    if (creases.edges[i].crease != Crease::kNone) ids.push_back(static_cast<int32_t>(i));
+  }
+  return ids;
+}
+
+int32_t other_end(const MeshEdge& edge, int32_t p) { return edge.ends[edge.ends[0] == p]; }
+
+bool straight(const TriangleMesh& mesh, int32_t before, int32_t at, int32_t after, double angle) {
+  const Vec3 in = normalized(mesh.points[at] - mesh.points[before]);
+  const Vec3 out = normalized(mesh.points[after] - mesh.points[at]);
+  return std::atan2(length(cross(in, out)), dot(in, out)) <= angle + kAngleRounding;
+}
+
+// No crease ends here, and yet some triangle is steeper than the angle against the mean.
+bool is_tip(const TriangleMesh& mesh, int32_t p, double angle) {
+  const Vec3 mean = mesh.normal_sum(p);
+  const double least = std::cos(std::min(angle, std::numbers::pi / 2)) * length(mean);
+  const auto steep = [&](int32_t t) {
+    return mesh.normal[t] != Vec3{} && dot(mesh.normal[t], mean) < least;
+  };
+  return std::any_of(mesh.fans[p].begin(), mesh.fans[p].end(), steep);
+}
+
+void find_corners(const TriangleMesh& mesh, double angle, const Csr<int32_t>& at,
+                  std::span<const int32_t> ids, Creases& creases, const Run& run) {
+  creases.at.assign(mesh.points.size(), Crease::kNone);
+  creases.corner.assign(mesh.points.size(), 0);
+  parallel_for(static_cast<int64_t>(mesh.points.size()), run, [&](int64_t i) {
+    const auto p = static_cast<int32_t>(i);
+    const auto here = at[p];
+    for (const int32_t id : here) {
+      const Crease crease = creases.edges[ids[id]].crease;
+      if (creases.at[i] != Crease::kSharp) creases.at[i] = crease;
+    }
+    if (here.empty()) {
+      creases.corner[i] = is_tip(mesh, p, angle);
+    } else {
+      creases.corner[i] =
+          here.size() != 2 || !straight(mesh, other_end(creases.edges[ids[here[0]]], p), p,
+                                        other_end(creases.edges[ids[here[1]]], p), angle);
+    }
+  });
+}
+
+// Follows the creases from `start` until a stop, or back to the start.
+void walk(const Creases& creases, const Csr<int32_t>& at, std::span<const int32_t> ids,
+          std::span<const uint8_t> stop, int32_t start, int32_t crease,
+          std::vector<uint8_t>& walked, Csr<ChainLink>& chains) {
+  int32_t p = start;
+  while (crease >= 0) {
+    walked[crease] = 1;
+    const MeshEdge& edge = creases.edges[ids[crease]];
+    chains.items.push_back({ids[crease], edge.ends[1] == p});
+    p = other_end(edge, p);
+    crease = -1;
+    if (stop[p] || p == start) break;
+    for (const int32_t next : at[p]) {
+      if (!walked[next]) crease = next;
+    }
+  }
+  chains.offsets.push_back(static_cast<int64_t>(chains.items.size()));
+}
+
+void add_chains(const Csr<int32_t>& at, std::span<const int32_t> ids, std::span<const uint8_t> stop,
+                Creases& creases) {
+  creases.chains.offsets.assign(1, 0);
+  std::vector<uint8_t> walked(ids.size(), 0);
+  for (const bool from_stops : {true, false}) {
+    for (int32_t p = 0; p < static_cast<int32_t>(stop.size()); ++p) {
+      if (from_stops && !stop[p]) continue;
+      for (const int32_t crease : at[p]) {
+        if (!walked[crease]) walk(creases, at, ids, stop, p, crease, walked, creases.chains);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double TriangleMesh::corner_angle(int32_t triangle, int corner) const {
+  const Triangle& t = triangles[triangle];
+  const Vec3 u = points[t[(corner + 1) % 3]] - points[t[corner]];
+  const Vec3 v = points[t[(corner + 2) % 3]] - points[t[corner]];
+  return std::atan2(length(cross(u, v)), dot(u, v));
+}
+
+Vec3 TriangleMesh::normal_sum(int32_t point) const {
+  Vec3 sum;
+  for (const int32_t t : fans[point]) {
+    const auto& corners = triangles[t];
+    const auto at = std::find(corners.begin(), corners.end(), point) - corners.begin();
+    sum = sum + corner_angle(t, static_cast<int>(at)) * normal[t];
+  }
+  return sum;
+}
+
+int32_t Creases::find(int32_t p, int32_t q) const {
+  if (p > q) std::swap(p, q);
+  const auto begin = edges.begin() + first_edge[p], end = edges.begin() + first_edge[p + 1];
+  const auto found = std::lower_bound(
+      begin, end, q, [](const MeshEdge& edge, int32_t high) { return edge.ends[1] < high; });
+  return found != end && found->ends[1] == q ? static_cast<int32_t>(found - edges.begin()) : -1;
+}
+
+TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                       const Run& run) {
+  require_finite(vertices, "vertex");
+  require_corners(triangles, vertices.size());
+  TriangleMesh mesh;
+  const auto point = weld(vertices, triangles, mesh);
+  throw_if_cancelled(run.progress);
+  add_triangles(triangles, point, mesh, run);
+  mesh.fans = rows_containing(std::span<const Triangle>(mesh.triangles),
+                              static_cast<int32_t>(mesh.points.size()), run);
+  add_normals(mesh, run);
+  return mesh;
+}
+
+Creases find_creases(const TriangleMesh& mesh, double sharp_angle, std::span<const Edge> marked,
+                     bool split_at_vertices, const Run& run) {
+  Creases creases;
+  creases.sharp_angle = sharp_angle;
+  add_edges(mesh, sharp_angle, creases, run);
+  for (const auto& [p, q] : marked) {
+    const int32_t edge = creases.find(p, q);
+    if (edge >= 0 && creases.edges[edge].crease == Crease::kNone) {
+      creases.edges[edge].crease = Crease::kSharp;
+    }
+  }
+  const auto ids = crease_edges(creases);
+  std::vector<Edge> ends;
+  for (const int32_t id : ids) ends.push_back(creases.edges[id].ends);
+  const auto at =
+      rows_containing(std::span<const Edge>(ends), static_cast<int32_t>(mesh.points.size()));
+  find_corners(mesh, sharp_angle, at, ids, creases, run);
+  std::vector<uint8_t> stops = creases.corner;
+  if (split_at_vertices) stops.assign(mesh.points.size(), 1);
+  add_chains(at, ids, stops, creases);
+  return creases;
+}
+
+}  // namespace medial

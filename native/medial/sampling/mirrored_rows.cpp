@@ -1,0 +1,107 @@
+#include "sampling/mirrored_rows.h"
+
+namespace medial {
+namespace {
+
+constexpr int kMostTriangles = 1 << 12;  // round a vertex, rounding could go on for ever
+
+// A triangle laid into the plane: the edge walked from along the x axis, the third corner above.
+struct Flat {
+  int32_t third;
+  double width;
+  double x, y;  // of the third corner
+};
+
+Flat lay_down(const TriangleMesh& mesh, int32_t triangle, const Edge& base) {
+  const Triangle& t = mesh.triangles[triangle];
+  Flat flat{};
+  for (const int32_t corner : t) {
+    if (corner != base[0] && corner != base[1]) flat.third = corner;
+  }
+  const Vec3 along = mesh.points[base[1]] - mesh.points[base[0]];
+  const Vec3 side = mesh.points[flat.third] - mesh.points[base[0]];
+  flat.width = length(along);
+  flat.x = dot(side, along) / flat.width;
+  flat.y = length(cross(along, side)) / flat.width;
+  return flat;
+}
+
+Barycentric barycentric(const Triangle& t, const Edge& base, double at_end, double at_third) {
+  const auto share = [&](int32_t corner) {
+    const double at = corner == base[0]   ? 1 - at_end - at_third
+                      : corner == base[1] ? at_end
+                                          : at_third;
+    return std::max(0.0, at);  // beside an edge rounding could lead out
+  };
+  return {share(t[0]), share(t[1]), share(t[2])};
+}
+
+bool alike(const Disk& a, const Disk& b) {
+  return a.normal == Vec3{} || b.normal == Vec3{} || dot(a.normal, b.normal) > 0;
+}
+
+bool has_room(std::span<const Disk> disks, size_t i, const KdTree& tree) {
+  const Disk& disk = disks[i];
+  std::vector<std::pair<double, int32_t>> near;
+  for (size_t count = 16;; count *= 4) {
+    tree.nearest(disk.centre, count, near);
+    for (const auto& [away, j] : near) {
+      if (static_cast<size_t>(j) == i || !(away < std::min(disk.radius, disks[j].radius))) continue;
+      if (alike(disk, disks[j])) return false;
+    }
+    if (near.size() < count || near.back().first >= disk.radius) return true;
+  }
+}
+
+}  // namespace
+
+std::vector<int32_t> free_pairs(std::span<const Disk> fixed,
+                                std::span<const std::array<Disk, 2>> pairs, const Run& run) {
+  std::vector<Disk> disks(fixed.begin(), fixed.end());
+  for (const auto& pair : pairs) disks.insert(disks.end(), pair.begin(), pair.end());
+  std::vector<Vec3> centres;
+  for (const Disk& disk : disks) centres.push_back(disk.centre);
+  const KdTree tree(centres);
+  return parallel_append<int32_t>(
+      static_cast<int64_t>(pairs.size()), run, [&](int64_t i, std::vector<int32_t>& kept, int) {
+        const size_t left = fixed.size() + 2 * static_cast<size_t>(i);
+        if (has_room(disks, left, tree) && has_room(disks, left + 1, tree)) {
+          kept.push_back(static_cast<int32_t>(i));
+        }
+      });
+}
+
+std::optional<SurfacePlace> walk_from_edge(const TriangleMesh& mesh, const Creases& creases,
+                                           const MeshEdge& edge, int32_t triangle, double share,
+                                           double distance) {
+  Edge base = edge.ends;
+  double start = share * medial::distance(mesh.points[base[0]], mesh.points[base[1]]);
+  double along = 0, into = 1;  // the direction
+  for (int i = 0; i < kMostTriangles; ++i) {
+    const Flat flat = lay_down(mesh, triangle, base);
+    if (!(flat.y > 0)) return {};
+    // It leaves through the edge from `out` to the third corner.
+    const int out = along * flat.y - into * (flat.x - start) >= 0;
+    const double from = out ? flat.width : 0, slope = flat.x - from;
+    const double way = (from - start) * flat.y / (along * flat.y - into * slope);
+    if (!(way < distance)) {
+      const double at_third = distance * into / flat.y;
+      const double at_end = (start + distance * along - at_third * flat.x) / flat.width;
+      return SurfacePlace{triangle, barycentric(mesh.triangles[triangle], base, at_end, at_third)};
+    }
+    const int32_t next = creases.find(base[out], flat.third);
+    if (creases.edges[next].crease != Crease::kNone) return {};
+    const Edge& sides = creases.edges[next].triangles;
+    const double size = std::sqrt(slope * slope + flat.y * flat.y);
+    triangle = sides[sides[0] == triangle];
+    base = {base[out], flat.third};
+    start = way * into / flat.y * size;
+    const double turned = (along * slope + into * flat.y) / size;
+    into = std::abs(slope * into - flat.y * along) / size;
+    along = turned;
+    distance -= way;
+  }
+  return {};
+}
+
+}  // namespace medial

@@ -1,0 +1,122 @@
+#include "sampling/pieces.h"
+
+#include <bit>
+
+namespace medial {
+namespace {
+
+constexpr int kMostCuts = 15;         // as many as a path holds
+constexpr double kLittleArea = 0.25;  // in squared spacings: a sample or less
+constexpr double kOneSpacing = 2;     // spacings that differ by less are one
+
+Barycentric middle(const Barycentric& p, const Barycentric& q) {
+  return {0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
+}
+
+// Three quarters at the corners, and the one between them.
+std::array<Barycentric, 3> quarter(const std::array<Barycentric, 3>& c, uint32_t which) {
+  if (which == 3) return {middle(c[1], c[2]), middle(c[2], c[0]), middle(c[0], c[1])};
+  const Barycentric& kept = c[which];
+  return {kept, middle(kept, c[(which + 1) % 3]), middle(kept, c[(which + 2) % 3])};
+}
+
+Barycentric centre(const std::array<Barycentric, 3>& c) {
+  return {(c[0].a + c[1].a + c[2].a) / 3, (c[0].b + c[1].b + c[2].b) / 3,
+          (c[0].c + c[1].c + c[2].c) / 3};
+}
+
+// Of a curved part that of its chord triangle.
+double area_of(const std::array<Vec3, 3>& p) {
+  return 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
+}
+
+class Cutter {
+ public:
+  Cutter(const CurvedSurface& surface, int cuts, const Spacing& spacing, std::vector<Piece>& out,
+         int32_t triangle)
+      : patch_(surface.patch(triangle)),
+        cuts_(cuts),
+        spacing_(spacing),
+        out_(out),
+        triangle_(triangle) {}
+
+  void cut(uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
+    const double spacing =
+        spacing_.field ? spacing_(patch_.point(centre(corners))) : spacing_.scale;
+    const std::array<Vec3, 3> at{patch_.point(corners[0]), patch_.point(corners[1]),
+                                 patch_.point(corners[2])};
+    const double area = area_of(at);
+    if (depth < cuts_ || (spacing_.field && depth < kMostCuts && wider(at, 2 * spacing) &&
+                          !(area < kLittleArea * spacing * spacing && even(at, spacing)))) {
+      for (uint32_t i = 0; i < 4; ++i) cut(path << 2 | i, quarter(corners, i), depth + 1);
+      return;
+    }
+    if (area > 0) out_.push_back({triangle_, path, area, spacing});
+  }
+
+ private:
+  static bool wider(const std::array<Vec3, 3>& p, double width) {
+    return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])}) > width;
+  }
+
+  // Quarters of a needle are needles, so it would take the square of its length in spacings to cut
+  // it into short pieces: where the spacing is the same all along, a long one does.
+  bool even(const std::array<Vec3, 3>& p, double spacing) const {
+    for (int i = 0; i < 3; ++i) {
+      for (const Vec3& place : {p[i], 0.5 * p[i] + 0.5 * p[(i + 1) % 3]}) {
+        const double other = spacing_(place);
+        if (other > kOneSpacing * spacing || spacing > kOneSpacing * other) return false;
+      }
+    }
+    return true;
+  }
+
+  Patch patch_;
+  int cuts_;
+  const Spacing& spacing_;
+  std::vector<Piece>& out_;
+  int32_t triangle_;
+};
+
+}  // namespace
+
+std::array<Barycentric, 3> Piece::corners() const {
+  std::array<Barycentric, 3> corners{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (int shift = std::bit_width(path) - 3; shift >= 0; shift -= 2) {
+    corners = quarter(corners, path >> shift & 3u);
+  }
+  return corners;
+}
+
+std::vector<Piece> cut_into_pieces(const CurvedSurface& surface, int cuts, const Spacing& spacing,
+                                   const Run& run) {
+  const auto count = static_cast<int64_t>(surface.mesh().triangles.size());
+  return parallel_append<Piece>(
+      count, run,
+      [&](int64_t t, std::vector<Piece>& out, int) {
+        Cutter(surface, cuts, spacing, out, static_cast<int32_t>(t))
+            .cut(1, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 0);
+      },
+      64);
+}
+
+Place place_in(const Piece& piece, const std::array<Barycentric, 3>& corners, int64_t k,
+               const std::array<double, 2>& shift) {
+  // The R2 sequence (M. Roberts 2018): steps of the powers of the plastic number.
+  const double x = shift[0] + 0.7548776662466927 * static_cast<double>(k);
+  const double y = shift[1] + 0.5698402909980532 * static_cast<double>(k);
+  double u = x - std::floor(x), v = y - std::floor(y);
+  // Square to triangle with little distortion (E. Heitz 2019).
+  if (v > u) {
+    u *= 0.5;
+    v -= u;
+  } else {
+    v *= 0.5;
+    u -= v;
+  }
+  const auto& [p, q, r] = corners;
+  return {piece.triangle, static_cast<float>(p.b + u * (q.b - p.b) + v * (r.b - p.b)),
+          static_cast<float>(p.c + u * (q.c - p.c) + v * (r.c - p.c))};
+}
+
+}  // namespace medial

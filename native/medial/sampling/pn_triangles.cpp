@@ -1,0 +1,154 @@
+#include "sampling/pn_triangles.h"
+
+#include <numbers>
+
+#include "base/union_find.h"
+
+namespace medial {
+namespace {
+
+// Sides closer than about 6 degrees do not say in which direction their edge runs.
+constexpr double kParallel = 0.1;
+
+int corner_of(const Triangle& t, int32_t vertex) {
+  return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
+}
+
+// A third of the chord, made tangent to both sides; their lengths are not kept, as with one side.
+Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
+  const Vec3 third = (1.0 / 3) * chord, along = cross(left, right);
+  if (length(along) > kParallel) {
+    const Vec3 unit = normalized(along);
+    return dot(third, unit) * unit;
+  }
+  const Vec3 normal = normalized(left + right);
+  return third - dot(third, normal) * normal;
+}
+
+}  // namespace
+
+// The control point in the middle: a quarter of the handles less a sixth of the corners.
+Patch::Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles)
+    : corners_{p, q, r}, flat_(false), handles_(handles), centre_((-1.0 / 6) * (p + q + r)) {
+  for (const Vec3& handle : handles) centre_ = centre_ + 0.25 * handle;
+}
+
+Vec3 Patch::point(const Barycentric& at) const {
+  const auto& [p, q, r] = corners_;
+  const auto& [a, b, c] = at;
+  if (flat_) return p + b * (q - p) + c * (r - p);
+  const auto& [pq, qp, qr, rq, rp, pr] = handles_;
+  const Vec3 corners = a * a * a * p + b * b * b * q + c * c * c * r;
+  const Vec3 edges =
+      a * b * (a * pq + b * qp) + b * c * (b * qr + c * rq) + c * a * (c * rp + a * pr);
+  return corners + 3 * edges + 6 * a * b * c * centre_;
+}
+
+CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth,
+                             const Run& run)
+    : mesh_(mesh) {
+  if (!smooth) return;
+  add_normals(creases);
+  const auto count = static_cast<int64_t>(mesh.triangles.size());
+  edge_of_.resize(mesh.triangles.size());
+  parallel_for(count, run, [&](int64_t t) {
+    const Triangle& corners = mesh.triangles[t];
+    for (int i = 0; i < 3; ++i) {
+      edge_of_[t][i] = creases.find(corners[i], corners[(i + 1) % 3]);
+    }
+  });
+  handles_.resize(creases.edges.size());
+  parallel_for(static_cast<int64_t>(creases.edges.size()), run,
+               [&](int64_t e) { handles_[e] = handles_of(creases.edges[e]); });
+}
+
+void CurvedSurface::add_normals(const Creases& creases) {
+  UnionFind corners(3 * mesh_.triangles.size());
+  for (const MeshEdge& edge : creases.edges) {
+    if (edge.crease != Crease::kNone) continue;
+    const auto& [s, t] = edge.triangles;
+    for (const int32_t end : edge.ends) {
+      corners.unite(3 * s + corner_of(mesh_.triangles[s], end),
+                    3 * t + corner_of(mesh_.triangles[t], end));
+    }
+  }
+  const auto root = std::move(corners).representatives();
+  fan_of_.resize(mesh_.triangles.size());
+  std::vector<int32_t> fan(root.size(), -1);
+  for (int32_t c = 0; c < static_cast<int32_t>(root.size()); ++c) {
+    const int32_t t = c / 3;
+    if (fan[root[c]] < 0) {
+      fan[root[c]] = static_cast<int32_t>(fan_normals_.size());
+      fan_normals_.emplace_back();
+    }
+    Vec3& sum = fan_normals_[fan_of_[t][c % 3] = fan[root[c]]];
+    sum = sum + mesh_.corner_angle(t, c % 3) * mesh_.normal[t];
+  }
+  for (Vec3& normal : fan_normals_) normal = normalized(normal);
+  split_steep_fans(creases.sharp_angle);
+}
+
+// Round the tip of a cone no mean stands for its sides, and patches bent towards it would leave the
+// cone: there each triangle keeps its own normal, and edges leave the tip straight.
+void CurvedSurface::split_steep_fans(double sharp_angle) {
+  const double least = std::cos(std::min(sharp_angle, std::numbers::pi / 2));
+  std::vector<uint8_t> steep(fan_normals_.size(), 0);
+  for (size_t t = 0; t < fan_of_.size(); ++t) {
+    const Vec3& normal = mesh_.normal[t];
+    if (normal == Vec3{}) continue;
+    for (const int32_t fan : fan_of_[t]) steep[fan] |= dot(normal, fan_normals_[fan]) < least;
+  }
+  for (size_t t = 0; t < fan_of_.size(); ++t) {
+    for (int32_t& fan : fan_of_[t]) {
+      if (!steep[fan]) continue;
+      fan = static_cast<int32_t>(fan_normals_.size());
+      fan_normals_.push_back(mesh_.normal[t]);
+    }
+  }
+}
+
+const Vec3& CurvedSurface::fan_normal(int32_t triangle, int32_t vertex) const {
+  return fan_normals_[fan_of_[triangle][corner_of(mesh_.triangles[triangle], vertex)]];
+}
+
+// Where it is not clear which sides an edge joins, it stays straight.
+CurvedSurface::Handles CurvedSurface::handles_of(const MeshEdge& edge) const {
+  Handles handles;
+  const bool open = edge.crease == Crease::kBoundary;
+  for (const int i : {0, 1}) {
+    const Vec3& here = mesh_.points[edge.ends[i]];
+    const Vec3 chord = mesh_.points[edge.ends[1 - i]] - here;
+    const Vec3 third = edge.manifold || open
+                           ? tangent_third(chord, fan_normal(edge.triangles[0], edge.ends[i]),
+                                           fan_normal(edge.triangles[open ? 0 : 1], edge.ends[i]))
+                           : (1.0 / 3) * chord;
+    handles[i] = here + third;
+  }
+  return handles;
+}
+
+// Control point of the edge between two corners that is next to `from`.
+const Vec3& CurvedSurface::handle(int32_t triangle, int from, int to) const {
+  const Triangle& t = mesh_.triangles[triangle];
+  const int32_t edge = edge_of_[triangle][to == (from + 1) % 3 ? from : to];
+  return handles_[edge][t[from] < t[to] ? 0 : 1];
+}
+
+Patch CurvedSurface::patch(int32_t triangle) const {
+  const Triangle& t = mesh_.triangles[triangle];
+  const Vec3 &p = mesh_.points[t[0]], &q = mesh_.points[t[1]], &r = mesh_.points[t[2]];
+  if (!smooth()) return {p, q, r};
+  return {p,
+          q,
+          r,
+          {handle(triangle, 0, 1), handle(triangle, 1, 0), handle(triangle, 1, 2),
+           handle(triangle, 2, 1), handle(triangle, 2, 0), handle(triangle, 0, 2)}};
+}
+
+Vec3 CurvedSurface::normal(int32_t triangle, const Barycentric& at) const {
+  if (!smooth()) return mesh_.normal[triangle];
+  const auto& [i, j, k] = fan_of_[triangle];
+  return normalized(at.a * fan_normals_[i] + at.b * fan_normals_[j] + at.c * fan_normals_[k]);
+}
+
+}  // namespace medial

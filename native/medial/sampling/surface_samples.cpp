@@ -1,0 +1,492 @@
+#include "sampling/surface_samples.h"
+
+#include <climits>
+#include <numbers>
+#include <sstream>
+
+#include "base/rows.h"
+#include "sampling/mirrored_rows.h"
+#include "sampling/poisson_disk.h"
+
+namespace medial {
+namespace {
+
+constexpr int kDarts = 14;
+constexpr int64_t kMostSamples = INT_MAX / 8;           // as many as an analysis takes
+constexpr double kHexagonal = 2 / std::numbers::sqrt3;  // squared spacing of one sample per area
+// A disc's radius for a spacing: as many discs as the hexagonal lattice has points.
+const double kDisk = std::sqrt(kPacking / kHexagonal);
+constexpr int kMostCuts = 3;  // of a curved triangle
+constexpr size_t kManyPieces = 1 << 20;
+constexpr int kCurveSteps = 8;  // of a curved edge
+constexpr int kMostRows = 100;
+
+struct FixedSample {
+  SampleKind kind;
+  int32_t triangle;
+  Barycentric at;
+  Vec3 point, normal;
+  double radius;
+};
+
+std::string text(double x) {
+  std::ostringstream out;
+  out << x;
+  return out.str();
+}
+
+// The surface and what does not depend on the spacing.
+struct Model {
+  Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+        const SamplingOptions& options, const Run& run);
+
+  TriangleMesh mesh;
+  Creases creases;
+  std::optional<CurvedSurface> surface;
+  double area = 0;
+};
+
+// Ids of points of the marked edges; ends that no triangle uses drop out.
+std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const Edge> rows,
+                               const TriangleMesh& mesh, std::span<const Triangle> triangles) {
+  std::vector<Edge> marked;
+  if (rows.empty()) return marked;
+  std::vector<int32_t> point(vertices.size(), -1);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) point[triangles[mesh.source[i]][k]] = mesh.triangles[i][k];
+  }
+  for (const auto& [p, q] : rows) {
+    if (point[p] >= 0 && point[q] >= 0 && point[p] != point[q]) {
+      marked.push_back({point[p], point[q]});
+    }
+  }
+  return marked;
+}
+
+double area_of(const CurvedSurface& surface, const Run& run) {
+  int cuts = 0;
+  for (size_t pieces = surface.mesh().triangles.size(); surface.smooth() && cuts < kMostCuts;
+       ++cuts) {
+    if ((pieces *= 4) > kManyPieces) break;
+  }
+  double area = 0;
+  for (const Piece& piece : cut_into_pieces(surface, cuts, {}, run)) area += piece.area;
+  return area;
+}
+
+Model::Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+             const SamplingOptions& options, const Run& run)
+    : mesh(make_mesh(vertices, triangles, run)),
+      creases(find_creases(mesh, options.sharp_angle,
+                           marked_edges(vertices, options.sharp_edges, mesh, triangles),
+                           options.keep_vertices, run)) {
+  surface.emplace(mesh, creases, options.smooth, run);
+  area = area_of(*surface, run);
+  if (!(area > 0)) {
+    throw InvalidInputError("Expected triangles with an area, found " +
+                            std::to_string(triangles.size()) +
+                            " without; choose an object with faces.");
+  }
+}
+
+// Barycentric coordinates along the edge between two corners of a triangle.
+Barycentric along(const Triangle& t, int32_t from, int32_t to, double share) {
+  std::array<double, 3> at{};
+  for (int i = 0; i < 3; ++i) at[i] = t[i] == from ? 1 - share : t[i] == to ? share : 0;
+  return {at[0], at[1], at[2]};
+}
+
+// Mean of the normals of the triangles at an edge.
+Vec3 edge_normal(const Model& model, const MeshEdge& edge, double share) {
+  Vec3 sum;
+  for (const int32_t t : model.mesh.fans[edge.ends[0]]) {
+    const Triangle& corners = model.mesh.triangles[t];
+    if (std::find(corners.begin(), corners.end(), edge.ends[1]) == corners.end()) continue;
+    sum = sum + model.surface->normal(t, along(corners, edge.ends[0], edge.ends[1], share));
+  }
+  return normalized(sum);
+}
+
+FixedSample at_vertex(const Model& model, int32_t p, const Spacing& spacing) {
+  const int32_t t = model.mesh.fans[p].front();
+  const auto& creases = model.creases;
+  const SampleKind kind = creases.corner[p]                 ? SampleKind::kCorner
+                          : creases.at[p] == Crease::kNone  ? SampleKind::kVertex
+                          : creases.at[p] == Crease::kSharp ? SampleKind::kSharp
+                                                            : SampleKind::kBoundary;
+  return {kind,
+          t,
+          along(model.mesh.triangles[t], p, -1, 0),
+          model.mesh.points[p],
+          normalized(model.mesh.normal_sum(p)),
+          kDisk * spacing(model.mesh.points[p])};
+}
+
+FixedSample on_edge(const Model& model, const MeshEdge& edge, double share,
+                    const Spacing& spacing) {
+  const int32_t t = edge.triangles[0];
+  const Barycentric at = along(model.mesh.triangles[t], edge.ends[0], edge.ends[1], share);
+  const Vec3 point = model.surface->point(t, at);
+  const auto kind = edge.crease == Crease::kSharp ? SampleKind::kSharp : SampleKind::kBoundary;
+  return {kind, t, at, point, edge_normal(model, edge, share), kDisk * spacing(point)};
+}
+
+// A chain as a polyline, with its length in spacings up to each of its points.
+struct Polyline {
+  struct Knot {
+    int32_t edge;
+    double share;  // from the edge's first end
+    double passed;
+  };
+  std::vector<Knot> knots;  // two per step
+};
+
+int steps_of(const Model& model, const MeshEdge& edge, const Spacing& spacing) {
+  const Vec3 &p = model.mesh.points[edge.ends[0]], &q = model.mesh.points[edge.ends[1]];
+  const double spacings = distance(p, q) / spacing(0.5 * p + 0.5 * q);
+  const double least = model.surface->smooth() ? kCurveSteps : 1;
+  return static_cast<int>(std::clamp(std::ceil(spacings), least, 65536.0));
+}
+
+Polyline measured(const Model& model, std::span<const ChainLink> chain, const Spacing& spacing) {
+  Polyline line;
+  double passed = 0;
+  for (const ChainLink& link : chain) {
+    const MeshEdge& edge = model.creases.edges[link.edge];
+    const Triangle& corners = model.mesh.triangles[edge.triangles[0]];
+    const int steps = steps_of(model, edge, spacing);
+    Vec3 before;
+    for (int i = 0; i <= steps; ++i) {
+      const double walked = static_cast<double>(i) / steps;
+      const double share = link.reversed ? 1 - walked : walked;
+      const Vec3 here = model.surface->point(edge.triangles[0],
+                                             along(corners, edge.ends[0], edge.ends[1], share));
+      if (i > 0) passed += distance(before, here) / spacing(0.5 * before + 0.5 * here);
+      line.knots.push_back({link.edge, share, passed});
+      before = here;
+    }
+  }
+  return line;
+}
+
+bool begins_at_corner(const Model& model, std::span<const ChainLink> chain, bool keep_vertices) {
+  const MeshEdge& edge = model.creases.edges[chain.front().edge];
+  return keep_vertices || model.creases.corner[edge.ends[chain.front().reversed]];
+}
+
+struct PlaceOnEdge {
+  int32_t edge;
+  double share;  // from its first end
+};
+
+// A chain cut into equal parts of at most one spacing.
+class Division {
+ public:
+  Division(const Model& model, std::span<const ChainLink> chain, bool keep_vertices,
+           const Spacing& spacing)
+      : line_(measured(model, chain, spacing)),
+        closed_(!begins_at_corner(model, chain, keep_vertices)) {
+    constexpr double kRounding = 1e-9;  // a length that is a multiple of the spacing
+    const double least = closed_ ? 3 : 1, total = line_.knots.back().passed;
+    parts_ = std::max(least, std::ceil(total * (1 - kRounding)));
+    if (!(parts_ < kMostSamples)) parts_ = 0;  // the caller has counted them
+  }
+
+  // The ends only where they are no corners.
+  std::vector<PlaceOnEdge> ends_of_parts() const { return places(closed_ ? 0 : 1); }
+  std::vector<PlaceOnEdge> middles_of_parts() const { return places(0.5); }
+
+ private:
+  std::vector<PlaceOnEdge> places(double first) const {
+    std::vector<PlaceOnEdge> found;
+    size_t next = 1;
+    for (double i = first; i < parts_; ++i) {
+      const double wanted = line_.knots.back().passed * i / parts_;
+      while (next + 1 < line_.knots.size() && line_.knots[next].passed < wanted) ++next;
+      const auto &from = line_.knots[next - 1], &to = line_.knots[next];
+      const double step = to.passed - from.passed;
+      const double share = step > 0 ? (wanted - from.passed) / step : 0;
+      const bool one_edge = from.edge == to.edge;
+      found.push_back(
+          {to.edge, one_edge ? from.share + share * (to.share - from.share) : to.share});
+    }
+    return found;
+  }
+
+  Polyline line_;
+  bool closed_;
+  double parts_;
+};
+
+struct Pair {
+  FixedSample left, right;
+};
+
+// One place on either side of an edge, as far from it.
+std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, double spacings,
+                                const Spacing& spacing) {
+  const MeshEdge& edge = model.creases.edges[place.edge];
+  if (edge.crease != Crease::kSharp || !edge.manifold) return {};
+  const Barycentric middle =
+      along(model.mesh.triangles[edge.triangles[0]], edge.ends[0], edge.ends[1], place.share);
+  const double away = spacings * spacing(model.surface->point(edge.triangles[0], middle));
+  const auto on_side = [&](int32_t triangle) -> std::optional<FixedSample> {
+    const auto found = walk_from_edge(model.mesh, model.creases, edge, triangle, place.share, away);
+    if (!found) return {};
+    const Vec3 point = model.surface->point(found->triangle, found->at);
+    return FixedSample{SampleKind::kSurface,
+                       found->triangle,
+                       found->at,
+                       point,
+                       model.surface->normal(found->triangle, found->at),
+                       kDisk * spacing(point)};
+  };
+  const auto left = on_side(edge.triangles[0]), right = on_side(edge.triangles[1]);
+  if (!left || !right) return {};
+  return Pair{*left, *right};
+}
+
+std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
+                                       const Spacing& spacing, const Run& run) {
+  auto samples = parallel_append<FixedSample>(
+      static_cast<int64_t>(model.mesh.points.size()), run,
+      [&](int64_t p, std::vector<FixedSample>& out, int) {
+        if (keep_vertices || model.creases.corner[p]) {
+          out.push_back(at_vertex(model, static_cast<int32_t>(p), spacing));
+        }
+      });
+  const auto& chains = model.creases.chains;
+  const auto along_chains = parallel_append<FixedSample>(
+      chains.size(), run,
+      [&](int64_t i, std::vector<FixedSample>& out, int) {
+        const Division division(model, chains[i], keep_vertices, spacing);
+        for (const auto& [edge, share] : division.ends_of_parts()) {
+          out.push_back(on_edge(model, model.creases.edges[edge], share, spacing));
+        }
+      },
+      16);
+  samples.insert(samples.end(), along_chains.begin(), along_chains.end());
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const FixedSample& a, const FixedSample& b) { return a.kind < b.kind; });
+  return samples;
+}
+
+// One row of a hexagonal lattice along each edge; every other row is staggered.
+std::vector<Pair> mirrored_row(const Model& model, int row, bool keep_vertices,
+                               const Spacing& spacing, const Run& run) {
+  constexpr double kFirstRow = 0.75, kNextRow = 0.85;
+  const auto& chains = model.creases.chains;
+  return parallel_append<Pair>(
+      chains.size(), run,
+      [&](int64_t i, std::vector<Pair>& out, int) {
+        const Division division(model, chains[i], keep_vertices, spacing);
+        for (const PlaceOnEdge& place :
+             row % 2 == 0 ? division.middles_of_parts() : division.ends_of_parts()) {
+          const auto pair = beside_edge(model, place, kFirstRow + kNextRow * row, spacing);
+          if (pair) out.push_back(*pair);
+        }
+      },
+      16);
+}
+
+Disk disk_of(const FixedSample& s) {
+  return {s.point, s.radius, s.kind >= SampleKind::kVertex ? s.normal : Vec3{}};
+}
+
+std::vector<Disk> disks_of(std::span<const FixedSample> samples) {
+  std::vector<Disk> disks;
+  for (const FixedSample& s : samples) disks.push_back(disk_of(s));
+  return disks;
+}
+
+// Appends the rows beside the sharp edges, as far as there is room, the nearest first.
+void add_mirrored_rows(const Model& model, const SamplingOptions& options, const Spacing& spacing,
+                       std::vector<FixedSample>& samples, const Run& run) {
+  for (int row = 0; row < options.mirrored_rows; ++row) {
+    const auto pairs = mirrored_row(model, row, options.keep_vertices, spacing, run);
+    std::vector<std::array<Disk, 2>> disks;
+    for (const auto& [left, right] : pairs) disks.push_back({disk_of(left), disk_of(right)});
+    for (const int32_t i : free_pairs(disks_of(samples), disks, run)) {
+      samples.push_back(pairs[i].left);
+      samples.push_back(pairs[i].right);
+    }
+  }
+}
+
+struct Turn {
+  std::vector<FixedSample> fixed;
+  std::vector<PlacedDisk> placed;
+
+  double count() const { return static_cast<double>(fixed.size() + placed.size()); }
+};
+
+// Pieces of curved triangles no smaller than what a few darts stand for.
+int cuts_for(const Model& model, double expected) {
+  if (!model.surface->smooth()) return 0;
+  const double per_triangle = kDarts * expected / static_cast<double>(model.mesh.triangles.size());
+  return per_triangle < 16 ? 0 : per_triangle < 64 ? 1 : per_triangle < 256 ? 2 : kMostCuts;
+}
+
+double crease_length(const Model& model) {
+  double sum = 0;
+  for (const ChainLink& link : model.creases.chains.items) {
+    const Edge& ends = model.creases.edges[link.edge].ends;
+    sum += distance(model.mesh.points[ends[0]], model.mesh.points[ends[1]]);
+  }
+  return sum;
+}
+
+// Samples that a spacing will lead to, roughly.
+double expected_count(const Model& model, const Spacing& spacing, const Run& run) {
+  double sum = 0;
+  if (!spacing.field) {
+    sum = kHexagonal * model.area / (spacing.scale * spacing.scale);
+  } else {
+    for (const Piece& p : cut_into_pieces(*model.surface, 0, spacing, run)) {
+      sum += kHexagonal * p.area / (p.spacing * p.spacing);
+    }
+  }
+  return sum;
+}
+
+void require_countable(double expected) {
+  if (expected <= static_cast<double>(kMostSamples)) return;
+  throw InvalidInputError("Expected a spacing that needs at most " + std::to_string(kMostSamples) +
+                          " samples, found one that needs about " + text(expected) +
+                          "; take a larger one.");
+}
+
+Turn sample_once(const Model& model, const SamplingOptions& options, const Spacing& spacing,
+                 const Run& run) {
+  const double expected = expected_count(model, spacing, run);
+  require_countable(std::max(expected, spacing.field ? 0 : crease_length(model) / spacing.scale));
+  Turn turn;
+  turn.fixed = fixed_samples(model, options.keep_vertices, spacing, run);
+  add_mirrored_rows(model, options, spacing, turn.fixed, run);
+  const auto pieces = cut_into_pieces(*model.surface, cuts_for(model, expected), spacing, run);
+  turn.placed =
+      poisson_disks(*model.surface, pieces, kDisk, disks_of(turn.fixed), kDarts, options.seed, run);
+  return turn;
+}
+
+// Changes the spacing until the count is met within a hundredth; the nearest turn counts.
+Turn sample_count(const Model& model, const SamplingOptions& options, const Run& run) {
+  constexpr int kTurns = 8;
+  const auto wanted = static_cast<double>(*options.count);
+  const auto error = [&](const Turn& t) { return std::abs(t.count() - wanted); };
+  Spacing spacing{std::sqrt(kHexagonal * model.area / wanted)};
+  Turn best = sample_once(model, options, spacing, run), last = best;
+  for (int i = 1; i < kTurns && error(best) > 0.01 * wanted; ++i) {
+    spacing.scale *= std::sqrt(last.count() / wanted);
+    last = sample_once(model, options, spacing, run);
+    if (error(last) < error(best)) best = last;
+  }
+  return best;
+}
+
+// By the sites' spacings, made larger alike until no more than the allowed count is needed.
+Turn sample_sized(const Model& model, const SamplingOptions& options, const Run& run) {
+  constexpr int kTurns = 8;
+  const SizingField field(*options.sites, options.site_spacings, run);
+  Spacing spacing{1, &field};
+  if (!options.count) return sample_once(model, options, spacing, run);
+  const auto most = static_cast<double>(*options.count);
+  for (int i = 0; i < 2; ++i) {
+    spacing.scale *= std::sqrt(std::max(1.0, expected_count(model, spacing, run) / most));
+  }
+  Turn turn = sample_once(model, options, spacing, run);
+  for (int i = 1; i < kTurns && turn.count() > most; ++i) {
+    spacing.scale *= 1.002 * std::sqrt(turn.count() / most);
+    turn = sample_once(model, options, spacing, run);
+  }
+  return turn;
+}
+
+void require_valid_sites(const SamplingOptions& options) {
+  require_finite(*options.sites, "site");
+  if (options.sites->empty() || options.sites->size() != options.site_spacings.size()) {
+    throw InvalidInputError("Expected one spacing for each of at least one site, found " +
+                            std::to_string(options.site_spacings.size()) + " for " +
+                            std::to_string(options.sites->size()) + "; give as many.");
+  }
+  for (const double s : options.site_spacings) {
+    if (s > 0 && s < HUGE_VAL) continue;
+    throw InvalidInputError("Expected positive spacings of the sites, found " + text(s) +
+                            "; correct it.");
+  }
+}
+
+void require_valid(const SamplingOptions& options, size_t vertices) {
+  const bool density = options.count && !options.sites;
+  if (density + options.spacing.has_value() + options.sites.has_value() != 1) {
+    throw InvalidInputError(
+        "Expected one of count, spacing and sizing, or sizing with a count, found another "
+        "choice; leave out the others.");
+  }
+  if (options.count && (*options.count < 1 || *options.count > kMostSamples)) {
+    throw InvalidInputError("Expected a count of 1 to " + std::to_string(kMostSamples) +
+                            ", found " + std::to_string(*options.count) + "; change it.");
+  }
+  if (options.spacing && !(*options.spacing > 0 && *options.spacing < HUGE_VAL)) {
+    throw InvalidInputError("Expected a positive spacing, found " + text(*options.spacing) +
+                            "; change it.");
+  }
+  if (!(options.sharp_angle >= 0 && options.sharp_angle <= std::numbers::pi)) {
+    throw InvalidInputError("Expected a sharp_angle of 0 to pi, found " +
+                            text(options.sharp_angle) + "; change it.");
+  }
+  if (options.mirrored_rows < 0 || options.mirrored_rows > kMostRows) {
+    throw InvalidInputError("Expected mirrored_rows of 0 to " + std::to_string(kMostRows) +
+                            ", found " + std::to_string(options.mirrored_rows) + "; change it.");
+  }
+  if (options.sites) require_valid_sites(options);
+  for (const auto& edge : options.sharp_edges) {
+    for (const int32_t row : edge) {
+      if (row >= 0 && static_cast<size_t>(row) < vertices) continue;
+      throw InvalidInputError("Expected rows of sharp_edges below " + std::to_string(vertices) +
+                              ", found " + std::to_string(row) + "; mark the edges again.");
+    }
+  }
+}
+
+void append(const Model& model, const Turn& turn, SurfaceSamples& samples) {
+  const auto add = [&](const Vec3& point, const Vec3& normal, int32_t triangle,
+                       const Barycentric& at, SampleKind kind, double radius) {
+    samples.points.push_back(point);
+    samples.normals.push_back(normal);
+    samples.triangle.push_back(model.mesh.source[triangle]);
+    samples.barycentric.push_back({at.a, at.b, at.c});
+    samples.kind.push_back(kind);
+    samples.radius.push_back(radius);
+  };
+  for (const FixedSample& s : turn.fixed) {
+    add(s.point, s.normal, s.triangle, s.at, s.kind, s.radius);
+  }
+  for (const auto& [disk, place] : turn.placed) {
+    add(disk.centre, disk.normal, place.triangle, place.barycentric(), SampleKind::kSurface,
+        disk.radius);
+  }
+}
+
+}  // namespace
+
+SurfaceSamples sample_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                              const SamplingOptions& options, const Run& run) {
+  require_valid(options, vertices.size());
+  begin_stage(run.progress, "Sharp edges", 0, 0.2);
+  const Model model(vertices, triangles, options, run);
+  begin_stage(run.progress, "Sampling", 0.2, 1);
+  const Turn turn = options.sites   ? sample_sized(model, options, run)
+                    : options.count ? sample_count(model, options, run)
+                                    : sample_once(model, options, {*options.spacing}, run);
+  SurfaceSamples samples;
+  append(model, turn, samples);
+  for (const MeshEdge& edge : model.creases.edges) {
+    if (edge.crease != Crease::kSharp) continue;
+    samples.sharp_edges.push_back({model.mesh.row[edge.ends[0]], model.mesh.row[edge.ends[1]]});
+  }
+  samples.area = model.area;
+  return samples;
+}
+
+}  // namespace medial
