@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import Any
 
 from . import __version__
-from .core.batch.batch.batch import Item, begin, failure, finish
-from .core.batch.batch.frames import at_frame, has_number, output_path, parse_frames
-from .core.batch.batch.option_words import add_limits, add_options, limit_from, settings_from
+from .core.batch.batch import Item, begin, failure, finish
+from .core.batch.frames import at_frame, has_number, output_path, parse_frames
+from .core.batch.option_words import add_limits, add_options, limit_from, settings_from
 from .core.errors import (
     Cancelled,
     DegenerateInputError,

@@ -10,8 +10,8 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..bridge import read_scene
 from ..bridge.sequence import by_frame, write_sequence
-from ..core.batch.batch.batch import Item, begin, finish
-from ..core.batch.batch.frames import output_path, parse_frames
+from ..core.batch.batch import Item, begin, finish
+from ..core.batch.frames import output_path, parse_frames
 from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.machine.job import run_task
 from . import running

@@ -16,10 +16,12 @@ import _module
 
 medial = _module.load()
 
-import crossings  # noqa: E402  (found through _module)
-import messy  # noqa: E402
-import resampled  # noqa: E402
-import spikes  # noqa: E402
+from support import (  # noqa: E402
+    crossings,
+    messy,
+    resampled,
+    spikes,
+)
 
 HEADER = ["mesh", "triangles", "open edges", "sampling", "samples", "facets", "pieces", "outside"]
 HEADER += ["spike", "s", "what was said"]

@@ -29,10 +29,10 @@ from pathlib import Path
 import _module
 import blender_bench
 import measuring
-import meshes
 import numpy as np
 from measuring import DELAUNAY, Input, median
-from shapes import SHAPES
+from support import meshes
+from support.shapes import SHAPES
 
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 ELLIPSOIDS = (10_000, 121_723, 500_000, 1_000_000, 2_000_000, 5_000_000)

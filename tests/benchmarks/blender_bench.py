@@ -25,7 +25,7 @@ sys.path.insert(0, str(_module.ROOT / "tests" / "addon" / "gui"))
 import drive
 import run as addon
 from scipy.spatial import ConvexHull
-from shapes import SHAPES
+from support.shapes import SHAPES
 
 COUNTS = (100_000, 1_000_000)
 LARGEST_DRAWN = 100_000

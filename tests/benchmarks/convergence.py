@@ -13,8 +13,8 @@ import numpy as np
 
 medial = _module.load()
 
-import measure  # noqa: E402  (found through _module)
-from shapes import SHAPES  # noqa: E402
+from support import measure  # noqa: E402  (found through _module)
+from support.shapes import SHAPES  # noqa: E402
 
 SIZES = (1000, 2000, 4000, 8000, 16000, 32000, 64000)
 HEADER = ["shape", "limit set", "n", "h", "facets", "o->t mean", "p99", "max", "t->o mean", "max"]

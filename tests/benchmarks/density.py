@@ -14,10 +14,12 @@ import numpy as np
 
 medial = _module.load()
 
-import alike  # noqa: E402  (found through _module)
-import meshes  # noqa: E402
-import resampled  # noqa: E402
-from shape_meshes import MESHED  # noqa: E402
+from support import (  # noqa: E402
+    alike,
+    meshes,
+    resampled,
+)
+from support.shape_meshes import MESHED  # noqa: E402
 
 SHAPES = ("ellipsoid", "slab", "shell", "torus", "capsule", "box", "cylinder", "frustum")
 FILES = ("rocker-arm.off", "hand_closed.obj", "fandisk_large.off")

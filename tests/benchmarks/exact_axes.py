@@ -19,11 +19,13 @@ import numpy as np
 medial = _module.load()
 sys.path.insert(0, str(_module.ROOT / "tests" / "python"))
 
-import axis_bars as judge  # noqa: E402  (found through _module)
-import inputs  # noqa: E402
-import resampled  # noqa: E402
-import spikes  # noqa: E402
-from shape_meshes import MESHED  # noqa: E402
+from support import axis_bars as judge  # noqa: E402  (found through _module)
+from support import (  # noqa: E402
+    inputs,
+    resampled,
+    spikes,
+)
+from support.shape_meshes import MESHED  # noqa: E402
 
 HEADER = ["shape", "turned", "samples", "facets", "o->t mean %", "p99 %", "max %", "t->o mean %"]
 HEADER += ["max %", "outside", "pieces", "spike"]

@@ -16,10 +16,12 @@ from scipy.spatial import cKDTree
 
 medial = _module.load()
 
-import distance  # noqa: E402  (found through _module)
-import measure  # noqa: E402
-import topology  # noqa: E402
-from shapes import SHAPES  # noqa: E402
+from support import (  # noqa: E402
+    distance,
+    measure,
+    topology,
+)
+from support.shapes import SHAPES  # noqa: E402
 
 SHAPES_AND_EULER = {"torus": 0, "ellipsoid": 2}
 PERCENT = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0)

@@ -118,7 +118,7 @@ def read_ply(path: Path):
 def meshes() -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
     sys.path.insert(0, str(ROOT))
     sys.path.insert(0, str(ROOT / "tests"))
-    from meshes import icosphere, uv_sphere
+    from support.meshes import icosphere, uv_sphere
 
     yield "icosphere", *icosphere(3)
     yield "uv sphere", *uv_sphere(24, 12)

@@ -17,9 +17,11 @@ import numpy as np
 
 medial = _module.load()
 
-import distance  # noqa: E402  (found through _module)
-import meshes  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
+from support import (  # noqa: E402
+    distance,
+    meshes,
+)
 
 HEADER = ["mesh", "triangles", "options", "samples", "CPU s", "wall s", "apart", "hole"]
 

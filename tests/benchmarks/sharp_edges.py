@@ -21,10 +21,12 @@ from scipy.spatial.transform import Rotation
 
 medial = _module.load()
 
-import distance  # noqa: E402  (found through _module)
-import measure  # noqa: E402
-import meshes  # noqa: E402
-from shape_meshes import MESHED  # noqa: E402
+from support import (  # noqa: E402
+    distance,
+    measure,
+    meshes,
+)
+from support.shape_meshes import MESHED  # noqa: E402
 
 EDGES = {
     "none": {"mirrored_rows": 0, "sharp_angle": np.pi},

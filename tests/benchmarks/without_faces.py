@@ -14,8 +14,8 @@ import numpy as np
 
 medial = _module.load()
 
-import topology  # noqa: E402  (found through _module)
-from meshes import read  # noqa: E402
+from support import topology  # noqa: E402  (found through _module)
+from support.meshes import read  # noqa: E402
 
 FILES = (
     "3holes.off",

@@ -86,7 +86,7 @@ def read(file):
 def noisy_torus():
     """Points with a noise of a third of the spacing in every coordinate."""
     from scipy.spatial import cKDTree  # here, as Blender's own Python has no SciPy
-    from shapes import Torus
+    from support.shapes import Torus
 
     points = Torus().sample(8000)
     spacing = np.median(cKDTree(points).query(points, 2)[0][:, 1])

@@ -4,11 +4,9 @@ import re
 import threading
 import time
 
-import inputs
-import meshes
 import numpy as np
 import pytest
-import shapes
+from support import inputs, meshes, shapes
 
 CLOUD = np.random.default_rng(0).random((50, 3))
 BALL = meshes.icosphere(1)

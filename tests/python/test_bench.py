@@ -9,7 +9,7 @@ import pytest
 sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))
 import bench
 import measuring
-from shapes import SHAPES
+from support.shapes import SHAPES
 
 
 @pytest.fixture(scope="module")

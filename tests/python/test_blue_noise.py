@@ -8,13 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-import distance
-import meshes
 import numpy as np
 import pytest
-import resampled
-import shape_meshes
 from scipy.spatial import cKDTree
+from support import distance, meshes, resampled, shape_meshes
 
 CORNER, SHARP, BOUNDARY, VERTEX, SURFACE = range(5)
 

@@ -5,13 +5,12 @@ Where rounding may decide a comparison the reference gives two answers and the m
 
 from functools import cache
 
-import inputs
 import numpy as np
 import pytest
-import reference
-from cocone_reference import Cocone
-from shapes import SHAPES
-from solids import SOLIDS
+from support import inputs, reference
+from support.cocone_reference import Cocone
+from support.shapes import SHAPES
+from support.solids import SOLIDS
 
 OPTIONS = {
     "default": {},

@@ -4,13 +4,10 @@ The bars are the worst of 5 seeds times 1.5, measured with an independent exact 
 runs use 1 seed by default, all 5 with --slow.
 """
 
-import measure
-import meshes
 import numpy as np
 import pytest
-import reference
-import shapes
-from shapes import SHAPES
+from support import measure, meshes, reference, shapes
+from support.shapes import SHAPES
 
 # shape -> n -> o->t mean, p99, max; t->o mean, max
 BARS = {
@@ -145,7 +142,7 @@ def test_grid_cube_by_its_mesh(medial):
 @pytest.mark.parametrize("turn", range(3))
 def test_turned_grid_cube(medial, turn):
     """The same with rounding errors in every tie."""
-    import inputs
+    from support import inputs
 
     rotation = inputs.rotation(turn)
     mesh = medial.MedialAnalysis(shapes.grid_cube(8) @ rotation.T).extract()

@@ -1,12 +1,9 @@
 """The judge of inside and outside, against the sum of solid angles."""
 
-import crossings
-import distance
-import meshes
 import numpy as np
 import pytest
-import reference
-from shape_meshes import MESHED
+from support import crossings, distance, meshes, reference
+from support.shape_meshes import MESHED
 
 CASES = {
     "box": meshes.box((1, 1, 1)),

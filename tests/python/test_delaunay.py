@@ -1,11 +1,9 @@
 """The triangulation against Qhull, which shares no code with it, up to 20,000 points; cells equal as sets."""
 
-import inputs
 import numpy as np
 import pytest
-import reference
-import shapes
 from scipy.spatial import Delaunay
+from support import inputs, reference, shapes
 
 
 @pytest.mark.parametrize(

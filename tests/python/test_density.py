@@ -9,8 +9,8 @@ from medial_axis.core.axis.sampling_report import report
 from medial_axis.core.axis.shape import Shape
 from medial_axis.core.machine.cache import CACHE
 from medial_axis.core.settings import Sampling, Settings
-from meshes import icosphere
-from shapes import SHAPES
+from support.meshes import icosphere
+from support.shapes import SHAPES
 
 RNG = np.random.default_rng(5)
 

@@ -1,11 +1,9 @@
 """The paper's headline: one theta and one rho serve every density; the axes agree within the coarser spacing."""
 
-import alike
-import meshes
 import numpy as np
 import pytest
-import resampled
-from shape_meshes import MESHED
+from support import alike, meshes, resampled
+from support.shape_meshes import MESHED
 
 FILES = ("rocker-arm.off", "hand_closed.obj")
 

@@ -7,11 +7,9 @@ exact proof that they are a Delaunay triangulation. Samples that the definitions
 from functools import cache
 from itertools import pairwise, product
 
-import inputs
-import meshes
 import numpy as np
 import pytest
-import reference
+from support import inputs, meshes, reference
 
 GENERIC = inputs.generic_cases()
 STRUCTURED = inputs.structured_cases()

@@ -1,11 +1,9 @@
 """Meshes of shapes with exactly known axes, by way of the add-on: sampled at 16,000, default thresholds."""
 
-import axis_bars
-import inputs
 import numpy as np
 import pytest
-import resampled
-from shape_meshes import MESHED
+from support import axis_bars, inputs, resampled
+from support.shape_meshes import MESHED
 
 QUICK = ("ellipsoid", "box", "cylinder")
 CASES = [

@@ -2,12 +2,12 @@
 
 import re
 
-import inputs
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from scipy.spatial.distance import cdist
-from shapes import SHAPES
+from support import inputs
+from support.shapes import SHAPES
 
 THINNING = (
     1 / 32

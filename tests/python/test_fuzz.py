@@ -3,10 +3,10 @@
 And 10,000 for Tight Cocone, of which a run without --slow takes 2,000.
 """
 
-import inputs
 import numpy as np
 import pytest
-from shapes import SHAPES
+from support import inputs
+from support.shapes import SHAPES
 from test_invariants import assert_invariants
 from test_tight_cocone import assert_between_inner_and_outer_cells, assert_same, assert_watertight
 

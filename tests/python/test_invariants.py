@@ -1,11 +1,9 @@
 """What must hold for every output: empty balls, planar convex polygons, order, welded vertices, types."""
 
-import inputs
-import meshes
 import numpy as np
 import pytest
-import shapes
 from scipy.spatial import cKDTree
+from support import inputs, meshes, shapes
 
 MESHES = {
     "torus": meshes.jitter(meshes.torus(around=60, across=24), 1e-3),

@@ -3,15 +3,11 @@
 Whether a vertex of the axis is outside is judged by crossings of a ray, for meshes that are closed.
 """
 
-import crossings
-import distance
-import messy
 import numpy as np
 import pytest
-import resampled
-import spikes
 from medial_axis.core.errors import DegenerateInputError, InvalidInputError
 from medial_axis.core.settings import Sampling, SidesFrom
+from support import crossings, distance, messy, resampled, spikes
 
 SMALL = [name for name in (*messy.CLOSED, *messy.OPEN) if name not in messy.LARGE]
 HUGE = [pytest.param(name, marks=pytest.mark.slow) for name in messy.CLOSED if name in messy.LARGE]

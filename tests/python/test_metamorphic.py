@@ -2,11 +2,9 @@
 
 import itertools
 
-import inputs
-import meshes
 import numpy as np
 import pytest
-import shapes
+from support import inputs, meshes, shapes
 
 INPUTS = {
     "ellipsoid": shapes.SHAPES["ellipsoid"].sample(3000, 7),

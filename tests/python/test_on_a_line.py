@@ -1,8 +1,8 @@
 """Facets whose vertices lie on one line, though more than two: symmetric samples have them; they have no area."""
 
-import meshes
 import numpy as np
 import pytest
+from support import meshes
 
 
 @pytest.mark.parametrize("count", [1000, 4000, 16000])

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from shapes import SHAPES
+from support.shapes import SHAPES
 
 
 def by_hand(offsets, corners):

@@ -3,11 +3,10 @@
 import subprocess
 import sys
 
-import distance
-import meshes
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
+from support import distance, meshes
 
 CORNER, SHARP, BOUNDARY, VERTEX, SURFACE = range(5)
 MESHES = {

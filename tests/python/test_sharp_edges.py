@@ -1,14 +1,12 @@
 """Samples beside sharp edges mirror each other, and the axis of what they are sampled from is clean there."""
 
-import distance
-import measure
-import meshes
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
-from shape_meshes import MESHED
-from shapes import Lathe
+from support import distance, measure, meshes
+from support.shape_meshes import MESHED
+from support.shapes import Lathe
 
 SHARP, SURFACE = 1, 4
 HALF = np.array([1.0, 0.7, 0.4])

@@ -3,12 +3,10 @@
 Only a facet with a vertex on the surface itself, where the winding number jumps, may differ.
 """
 
-import distance
-import meshes
 import numpy as np
 import pytest
-import reference
 from scipy.spatial import cKDTree
+from support import distance, meshes, reference
 
 
 def without_triangles(mesh, share, seed=0):

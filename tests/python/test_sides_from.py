@@ -4,14 +4,12 @@ import re
 import threading
 import time
 
-import inputs
-import meshes
 import numpy as np
 import pytest
-import rings
 from scipy.spatial import cKDTree
-from shapes import SHAPES
-from solids import SOLIDS
+from support import inputs, meshes, rings
+from support.shapes import SHAPES
+from support.solids import SOLIDS
 
 CLOUD = np.random.default_rng(0).random((50, 3))
 CLOSED = meshes.jitter(meshes.icosphere(3), 1e-3)

@@ -2,12 +2,10 @@
 
 import re
 
-import meshes
 import numpy as np
 import pytest
-import reference
-import topology
-from shapes import SHAPES
+from support import meshes, reference, topology
+from support.shapes import SHAPES
 
 BALL = meshes.jitter(meshes.icosphere(3), 1e-3)
 

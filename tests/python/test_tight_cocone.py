@@ -2,15 +2,12 @@
 
 from functools import cache
 
-import inputs
-import meshes
 import numpy as np
 import pytest
-import rings
-import topology
 from scipy.spatial import cKDTree
-from shapes import SHAPES
-from solids import SOLIDS, Filled
+from support import inputs, meshes, rings, topology
+from support.shapes import SHAPES
+from support.solids import SOLIDS, Filled
 
 SIZES = {"knot": 4000, "genus 2": 4000, "genus 3": 4000}  # the others: 2000
 CASES = [(name, SIZES.get(name, 2000)) for name in SOLIDS]

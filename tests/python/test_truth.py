@@ -4,14 +4,12 @@ A tangent ball at a point of the surface grows inward as long as the shape's dep
 depth knows nothing of the axis. The largest ones have their centres on the axis, and all of it.
 """
 
-import distance
-import meshes
 import numpy as np
 import pytest
-import topology
 from scipy.spatial import cKDTree
-from shape_meshes import MESHED, SHARP
-from shapes import MORE_SHAPES, SHAPES, Prolate, Shell, cylinder, frustum
+from support import distance, meshes, topology
+from support.shape_meshes import MESHED, SHARP
+from support.shapes import MORE_SHAPES, SHAPES, Prolate, Shell, cylinder, frustum
 
 ALL = SHAPES | MORE_SHAPES
 BALLS = [name for name in ALL if name != "knot"]  # the knot's distance takes a minute a round

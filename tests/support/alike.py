@@ -2,11 +2,11 @@
 
 from typing import Any
 
-import distance
-import measure
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+
+from . import distance, measure
 
 Array = NDArray[np.float64]
 

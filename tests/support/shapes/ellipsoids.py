@@ -4,9 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
-import distance
 import numpy as np
 from numpy.typing import NDArray
+
+from support import distance
 
 from .base import Array, Rng, Shape, directions, reject, shares
 

@@ -4,9 +4,10 @@ Every vertex lies on the shape; between the vertices the mesh is flat, as an art
 """
 
 import numpy as np
-from meshes import Mesh, box, flip, icosphere, join, lathe, rectangle, torus, weld
 from numpy.typing import NDArray
-from shapes import MORE_SHAPES, SHAPES, Capsule, Ellipsoid, Lathe, Shape, Shell, Slab
+
+from .meshes import Mesh, box, flip, icosphere, join, lathe, rectangle, torus, weld
+from .shapes import MORE_SHAPES, SHAPES, Capsule, Ellipsoid, Lathe, Shape, Shell, Slab
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,8 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from shapes import SHAPES, Array, Rng, Shape, Shell, Sphere
+
+from .shapes import SHAPES, Array, Rng, Shape, Shell, Sphere
 
 
 @dataclass(frozen=True)

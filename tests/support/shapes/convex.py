@@ -4,8 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
-import distance
 import numpy as np
+
+from support import distance
 
 from .base import Array, Rng, Shape, shares
 

@@ -2,10 +2,10 @@
 
 import itertools
 
-import meshes
 import numpy as np
-import shapes
 from numpy.typing import NDArray
+
+from . import meshes, shapes
 
 Array = NDArray[np.float64]
 

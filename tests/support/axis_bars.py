@@ -3,16 +3,14 @@
 from dataclasses import dataclass
 from typing import Any
 
-import crossings
-import measure
 import numpy as np
-import resampled
-import spikes
-from meshes import Mesh
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
-from shape_meshes import SHARP
-from shapes import Shape
+
+from . import crossings, measure, resampled, spikes
+from .meshes import Mesh
+from .shape_meshes import SHARP
+from .shapes import Shape
 
 Array = NDArray[np.float64]
 

@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from pathlib import Path
 
-import meshes
 import numpy as np
-from meshes import Mesh
+
+from . import meshes
+from .meshes import Mesh
 
 Find = Callable[[str], Path]
 

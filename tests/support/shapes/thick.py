@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-import distance
 import numpy as np
+
+from support import distance
 
 from .base import Array, Rng, Shape, directions, reject, shares
 

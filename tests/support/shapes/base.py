@@ -2,7 +2,8 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from sampling import poisson_disc
+
+from support.sampling import poisson_disc
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

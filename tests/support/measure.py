@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass
 
-import distance
 import numpy as np
 from numpy.typing import NDArray
-from shapes import Shape
+
+from . import distance
+from .shapes import Shape
 
 Array = NDArray[np.float64]
 

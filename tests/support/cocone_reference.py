@@ -10,7 +10,8 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from reference import NEAR, Array, Ints, Medial, unit
+
+from .reference import NEAR, Array, Ints, Medial, unit
 
 Mask = NDArray[np.bool_]
 Bounds = tuple[Mask, Mask]  # surely, possibly

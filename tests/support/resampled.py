@@ -2,10 +2,11 @@
 
 from typing import Any
 
-import distance
 import numpy as np
-from meshes import Mesh
 from numpy.typing import NDArray
+
+from . import distance
+from .meshes import Mesh
 
 Array = NDArray[np.float64]
 

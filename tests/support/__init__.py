@@ -1,0 +1,1 @@
+"""What the tests and benchmarks share: shapes with known axes, meshes, oracles, measures."""
