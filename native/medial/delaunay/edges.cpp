@@ -59,9 +59,6 @@ class Ways {
   std::vector<uint64_t> order_;
 };
 
-// kNext[i][j] = k so that the permutation (i, j, k, l) of (0, 1, 2, 3) is even.
-constexpr int kNext[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
-
 }  // namespace
 
 Csr<int32_t> incident_cells(const Triangulation& t, int32_t samples, const Run& run) {
@@ -96,18 +93,10 @@ Edges delaunay_edges(const Triangulation& t, const Csr<int32_t>& incident,
 void ring_of_cells(const Triangulation& t, const Edge& ends, int32_t cell,
                    std::vector<int32_t>& ring) {
   ring.clear();
-  const int i = slot_of(t.cells[cell], ends[0]), j = slot_of(t.cells[cell], ends[1]);
-  int leave = kNext[i][j];
-  int32_t keep = t.cells[cell][6 - i - j - leave];
-  int32_t c = cell;
-  do {
+  walk_ring(t, ends, cell, [&](int32_t c, int) {
     ring.push_back(c);
-    c = t.neighbors[c][leave];
-    // Across the facet (ends, keep): next time `keep` is left behind, and the fourth corner kept.
-    leave = slot_of(t.cells[c], keep);
-    const Cell& ids = t.cells[c];
-    keep = ids[0] + ids[1] + ids[2] + ids[3] - ends[0] - ends[1] - keep;
-  } while (c != cell);
+    return true;
+  });
 }
 
 }  // namespace medial

@@ -24,8 +24,30 @@ Csr<int32_t> incident_cells(const Triangulation& triangulation, int32_t samples,
 Edges delaunay_edges(const Triangulation& triangulation, const Csr<int32_t>& incident,
                      std::span<const int32_t> row, const Run& run);
 
-// The cells round an edge, counter-clockwise about the direction from ends[0] to ends[1], starting
-// at `cell`: the Voronoi facet's vertices. Appends to `ring` after clearing it.
+// kNext[i][j] = k so that the permutation (i, j, k, l) of (0, 1, 2, 3) is even.
+inline constexpr int kNext[4][4] = {{-1, 2, 3, 1}, {3, -1, 0, 2}, {1, 3, -1, 0}, {2, 0, 1, -1}};
+
+// Calls visit(cell, slot) for the cells round an edge, counter-clockwise about the direction from
+// ends[0] to ends[1], starting at `cell`; the next one lies across `slot`. Stops where visit
+// returns false, and returns whether it never did.
+template <typename Visit>
+bool walk_ring(const Triangulation& t, const Edge& ends, int32_t cell, const Visit& visit) {
+  const int i = slot_of(t.cells[cell], ends[0]), j = slot_of(t.cells[cell], ends[1]);
+  int leave = kNext[i][j];
+  int32_t keep = t.cells[cell][6 - i - j - leave];
+  int32_t c = cell;
+  do {
+    if (!visit(c, leave)) return false;
+    c = t.neighbors[c][leave];
+    // Across the facet (ends, keep): next time `keep` is left behind, and the fourth corner kept.
+    leave = slot_of(t.cells[c], keep);
+    const Cell& ids = t.cells[c];
+    keep = ids[0] + ids[1] + ids[2] + ids[3] - ends[0] - ends[1] - keep;
+  } while (c != cell);
+  return true;
+}
+
+// Those cells: the Voronoi facet's vertices. Appends to `ring` after clearing it.
 void ring_of_cells(const Triangulation& triangulation, const Edge& ends, int32_t cell,
                    std::vector<int32_t>& ring);
 
