@@ -167,6 +167,18 @@ Selection MedialAnalysis::selection(const Extraction& x) const {
   return selection;
 }
 
+Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
+                                    Progress* progress) const {
+  if (side != Side::inner) {
+    throw InvalidInputError(
+        "Expected side INNER for a hierarchy, found another one; the outer axis reaches infinity, "
+        "where fire has no rim to start from.");
+  }
+  require_solid(sides_from_, tight_cocone_.get());
+  const Facets facets{samples_.points, triangulation_, voronoi_, edges_, significance_, sides_};
+  return Hierarchy(samples_, facets, thresholds, {threads_, progress, arena_.get()});
+}
+
 std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
   return selected(selection(x), edges_by_row(), {threads_, progress, arena_.get()});
 }

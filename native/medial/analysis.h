@@ -9,6 +9,7 @@
 #include "axis/medial_mesh.h"
 #include "axis/selection.h"
 #include "cocone/watertight_surface.h"
+#include "skeleton/hierarchy.h"
 
 namespace medial {
 
@@ -39,6 +40,11 @@ class MedialAnalysis {
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
   // The closure of F.
   MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
+
+  // Of the inner axis. Throws InvalidInputError for other sides, DegenerateInputError for samples
+  // that enclose nothing.
+  Hierarchy hierarchy(const Thresholds& thresholds, Side side = Side::inner,
+                      Progress* progress = nullptr) const;
 
   // Per sample, ascending by row: the largest circumradius in its umbrella, infinite for an empty
   // one.

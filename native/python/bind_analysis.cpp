@@ -75,6 +75,17 @@ constexpr const char* kMemoryDoc =
     "measured. Facets that are long\nand thin, as on a torus of random points, take up to four "
     "times as many.";
 
+constexpr const char* kHierarchyMethodDoc =
+    "The levels of the inner axis, as a Hierarchy; computed once, extracted often. It does not need "
+    "the analysis any more.\n\n"
+    "Parameters\n----------\n"
+    "theta, rho, rule, criteria\n    As in `extract`: what they select is in the level with the "
+    "thresholds 0, with the bridges that it lacks.\n"
+    "side : Side\n    INNER only.\n"
+    "progress : Progress, optional\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled\n"
+    "DegenerateInputError\n    `TightCocone.encloses` is false.";
+
 constexpr const char* kSelectDoc =
     "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and "
     "zero-area\n"
@@ -207,6 +218,7 @@ void bind_analysis(py::module_& m) {
   bind_enums(m);
   bind_progress(m);
   bind_mesh(m);
+  bind_hierarchy(m);
   m.def("memory_needed", &memory_needed, kMemoryDoc, py::arg("points"));
   const Thresholds paper;
   py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final())
@@ -291,6 +303,16 @@ void bind_analysis(py::module_& m) {
             return array_of<int32_t>(std::move(triangles));
           },
           kSolidDoc)
+      .def(
+          "hierarchy",
+          [](const MedialAnalysis& a, double theta, double rho, Rule rule, Criteria criteria,
+             Side side, Progress* progress) {
+            const py::gil_scoped_release release;
+            return a.hierarchy({theta, rho, rule, criteria}, side, progress);
+          },
+          kHierarchyMethodDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho,
+          py::arg("rule") = paper.rule, py::arg("criteria") = paper.criteria,
+          py::arg("side") = Side::inner, py::kw_only(), py::arg("progress") = nullptr)
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,

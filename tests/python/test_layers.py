@@ -160,8 +160,9 @@ MAY_INCLUDE = {
     "inside": {"base", "delaunay"},
     "axis": {"base", "delaunay", "inside"},
     "cocone": {"base", "delaunay", "inside", "axis"},
+    "skeleton": {"base", "delaunay", "inside", "axis"},
     "sampling": {"base", "inside"},
-    ".": {"base", "delaunay", "inside", "axis", "cocone", "sampling"},  # the analysis, on top
+    ".": {"base", "delaunay", "inside", "axis", "cocone", "skeleton", "sampling"},  # the analysis, on top
 }
 
 

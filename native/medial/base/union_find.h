@@ -38,6 +38,47 @@ class UnionFind {
   std::vector<int32_t> joined_;  // whoever is no representative
 };
 
+// The same for several threads at once; the sets do not depend on who comes first.
+class SharedUnionFind {
+ public:
+  SharedUnionFind(size_t count, const Run& run) : parent_(array<int32_t>(count, run)) {
+    parallel_for(static_cast<int64_t>(count), run,
+                 [&](int64_t id) { parent_[id] = static_cast<int32_t>(id); });
+  }
+
+  void unite(int32_t a, int32_t b) {
+    for (;;) {
+      a = find(a);
+      b = find(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      int32_t self = a;
+      if (at(a).compare_exchange_strong(self, b, std::memory_order_relaxed)) return;
+    }
+  }
+  // Representative of every id; when all threads are done.
+  Array<int32_t> representatives(const Run& run) && {
+    parallel_for(static_cast<int64_t>(parent_.size()), run, [&](int64_t id) {
+      at(static_cast<int32_t>(id)).store(find(static_cast<int32_t>(id)), std::memory_order_relaxed);
+    });
+    return std::move(parent_);
+  }
+
+ private:
+  std::atomic_ref<int32_t> at(int32_t id) { return std::atomic_ref(parent_[id]); }
+  int32_t find(int32_t id) {
+    for (;;) {
+      int32_t above = at(id).load(std::memory_order_relaxed);
+      if (above == id) return id;
+      const int32_t two = at(above).load(std::memory_order_relaxed);
+      if (two != above) at(id).compare_exchange_weak(above, two, std::memory_order_relaxed);
+      id = two;
+    }
+  }
+
+  Array<int32_t> parent_;
+};
+
 // Disjoint sets of things that can be turned over: within a set it is known which of them are
 // turned relative to its lowest id.
 class OrientedUnionFind {

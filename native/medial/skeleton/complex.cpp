@@ -6,7 +6,7 @@ namespace medial {
 namespace {
 
 bool is_inner(const CellSides& sides, int32_t cell) {
-  return sides[cell] == static_cast<uint8_t>(Side::inner);
+  return sides[cell] == Side::inner;
 }
 
 // Numbers the inner cells; -1 for all others.

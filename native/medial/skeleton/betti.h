@@ -1,0 +1,24 @@
+// Betti numbers, counted on what is there: components by union-find, cavities by Alexander duality
+// as components of the samples outside, tunnels from the Euler characteristic.
+#pragma once
+
+#include "skeleton/complex.h"
+
+namespace medial {
+
+using Betti = std::array<int64_t, 3>;  // components, tunnels, cavities
+
+// Per sample, and one more for infinity: the lowest of those it is joined with by Delaunay edges
+// whose facets are not in the complex. The points of a bounding sphere count as infinity.
+Array<int32_t> outside_components(const InnerComplex& complex, int32_t samples,
+                                  const Triangulation& triangulation, const Edges& edges,
+                                  const Run& run);
+
+// Cavities of what is left of the complex, none of whose 3-cells is there: alive[f] per facet.
+int64_t count_cavities(const InnerComplex& complex, std::span<const int32_t> outside,
+                       std::span<const uint8_t> alive, const Run& run);
+
+// Of the complex itself.
+Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Run& run);
+
+}  // namespace medial

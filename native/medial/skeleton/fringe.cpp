@@ -1,0 +1,251 @@
+#include "skeleton/fringe.h"
+
+namespace medial {
+namespace {
+
+constexpr int kLevels = 16;
+constexpr uint8_t kSelected = 255;
+
+// One list, filled by several threads; their order does not matter.
+class Gathered {
+ public:
+  explicit Gathered(const Run& run) : parts_(run.threads) {}
+
+  std::vector<int32_t>& of(int worker) { return parts_[worker]; }
+  // Moves everything to the end of a list.
+  void pour_into(std::vector<int32_t>& list) {
+    for (auto& part : parts_) {
+      list.insert(list.end(), part.begin(), part.end());
+      part.clear();
+    }
+  }
+
+ private:
+  std::vector<std::vector<int32_t>> parts_;
+};
+
+template <typename Body>
+void for_all(std::span<const int32_t> ids, const Run& run, const Body& body) {
+  parallel_chunks(static_cast<int64_t>(ids.size()), run,
+                  [&](int64_t begin, int64_t end, int worker) {
+                    for (int64_t i = begin; i < end; ++i) body(ids[i], worker);
+                  });
+}
+
+// Whether this call is the first to claim something.
+template <typename T>
+bool claim(T& state, T free, T taken) {
+  return std::atomic_ref(state).compare_exchange_strong(free, taken, std::memory_order_relaxed);
+}
+
+class FacetPeeler {
+ public:
+  FacetPeeler(const InnerComplex& complex, const FacetWeights& weight, Collapse& collapse,
+              const Run& run)
+      : complex_(complex), collapse_(collapse), run_{run.threads, nullptr, run.arena},
+        progress_(run.progress), level_(array<uint8_t>(complex.dual.size(), run)), found_(run),
+        waiting_(kLevels) {
+    parallel_for(complex.facets(), run_, [&](int64_t f) { level_[f] = level(weight, f); });
+  }
+
+  void peel() {
+    start();
+    for (int now = 0; now < kLevels; ++now) {
+      std::vector<int32_t> front = std::exchange(waiting_[now], {});
+      while (!front.empty()) {
+        throw_if_cancelled(progress_);
+        front = round(front, now);
+      }
+    }
+  }
+
+ private:
+  static uint8_t level(const FacetWeights& weight, int64_t facet) {
+    const auto f = static_cast<int32_t>(facet);
+    if (weight.selected(f)) return kSelected;
+    return static_cast<uint8_t>(std::min(kLevels * weight(f), kLevels - 1.0));
+  }
+
+  bool is_free(int32_t edge) const { return collapse_.degree[edge] == 1; }
+
+  // The facets that have a free edge from the start.
+  void start() {
+    parallel_chunks(complex_.facets(), run_, [&](int64_t begin, int64_t end, int worker) {
+      for (auto f = static_cast<int32_t>(begin); f < end; ++f) {
+        if (level_[f] == kSelected || collapse_.facet_gone[f]) continue;
+        const auto ring = complex_.ring(f);
+        if (std::any_of(ring.begin(), ring.end(), [&](Corner c) { return is_free(c.edge); })) {
+          found_.of(worker).push_back(f);
+        }
+      }
+    });
+    sort_in(0);
+  }
+
+  // Puts what was found with its level, or with the present one if that is higher.
+  void sort_in(int now) {
+    going_.clear();
+    found_.pour_into(going_);
+    for (const int32_t f : going_) waiting_[std::max<int>(now, level_[f])].push_back(f);
+  }
+
+  std::vector<int32_t> round(std::span<const int32_t> front, int now) {
+    going_.clear();
+    for_all(front, run_, [&](int32_t f, int worker) {
+      if (!claim<uint8_t>(collapse_.facet_gone[f], 0, 1)) return;
+      collapse_.partner[way_out(f)] = f;
+      found_.of(worker).push_back(f);
+    });
+    found_.pour_into(going_);
+    for_all(going_, run_, [&](int32_t f, int) { take_away(f); });
+    for_all(going_, run_, [&](int32_t f, int worker) { find_next(f, found_.of(worker)); });
+    sort_in(now);
+    return std::exchange(waiting_[now], {});
+  }
+
+  int32_t way_out(int32_t facet) const {
+    int32_t best = -1;
+    double smallest = HUGE_VAL;
+    for (const Corner& c : complex_.ring(facet)) {
+      if (!is_free(c.edge)) continue;
+      const auto& [a, b] = complex_.ends[c.edge];
+      const double ball = std::min(complex_.radius[a], complex_.radius[b]);
+      if (best < 0 || ball < smallest || (ball == smallest && c.edge < best)) {
+        best = c.edge;
+        smallest = ball;
+      }
+    }
+    return best;
+  }
+
+  void take_away(int32_t facet) {
+    for (const Corner& c : complex_.ring(facet)) {
+      std::atomic_ref(collapse_.degree[c.edge]).fetch_sub(1, std::memory_order_relaxed);
+      std::atomic_ref(collapse_.facets_at[c.edge]).fetch_xor(facet, std::memory_order_relaxed);
+    }
+  }
+
+  void find_next(int32_t facet, std::vector<int32_t>& found) const {
+    for (const Corner& c : complex_.ring(facet)) {
+      if (!is_free(c.edge)) continue;
+      const int32_t last = collapse_.facets_at[c.edge];
+      if (level_[last] != kSelected) found.push_back(last);
+    }
+  }
+
+  const InnerComplex& complex_;
+  Collapse& collapse_;
+  Run run_;
+  Progress* progress_;
+  Array<uint8_t> level_;
+  Gathered found_;
+  std::vector<std::vector<int32_t>> waiting_;  // per level
+  std::vector<int32_t> going_;
+};
+
+class WirePeeler {
+ public:
+  WirePeeler(const InnerComplex& complex, const EdgesAtVertex& edges_at, Collapse& collapse,
+             const Run& run)
+      : complex_(complex), collapse_(collapse), run_{run.threads, nullptr, run.arena},
+        progress_(run.progress), left_(ends_left(collapse, edges_at, run_)), found_(run) {}
+
+  void peel() {
+    std::vector<int32_t> front;
+    parallel_chunks(complex_.vertices(), run_, [&](int64_t begin, int64_t end, int worker) {
+      for (auto v = static_cast<int32_t>(begin); v < end; ++v) {
+        if (is_loose(v)) found_.of(worker).push_back(v);
+      }
+    });
+    found_.pour_into(front);
+    while (!front.empty()) {
+      throw_if_cancelled(progress_);
+      round(front);
+    }
+  }
+
+ private:
+  bool is_loose(int32_t vertex) const {
+    return left_.degree[vertex] == 1 && collapse_.degree[left_.edges_at[vertex]] == 0;
+  }
+  // Of two loose ends of one wire the lower stays.
+  bool goes(int32_t vertex) const {
+    const int32_t other = other_end(complex_, left_.edges_at[vertex], vertex);
+    return left_.degree[other] != 1 || other < vertex;
+  }
+
+  void round(std::vector<int32_t>& front) {
+    for_all(front, run_, [&](int32_t v, int worker) {
+      const int32_t edge = left_.edges_at[v];
+      if (!goes(v) || !claim(collapse_.edge_of_vertex[v], -1, edge)) return;
+      collapse_.partner[edge] = with_vertex(v);
+      found_.of(worker).push_back(v);
+    });
+    std::vector<int32_t> going;
+    found_.pour_into(going);
+    for_all(going, run_, [&](int32_t v, int) { take_away(v); });
+    for_all(going, run_, [&](int32_t v, int worker) {
+      const int32_t other = other_end(complex_, collapse_.edge_of_vertex[v], v);
+      if (is_loose(other)) found_.of(worker).push_back(other);
+    });
+    front.clear();
+    found_.pour_into(front);
+  }
+
+  void take_away(int32_t vertex) {
+    const int32_t edge = collapse_.edge_of_vertex[vertex];
+    for (const int32_t v : complex_.ends[edge]) {
+      std::atomic_ref(left_.degree[v]).fetch_sub(1, std::memory_order_relaxed);
+      std::atomic_ref(left_.edges_at[v]).fetch_xor(edge, std::memory_order_relaxed);
+    }
+  }
+
+  const InnerComplex& complex_;
+  Collapse& collapse_;
+  Run run_;
+  Progress* progress_;
+  Ends left_;
+  Gathered found_;
+};
+
+}  // namespace
+
+Collapse whole(const InnerComplex& complex, const Run& run) {
+  const auto edges = static_cast<size_t>(complex.edges());
+  Collapse collapse{array<int32_t>(edges, kAlone, run),
+                    array<int32_t>(complex.cell.size(), -1, run),
+                    array<uint8_t>(complex.dual.size(), 0, run), array<uint8_t>(edges, 0, run),
+                    array<int32_t>(edges, 0, run)};
+  parallel_for(complex.facets(), run, [&](int64_t f) {
+    for (const Corner& c : complex.ring(static_cast<int32_t>(f))) {
+      std::atomic_ref(collapse.degree[c.edge]).fetch_add(1, std::memory_order_relaxed);
+      std::atomic_ref(collapse.facets_at[c.edge])
+          .fetch_xor(static_cast<int32_t>(f), std::memory_order_relaxed);
+    }
+  });
+  return collapse;
+}
+
+Ends ends_left(const Collapse& collapse, const EdgesAtVertex& edges_at, const Run& run) {
+  Ends left{array<uint8_t>(edges_at.size(), 0, run), array<int32_t>(edges_at.size(), 0, run)};
+  parallel_for(static_cast<int64_t>(edges_at.size()), run, [&](int64_t v) {
+    for (const int32_t edge : edges_at[v]) {
+      if (edge < 0 || collapse.edge_gone(edge)) continue;
+      ++left.degree[v];
+      left.edges_at[v] ^= edge;
+    }
+  });
+  return left;
+}
+
+void peel_facets(const InnerComplex& complex, const FacetWeights& weight, Collapse& collapse,
+                 const Run& run) {
+  FacetPeeler(complex, weight, collapse, run).peel();
+}
+
+void peel_wires(const InnerComplex& complex, const EdgesAtVertex& edges_at, Collapse& collapse,
+                const Run& run) {
+  WirePeeler(complex, edges_at, collapse, run).peel();
+}
+
+}  // namespace medial

@@ -1,0 +1,14 @@
+// Limbs: branches of the wires, each with one value from its tip to where it ends at a longer one.
+#pragma once
+
+#include "skeleton/wires.h"
+
+namespace medial {
+
+// Per vertex that went with a wire in stage 3, as shares of the diagonal, and 0 for all others: the
+// smaller of how long its branch is (the largest elongation) and how far it sticks out (the tip's
+// ball out of the ball at its end). Tips of plates stick out, terraces are long; limbs are both.
+Array<float> limb_values(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
+                         const Run& run);
+
+}  // namespace medial

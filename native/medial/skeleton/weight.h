@@ -1,0 +1,40 @@
+// How far a facet is from being selected by MEDIAL: the order of the first two stages.
+#pragma once
+
+#include "axis/selection.h"
+#include "skeleton/complex.h"
+
+namespace medial {
+
+class FacetWeights {
+ public:
+  // Keeps references.
+  FacetWeights(const InnerComplex& complex, const Facets& facets, const Thresholds& thresholds)
+      : complex_(complex), facets_(facets), t_(thresholds), selection_({thresholds}, facets) {}
+
+  bool selected(int32_t facet) const {
+    std::vector<int32_t> none;  // side `both` needs no ring
+    return selection_.wants(complex_.dual[facet], none);
+  }
+  // The larger of theta / theta0 and rho / rho0; as the criteria have it, one of them.
+  double operator()(int32_t facet) const {
+    const int32_t edge = complex_.dual[facet];
+    const double theta =
+        part(theta_of(facets_.significance.sines(t_.rule)[edge]), t_.theta, Criteria::ratio);
+    return std::max(theta,
+                    part(facets_.significance.ratios(t_.rule)[edge], t_.rho, Criteria::angle));
+  }
+
+ private:
+  double part(double value, double threshold, Criteria without) const {
+    if (t_.criteria == without || !(value > 0)) return 0;
+    return threshold > 0 ? value / threshold : HUGE_VAL;
+  }
+
+  const InnerComplex& complex_;
+  const Facets& facets_;
+  Thresholds t_;
+  Selection selection_;
+};
+
+}  // namespace medial

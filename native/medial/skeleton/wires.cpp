@@ -1,0 +1,118 @@
+#include "skeleton/wires.h"
+
+#include "skeleton/bucket_queue.h"
+
+namespace medial {
+namespace {
+
+// Below this share of the diagonal the order matters for nothing but for which vertex of a small
+// tree stays: what is loose stays loose, and the elongation comes from what lies behind.
+constexpr double kAtOnce = 1.0 / 1024;
+constexpr size_t kBuckets = 1024;
+
+// A fire front on a wire: lengths are measured from an anchor, not summed over edges, for the
+// Voronoi edges zigzag.
+struct Front {
+  double time = -HUGE_VAL, anchor_time = -HUGE_VAL;
+  int32_t anchor = -1;
+};
+
+class WireFire {
+ public:
+  WireFire(const InnerComplex& complex, const EdgesAtVertex& edges_at,
+           std::span<const Times> lateral, Collapse& collapse, const Run& run)
+      : complex_(complex), lateral_(lateral), collapse_(collapse), progress_(run.progress),
+        queue_(complex.diagonal / kBuckets, kBuckets), left_(ends_left(collapse, edges_at, run)),
+        front_(array<Front>(complex.cell.size(), Front{}, run)) {
+    wires_.order = array<int32_t>(0, run);
+    wires_.order.reserve(complex.cell.size());
+    wires_.elongation = array<double>(complex.cell.size(), run);
+  }
+
+  Wires run() && {
+    for (int32_t v = 0; v < complex_.vertices(); ++v) follow(v);
+    for (int32_t v; (v = queue_.pop()) >= 0;) {
+      if (is_loose(v)) follow(take_away(v));
+    }
+    return std::move(wires_);
+  }
+
+ private:
+  bool is_loose(int32_t vertex) const {
+    return left_.degree[vertex] == 1 && collapse_.degree[left_.edges_at[vertex]] == 0;
+  }
+
+  // Takes loose ends away, one after the other, as far as they do not have to wait.
+  void follow(int32_t vertex) {
+    while (is_loose(vertex)) {
+      light(vertex);
+      const double elongation = wires_.elongation[vertex];
+      if (elongation > kAtOnce * complex_.diagonal) {
+        queue_.push(elongation, vertex);
+        return;
+      }
+      vertex = take_away(vertex);
+    }
+  }
+
+  // The time at a loose end, and the elongation of its edge.
+  void light(int32_t vertex) {
+    const int32_t edge = left_.edges_at[vertex];
+    const Times& t = lateral_[edge];
+    const double sideways = t[complex_.ends[edge][0] == vertex ? 0 : 1];
+    Front& front = front_[vertex];
+    if (!(front.time > sideways)) front = {sideways, sideways, vertex};
+    const Vec3& at = complex_.position[vertex];
+    const Vec3 middle = 0.5 * (at + complex_.position[other_end(complex_, edge, vertex)]);
+    const double time = later(front, middle);
+    wires_.elongation[vertex] = std::max(0.0, time - 0.5 * (t[0] + t[1]));
+  }
+
+  double later(const Front& front, const Vec3& x) const {
+    return std::max(front.time,
+                    front.anchor_time + distance(x, complex_.position[front.anchor]));
+  }
+
+  // Returns the other end.
+  int32_t take_away(int32_t vertex) {
+    const int32_t edge = left_.edges_at[vertex], other = other_end(complex_, edge, vertex);
+    collapse_.partner[edge] = with_vertex(vertex);
+    collapse_.edge_of_vertex[vertex] = edge;
+    wires_.order.push_back(vertex);
+    if (wires_.order.size() % (1 << 14) == 0) throw_if_cancelled(progress_);
+    left_.degree[vertex] = 0;
+    --left_.degree[other];
+    left_.edges_at[other] ^= edge;
+    arrive(front_[vertex], other);
+    return other;
+  }
+
+  // Where several fronts meet the last one counts.
+  void arrive(Front front, int32_t vertex) {
+    const Vec3& at = complex_.position[vertex];
+    front.time = later(front, at);
+    if (distance(at, complex_.position[front.anchor]) > 0.5 * complex_.radius[vertex]) {
+      front.anchor = vertex;
+      front.anchor_time = front.time;
+    }
+    if (front.time > front_[vertex].time) front_[vertex] = front;
+  }
+
+  const InnerComplex& complex_;
+  std::span<const Times> lateral_;
+  Collapse& collapse_;
+  Progress* progress_;
+  BucketQueue queue_;
+  Ends left_;
+  Array<Front> front_;
+  Wires wires_;
+};
+
+}  // namespace
+
+Wires burn_wires(const InnerComplex& complex, const EdgesAtVertex& edges_at,
+                 std::span<const Times> lateral, Collapse& collapse, const Run& run) {
+  return WireFire(complex, edges_at, lateral, collapse, run).run();
+}
+
+}  // namespace medial

@@ -1,0 +1,21 @@
+// Stage 3 of the collapse: the fire on the edges that have no facet any more.
+#pragma once
+
+#include "skeleton/fire.h"
+
+namespace medial {
+
+struct Wires {
+  // Vertices in the order in which they went, each with the edge that it went with.
+  Array<int32_t> order;
+  // Per vertex that went here: how much later than sideways the fire comes along the wire to the
+  // middle of the edge; without meaning for others.
+  Array<double> elongation;
+};
+
+// Takes all wires away that fire can reach. What is left has no loose end: closed curves, closed
+// sheets and what joins them; of a tree one vertex.
+Wires burn_wires(const InnerComplex& complex, const EdgesAtVertex& edges_at,
+                 std::span<const Times> lateral, Collapse& collapse, const Run& run);
+
+}  // namespace medial

@@ -1,0 +1,220 @@
+// Hierarchy and Level for Python.
+#include "analysis.h"
+#include "arrays.h"
+#include "bindings.h"
+
+namespace medial::python {
+namespace {
+
+constexpr const char* kHierarchyDoc =
+    "All levels of the inner medial axis, from one ordered collapse of the inner Voronoi complex: "
+    "each has the topology\nof the solid. Made by `MedialAnalysis.hierarchy`.\n\n"
+    "The complex: its vertices are the inner cells, its edges the triangles between two of them, "
+    "its facets the Delaunay\nedges all of whose cells are inner. A value says up to which "
+    "threshold a cell is there; it is infinite for what no\nthreshold takes away.";
+
+constexpr const char* kExtractDoc =
+    "The level at some thresholds. A facet stays if it exceeds the first three. A vertex or an "
+    "edge stays if it does, or if\nit exceeds `limb`. What no threshold takes away always "
+    "stays.\n\n"
+    "Parameters\n----------\n"
+    "sheet : float\n    Thickness of the sheet, as a share of the diagonal; default 0. Sheets go "
+    "whole.\n"
+    "spacings : float\n    The same in local spacings of the samples; default 0. 1 drops what the "
+    "samples cannot tell from noise.\n"
+    "erosion : float\n    Thickness of the facet itself, as a share of the diagonal; default 0. "
+    "Rims recede.\n"
+    "limb : float\n    Length of the branch of a wire, as a share of the diagonal; default "
+    "0.04.\n"
+    "progress : Progress, optional\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+constexpr const char* kLevelDoc =
+    "One level of a `Hierarchy`: polygons, edges that stand by themselves, and single vertices.\n\n"
+    "Cells without extent are drawn together: vertices in one place that edges join are one, and a "
+    "facet between two such\nvertices is an edge. That changes no topology.";
+
+py::tuple betti_tuple(const Betti& b) { return py::make_tuple(b[0], b[1], b[2]); }
+
+// A property that is a view of an array of the hierarchy.
+template <typename Scalar, typename Part>
+auto part_property(const Part& part) {
+  return [part](const py::object& self) {
+    return view_of<Scalar>(part(self.cast<const Hierarchy&>()), self);
+  };
+}
+
+py::array generator_rows(const Hierarchy& h) {
+  std::vector<Edge> rows;
+  for (const auto& [p, q] : h.complex().generators) {
+    rows.push_back({h.parts().row[p], h.parts().row[q]});
+  }
+  return array_of<int32_t>(std::move(rows));
+}
+
+py::array bubble_rows(const Hierarchy& h) {
+  std::vector<int32_t> rows;
+  for (const int32_t p : h.complex().bubbles) rows.push_back(h.parts().row[p]);
+  return array_of<int32_t>(std::move(rows));
+}
+
+template <typename Scalar, typename Corners>
+py::array corner_part(const Corners& corners, int32_t Corner::* part) {
+  std::vector<Scalar> values;
+  values.reserve(corners.size());
+  for (const Corner& c : corners) values.push_back(c.*part);
+  return array_of<Scalar>(std::move(values));
+}
+
+// The values of the edges.
+template <typename OfPartner>
+py::array edge_values(const Hierarchy& h, const OfPartner& of_partner) {
+  std::vector<float> values;
+  values.reserve(h.parts().partner.size());
+  for (const int32_t partner : h.parts().partner) values.push_back(of_partner(partner));
+  return array_of<float>(std::move(values));
+}
+
+float limb_of(const Hierarchy& h, int32_t partner) {
+  if (partner == kAlone) return HUGE_VALF;
+  return partner >= 0 ? 0 : h.parts().limb[with_vertex(partner)];
+}
+
+void bind_values(py::class_<Hierarchy>& c, const char* name, Values Hierarchical::* values,
+                 const std::string& what) {
+  const std::string prefix(name);
+  c.def_property_readonly(
+      ("facet_" + prefix).c_str(),
+      part_property<float>([values](const Hierarchy& h) -> auto& {
+        return (h.parts().*values).facet;
+      }),
+      ("(f,) float32: " + what + " of each facet.").c_str());
+  c.def_property_readonly(
+      ("edge_" + prefix).c_str(),
+      [values](const Hierarchy& h) {
+        return edge_values(h, [&](int32_t p) { return (h.parts().*values).of_edge(p); });
+      },
+      ("(e,) float32: " + what + " of each edge.").c_str());
+  c.def_property_readonly(
+      ("vertex_" + prefix).c_str(),
+      part_property<float>([values](const Hierarchy& h) -> auto& {
+        return (h.parts().*values).vertex;
+      }),
+      ("(v,) float32: " + what + " of each vertex.").c_str());
+}
+
+void bind_level(py::module_& m) {
+  py::class_<Level>(m, "Level", kLevelDoc, py::is_final(), py::module_local())
+      .def_property_readonly("vertices", view_property<double>(&Level::vertices),
+                             "(v, 3) float64: Voronoi vertices, the centres of empty balls, in "
+                             "order of first use.")
+      .def_property_readonly("radius", view_property<double>(&Level::radius),
+                             "(v,) float64: radius of each vertex' empty ball.")
+      .def_property_readonly("vertex_of", view_property<int32_t>(&Level::vertex_of),
+                             "(v,) int32: vertex of the hierarchy, the lowest of those drawn "
+                             "together.")
+      .def_property_readonly("face_offsets", view_property<int32_t>(&Level::face_offsets),
+                             "(f + 1,) int32: facet i has the corners "
+                             "face_vertices[face_offsets[i] : face_offsets[i + 1]].")
+      .def_property_readonly("face_vertices", view_property<int32_t>(&Level::face_vertices),
+                             "(c,) int32: vertex ids, facet after facet.")
+      .def_property_readonly("generators", view_property<int32_t>(&Level::generators),
+                             "(f, 2) int32: rows p < q of the two samples whose cells meet in the "
+                             "facet, in lexicographic order.")
+      .def_property_readonly("facet_of", view_property<int32_t>(&Level::facet_of),
+                             "(f,) int32: facet of the hierarchy.")
+      .def_property_readonly("wires", view_property<int32_t>(&Level::wires),
+                             "(w, 2) int32: ends of the edges without a facet.")
+      .def_property_readonly("edge_of", view_property<int32_t>(&Level::edge_of),
+                             "(w,) int32: edge of the hierarchy, the lowest of those drawn "
+                             "together.")
+      .def_property_readonly("points", view_property<int32_t>(&Level::points),
+                             "(k,) int32: vertices without an edge.")
+      .def_property_readonly(
+          "betti", [](const Level& l) { return betti_tuple(l.betti); },
+          "Components, tunnels and cavities, counted on the level.")
+      .def_readonly("hidden", &Level::hidden,
+                    "Edges and facets without extent that count but could not be drawn together.");
+}
+
+}  // namespace
+
+void bind_hierarchy(py::module_& m) {
+  bind_level(m);
+  py::class_<Hierarchy> c(m, "Hierarchy", kHierarchyDoc, py::is_final(), py::module_local());
+  c.def_property_readonly(
+       "betti", [](const Hierarchy& h) { return betti_tuple(h.betti()); },
+       "Components, tunnels and cavities of the complex, and so of every level.")
+      .def_property_readonly(
+          "diagonal", [](const Hierarchy& h) { return h.complex().diagonal; },
+          "Of the box of the samples: the unit of `sheet`, `erosion` and `limb`.")
+      .def_property_readonly(
+          "cells",
+          part_property<int32_t>([](const Hierarchy& h) -> auto& { return h.complex().cell; }),
+          "(v,) int32: cell of each vertex, as numbered by `delaunay` (without a bounding sphere).")
+      .def_property_readonly(
+          "vertices",
+          part_property<double>([](const Hierarchy& h) -> auto& { return h.complex().position; }),
+          "(v, 3) float64: where they are; several may be in one place.")
+      .def_property_readonly(
+          "radius",
+          part_property<double>([](const Hierarchy& h) -> auto& { return h.complex().radius; }),
+          "(v,) float64: radius of each vertex' empty ball.")
+      .def_property_readonly(
+          "edges",
+          part_property<int32_t>([](const Hierarchy& h) -> auto& { return h.complex().ends; }),
+          "(e, 2) int32: ends of each edge, the lower vertex first.")
+      .def_property_readonly("generators", &generator_rows,
+                             "(f, 2) int32: rows p < q of the samples of each facet.")
+      .def_property_readonly(
+          "facet_offsets",
+          part_property<int32_t>([](const Hierarchy& h) -> auto& { return h.complex().offsets; }),
+          "(f + 1,) int32: facet i has the corners facet_offsets[i] : facet_offsets[i + 1].")
+      .def_property_readonly(
+          "facet_vertices",
+          [](const Hierarchy& h) {
+            return corner_part<int32_t>(h.complex().corners, &Corner::vertex);
+          },
+          "(c,) int32: vertex at each corner.")
+      .def_property_readonly(
+          "facet_edges",
+          [](const Hierarchy& h) {
+            return corner_part<int32_t>(h.complex().corners, &Corner::edge);
+          },
+          "(c,) int32: edge from each corner to the next.")
+      .def_property_readonly("bubbles", &bubble_rows,
+                             "(b,) int32: rows of the samples inside the solid; each is a 3-cell "
+                             "of the complex.");
+  bind_values(c, "sheet", &Hierarchical::sheet,
+              "thickness of the thickest facet of the sheet, as a share of the diagonal,");
+  bind_values(c, "spacings", &Hierarchical::spacings, "the same in local spacings");
+  bind_values(c, "erosion", &Hierarchical::erosion,
+              "erosion thickness as a share of the diagonal");
+  c.def_property_readonly(
+       "edge_limb",
+       [](const Hierarchy& h) {
+         return edge_values(h, [&](int32_t partner) { return limb_of(h, partner); });
+       },
+       "(e,) float32: length of the branch of each edge, as a share of the diagonal; 0 where it "
+       "went with a facet.")
+      .def_property_readonly(
+          "vertex_limb",
+          part_property<float>([](const Hierarchy& h) -> auto& { return h.parts().limb; }),
+          "(v,) float32: length of the branch of each vertex, as a share of the diagonal.")
+      .def_property_readonly(
+          "timings", [](const Hierarchy& h) { return seconds(h.timings()); },
+          "Seconds of each stage, in order.")
+      .def(
+          "extract",
+          [](const Hierarchy& h, double sheet, double spacings, double erosion, double limb,
+             Progress* progress) {
+            const py::gil_scoped_release release;
+            return h.extract({sheet, spacings, erosion, limb}, progress);
+          },
+          kExtractDoc, py::kw_only(), py::arg("sheet") = LevelThresholds{}.sheet,
+          py::arg("spacings") = LevelThresholds{}.spacings,
+          py::arg("erosion") = LevelThresholds{}.erosion,
+          py::arg("limb") = LevelThresholds{}.limb, py::arg("progress") = nullptr);
+}
+
+}  // namespace medial::python
