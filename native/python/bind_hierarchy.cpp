@@ -10,7 +10,8 @@ constexpr const char* kHierarchyDoc =
     "All levels of the inner medial axis, from one ordered collapse of the inner Voronoi complex: "
     "each has the topology\nof the solid. Made by `MedialAnalysis.hierarchy`.\n\n"
     "The complex: its vertices are the inner cells, its edges the triangles between two of them, "
-    "its facets the Delaunay\nedges all of whose cells are inner. A value says up to which "
+    "its facets the Delaunay\nedges all of whose cells are inner. Cells without extent, as of "
+    "cospherical samples, are shrunk to what they are. A value says up to which "
     "threshold a cell is there; it is infinite for what no\nthreshold takes away.";
 
 constexpr const char* kExtractDoc =
@@ -30,9 +31,7 @@ constexpr const char* kExtractDoc =
     "Raises\n------\nInvalidInputError, Cancelled";
 
 constexpr const char* kLevelDoc =
-    "One level of a `Hierarchy`: polygons, edges that stand by themselves, and single vertices.\n\n"
-    "Cells without extent are drawn together: vertices in one place that edges join are one, and a "
-    "facet between two such\nvertices is an edge. That changes no topology.";
+    "One level of a `Hierarchy`: polygons, edges that stand by themselves, and single vertices.";
 
 py::tuple betti_tuple(const Betti& b) { return py::make_tuple(b[0], b[1], b[2]); }
 
@@ -52,6 +51,15 @@ py::array generator_rows(const Hierarchy& h) {
   return array_of<int32_t>(std::move(rows));
 }
 
+py::array shrunk_rows(const Hierarchy& h) {
+  std::vector<std::array<int32_t, 4>> rows;
+  for (const ShrunkFacet& s : h.complex().shrunk) {
+    const auto& [p, q] = s.generators;
+    rows.push_back({h.parts().row[p], h.parts().row[q], s.edge, s.vertex});
+  }
+  return array_of<int32_t>(std::move(rows));
+}
+
 py::array bubble_rows(const Hierarchy& h) {
   std::vector<int32_t> rows;
   for (const int32_t p : h.complex().bubbles) rows.push_back(h.parts().row[p]);
@@ -59,7 +67,7 @@ py::array bubble_rows(const Hierarchy& h) {
 }
 
 template <typename Scalar, typename Corners>
-py::array corner_part(const Corners& corners, int32_t Corner::* part) {
+py::array corner_part(const Corners& corners, int32_t Corner::*part) {
   std::vector<Scalar> values;
   values.reserve(corners.size());
   for (const Corner& c : corners) values.push_back(c.*part);
@@ -80,27 +88,25 @@ float limb_of(const Hierarchy& h, int32_t partner) {
   return partner >= 0 ? 0 : h.parts().limb[with_vertex(partner)];
 }
 
-void bind_values(py::class_<Hierarchy>& c, const char* name, Values Hierarchical::* values,
+void bind_values(py::class_<Hierarchy>& c, const char* name, Values Hierarchical::*values,
                  const std::string& what) {
   const std::string prefix(name);
-  c.def_property_readonly(
-      ("facet_" + prefix).c_str(),
-      part_property<float>([values](const Hierarchy& h) -> auto& {
-        return (h.parts().*values).facet;
-      }),
-      ("(f,) float32: " + what + " of each facet.").c_str());
-  c.def_property_readonly(
-      ("edge_" + prefix).c_str(),
-      [values](const Hierarchy& h) {
-        return edge_values(h, [&](int32_t p) { return (h.parts().*values).of_edge(p); });
-      },
-      ("(e,) float32: " + what + " of each edge.").c_str());
-  c.def_property_readonly(
-      ("vertex_" + prefix).c_str(),
-      part_property<float>([values](const Hierarchy& h) -> auto& {
-        return (h.parts().*values).vertex;
-      }),
-      ("(v,) float32: " + what + " of each vertex.").c_str());
+  c.def_property_readonly(("facet_" + prefix).c_str(),
+                          part_property<float>([values](const Hierarchy& h) -> auto& {
+                            return (h.parts().*values).facet;
+                          }),
+                          ("(f,) float32: " + what + " of each facet.").c_str());
+  c.def_property_readonly(("edge_" + prefix).c_str(),
+                          [values](const Hierarchy& h) {
+                            return edge_values(
+                                h, [&](int32_t p) { return (h.parts().*values).of_edge(p); });
+                          },
+                          ("(e,) float32: " + what + " of each edge.").c_str());
+  c.def_property_readonly(("vertex_" + prefix).c_str(),
+                          part_property<float>([values](const Hierarchy& h) -> auto& {
+                            return (h.parts().*values).vertex;
+                          }),
+                          ("(v,) float32: " + what + " of each vertex.").c_str());
 }
 
 void bind_level(py::module_& m) {
@@ -111,8 +117,7 @@ void bind_level(py::module_& m) {
       .def_property_readonly("radius", view_property<double>(&Level::radius),
                              "(v,) float64: radius of each vertex' empty ball.")
       .def_property_readonly("vertex_of", view_property<int32_t>(&Level::vertex_of),
-                             "(v,) int32: vertex of the hierarchy, the lowest of those drawn "
-                             "together.")
+                             "(v,) int32: vertex of the hierarchy.")
       .def_property_readonly("face_offsets", view_property<int32_t>(&Level::face_offsets),
                              "(f + 1,) int32: facet i has the corners "
                              "face_vertices[face_offsets[i] : face_offsets[i + 1]].")
@@ -126,15 +131,16 @@ void bind_level(py::module_& m) {
       .def_property_readonly("wires", view_property<int32_t>(&Level::wires),
                              "(w, 2) int32: ends of the edges without a facet.")
       .def_property_readonly("edge_of", view_property<int32_t>(&Level::edge_of),
-                             "(w,) int32: edge of the hierarchy, the lowest of those drawn "
-                             "together.")
+                             "(w,) int32: edge of the hierarchy.")
       .def_property_readonly("points", view_property<int32_t>(&Level::points),
                              "(k,) int32: vertices without an edge.")
       .def_property_readonly(
           "betti", [](const Level& l) { return betti_tuple(l.betti); },
           "Components, tunnels and cavities, counted on the level.")
-      .def_readonly("hidden", &Level::hidden,
-                    "Edges and facets without extent that count but could not be drawn together.");
+      .def_readonly(
+          "hidden", &Level::hidden,
+          "Edges from a vertex to itself, and facets with fewer than three other edges: they count "
+          "but cannot be drawn.");
 }
 
 }  // namespace
@@ -151,19 +157,20 @@ void bind_hierarchy(py::module_& m) {
       .def_property_readonly(
           "cells",
           part_property<int32_t>([](const Hierarchy& h) -> auto& { return h.complex().cell; }),
-          "(v,) int32: cell of each vertex, as numbered by `delaunay` (without a bounding sphere).")
-      .def_property_readonly(
-          "vertices",
-          part_property<double>([](const Hierarchy& h) -> auto& { return h.complex().position; }),
-          "(v, 3) float64: where they are; several may be in one place.")
-      .def_property_readonly(
-          "radius",
-          part_property<double>([](const Hierarchy& h) -> auto& { return h.complex().radius; }),
-          "(v,) float64: radius of each vertex' empty ball.")
-      .def_property_readonly(
-          "edges",
-          part_property<int32_t>([](const Hierarchy& h) -> auto& { return h.complex().ends; }),
-          "(e, 2) int32: ends of each edge, the lower vertex first.")
+          "(v,) int32: cell of each vertex, the lowest of several in one place, as numbered by "
+          "`delaunay` (without a\nbounding sphere).")
+      .def_property_readonly("vertices", part_property<double>([](const Hierarchy& h) -> auto& {
+                               return h.complex().position;
+                             }),
+                             "(v, 3) float64: where they are.")
+      .def_property_readonly("radius", part_property<double>([](const Hierarchy& h) -> auto& {
+                               return h.complex().radius;
+                             }),
+                             "(v,) float64: radius of each vertex' empty ball.")
+      .def_property_readonly("edges", part_property<int32_t>([](const Hierarchy& h) -> auto& {
+                               return h.complex().ends;
+                             }),
+                             "(e, 2) int32: ends of each edge, the lower vertex first.")
       .def_property_readonly("generators", &generator_rows,
                              "(f, 2) int32: rows p < q of the samples of each facet.")
       .def_property_readonly(
@@ -182,14 +189,16 @@ void bind_hierarchy(py::module_& m) {
             return corner_part<int32_t>(h.complex().corners, &Corner::edge);
           },
           "(c,) int32: edge from each corner to the next.")
+      .def_property_readonly("shrunk", &shrunk_rows,
+                             "(s, 4) int32: facets without area: rows p < q of the samples, the "
+                             "edge that it is or -1, a vertex of it.")
       .def_property_readonly("bubbles", &bubble_rows,
                              "(b,) int32: rows of the samples inside the solid; each is a 3-cell "
                              "of the complex.");
   bind_values(c, "sheet", &Hierarchical::sheet,
               "thickness of the thickest facet of the sheet, as a share of the diagonal,");
   bind_values(c, "spacings", &Hierarchical::spacings, "the same in local spacings");
-  bind_values(c, "erosion", &Hierarchical::erosion,
-              "erosion thickness as a share of the diagonal");
+  bind_values(c, "erosion", &Hierarchical::erosion, "erosion thickness as a share of the diagonal");
   c.def_property_readonly(
        "edge_limb",
        [](const Hierarchy& h) {
@@ -213,8 +222,8 @@ void bind_hierarchy(py::module_& m) {
           },
           kExtractDoc, py::kw_only(), py::arg("sheet") = LevelThresholds{}.sheet,
           py::arg("spacings") = LevelThresholds{}.spacings,
-          py::arg("erosion") = LevelThresholds{}.erosion,
-          py::arg("limb") = LevelThresholds{}.limb, py::arg("progress") = nullptr);
+          py::arg("erosion") = LevelThresholds{}.erosion, py::arg("limb") = LevelThresholds{}.limb,
+          py::arg("progress") = nullptr);
 }
 
 }  // namespace medial::python

@@ -5,6 +5,10 @@
 namespace medial {
 namespace {
 
+int64_t count(std::span<const uint8_t> flags) {
+  return std::count_if(flags.begin(), flags.end(), [](uint8_t flag) { return flag != 0; });
+}
+
 int64_t count_sets(std::span<const int32_t> representatives) {
   int64_t count = 0;
   for (size_t i = 0; i < representatives.size(); ++i) {
@@ -13,12 +17,40 @@ int64_t count_sets(std::span<const int32_t> representatives) {
   return count;
 }
 
+int64_t count_pieces(const InnerComplex& complex, const Alive& alive, const Run& run) {
+  SharedUnionFind sets(complex.cell.size(), run);
+  parallel_for(complex.edges(), run, [&](int64_t e) {
+    if (alive.edge[e]) sets.unite(complex.ends[e][0], complex.ends[e][1]);
+  });
+  const auto lowest = std::move(sets).representatives(run);
+  int64_t pieces = 0;
+  for (int32_t v = 0; v < complex.vertices(); ++v) pieces += alive.vertex[v] && lowest[v] == v;
+  return pieces;
+}
+
+// A facet that has shrunk is there with what it has shrunk to.
+int64_t count_cavities(const InnerComplex& complex, std::span<const int32_t> outside,
+                       const Alive& alive, const Run& run) {
+  SharedUnionFind sets(outside.size(), run);
+  parallel_for(static_cast<int64_t>(outside.size()), run,
+               [&](int64_t p) { sets.unite(static_cast<int32_t>(p), outside[p]); });
+  parallel_for(complex.facets(), run, [&](int64_t f) {
+    if (!alive.facet[f]) sets.unite(complex.generators[f][0], complex.generators[f][1]);
+  });
+  for (const ShrunkFacet& s : complex.shrunk) {
+    const bool there = s.edge >= 0 ? alive.edge[s.edge] : alive.vertex[s.vertex];
+    if (!there) sets.unite(s.generators[0], s.generators[1]);
+  }
+  return count_sets(std::move(sets).representatives(run)) - 1;
+}
+
 }  // namespace
 
 Array<int32_t> outside_components(const InnerComplex& complex, int32_t samples,
                                   const Triangulation& t, const Edges& edges, const Run& run) {
   auto in_complex = array<uint8_t>(edges.ends.size(), 0, run);
   parallel_for(complex.facets(), run, [&](int64_t f) { in_complex[complex.dual[f]] = 1; });
+  for (const ShrunkFacet& s : complex.shrunk) in_complex[s.dual] = 1;
   SharedUnionFind sets(static_cast<size_t>(samples) + 1, run);
   parallel_for(edges.count(), run, [&](int64_t e) {
     if (!in_complex[e]) sets.unite(edges.ends[e][0], edges.ends[e][1]);
@@ -33,17 +65,6 @@ Array<int32_t> outside_components(const InnerComplex& complex, int32_t samples,
   return {found.begin(), found.end()};
 }
 
-int64_t count_cavities(const InnerComplex& complex, std::span<const int32_t> outside,
-                       std::span<const uint8_t> alive, const Run& run) {
-  SharedUnionFind sets(outside.size(), run);
-  parallel_for(static_cast<int64_t>(outside.size()), run,
-               [&](int64_t p) { sets.unite(static_cast<int32_t>(p), outside[p]); });
-  parallel_for(complex.facets(), run, [&](int64_t f) {
-    if (!alive[f]) sets.unite(complex.generators[f][0], complex.generators[f][1]);
-  });
-  return count_sets(std::move(sets).representatives(run)) - 1;
-}
-
 Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Run& run) {
   SharedUnionFind sets(complex.cell.size(), run);
   parallel_for(complex.edges(), run,
@@ -52,6 +73,14 @@ Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, co
   const int64_t pieces = count_sets(std::move(sets).representatives(run));
   const int64_t cavities = count_sets(outside) - bubbles - 1;
   const int64_t euler = complex.vertices() - complex.edges() + complex.facets() - bubbles;
+  return {pieces, pieces + cavities - euler, cavities};
+}
+
+Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Alive& alive,
+               const Run& run) {
+  const int64_t pieces = count_pieces(complex, alive, run);
+  const int64_t cavities = count_cavities(complex, outside, alive, run);
+  const int64_t euler = count(alive.vertex) - count(alive.edge) + count(alive.facet);
   return {pieces, pieces + cavities - euler, cavities};
 }
 

@@ -14,9 +14,14 @@ Array<int32_t> outside_components(const InnerComplex& complex, int32_t samples,
                                   const Triangulation& triangulation, const Edges& edges,
                                   const Run& run);
 
-// Cavities of what is left of the complex, none of whose 3-cells is there: alive[f] per facet.
-int64_t count_cavities(const InnerComplex& complex, std::span<const int32_t> outside,
-                       std::span<const uint8_t> alive, const Run& run);
+// Which cells of a complex are there.
+struct Alive {
+  Array<uint8_t> facet, edge, vertex;
+};
+
+// Of what is left of the complex, none of whose 3-cells is there.
+Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Alive& alive,
+               const Run& run);
 
 // Of the complex itself.
 Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Run& run);

@@ -39,14 +39,13 @@ class Opener {
   }
   void push_walls(std::span<const int32_t> walls) {
     for (const int32_t f : walls) {
-      if (inside(f) == 1) queue_.emplace(weight_(f), f);
+      if (inside(f) == 1) queue_.emplace(weight_(complex_.dual[f]), f);
     }
   }
   void open(int32_t facet) {
     collapse_.facet_gone[facet] = 1;
     for (const Corner& c : complex_.ring(facet)) {
-      --collapse_.degree[c.edge];
-      collapse_.facets_at[c.edge] ^= facet;
+      collapse_.facets_at[c.edge].remove(facet);
     }
     const auto& [p, q] = complex_.generators[facet];
     const auto bubble = closed_.find(closed_.count(p) > 0 ? p : q);

@@ -2,12 +2,12 @@
 
 #include <climits>
 
+#include "skeleton/shrink.h"
+
 namespace medial {
 namespace {
 
-bool is_inner(const CellSides& sides, int32_t cell) {
-  return sides[cell] == Side::inner;
-}
+bool is_inner(const CellSides& sides, int32_t cell) { return sides[cell] == Side::inner; }
 
 // Numbers the inner cells; -1 for all others.
 Array<int32_t> number_cells(InnerComplex& complex, const Triangulation& t, const CellSides& sides,
@@ -21,20 +21,26 @@ Array<int32_t> number_cells(InnerComplex& complex, const Triangulation& t, const
   return number;
 }
 
-void place_vertices(InnerComplex& complex, const Samples& samples, const Triangulation& t,
-                    const Voronoi& voronoi, std::span<const int32_t> number, const Run& run) {
+// Returns the lowest vertex in the place of each.
+Array<int32_t> place_vertices(InnerComplex& complex, const Samples& samples, const Triangulation& t,
+                              const Voronoi& voronoi, std::span<const int32_t> number,
+                              const Run& run) {
   const auto count = static_cast<size_t>(complex.vertices());
   complex.position.resize(count);
   complex.radius.resize(count);
-  complex.place.resize(count);
+  auto place = array<int32_t>(count, run);
   parallel_for(complex.vertices(), run, [&](int64_t v) {
     const int32_t cell = complex.cell[v], lowest = voronoi.vertex[cell];
     complex.position[v] = voronoi.centre[cell];
     complex.radius[v] = distance(voronoi.centre[cell], samples.points[t.cells[cell][0]]);
     // The lowest cell in this place may be an outer one: then each inner one keeps to itself.
-    complex.place[v] = number[lowest] < 0 ? static_cast<int32_t>(v) : number[lowest];
+    place[v] = number[lowest] < 0 ? static_cast<int32_t>(v) : number[lowest];
   });
+  return place;
 }
+
+// The edges at each vertex, at the slots of the opposite corners of its cell; -1: none.
+using EdgesAtVertex = Array<Cell>;
 
 // An edge is numbered at its lower vertex.
 EdgesAtVertex number_edges(InnerComplex& complex, const Triangulation& t,
@@ -172,18 +178,19 @@ void find_bubbles(InnerComplex& complex, int32_t samples, const Triangulation& t
 
 }  // namespace
 
-ComplexAndEdges inner_complex(const Samples& samples, const Triangulation& t,
-                              const Voronoi& voronoi, const Edges& edges, const CellSides& sides,
-                              const Run& run) {
+InnerComplex inner_complex(const Samples& samples, const Triangulation& t, const Voronoi& voronoi,
+                           const Edges& edges, const CellSides& sides, const Run& run) {
   InnerComplex complex;
   const auto number = number_cells(complex, t, sides, run);
-  place_vertices(complex, samples, t, voronoi, number, run);
-  EdgesAtVertex edges_at = number_edges(complex, t, number, run);
-  join_rings(complex, walk_rings(t, edges, edges_at, number, run), edges, run);
+  const auto place = place_vertices(complex, samples, t, voronoi, number, run);
+  {
+    const EdgesAtVertex edges_at = number_edges(complex, t, number, run);
+    join_rings(complex, walk_rings(t, edges, edges_at, number, run), edges, run);
+  }
   find_bubbles(complex, samples.count(), t, number, run);
   complex.diagonal =
       length(box_of({samples.points.data(), static_cast<size_t>(samples.count())}).extent());
-  return {std::move(complex), std::move(edges_at)};
+  return shrink(std::move(complex), place, run);
 }
 
 }  // namespace medial

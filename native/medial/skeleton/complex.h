@@ -3,7 +3,7 @@
 //   vertices  the inner finite cells              edges    the triangles between two of them
 //   facets    the Delaunay edges all of whose     3-cells  the samples all of whose cells
 //             cells are inner                              are inner
-// Only incidences count: edges without length and facets without area are cells like all others.
+// Of cospherical samples, the cells without extent are shrunk to what they are.
 #pragma once
 
 #include "delaunay/edges.h"
@@ -17,13 +17,17 @@ struct Corner {
   int32_t vertex, edge;
 };
 
+// A facet without area and the edge that it is, or -1 and the vertex.
+struct ShrunkFacet {
+  Edge generators;
+  int32_t dual, edge, vertex;
+};
+
 struct InnerComplex {
-  // Vertices in the order of their cells.
+  // Vertices in the order of their cells, of several in one place the lowest cell.
   Array<int32_t> cell;
   Array<Vec3> position;
   Array<double> radius;
-  // The lowest vertex in the same place.
-  Array<int32_t> place;
 
   Array<Edge> ends;  // of the edges: vertices, the lower one first
 
@@ -33,6 +37,7 @@ struct InnerComplex {
   Array<int32_t> offsets;  // (facets + 1) into the corners
   Array<Corner> corners;   // counter-clockwise about the direction between the generators
 
+  Array<ShrunkFacet> shrunk;
   Array<int32_t> bubbles;  // the samples that are 3-cells, ascending
   double diagonal = 0;     // of the box of the samples
 
@@ -45,17 +50,9 @@ struct InnerComplex {
   }
 };
 
-// The edges at each vertex, at the slots of the opposite corners of its cell; -1: none.
-using EdgesAtVertex = Array<Cell>;
-
-struct ComplexAndEdges {
-  InnerComplex complex;
-  EdgesAtVertex edges_at;
-};
-
 // `sides` are known. The complex lies in memory of its own, beside the arena of `run`.
-ComplexAndEdges inner_complex(const Samples& samples, const Triangulation& triangulation,
-                              const Voronoi& voronoi, const Edges& edges, const CellSides& sides,
-                              const Run& run);
+InnerComplex inner_complex(const Samples& samples, const Triangulation& triangulation,
+                           const Voronoi& voronoi, const Edges& edges, const CellSides& sides,
+                           const Run& run);
 
 }  // namespace medial

@@ -54,7 +54,9 @@ class Fire {
  public:
   Fire(const InnerComplex& complex, std::span<const Vec3> points, Collapse& collapse,
        const Run& run)
-      : complex_(complex), collapse_(collapse), run_{run.threads, nullptr, run.arena},
+      : complex_(complex),
+        collapse_(collapse),
+        run_{run.threads, nullptr, run.arena},
         progress_(run.progress),
         buckets_(std::clamp<size_t>(complex.dual.size() / kFacetsPerBucket, 16, kMostBuckets)),
         queue_(0.25 * complex.diagonal / static_cast<double>(buckets_), buckets_ + 1),
@@ -83,7 +85,7 @@ class Fire {
  private:
   void light_edges() {
     parallel_for(complex_.edges(), run_, [&](int64_t e) {
-      if (collapse_.degree[e] > 1) return;
+      if (collapse_.facets_at[e].count > 1) return;
       const auto& [a, b] = complex_.ends[e];
       burning_.times[e] = {complex_.radius[a], complex_.radius[b]};
     });
@@ -100,7 +102,7 @@ class Fire {
       const Vec3 middle = centroid(complex_, f);
       middle_[f] = {middle, distance(middle, points[complex_.generators[f][0]])};
       for (const Corner& c : complex_.ring(f)) {
-        if (collapse_.degree[c.edge] == 1) heat(f, c.edge);
+        if (collapse_.facets_at[c.edge].count == 1) heat(f, c.edge);
       }
     });
     for (int32_t f = 0; f < complex_.facets(); ++f) {
@@ -128,7 +130,7 @@ class Fire {
     const auto ring = complex_.ring(facet);
     free_.clear();
     for (const Corner& c : ring) {
-      if (collapse_.degree[c.edge] == 1) free_.push_back(c.edge);
+      if (collapse_.facets_at[c.edge].count == 1) free_.push_back(c.edge);
     }
     const int32_t exit = first_free();
     collapse_.facet_gone[facet] = 1;
@@ -138,8 +140,8 @@ class Fire {
     burning_.erosion[facet] = erosion;
     for (const auto& [vertex, edge] : ring) {
       reached_[edge] = std::max(reached_[edge], erosion);
-      collapse_.facets_at[edge] ^= facet;
-      if (--collapse_.degree[edge] == 1) pass_on(edge);
+      collapse_.facets_at[edge].remove(facet);
+      if (collapse_.facets_at[edge].count == 1) pass_on(edge);
     }
   }
 
@@ -163,7 +165,7 @@ class Fire {
       for (const int32_t from : free_) first = std::min(first, arrival_from(from, x));
       burning_.times[edge][i] = first;
     }
-    const int32_t next = collapse_.facets_at[edge];
+    const int32_t next = collapse_.facets_at[edge].ids;
     if (heat(next, edge)) queue_.push(burning_.thickness[next], next);
   }
 
@@ -174,8 +176,8 @@ class Fire {
   size_t buckets_;
   BucketQueue queue_;
   Array<Middle> middle_;
-  Array<double> time_;     // per facet: when the fire comes to its centroid
-  Array<float> reached_;   // per edge: the erosion of the facets there that have gone
+  Array<double> time_;    // per facet: when the fire comes to its centroid
+  Array<float> reached_;  // per edge: the erosion of the facets there that have gone
   Burning burning_;
   std::vector<int32_t> free_;  // edges of the facet in hand
 };

@@ -42,10 +42,15 @@ class FacetPeeler {
  public:
   FacetPeeler(const InnerComplex& complex, const FacetWeights& weight, Collapse& collapse,
               const Run& run)
-      : complex_(complex), collapse_(collapse), run_{run.threads, nullptr, run.arena},
-        progress_(run.progress), level_(array<uint8_t>(complex.dual.size(), run)), found_(run),
+      : complex_(complex),
+        collapse_(collapse),
+        run_{run.threads, nullptr, run.arena},
+        progress_(run.progress),
+        level_(array<uint8_t>(complex.dual.size(), run)),
+        found_(run),
         waiting_(kLevels) {
-    parallel_for(complex.facets(), run_, [&](int64_t f) { level_[f] = level(weight, f); });
+    parallel_for(complex.facets(), run_,
+                 [&](int64_t f) { level_[f] = level(weight, complex.dual[f]); });
   }
 
   void peel() {
@@ -60,13 +65,12 @@ class FacetPeeler {
   }
 
  private:
-  static uint8_t level(const FacetWeights& weight, int64_t facet) {
-    const auto f = static_cast<int32_t>(facet);
-    if (weight.selected(f)) return kSelected;
-    return static_cast<uint8_t>(std::min(kLevels * weight(f), kLevels - 1.0));
+  static uint8_t level(const FacetWeights& weight, int32_t dual) {
+    if (weight.selected(dual)) return kSelected;
+    return static_cast<uint8_t>(std::min(kLevels * weight(dual), kLevels - 1.0));
   }
 
-  bool is_free(int32_t edge) const { return collapse_.degree[edge] == 1; }
+  bool is_free(int32_t edge) const { return collapse_.facets_at[edge].count == 1; }
 
   // The facets that have a free edge from the start.
   void start() {
@@ -120,15 +124,14 @@ class FacetPeeler {
 
   void take_away(int32_t facet) {
     for (const Corner& c : complex_.ring(facet)) {
-      std::atomic_ref(collapse_.degree[c.edge]).fetch_sub(1, std::memory_order_relaxed);
-      std::atomic_ref(collapse_.facets_at[c.edge]).fetch_xor(facet, std::memory_order_relaxed);
+      collapse_.facets_at[c.edge].remove_shared(facet);
     }
   }
 
   void find_next(int32_t facet, std::vector<int32_t>& found) const {
     for (const Corner& c : complex_.ring(facet)) {
       if (!is_free(c.edge)) continue;
-      const int32_t last = collapse_.facets_at[c.edge];
+      const int32_t last = collapse_.facets_at[c.edge].ids;
       if (level_[last] != kSelected) found.push_back(last);
     }
   }
@@ -145,10 +148,13 @@ class FacetPeeler {
 
 class WirePeeler {
  public:
-  WirePeeler(const InnerComplex& complex, const EdgesAtVertex& edges_at, Collapse& collapse,
-             const Run& run)
-      : complex_(complex), collapse_(collapse), run_{run.threads, nullptr, run.arena},
-        progress_(run.progress), left_(ends_left(collapse, edges_at, run_)), found_(run) {}
+  WirePeeler(const InnerComplex& complex, Collapse& collapse, const Run& run)
+      : complex_(complex),
+        collapse_(collapse),
+        run_{run.threads, nullptr, run.arena},
+        progress_(run.progress),
+        left_(edges_left(complex, collapse, run_)),
+        found_(run) {}
 
   void peel() {
     std::vector<int32_t> front;
@@ -166,17 +172,19 @@ class WirePeeler {
 
  private:
   bool is_loose(int32_t vertex) const {
-    return left_.degree[vertex] == 1 && collapse_.degree[left_.edges_at[vertex]] == 0;
+    const auto& [count, edge] = left_[vertex];
+    return count == 1 && collapse_.is_wire(edge) &&
+           (collapse_.selected.empty() || !collapse_.selected[edge]);
   }
   // Of two loose ends of one wire the lower stays.
   bool goes(int32_t vertex) const {
-    const int32_t other = other_end(complex_, left_.edges_at[vertex], vertex);
-    return left_.degree[other] != 1 || other < vertex;
+    const int32_t other = other_end(complex_, left_[vertex].ids, vertex);
+    return left_[other].count != 1 || other < vertex;
   }
 
   void round(std::vector<int32_t>& front) {
     for_all(front, run_, [&](int32_t v, int worker) {
-      const int32_t edge = left_.edges_at[v];
+      const int32_t edge = left_[v].ids;
       if (!goes(v) || !claim(collapse_.edge_of_vertex[v], -1, edge)) return;
       collapse_.partner[edge] = with_vertex(v);
       found_.of(worker).push_back(v);
@@ -194,58 +202,26 @@ class WirePeeler {
 
   void take_away(int32_t vertex) {
     const int32_t edge = collapse_.edge_of_vertex[vertex];
-    for (const int32_t v : complex_.ends[edge]) {
-      std::atomic_ref(left_.degree[v]).fetch_sub(1, std::memory_order_relaxed);
-      std::atomic_ref(left_.edges_at[v]).fetch_xor(edge, std::memory_order_relaxed);
-    }
+    for (const int32_t v : complex_.ends[edge]) left_[v].remove_shared(edge);
   }
 
   const InnerComplex& complex_;
   Collapse& collapse_;
   Run run_;
   Progress* progress_;
-  Ends left_;
+  Array<Incident> left_;  // per vertex: edges
   Gathered found_;
 };
 
 }  // namespace
-
-Collapse whole(const InnerComplex& complex, const Run& run) {
-  const auto edges = static_cast<size_t>(complex.edges());
-  Collapse collapse{array<int32_t>(edges, kAlone, run),
-                    array<int32_t>(complex.cell.size(), -1, run),
-                    array<uint8_t>(complex.dual.size(), 0, run), array<uint8_t>(edges, 0, run),
-                    array<int32_t>(edges, 0, run)};
-  parallel_for(complex.facets(), run, [&](int64_t f) {
-    for (const Corner& c : complex.ring(static_cast<int32_t>(f))) {
-      std::atomic_ref(collapse.degree[c.edge]).fetch_add(1, std::memory_order_relaxed);
-      std::atomic_ref(collapse.facets_at[c.edge])
-          .fetch_xor(static_cast<int32_t>(f), std::memory_order_relaxed);
-    }
-  });
-  return collapse;
-}
-
-Ends ends_left(const Collapse& collapse, const EdgesAtVertex& edges_at, const Run& run) {
-  Ends left{array<uint8_t>(edges_at.size(), 0, run), array<int32_t>(edges_at.size(), 0, run)};
-  parallel_for(static_cast<int64_t>(edges_at.size()), run, [&](int64_t v) {
-    for (const int32_t edge : edges_at[v]) {
-      if (edge < 0 || collapse.edge_gone(edge)) continue;
-      ++left.degree[v];
-      left.edges_at[v] ^= edge;
-    }
-  });
-  return left;
-}
 
 void peel_facets(const InnerComplex& complex, const FacetWeights& weight, Collapse& collapse,
                  const Run& run) {
   FacetPeeler(complex, weight, collapse, run).peel();
 }
 
-void peel_wires(const InnerComplex& complex, const EdgesAtVertex& edges_at, Collapse& collapse,
-                const Run& run) {
-  WirePeeler(complex, edges_at, collapse, run).peel();
+void peel_wires(const InnerComplex& complex, Collapse& collapse, const Run& run) {
+  WirePeeler(complex, collapse, run).peel();
 }
 
 }  // namespace medial

@@ -14,9 +14,8 @@ namespace medial {
 void peel_facets(const InnerComplex& complex, const FacetWeights& weight, Collapse& collapse,
                  const Run& run);
 
-// Takes the wires away that have a loose end, in rounds from all of their ends. Of a tree that
-// stands by itself one vertex stays.
-void peel_wires(const InnerComplex& complex, const EdgesAtVertex& edges_at, Collapse& collapse,
-                const Run& run);
+// Takes the wires away that have a loose end and are not selected, in rounds from all of their
+// ends. Of a tree that stands by itself one vertex stays.
+void peel_wires(const InnerComplex& complex, Collapse& collapse, const Run& run);
 
 }  // namespace medial

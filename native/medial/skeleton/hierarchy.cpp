@@ -33,15 +33,15 @@ Hierarchy::Hierarchy(const Samples& samples, const Facets& facets, const Thresho
   Stopwatch watch(timings_);
   const Run quiet{run.threads, nullptr, run.arena};
   begin_stage(run.progress, "Inner complex", 0, 0.2);
-  auto [complex, edges_at] = inner_complex(samples, facets.triangulation, facets.voronoi,
-                                           facets.edges, facets.sides, run);
+  InnerComplex complex =
+      inner_complex(samples, facets.triangulation, facets.voronoi, facets.edges, facets.sides, run);
   watch.lap("complex");
   begin_stage(run.progress, "Fringe", 0.2, 0.4);
-  Collapse collapse = whole(complex, quiet);
-  const FacetWeights weight(complex, facets, thresholds);
+  const FacetWeights weight(facets, thresholds);
+  Collapse collapse = whole(complex, weight, quiet);
   open_bubbles(complex, weight, collapse, run);
   peel_facets(complex, weight, collapse, run);
-  peel_wires(complex, edges_at, collapse, run);
+  peel_wires(complex, collapse, run);
   watch.lap("fringe");
   begin_stage(run.progress, "Fire", 0.4, 0.7);
   const Sheets sheets = find_sheets(complex, collapse, quiet);
@@ -49,8 +49,7 @@ Hierarchy::Hierarchy(const Samples& samples, const Facets& facets, const Thresho
   Burning burning = burn(complex, facets.points, collapse, run);
   watch.lap("fire");
   begin_stage(run.progress, "Wires", 0.7, 0.8);
-  const Wires wires = burn_wires(complex, edges_at, burning.times, collapse, run);
-  edges_at = {};
+  const Wires wires = burn_wires(complex, burning.times, collapse, run);
   burning.times = {};
   watch.lap("wires");
   begin_stage(run.progress, "Values", 0.8, 1);
@@ -66,12 +65,12 @@ Hierarchy::Hierarchy(const Samples& samples, const Facets& facets, const Thresho
     const auto& [p, q] = complex.generators[f];
     return 0.5 * (spacing[p] + spacing[q]);
   });
-  parts_.spacings = with_vertices(
-      complex, collapse, wires, kept(drop_values(complex, collapse, sheets, spacings, quiet)),
-      quiet);
+  parts_.spacings =
+      with_vertices(complex, collapse, wires,
+                    kept(drop_values(complex, collapse, sheets, spacings, quiet)), quiet);
   watch.lap("values");
-  parts_.outside = outside_components(complex, samples.count(), facets.triangulation, facets.edges,
-                                      quiet);
+  parts_.outside =
+      outside_components(complex, samples.count(), facets.triangulation, facets.edges, quiet);
   betti_ = betti_of(complex, parts_.outside, quiet);
   watch.lap("betti");
   parts_.partner = kept(collapse.partner);

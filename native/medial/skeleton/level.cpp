@@ -1,8 +1,6 @@
 #include "skeleton/level.h"
 
 #include "base/sort.h"
-#include "base/union_find.h"
-#include "skeleton/drawing.h"
 
 namespace medial {
 namespace {
@@ -26,10 +24,10 @@ Alive alive_at(const Hierarchical& h, const LevelThresholds& t, const Run& run) 
                      exceeds(h.erosion.facet[f], t.erosion);
   });
   parallel_for(complex.vertices(), run, [&](int64_t v) {
-    alive.vertex[v] = (exceeds(h.sheet.vertex[v], t.sheet) &&
-                       exceeds(h.spacings.vertex[v], t.spacings) &&
-                       exceeds(h.erosion.vertex[v], t.erosion)) ||
-                      h.limb[v] > t.limb;
+    alive.vertex[v] =
+        (exceeds(h.sheet.vertex[v], t.sheet) && exceeds(h.spacings.vertex[v], t.spacings) &&
+         exceeds(h.erosion.vertex[v], t.erosion)) ||
+        h.limb[v] > t.limb;
   });
   parallel_for(complex.edges(), run, [&](int64_t e) {
     const int32_t partner = h.partner[e];
@@ -39,11 +37,14 @@ Alive alive_at(const Hierarchical& h, const LevelThresholds& t, const Run& run) 
   return alive;
 }
 
-// Puts a drawing into a mesh.
+// Puts what is there into a mesh.
 class Drawer {
  public:
-  Drawer(const Hierarchical& h, const Drawing& drawing, const Alive& alive, const Run& run)
-      : h_(h), complex_(h.complex), drawing_(drawing), alive_(alive), run_(run),
+  Drawer(const Hierarchical& h, const Alive& alive, const Run& run)
+      : h_(h),
+        complex_(h.complex),
+        alive_(alive),
+        run_(run),
         used_(array<uint8_t>(h.complex.ends.size(), 0, run)),
         touched_(array<uint8_t>(h.complex.cell.size(), 0, run)),
         number_(array<int32_t>(h.complex.cell.size(), -1, run)) {}
@@ -57,11 +58,7 @@ class Drawer {
   }
 
  private:
-  int32_t end_of(int32_t edge, int i) const { return drawing_.vertex[complex_.ends[edge][i]]; }
-  // Drawn, and not a loop without length.
-  bool is_visible(int32_t edge) const {
-    return drawing_.drawn_edge[edge] && end_of(edge, 0) != end_of(edge, 1);
-  }
+  bool is_loop(int32_t edge) const { return complex_.ends[edge][0] == complex_.ends[edge][1]; }
 
   int32_t number(int32_t vertex) {
     if (number_[vertex] < 0) {
@@ -75,13 +72,11 @@ class Drawer {
   std::vector<int32_t> facets_in_order() const {
     const auto found =
         parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t f, auto& out, int) {
-          if (drawing_.drawn_facet[f]) out.push_back(static_cast<int32_t>(f));
+          if (alive_.facet[f]) out.push_back(static_cast<int32_t>(f));
         });
     int32_t rows = 0;
     for (const int32_t row : h_.row) rows = std::max(rows, row + 1);
-    const auto row = [&](int64_t i, int end) {
-      return h_.row[complex_.generators[found[i]][end]];
-    };
+    const auto row = [&](int64_t i, int end) { return h_.row[complex_.generators[found[i]][end]]; };
     const auto order = bucket_order(
         static_cast<int64_t>(found.size()), static_cast<size_t>(rows), run_,
         [&](int64_t i) { return row(i, 0); }, [&](int64_t i) { return row(i, 1); });
@@ -98,10 +93,9 @@ class Drawer {
       polygon.clear();
       edges.clear();
       for (const auto& [vertex, edge] : complex_.ring(f)) {
-        const int32_t lowest = drawing_.edge[edge];
-        if (!is_visible(lowest)) continue;
-        polygon.push_back(drawing_.vertex[vertex]);
-        edges.push_back(lowest);
+        if (is_loop(edge)) continue;
+        polygon.push_back(vertex);
+        edges.push_back(edge);
       }
       if (polygon.size() < 3) {
         ++level_.hidden;
@@ -109,8 +103,7 @@ class Drawer {
       }
       for (const int32_t edge : edges) used_[edge] = 1;
       for (int32_t& vertex : polygon) vertex = number(vertex);
-      std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()),
-                  polygon.end());
+      std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
       const auto& [p, q] = complex_.generators[f];
       level_.face_vertices.insert(level_.face_vertices.end(), polygon.begin(), polygon.end());
       level_.face_offsets.push_back(static_cast<int32_t>(level_.face_vertices.size()));
@@ -121,23 +114,22 @@ class Drawer {
 
   void draw_wires() {
     for (int32_t e = 0; e < complex_.edges(); ++e) {
-      if (!drawing_.drawn_edge[e]) continue;
-      if (!is_visible(e)) {
+      if (!alive_.edge[e]) continue;
+      if (is_loop(e)) {
         ++level_.hidden;
         continue;
       }
-      for (int i = 0; i < 2; ++i) touched_[end_of(e, i)] = 1;
+      const auto& [a, b] = complex_.ends[e];
+      touched_[a] = touched_[b] = 1;
       if (used_[e]) continue;
-      level_.wires.push_back({number(end_of(e, 0)), number(end_of(e, 1))});
+      level_.wires.push_back({number(a), number(b)});
       level_.edge_of.push_back(e);
     }
   }
 
   void draw_points() {
     for (int32_t v = 0; v < complex_.vertices(); ++v) {
-      if (alive_.vertex[v] && drawing_.vertex[v] == v && !touched_[v]) {
-        level_.points.push_back(number(v));
-      }
+      if (alive_.vertex[v] && !touched_[v]) level_.points.push_back(number(v));
     }
   }
 
@@ -152,7 +144,6 @@ class Drawer {
 
   const Hierarchical& h_;
   const InnerComplex& complex_;
-  const Drawing& drawing_;
   const Alive& alive_;
   Run run_;
   Array<uint8_t> used_;     // per edge: by a facet
@@ -160,30 +151,6 @@ class Drawer {
   Array<int32_t> number_;   // per vertex: in the level
   Level level_;
 };
-
-int64_t count(std::span<const uint8_t> flags) {
-  return std::count_if(flags.begin(), flags.end(), [](uint8_t flag) { return flag != 0; });
-}
-
-// Of what is drawn, and of what is hidden.
-Betti betti_of(const Hierarchical& h, const Drawing& drawing, const Alive& alive, const Run& run) {
-  const InnerComplex& complex = h.complex;
-  SharedUnionFind sets(complex.cell.size(), run);
-  parallel_for(complex.edges(), run, [&](int64_t e) {
-    if (!drawing.drawn_edge[e]) return;
-    sets.unite(drawing.vertex[complex.ends[e][0]], drawing.vertex[complex.ends[e][1]]);
-  });
-  const auto piece = std::move(sets).representatives(run);
-  int64_t pieces = 0, vertices = 0;
-  for (int32_t v = 0; v < complex.vertices(); ++v) {
-    if (!alive.vertex[v] || drawing.vertex[v] != v) continue;
-    ++vertices;
-    pieces += piece[v] == v;
-  }
-  const int64_t cavities = count_cavities(complex, h.outside, alive.facet, run);
-  const int64_t euler = vertices - count(drawing.drawn_edge) + count(drawing.drawn_facet);
-  return {pieces, pieces + cavities - euler, cavities};
-}
 
 }  // namespace
 
@@ -196,11 +163,9 @@ Level level(const Hierarchical& h, const LevelThresholds& thresholds, const Run&
   const Run quiet{run.threads, nullptr, run.arena};
   const Alive alive = alive_at(h, thresholds, quiet);
   throw_if_cancelled(run.progress);
-  const Drawing drawing = draw(h.complex, alive, run);
+  Level level = Drawer(h, alive, quiet).draw();
   throw_if_cancelled(run.progress);
-  Level level = Drawer(h, drawing, alive, quiet).draw();
-  throw_if_cancelled(run.progress);
-  level.betti = betti_of(h, drawing, alive, quiet);
+  level.betti = betti_of(h.complex, h.outside, alive, quiet);
   advance(run.progress, 1);
   return level;
 }

@@ -1,5 +1,5 @@
-// A level of the hierarchy: the cells whose values are above some thresholds, as a mesh of polygons,
-// edges that stand by themselves, and single vertices.
+// A level of the hierarchy: the cells whose values are above some thresholds, as a mesh of
+// polygons, edges that stand by themselves, and single vertices.
 #pragma once
 
 #include "skeleton/betti.h"
@@ -21,26 +21,25 @@ struct Hierarchical {
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
   Values erosion, sheet, spacings;
-  Array<float> limb;       // per vertex
+  Array<float> limb;         // per vertex
   std::vector<int32_t> row;  // of the samples
-  Array<int32_t> outside;  // as from outside_components
+  Array<int32_t> outside;    // as from outside_components
 };
 
-// Cells without extent are drawn together: vertices in one place that edges join are one, and a
-// facet between two such vertices is an edge. That changes no topology.
 struct Level {
   Array<Vec3> vertices;          // (v) in order of first use
   Array<double> radius;          // (v) of the empty ball
-  Array<int32_t> vertex_of;      // (v) the lowest vertex of the complex that each is
+  Array<int32_t> vertex_of;      // (v) of the complex
   Array<int32_t> face_offsets;   // (f + 1)
   Array<int32_t> face_vertices;  // convex, counter-clockwise about p -> q
   Array<Edge> generators;        // (f) input rows p < q; the facets are in their order
   Array<int32_t> facet_of;       // (f) of the complex
   Array<Edge> wires;             // (w) edges without a facet: vertices
-  Array<int32_t> edge_of;        // (w) the lowest edge of the complex that each is
+  Array<int32_t> edge_of;        // (w) of the complex
   Array<int32_t> points;         // (k) vertices without an edge
   Betti betti = {};              // counted on all this
-  int64_t hidden = 0;            // edges and facets without extent that could not be drawn together
+  int64_t hidden = 0;            // edges from a vertex to itself, and facets with fewer than three
+                                 // other edges: they count, but cannot be drawn
 };
 
 // Throws InvalidInputError for thresholds below 0.

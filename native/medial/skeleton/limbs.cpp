@@ -33,7 +33,8 @@ Array<double> lengths(const InnerComplex& complex, const Collapse& collapse, con
 class Protrusion {
  public:
   Protrusion(const InnerComplex& complex, const Run& run)
-      : complex_(complex), best_(array<Arrived>(complex.cell.size(), Arrived{}, run)),
+      : complex_(complex),
+        best_(array<Arrived>(complex.cell.size(), Arrived{}, run)),
         ended_(array<double>(complex.cell.size(), 0, run)),
         of_tip_(array<double>(complex.cell.size(), 0, run)) {}
 
@@ -65,8 +66,8 @@ class Protrusion {
   void end(const Arrived& a) { of_tip_[a.tip] = std::max(of_tip_[a.tip], a.height); }
 
   const InnerComplex& complex_;
-  Array<Arrived> best_;     // per vertex: of what has arrived
-  Array<double> ended_;     // per vertex: of what has ended there
+  Array<Arrived> best_;  // per vertex: of what has arrived
+  Array<double> ended_;  // per vertex: of what has ended there
   Array<double> of_tip_;
 };
 
@@ -88,8 +89,8 @@ Array<float> limb_values(const InnerComplex& complex, const Collapse& collapse, 
   auto value = array<float>(complex.cell.size(), 0, run);
   parallel_for(static_cast<int64_t>(wires.order.size()), run, [&](int64_t i) {
     const int32_t v = wires.order[i];
-    value[v] = static_cast<float>(std::min(length[v], protrusion.of_tip(tip[v])) /
-                                  complex.diagonal);
+    value[v] =
+        static_cast<float>(std::min(length[v], protrusion.of_tip(tip[v])) / complex.diagonal);
   });
   return value;
 }

@@ -38,12 +38,12 @@ class Dropper {
     for (size_t f = 0; f < sheets.of_facet.size(); ++f) {
       if (sheets.of_facet[f] == static_cast<int32_t>(f)) number(static_cast<int32_t>(f), peak[f]);
     }
-    for (const Junction& j : sheets.junctions) {
-      std::array<int32_t, 3> meeting;
-      for (int i = 0; i < 3; ++i) meeting[i] = number_.at(sheets.of_facet[j.facets[i]]);
-      std::sort(meeting.begin(), meeting.end());
-      meetings_.push_back(meeting);
+    for (size_t i = 0; i < sheets.junctions.size(); ++i) {
+      const auto& [edge, facet] = sheets.junctions[i];
+      if (i == 0 || sheets.junctions[i - 1].edge != edge) meetings_.emplace_back();
+      meetings_.back().push_back(number_.at(sheets.of_facet[facet]));
     }
+    for (auto& meeting : meetings_) std::sort(meeting.begin(), meeting.end());
     std::sort(meetings_.begin(), meetings_.end());
     meetings_.erase(std::unique(meetings_.begin(), meetings_.end()), meetings_.end());
     for (size_t m = 0; m < meetings_.size(); ++m) {
@@ -96,8 +96,8 @@ class Dropper {
     if (groups_[sheet].peak < HUGE_VALF) queue_.emplace(groups_[sheet].peak, sheet);
   }
 
-  // What is left of three facets that met, if it is two, hangs together.
-  void join_at(const std::array<int32_t, 3>& meeting) {
+  // What is left of the facets that met, if it is two, hangs together.
+  void join_at(std::span<const int32_t> meeting) {
     std::vector<int32_t> left;
     for (const int32_t sheet : meeting) {
       const int32_t group = group_of(sheet);
@@ -118,7 +118,7 @@ class Dropper {
   std::vector<Group> groups_;
   std::map<int32_t, int32_t> number_;
   std::vector<std::pair<int32_t, float>> values_;
-  std::vector<std::array<int32_t, 3>> meetings_;
+  std::vector<std::vector<int32_t>> meetings_;  // sheets, one for each facet of a junction
   using Peak = std::pair<float, int32_t>;
   std::priority_queue<Peak, std::vector<Peak>, std::greater<>> queue_;
 };
@@ -133,10 +133,9 @@ void wait_at_junctions(const InnerComplex& complex, const Collapse& collapse, co
     value[facet] = to;
     raised.push_back(facet);
   };
-  for (const Junction& j : sheets.junctions) {
-    const int32_t last = collapse.partner[j.edge];
-    if (last < 0) continue;
-    for (const int32_t f : j.facets) raise_to(last, value[f]);
+  for (const auto& [edge, facet] : sheets.junctions) {
+    const int32_t last = collapse.partner[edge];
+    if (last >= 0) raise_to(last, value[facet]);
   }
   while (!raised.empty()) {
     const int32_t f = raised.back();
@@ -152,29 +151,22 @@ void wait_at_junctions(const InnerComplex& complex, const Collapse& collapse, co
 
 Sheets find_sheets(const InnerComplex& complex, const Collapse& collapse, const Run& run) {
   SharedUnionFind sets(complex.dual.size(), run);
-  struct AtJunction {
-    int32_t edge, facet;
-    auto operator<=>(const AtJunction&) const = default;
-  };
-  auto meeting = parallel_append<AtJunction>(
-      complex.facets(), run, [&](int64_t id, std::vector<AtJunction>& out, int) {
-        const auto f = static_cast<int32_t>(id);
-        if (collapse.facet_gone[f]) return;
-        for (const Corner& c : complex.ring(f)) {
-          if (collapse.degree[c.edge] == 3) out.push_back({c.edge, f});
-          const int32_t other = collapse.facets_at[c.edge] ^ f;
-          if (collapse.degree[c.edge] == 2 && other < f) sets.unite(f, other);
-        }
-      });
-  std::sort(meeting.begin(), meeting.end());
-  Sheets sheets{std::move(sets).representatives(run), {}};
+  auto junctions = parallel_append<AtJunction>(complex.facets(), run,
+                                               [&](int64_t id, std::vector<AtJunction>& out, int) {
+                                                 const auto f = static_cast<int32_t>(id);
+                                                 if (collapse.facet_gone[f]) return;
+                                                 for (const Corner& c : complex.ring(f)) {
+                                                   const Incident& at = collapse.facets_at[c.edge];
+                                                   if (at.count > 2) out.push_back({c.edge, f});
+                                                   if (at.count == 2 && (at.ids ^ f) < f)
+                                                     sets.unite(f, at.ids ^ f);
+                                                 }
+                                               });
+  std::sort(junctions.begin(), junctions.end());
+  Sheets sheets{std::move(sets).representatives(run), std::move(junctions)};
   parallel_for(complex.facets(), run, [&](int64_t f) {
     if (collapse.facet_gone[f]) sheets.of_facet[f] = -1;
   });
-  for (size_t i = 0; i < meeting.size(); i += 3) {
-    sheets.junctions.push_back(
-        {meeting[i].edge, {meeting[i].facet, meeting[i + 1].facet, meeting[i + 2].facet}});
-  }
   return sheets;
 }
 

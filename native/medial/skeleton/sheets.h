@@ -6,15 +6,16 @@
 
 namespace medial {
 
-// An edge where three facets of K1 meet.
-struct Junction {
-  int32_t edge;
-  std::array<int32_t, 3> facets;
+// A facet of K1 at an edge where three or more of them meet.
+struct AtJunction {
+  int32_t edge, facet;
+
+  friend auto operator<=>(const AtJunction&, const AtJunction&) = default;
 };
 
 struct Sheets {
-  Array<int32_t> of_facet;  // the lowest facet of its sheet; -1: not in K1
-  std::vector<Junction> junctions;
+  Array<int32_t> of_facet;            // the lowest facet of its sheet; -1: not in K1
+  std::vector<AtJunction> junctions;  // ascending
 };
 
 // Before the fire.

@@ -9,16 +9,16 @@ namespace medial {
 class FacetWeights {
  public:
   // Keeps references.
-  FacetWeights(const InnerComplex& complex, const Facets& facets, const Thresholds& thresholds)
-      : complex_(complex), facets_(facets), t_(thresholds), selection_({thresholds}, facets) {}
+  FacetWeights(const Facets& facets, const Thresholds& thresholds)
+      : facets_(facets), t_(thresholds), selection_({thresholds}, facets) {}
 
-  bool selected(int32_t facet) const {
+  // Of a Delaunay edge.
+  bool selected(int32_t edge) const {
     std::vector<int32_t> none;  // side `both` needs no ring
-    return selection_.wants(complex_.dual[facet], none);
+    return selection_.wants(edge, none);
   }
   // The larger of theta / theta0 and rho / rho0; as the criteria have it, one of them.
-  double operator()(int32_t facet) const {
-    const int32_t edge = complex_.dual[facet];
+  double operator()(int32_t edge) const {
     const double theta =
         part(theta_of(facets_.significance.sines(t_.rule)[edge]), t_.theta, Criteria::ratio);
     return std::max(theta,
@@ -31,7 +31,6 @@ class FacetWeights {
     return threshold > 0 ? value / threshold : HUGE_VAL;
   }
 
-  const InnerComplex& complex_;
   const Facets& facets_;
   Thresholds t_;
   Selection selection_;

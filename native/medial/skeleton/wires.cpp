@@ -19,10 +19,14 @@ struct Front {
 
 class WireFire {
  public:
-  WireFire(const InnerComplex& complex, const EdgesAtVertex& edges_at,
-           std::span<const Times> lateral, Collapse& collapse, const Run& run)
-      : complex_(complex), lateral_(lateral), collapse_(collapse), progress_(run.progress),
-        queue_(complex.diagonal / kBuckets, kBuckets), left_(ends_left(collapse, edges_at, run)),
+  WireFire(const InnerComplex& complex, std::span<const Times> lateral, Collapse& collapse,
+           const Run& run)
+      : complex_(complex),
+        lateral_(lateral),
+        collapse_(collapse),
+        progress_(run.progress),
+        queue_(complex.diagonal / kBuckets, kBuckets),
+        left_(edges_left(complex, collapse, {run.threads, nullptr, run.arena})),
         front_(array<Front>(complex.cell.size(), Front{}, run)) {
     wires_.order = array<int32_t>(0, run);
     wires_.order.reserve(complex.cell.size());
@@ -39,7 +43,7 @@ class WireFire {
 
  private:
   bool is_loose(int32_t vertex) const {
-    return left_.degree[vertex] == 1 && collapse_.degree[left_.edges_at[vertex]] == 0;
+    return left_[vertex].count == 1 && collapse_.is_wire(left_[vertex].ids);
   }
 
   // Takes loose ends away, one after the other, as far as they do not have to wait.
@@ -57,7 +61,7 @@ class WireFire {
 
   // The time at a loose end, and the elongation of its edge.
   void light(int32_t vertex) {
-    const int32_t edge = left_.edges_at[vertex];
+    const int32_t edge = left_[vertex].ids;
     const Times& t = lateral_[edge];
     const double sideways = t[complex_.ends[edge][0] == vertex ? 0 : 1];
     Front& front = front_[vertex];
@@ -69,20 +73,18 @@ class WireFire {
   }
 
   double later(const Front& front, const Vec3& x) const {
-    return std::max(front.time,
-                    front.anchor_time + distance(x, complex_.position[front.anchor]));
+    return std::max(front.time, front.anchor_time + distance(x, complex_.position[front.anchor]));
   }
 
   // Returns the other end.
   int32_t take_away(int32_t vertex) {
-    const int32_t edge = left_.edges_at[vertex], other = other_end(complex_, edge, vertex);
+    const int32_t edge = left_[vertex].ids, other = other_end(complex_, edge, vertex);
     collapse_.partner[edge] = with_vertex(vertex);
     collapse_.edge_of_vertex[vertex] = edge;
     wires_.order.push_back(vertex);
     if (wires_.order.size() % (1 << 14) == 0) throw_if_cancelled(progress_);
-    left_.degree[vertex] = 0;
-    --left_.degree[other];
-    left_.edges_at[other] ^= edge;
+    left_[vertex].remove(edge);
+    left_[other].remove(edge);
     arrive(front_[vertex], other);
     return other;
   }
@@ -103,16 +105,16 @@ class WireFire {
   Collapse& collapse_;
   Progress* progress_;
   BucketQueue queue_;
-  Ends left_;
+  Array<Incident> left_;  // per vertex: edges
   Array<Front> front_;
   Wires wires_;
 };
 
 }  // namespace
 
-Wires burn_wires(const InnerComplex& complex, const EdgesAtVertex& edges_at,
-                 std::span<const Times> lateral, Collapse& collapse, const Run& run) {
-  return WireFire(complex, edges_at, lateral, collapse, run).run();
+Wires burn_wires(const InnerComplex& complex, std::span<const Times> lateral, Collapse& collapse,
+                 const Run& run) {
+  return WireFire(complex, lateral, collapse, run).run();
 }
 
 }  // namespace medial

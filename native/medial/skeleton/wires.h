@@ -15,7 +15,7 @@ struct Wires {
 
 // Takes all wires away that fire can reach. What is left has no loose end: closed curves, closed
 // sheets and what joins them; of a tree one vertex.
-Wires burn_wires(const InnerComplex& complex, const EdgesAtVertex& edges_at,
-                 std::span<const Times> lateral, Collapse& collapse, const Run& run);
+Wires burn_wires(const InnerComplex& complex, std::span<const Times> lateral, Collapse& collapse,
+                 const Run& run);
 
 }  // namespace medial

@@ -1,0 +1,142 @@
+#include "skeleton/shrink.h"
+
+#include "base/union_find.h"
+
+namespace medial {
+namespace {
+
+class Shrinker {
+ public:
+  Shrinker(const InnerComplex& complex, std::span<const int32_t> place, const Run& run)
+      : complex_(complex),
+        place_(place),
+        run_(run),
+        vertices_(complex.cell.size(), run),
+        edges_(complex.ends.size(), run),
+        gone_(array<uint8_t>(complex.ends.size(), 0, run)) {}
+
+  // Whether there is anything to shrink.
+  bool shrink() {
+    const auto points =
+        parallel_append<int32_t>(complex_.edges(), run_, [&](int64_t e, auto& out, int) {
+          if (without_length(static_cast<int32_t>(e))) out.push_back(static_cast<int32_t>(e));
+        });
+    if (points.empty()) return false;
+    for (const int32_t edge : points) {
+      const auto& [a, b] = complex_.ends[edge];
+      if (vertices_.find(a) == vertices_.find(b)) continue;
+      vertices_.unite(a, b);
+      gone_[edge] = 1;
+    }
+    shrink_facets();
+    return true;
+  }
+
+  InnerComplex result() && {
+    const auto vertex =
+        number(complex_.vertices(), [&](int32_t v) { return vertices_.find(v) == v; });
+    const auto edge =
+        number(complex_.edges(), [&](int32_t e) { return edges_.find(e) == e && !gone_[e]; });
+    InnerComplex result;
+    result.bubbles = complex_.bubbles;
+    result.diagonal = complex_.diagonal;
+    for (int32_t v = 0; v < complex_.vertices(); ++v) {
+      if (vertex[v] < 0) continue;
+      result.cell.push_back(complex_.cell[v]);
+      result.position.push_back(complex_.position[v]);
+      result.radius.push_back(complex_.radius[v]);
+    }
+    for (int32_t e = 0; e < complex_.edges(); ++e) {
+      if (edge[e] < 0) continue;
+      const auto& [a, b] = complex_.ends[e];
+      const auto [low, high] = std::minmax(vertex[vertices_.find(a)], vertex[vertices_.find(b)]);
+      result.ends.push_back({low, high});
+    }
+    std::vector<uint8_t> shrunk(complex_.dual.size(), 0);
+    for (const int32_t f : shrunk_) shrunk[f] = 1;
+    result.offsets.push_back(0);
+    for (int32_t f = 0; f < complex_.facets(); ++f) {
+      if (shrunk[f]) continue;
+      for (const Corner& c : complex_.ring(f)) {
+        const int32_t e = edges_.find(c.edge);
+        if (!gone_[e]) result.corners.push_back({vertex[vertices_.find(c.vertex)], edge[e]});
+      }
+      result.offsets.push_back(static_cast<int32_t>(result.corners.size()));
+      result.generators.push_back(complex_.generators[f]);
+      result.dual.push_back(complex_.dual[f]);
+    }
+    std::sort(shrunk_.begin(), shrunk_.end());
+    for (const int32_t f : shrunk_) {
+      ShrunkFacet s{complex_.generators[f], complex_.dual[f], -1,
+                    vertex[vertices_.find(complex_.ring(f)[0].vertex)]};
+      for (const Corner& c : complex_.ring(f)) s.edge = std::max(s.edge, edge[edges_.find(c.edge)]);
+      result.shrunk.push_back(s);
+    }
+    return result;
+  }
+
+ private:
+  bool without_length(int32_t edge) const {
+    const auto& [a, b] = complex_.ends[edge];
+    return place_[a] == place_[b];
+  }
+
+  void shrink_facets() {
+    auto flat = parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t f, auto& out, int) {
+      const auto ring = complex_.ring(static_cast<int32_t>(f));
+      if (std::any_of(ring.begin(), ring.end(),
+                      [&](const Corner& c) { return without_length(c.edge); })) {
+        out.push_back(static_cast<int32_t>(f));
+      }
+    });
+    // One that shrinks may leave another with fewer edges.
+    while (std::erase_if(flat, [&](int32_t f) { return shrinks(f); }) > 0) {
+      throw_if_cancelled(run_.progress);
+    }
+  }
+
+  bool shrinks(int32_t facet) {
+    left_.clear();
+    for (const Corner& c : complex_.ring(facet)) {
+      const int32_t edge = edges_.find(c.edge);
+      if (!gone_[edge]) left_.push_back(edge);
+    }
+    if (left_.size() == 1) {
+      gone_[left_[0]] = 1;
+    } else if (left_.size() == 2 && left_[0] != left_[1]) {
+      edges_.unite(left_[0], left_[1]);
+    } else {
+      return false;
+    }
+    shrunk_.push_back(facet);
+    return true;
+  }
+
+  // Numbers what is left; -1 for all others.
+  template <typename IsLeft>
+  Array<int32_t> number(int32_t count, const IsLeft& is_left) const {
+    auto numbers = array<int32_t>(static_cast<size_t>(count), -1, run_);
+    int32_t next = 0;
+    for (int32_t id = 0; id < count; ++id) {
+      if (is_left(id)) numbers[id] = next++;
+    }
+    return numbers;
+  }
+
+  const InnerComplex& complex_;
+  std::span<const int32_t> place_;
+  Run run_;
+  UnionFind vertices_, edges_;
+  Array<uint8_t> gone_;  // per lowest edge: shrunk to a point
+  std::vector<int32_t> shrunk_, left_;
+};
+
+}  // namespace
+
+InnerComplex shrink(InnerComplex complex, std::span<const int32_t> place, const Run& run) {
+  Shrinker shrinker(complex, place, run);
+  if (!shrinker.shrink()) return complex;
+  return std::move(shrinker).result();
+}
+
+}  // namespace medial

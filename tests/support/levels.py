@@ -1,0 +1,84 @@
+"""What the levels of a hierarchy are, from its values alone: masks, closedness, Betti numbers by another count."""
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+
+class Levels:
+    """The complex of a hierarchy and its values as arrays; `analysis` gives the Delaunay edges."""
+
+    def __init__(self, hierarchy, analysis):
+        h = self.h = hierarchy
+        self.facet_of_corner = np.repeat(
+            np.arange(len(h.generators)), np.diff(h.facet_offsets)
+        )
+        self.corner_edge, self.ends, self.generators = h.facet_edges, h.edges, h.generators
+        self.samples = analysis.samples
+        edges = analysis.edges.astype(np.int64)
+        width = int(edges.max()) + 1
+        inside = np.concatenate((self.generators, h.shrunk[:, :2])).astype(np.int64)
+        dual = np.isin(edges @ [width, 1], inside @ [width, 1])
+        self.elsewhere = edges[~dual]  # Delaunay edges whose facets are not in the complex
+        self.hull = np.unique(analysis.edges[~analysis.bounded])
+        self.values = {
+            name: tuple(getattr(h, f"{kind}_{name}") for kind in ("facet", "edge", "vertex"))
+            for name in ("sheet", "spacings", "erosion")
+        }
+        self.values["limb"] = (
+            np.zeros(len(h.generators), np.float32),
+            h.edge_limb,
+            h.vertex_limb,
+        )
+
+    def alive(self, sheet=0.0, spacings=0.0, erosion=0.0, limb=0.04):
+        """(facets, edges, vertices) bool: what a level consists of."""
+        result = []
+        for kind in range(3):
+            here = np.ones(len(self.values["sheet"][kind]), bool)
+            for name, threshold in (("sheet", sheet), ("spacings", spacings), ("erosion", erosion)):
+                value = self.values[name][kind]
+                here &= (value > threshold) | np.isinf(value)
+            result.append(here | (self.values["limb"][kind] > limb) if kind else here)
+        return tuple(result)
+
+    def is_closed(self, alive):
+        """The faces of all that is there are there."""
+        facets, edges, vertices = alive
+        there = edges[self.corner_edge][facets[self.facet_of_corner]].all()
+        return bool(there and vertices[self.ends[edges]].all())
+
+    def betti(self, alive):
+        """Components by scipy, cavities by Alexander duality, tunnels by Euler's formula."""
+        facets, edges, vertices = alive
+        pieces = parts(len(vertices), self.ends[edges], vertices)
+        row = int(max(self.samples.max(), self.hull.max())) + 1
+        p_q, edge, vertex = self.h.shrunk[:, :2], self.h.shrunk[:, 2], self.h.shrunk[:, 3]
+        there = np.where(edge >= 0, edges[edge] if len(edges) else False, vertices[vertex])
+        joined = [self.elsewhere, self.generators[~facets], p_q[~there]]
+        joined.append(np.column_stack((self.hull, np.full(len(self.hull), row))))
+        there = np.zeros(row + 1, bool)
+        there[self.samples] = there[row] = True
+        cavities = parts(row + 1, np.concatenate(joined), there) - 1
+        euler = int(vertices.sum()) - int(edges.sum()) + int(facets.sum())
+        return pieces, pieces + cavities - euler, cavities
+
+
+def parts(count, pairs, there):
+    """Components of a graph that contain any of the vertices that are there."""
+    p, q = np.asarray(pairs, np.int64).reshape(-1, 2).T
+    graph = coo_array((np.ones(len(p)), (p, q)), shape=(count, count))
+    labels = connected_components(graph, directed=False)[1]
+    return len(np.unique(labels[there]))
+
+
+def betti_of_mesh(level):
+    """(components, Euler characteristic) of a drawn level: vertices, edges of polygons and wires, polygons."""
+    corners, offsets = level.face_vertices, level.face_offsets
+    following = np.roll(corners, -1)
+    following[offsets[1:] - 1] = corners[offsets[:-1]]
+    pairs = np.concatenate((np.column_stack((corners, following)), level.wires))
+    edges = np.unique(np.sort(pairs, axis=1), axis=0)
+    everything = np.ones(len(level.vertices), bool)
+    pieces = parts(len(level.vertices), edges, everything) if len(level.vertices) else 0
+    return pieces, len(level.vertices) - len(edges) + len(level.generators)
