@@ -230,6 +230,166 @@ class MedialMesh:
         shows to lie on the other side."""
 
 @final
+class Level:
+    """One level of a `Hierarchy`: polygons, edges that stand by themselves, and single vertices."""
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """(v, 3) float64: Voronoi vertices, the centres of empty balls, in order of first use by facets, wires and
+        points."""
+    @property
+    def radius(self) -> NDArray[np.float64]:
+        """(v,) float64: radius of each vertex' empty ball."""
+    @property
+    def vertex_of(self) -> NDArray[np.int32]:
+        """(v,) int32: vertex of the hierarchy, for its values."""
+    @property
+    def face_offsets(self) -> NDArray[np.int32]:
+        """(f + 1,) int32: facet i has the corners `face_vertices[face_offsets[i] : face_offsets[i + 1]]`."""
+    @property
+    def face_vertices(self) -> NDArray[np.int32]:
+        """(c,) int32: vertex ids, facet after facet: convex, counter-clockwise about p -> q, lowest id first."""
+    @property
+    def generators(self) -> NDArray[np.int32]:
+        """(f, 2) int32: rows p < q of the two samples whose cells meet in the facet, in lexicographic order."""
+    @property
+    def facet_of(self) -> NDArray[np.int32]:
+        """(f,) int32: facet of the hierarchy, for its values."""
+    @property
+    def wires(self) -> NDArray[np.int32]:
+        """(w, 2) int32: ends of the edges without a facet."""
+    @property
+    def edge_of(self) -> NDArray[np.int32]:
+        """(w,) int32: edge of the hierarchy, for its values."""
+    @property
+    def points(self) -> NDArray[np.int32]:
+        """(k,) int32: vertices without an edge: the axis of a ball is one."""
+    @property
+    def betti(self) -> tuple[int, int, int]:
+        """Components, tunnels and cavities, counted on the level; those of the hierarchy."""
+    @property
+    def hidden(self) -> int:
+        """Edges from a vertex to itself, and facets with fewer than three other edges: they count but cannot be
+        drawn. Only where very many samples are cospherical."""
+
+@final
+class Hierarchy:
+    """All levels of the inner medial axis, from one ordered collapse of the inner Voronoi complex: each has the topology
+    of the solid. Made by `MedialAnalysis.hierarchy`.
+
+    The complex: its vertices are the inner cells, its edges the triangles between two of them, its facets the Delaunay
+    edges all of whose cells are inner, its 3-cells the samples all of whose cells are inner. Cells without extent, as
+    of cospherical samples, are shrunk to what they are. A value says up to which threshold a cell is there; it is
+    infinite for what no threshold takes away. No cell has a larger value than a face of it.
+    """
+
+    @property
+    def betti(self) -> tuple[int, int, int]:
+        """Components, tunnels and cavities of the complex, and so of every level."""
+    @property
+    def diagonal(self) -> float:
+        """Of the box of the samples: the unit of `sheet`, `erosion` and `limb`."""
+    @property
+    def cells(self) -> NDArray[np.int32]:
+        """(v,) int32: cell of each vertex, the lowest of several in one place, as numbered by `delaunay` (without a
+        bounding sphere)."""
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """(v, 3) float64: where the vertices are."""
+    @property
+    def radius(self) -> NDArray[np.float64]:
+        """(v,) float64: radius of each vertex' empty ball."""
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """(e, 2) int32: ends of each edge, the lower vertex first."""
+    @property
+    def generators(self) -> NDArray[np.int32]:
+        """(f, 2) int32: rows p < q of the samples of each facet; in no order that means anything."""
+    @property
+    def facet_offsets(self) -> NDArray[np.int32]:
+        """(f + 1,) int32: facet i has the corners facet_offsets[i] : facet_offsets[i + 1]."""
+    @property
+    def facet_vertices(self) -> NDArray[np.int32]:
+        """(c,) int32: vertex at each corner."""
+    @property
+    def facet_edges(self) -> NDArray[np.int32]:
+        """(c,) int32: edge from each corner to the next."""
+    @property
+    def shrunk(self) -> NDArray[np.int32]:
+        """(s, 4) int32: facets without area: rows p < q of the samples, the edge that it is or -1, a vertex of it."""
+    @property
+    def bubbles(self) -> NDArray[np.int32]:
+        """(b,) int32: rows of the samples inside the solid; each is a 3-cell of the complex."""
+    @property
+    def facet_sheet(self) -> NDArray[np.float32]:
+        """(f,) float32: thickness of the thickest facet of the sheet, as a share of the diagonal, of each facet."""
+    @property
+    def edge_sheet(self) -> NDArray[np.float32]:
+        """(e,) float32: the same of each edge."""
+    @property
+    def vertex_sheet(self) -> NDArray[np.float32]:
+        """(v,) float32: the same of each vertex."""
+    @property
+    def facet_spacings(self) -> NDArray[np.float32]:
+        """(f,) float32: as `facet_sheet`, in local spacings of the samples."""
+    @property
+    def edge_spacings(self) -> NDArray[np.float32]:
+        """(e,) float32: the same of each edge."""
+    @property
+    def vertex_spacings(self) -> NDArray[np.float32]:
+        """(v,) float32: the same of each vertex."""
+    @property
+    def facet_erosion(self) -> NDArray[np.float32]:
+        """(f,) float32: erosion thickness as a share of the diagonal: how much later than the radius of the ball there
+        a fire from the rims comes to the facet; at least that of all that has to burn before."""
+    @property
+    def edge_erosion(self) -> NDArray[np.float32]:
+        """(e,) float32: the same of each edge."""
+    @property
+    def vertex_erosion(self) -> NDArray[np.float32]:
+        """(v,) float32: the same of each vertex."""
+    @property
+    def edge_limb(self) -> NDArray[np.float32]:
+        """(e,) float32: length of the branch of each edge, as a share of the diagonal: how long it is, or how far its
+        tip sticks out, whichever is less; 0 where the edge goes with a facet."""
+    @property
+    def vertex_limb(self) -> NDArray[np.float32]:
+        """(v,) float32: the same of each vertex; infinite where it stays."""
+    @property
+    def timings(self) -> dict[str, float]:
+        """Seconds of each stage, in order."""
+    def extract(
+        self,
+        *,
+        sheet: float = 0.0,
+        spacings: float = 0.0,
+        erosion: float = 0.0,
+        limb: float = 0.04,
+        progress: Progress | None = None,
+    ) -> Level:
+        """The level at some thresholds. A facet stays if it exceeds the first three. A vertex or an edge stays if it
+        does, or if it exceeds `limb`. What no threshold takes away always stays.
+
+        Parameters
+        ----------
+        sheet : float
+            Thickness of the sheet, as a share of the diagonal; default 0. Sheets go whole.
+        spacings : float
+            The same in local spacings of the samples; default 0. 1 drops what the samples cannot tell from noise.
+        erosion : float
+            Thickness of the facet itself, as a share of the diagonal; default 0. Rims recede.
+        limb : float
+            Length of the branch of a wire, as a share of the diagonal; default 0.04.
+        progress : Progress, optional
+
+        Infinity takes all away that can go: `sheet=inf` leaves a curve skeleton.
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
+
+@final
 class MedialAnalysis:
     """Everything about a point set that does not depend on the thresholds; computed once, extracted often.
 
@@ -361,6 +521,32 @@ class MedialAnalysis:
         order: the surface as the samples see it. A cell is inner when its Voronoi vertex is; by Tight Cocone, when it
         is part of the solid, as in `TightCocone.triangles`. Every edge is in an even number of them. Raises
         InvalidInputError for `SidesFrom.NONE`."""
+    def hierarchy(
+        self,
+        theta: float = ...,
+        rho: float = ...,
+        rule: Rule = ...,
+        criteria: Criteria = ...,
+        side: Side = ...,
+        *,
+        progress: Progress | None = None,
+    ) -> Hierarchy:
+        """The levels of the inner axis; computed once, extracted often. It does not need the analysis any more.
+
+        Parameters
+        ----------
+        theta, rho, rule, criteria
+            As in `extract`: what they select is in the level with the thresholds 0, with the bridges that it lacks.
+        side : Side
+            INNER only.
+        progress : Progress, optional
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        DegenerateInputError
+            `TightCocone.encloses` is false.
+        """
     def select(
         self,
         theta: float = ...,

@@ -88,25 +88,24 @@ float limb_of(const Hierarchy& h, int32_t partner) {
   return partner >= 0 ? 0 : h.parts().limb[with_vertex(partner)];
 }
 
-void bind_values(py::class_<Hierarchy>& c, const char* name, Values Hierarchical::*values,
-                 const std::string& what) {
-  const std::string prefix(name);
-  c.def_property_readonly(("facet_" + prefix).c_str(),
+void bind_values(py::class_<Hierarchy>& c, const std::string& name, Values Hierarchical::*values,
+                 const char* of_facets) {
+  c.def_property_readonly(("facet_" + name).c_str(),
                           part_property<float>([values](const Hierarchy& h) -> auto& {
                             return (h.parts().*values).facet;
                           }),
-                          ("(f,) float32: " + what + " of each facet.").c_str());
-  c.def_property_readonly(("edge_" + prefix).c_str(),
+                          of_facets);
+  c.def_property_readonly(("edge_" + name).c_str(),
                           [values](const Hierarchy& h) {
                             return edge_values(
                                 h, [&](int32_t p) { return (h.parts().*values).of_edge(p); });
                           },
-                          ("(e,) float32: " + what + " of each edge.").c_str());
-  c.def_property_readonly(("vertex_" + prefix).c_str(),
+                          "(e,) float32: the same of each edge.");
+  c.def_property_readonly(("vertex_" + name).c_str(),
                           part_property<float>([values](const Hierarchy& h) -> auto& {
                             return (h.parts().*values).vertex;
                           }),
-                          ("(v,) float32: " + what + " of each vertex.").c_str());
+                          "(v,) float32: the same of each vertex.");
 }
 
 void bind_level(py::module_& m) {
@@ -196,20 +195,25 @@ void bind_hierarchy(py::module_& m) {
                              "(b,) int32: rows of the samples inside the solid; each is a 3-cell "
                              "of the complex.");
   bind_values(c, "sheet", &Hierarchical::sheet,
-              "thickness of the thickest facet of the sheet, as a share of the diagonal,");
-  bind_values(c, "spacings", &Hierarchical::spacings, "the same in local spacings");
-  bind_values(c, "erosion", &Hierarchical::erosion, "erosion thickness as a share of the diagonal");
+              "(f,) float32: thickness of the thickest facet of the sheet, as a share of the "
+              "diagonal, of each facet.");
+  bind_values(c, "spacings", &Hierarchical::spacings,
+              "(f,) float32: as `facet_sheet`, in local spacings of the samples.");
+  bind_values(c, "erosion", &Hierarchical::erosion,
+              "(f,) float32: erosion thickness as a share of the diagonal: how much later than the "
+              "radius of the ball there a fire from\nthe rims comes to the facet; at least that of "
+              "all that has to burn before.");
   c.def_property_readonly(
        "edge_limb",
        [](const Hierarchy& h) {
          return edge_values(h, [&](int32_t partner) { return limb_of(h, partner); });
        },
-       "(e,) float32: length of the branch of each edge, as a share of the diagonal; 0 where it "
-       "went with a facet.")
-      .def_property_readonly(
-          "vertex_limb",
-          part_property<float>([](const Hierarchy& h) -> auto& { return h.parts().limb; }),
-          "(v,) float32: length of the branch of each vertex, as a share of the diagonal.")
+       "(e,) float32: length of the branch of each edge, as a share of the diagonal: how long it "
+       "is, or how far its tip sticks out,\nwhichever is less; 0 where the edge goes with a facet.")
+      .def_property_readonly("vertex_limb", part_property<float>([](const Hierarchy& h) -> auto& {
+                               return h.parts().limb;
+                             }),
+                             "(v,) float32: the same of each vertex; infinite where it stays.")
       .def_property_readonly(
           "timings", [](const Hierarchy& h) { return seconds(h.timings()); },
           "Seconds of each stage, in order.")

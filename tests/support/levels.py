@@ -82,3 +82,14 @@ def betti_of_mesh(level):
     everything = np.ones(len(level.vertices), bool)
     pieces = parts(len(level.vertices), edges, everything) if len(level.vertices) else 0
     return pieces, len(level.vertices) - len(edges) + len(level.generators)
+
+
+def facet_pieces(faces):
+    """Sets of polygons that hang together, if only by a vertex."""
+    if len(faces.generators) == 0:
+        return 0
+    corners, offsets = faces.face_vertices, faces.face_offsets
+    first = np.repeat(corners[offsets[:-1]], np.diff(offsets))
+    there = np.zeros(len(faces.vertices), bool)
+    there[corners] = True
+    return parts(len(there), np.column_stack((first, corners)), there)

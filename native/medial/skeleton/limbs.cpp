@@ -86,7 +86,10 @@ Array<float> limb_values(const InnerComplex& complex, const Collapse& collapse, 
     const int32_t next = next_of(complex, collapse, v);
     if (!collapse.vertex_gone(next)) protrusion.stop_at(next);
   }
-  auto value = array<float>(complex.cell.size(), 0, run);
+  auto value = array<float>(complex.cell.size(), run);
+  parallel_for(complex.vertices(), run, [&](int64_t v) {
+    value[v] = collapse.vertex_gone(static_cast<int32_t>(v)) ? 0 : HUGE_VALF;
+  });
   parallel_for(static_cast<int64_t>(wires.order.size()), run, [&](int64_t i) {
     const int32_t v = wires.order[i];
     value[v] =

@@ -5,9 +5,10 @@
 
 namespace medial {
 
-// Per vertex that went with a wire in stage 3, as shares of the diagonal, and 0 for all others: the
-// smaller of how long its branch is (the largest elongation) and how far it sticks out (the tip's
-// ball out of the ball at its end). Tips of plates stick out, terraces are long; limbs are both.
+// Per vertex that went with a wire in stage 3, as shares of the diagonal, 0 for those that went
+// before and infinite for those that stay: the smaller of how long its branch is (the largest
+// elongation) and how far it sticks out (the tip's ball out of the ball at its end). Tips of plates
+// stick out, terraces are long; limbs are both.
 Array<float> limb_values(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
                          const Run& run);
 

@@ -90,9 +90,48 @@ class Shrinker {
       }
     });
     // One that shrinks may leave another with fewer edges.
-    while (std::erase_if(flat, [&](int32_t f) { return shrinks(f); }) > 0) {
-      throw_if_cancelled(run_.progress);
+    do {
+      while (std::erase_if(flat, [&](int32_t f) { return shrinks(f); }) > 0) {
+        throw_if_cancelled(run_.progress);
+      }
+    } while (collapse_points(flat));
+  }
+
+  // Of what is left in one place, facets go with an edge that they alone have. Whether any did.
+  bool collapse_points(std::vector<int32_t>& flat) {
+    std::vector<int32_t> points;
+    for (const int32_t f : flat) {
+      if (is_point(f)) points.push_back(f);
     }
+    if (points.empty()) return false;
+    std::vector<int32_t> uses(complex_.ends.size(), 0);
+    for (const Corner& c : complex_.corners) ++uses[edges_.find(c.edge)];
+    for (const int32_t f : shrunk_) {
+      for (const Corner& c : complex_.ring(f)) --uses[edges_.find(c.edge)];
+    }
+    const size_t before = shrunk_.size();
+    for (const int32_t f : points) collapse(f, uses);
+    const std::vector<int32_t> gone(shrunk_.begin() + static_cast<std::ptrdiff_t>(before),
+                                    shrunk_.end());
+    std::erase_if(flat,
+                  [&](int32_t f) { return std::find(gone.begin(), gone.end(), f) != gone.end(); });
+    return !gone.empty();
+  }
+  bool is_point(int32_t facet) const {
+    const auto ring = complex_.ring(facet);
+    return std::all_of(ring.begin(), ring.end(),
+                       [&](const Corner& c) { return place_[c.vertex] == place_[ring[0].vertex]; });
+  }
+  void collapse(int32_t facet, std::vector<int32_t>& uses) {
+    const auto ring = complex_.ring(facet);
+    const auto own = std::find_if(ring.begin(), ring.end(), [&](const Corner& c) {
+      const int32_t edge = edges_.find(c.edge);
+      return !gone_[edge] && uses[edge] == 1;
+    });
+    if (own == ring.end()) return;
+    gone_[edges_.find(own->edge)] = 1;
+    for (const Corner& c : ring) --uses[edges_.find(c.edge)];
+    shrunk_.push_back(facet);
   }
 
   bool shrinks(int32_t facet) {
