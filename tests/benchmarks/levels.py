@@ -2,10 +2,11 @@
 
     python3 tests/benchmarks/levels.py [--output table.md] [--meshes hand_closed.obj ...]
 
-Betti numbers (components, tunnels, cavities) of the inner complex; how many of 16 levels have others, or lack faces of
-their own cells, as counted by tests/support/levels.py, which knows the values alone; facets and pieces of facets of what
-MEDIAL selects, of the level 0, and of sheets thicker than one and two local spacings; the wires of the level at one
-spacing; tips and junctions of the curve skeleton at 0.04 of the diagonal; seconds of the hierarchy.
+Betti numbers (components, tunnels, cavities) of the inner complex; how many of 16 levels have others, or lack faces
+of their own cells, as counted by tests/support/levels.py, which knows the values alone; facets and pieces of facets of
+what MEDIAL selects, of the level 0, and of sheets thicker than one and two local spacings; the wires of the level at
+one spacing; tips and junctions of the curve skeleton at 0.04 of the diagonal; seconds of the hierarchy, milliseconds
+of a level.
 """
 
 import sys

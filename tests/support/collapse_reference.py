@@ -39,9 +39,7 @@ class Complex:
             for v in e:
                 self.edges_of_vertex[v].append(i)
         for f, ring in enumerate(self.rings):
-            own = [
-                number[frozenset(pair)] for pair in zip(ring, ring[1:] + ring[:1], strict=True)
-            ]
+            own = [number[frozenset(pair)] for pair in zip(ring, ring[1:] + ring[:1], strict=True)]
             self.edges_of_facet.append(own)
             for e in own:
                 self.facets_of_edge[e].append(f)
@@ -173,9 +171,7 @@ class Collapse:
         for now in range(LEVELS):
             while True:
                 going = [
-                    f
-                    for f in self.facets
-                    if level.get(f, LEVELS) <= now and self.free_edges(f)
+                    f for f in self.facets if level.get(f, LEVELS) <= now and self.free_edges(f)
                 ]
                 if not going:
                     break
@@ -189,7 +185,11 @@ class Collapse:
     def peel_wires(self):
         while True:
             loose = {v: self.at_vertex(v)[0] for v in self.vertices if self.is_loose(v)}
-            going = {v: e for v, e in loose.items() if not self.other(e, v) > v or self.other(e, v) not in loose}
+            going = {
+                v: e
+                for v, e in loose.items()
+                if not self.other(e, v) > v or self.other(e, v) not in loose
+            }
             if not going:
                 return
             for v, e in going.items():
@@ -369,9 +369,7 @@ class Collapse:
         left, values = set(self.k1), {}
         while left:
             sheets = self.sheets_of(left)
-            peak, sheet = min(
-                (max(thickness[f] for f in sheet), sorted(sheet)) for sheet in sheets
-            )
+            peak, sheet = min((max(thickness[f] for f in sheet), sorted(sheet)) for sheet in sheets)
             if peak == math.inf:
                 return values | dict.fromkeys(left, math.inf)
             values |= dict.fromkeys(sheet, peak)
@@ -444,6 +442,4 @@ class Collapse:
 
 def out_of(c: Complex, tip: int, v: int) -> float:
     """How far the ball at a tip sticks out of that at another vertex."""
-    return (
-        float(np.linalg.norm(c.position[tip] - c.position[v])) + c.radius[tip] - c.radius[v]
-    )
+    return float(np.linalg.norm(c.position[tip] - c.position[v])) + c.radius[tip] - c.radius[v]

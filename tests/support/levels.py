@@ -10,9 +10,7 @@ class Levels:
 
     def __init__(self, hierarchy, analysis):
         h = self.h = hierarchy
-        self.facet_of_corner = np.repeat(
-            np.arange(len(h.generators)), np.diff(h.facet_offsets)
-        )
+        self.facet_of_corner = np.repeat(np.arange(len(h.generators)), np.diff(h.facet_offsets))
         self.corner_edge, self.ends, self.generators = h.facet_edges, h.edges, h.generators
         self.samples = analysis.samples
         edges = analysis.edges.astype(np.int64)
