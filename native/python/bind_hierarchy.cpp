@@ -88,23 +88,35 @@ float limb_of(const Hierarchy& h, int32_t partner) {
   return partner >= 0 ? 0 : h.parts().limb[with_vertex(partner)];
 }
 
-void bind_values(py::class_<Hierarchy>& c, const std::string& name, Values Hierarchical::*values,
+// One of the values of each facet or vertex.
+py::array value_view(const Array<Thickness>& values, float Thickness::*value,
+                     const py::object& owner) {
+  const float* first = values.empty() ? nullptr : &(values[0].*value);
+  py::array_t<float> array({static_cast<py::ssize_t>(values.size())},
+                           {static_cast<py::ssize_t>(sizeof(Thickness))}, first, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+void bind_values(py::class_<Hierarchy>& c, const std::string& name, float Thickness::*value,
                  const char* of_facets) {
   c.def_property_readonly(("facet_" + name).c_str(),
-                          part_property<float>([values](const Hierarchy& h) -> auto& {
-                            return (h.parts().*values).facet;
-                          }),
+                          [value](const py::object& self) {
+                            const auto& h = self.cast<const Hierarchy&>();
+                            return value_view(h.parts().values.facet, value, self);
+                          },
                           of_facets);
   c.def_property_readonly(("edge_" + name).c_str(),
-                          [values](const Hierarchy& h) {
+                          [value](const Hierarchy& h) {
                             return edge_values(
-                                h, [&](int32_t p) { return (h.parts().*values).of_edge(p); });
+                                h, [&](int32_t p) { return h.parts().values.of_edge(p).*value; });
                           },
                           "(e,) float32: the same of each edge.");
   c.def_property_readonly(("vertex_" + name).c_str(),
-                          part_property<float>([values](const Hierarchy& h) -> auto& {
-                            return (h.parts().*values).vertex;
-                          }),
+                          [value](const py::object& self) {
+                            const auto& h = self.cast<const Hierarchy&>();
+                            return value_view(h.parts().values.vertex, value, self);
+                          },
                           "(v,) float32: the same of each vertex.");
 }
 
@@ -194,12 +206,12 @@ void bind_hierarchy(py::module_& m) {
       .def_property_readonly("bubbles", &bubble_rows,
                              "(b,) int32: rows of the samples inside the solid; each is a 3-cell "
                              "of the complex.");
-  bind_values(c, "sheet", &Hierarchical::sheet,
+  bind_values(c, "sheet", &Thickness::sheet,
               "(f,) float32: thickness of the thickest facet of the sheet, as a share of the "
               "diagonal, of each facet.");
-  bind_values(c, "spacings", &Hierarchical::spacings,
+  bind_values(c, "spacings", &Thickness::spacings,
               "(f,) float32: as `facet_sheet`, in local spacings of the samples.");
-  bind_values(c, "erosion", &Hierarchical::erosion,
+  bind_values(c, "erosion", &Thickness::erosion,
               "(f,) float32: erosion thickness as a share of the diagonal: how much later than the "
               "radius of the ball there a fire from\nthe rims comes to the facet; at least that of "
               "all that has to burn before.");

@@ -5,13 +5,20 @@
 namespace medial {
 namespace {
 
+void fetch([[maybe_unused]] const void* at) {
+#ifdef __GNUC__
+  __builtin_prefetch(at);
+#endif
+}
+
 // When the fire comes to x from the edge ab, which burns at its ends at the times `t` and between
 // them at times that change evenly: the least of t(y) + |x - y| over the points y of ab.
 double arrival(const Vec3& a, const Vec3& b, const Times& t, const Vec3& x) {
   const Vec3 ab = b - a, ax = x - a;
   const double size = length(ab);
   if (size > 0) {
-    const double slope = (t[1] - t[0]) / size, along = dot(ax, ab) / size;
+    const double per_size = 1 / size;
+    const double slope = (t[1] - t[0]) * per_size, along = dot(ax, ab) * per_size;
     const double steep = 1 - slope * slope;
     if (steep > 0) {
       const double beside = std::sqrt(std::max(0.0, squared_length(ax) - along * along));
@@ -22,12 +29,6 @@ double arrival(const Vec3& a, const Vec3& b, const Times& t, const Vec3& x) {
   }
   return std::min(t[0] + length(ax), t[1] + distance(x, b));
 }
-
-// Where a facet is, and how large the ball is there.
-struct Middle {
-  Vec3 centroid;
-  double radius;
-};
 
 Vec3 centroid(const InnerComplex& complex, int32_t facet) {
   const auto ring = complex.ring(facet);
@@ -47,6 +48,25 @@ Vec3 centroid(const InnerComplex& complex, int32_t facet) {
   return start + (1 / static_cast<double>(ring.size())) * mean;
 }
 
+// What the fire reads of a facet, in one line of the cache, and of an edge.
+struct alignas(64) HotFacet {
+  Vec3 centroid;
+  double radius;                   // of the ball there
+  double time = HUGE_VAL;          // when the fire comes there
+  float erosion = HUGE_VALF;       // infinite until it has gone
+  int32_t first = 0, corners = 0;  // in the complex
+  bool gone = false;
+
+  double thickness() const { return std::max(0.0, time - radius); }
+};
+struct HotEdge {
+  Times times;  // once it is free
+  Edge ends;
+  Incident facets;
+  float erosion = 0;  // of the facets here that have gone
+};
+
+constexpr double kNotKnown = -1;  // no time is below 0
 constexpr size_t kFacetsPerBucket = 512, kMostBuckets = 1 << 14;
 constexpr int kLookEvery = 1 << 13;  // facets between two looks at whether to stop
 
@@ -60,12 +80,8 @@ class Fire {
         progress_(run.progress),
         buckets_(std::clamp<size_t>(complex.dual.size() / kFacetsPerBucket, 16, kMostBuckets)),
         queue_(0.25 * complex.diagonal / static_cast<double>(buckets_), buckets_ + 1),
-        middle_(array<Middle>(complex.dual.size(), run)),
-        time_(array<double>(complex.dual.size(), HUGE_VAL, run)),
-        reached_(array<float>(complex.ends.size(), 0, run)) {
-    burning_ = {array<Times>(complex.ends.size(), run),
-                array<double>(complex.dual.size(), HUGE_VAL, run),
-                array<float>(complex.dual.size(), HUGE_VALF, run)};
+        facet_(array<HotFacet>(complex.dual.size(), run)),
+        edge_(array<HotEdge>(complex.ends.size(), run)) {
     light_edges();
     light_facets(points);
   }
@@ -73,100 +89,146 @@ class Fire {
   Burning run() && {
     int64_t count = 0;
     for (int32_t f; (f = queue_.pop()) >= 0;) {
-      if (!collapse_.facet_gone[f]) burn(f);
+      fetch_ahead();
+      if (!facet_[f].gone) burn(f);
       if (++count % kLookEvery == 0) {
         advance(progress_,
                 static_cast<double>(count) / static_cast<double>(complex_.facets() + count));
       }
     }
-    return std::move(burning_);
+    return result();
   }
 
  private:
   void light_edges() {
     parallel_for(complex_.edges(), run_, [&](int64_t e) {
-      if (collapse_.facets_at[e].count > 1) return;
       const auto& [a, b] = complex_.ends[e];
-      burning_.times[e] = {complex_.radius[a], complex_.radius[b]};
+      edge_[e] = {{}, {a, b}, collapse_.facets_at[e]};
+      if (edge_[e].facets.count < 2) edge_[e].times = {complex_.radius[a], complex_.radius[b]};
     });
   }
 
   void light_facets(std::span<const Vec3> points) {
-    parallel_for(complex_.facets(), run_, [&](int64_t id) {
-      const auto f = static_cast<int32_t>(id);
-      if (collapse_.facet_gone[f]) {
-        burning_.thickness[f] = 0;
-        burning_.erosion[f] = 0;
-        return;
-      }
-      const Vec3 middle = centroid(complex_, f);
-      middle_[f] = {middle, distance(middle, points[complex_.generators[f][0]])};
-      for (const Corner& c : complex_.ring(f)) {
-        if (collapse_.facets_at[c.edge].count == 1) heat(f, c.edge);
-      }
-    });
-    for (int32_t f = 0; f < complex_.facets(); ++f) {
-      if (!collapse_.facet_gone[f] && time_[f] < HUGE_VAL) queue_.push(burning_.thickness[f], f);
+    const auto lit =
+        parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t id, auto& out, int) {
+          const auto f = static_cast<int32_t>(id);
+          HotFacet& facet = facet_[f] = {};
+          facet.gone = collapse_.facet_gone[f] != 0;
+          if (facet.gone) return;
+          const auto ring = complex_.ring(f);
+          facet.first = complex_.offsets[f];
+          facet.corners = static_cast<int32_t>(ring.size());
+          facet.centroid = centroid(complex_, f);
+          facet.radius = distance(facet.centroid, points[complex_.generators[f][0]]);
+          for (const Corner& c : ring) {
+            if (edge_[c.edge].facets.count == 1) heat(facet, edge_[c.edge]);
+          }
+          if (facet.time < HUGE_VAL) out.push_back(f);
+        });
+    for (const int32_t f : lit) queue_.push(facet_[f].thickness(), f);
+  }
+
+  // Has the memory of the next facets come while the present one burns.
+  void fetch_ahead() const {
+    if (const int32_t f = queue_.soon(12); f >= 0) fetch(&facet_[f]);
+    if (const int32_t f = queue_.soon(8); f >= 0) fetch(&complex_.corners[facet_[f].first]);
+    if (const int32_t f = queue_.soon(3); f >= 0) {
+      for (const Corner& c : ring_of(facet_[f])) fetch(&edge_[c.edge]);
+    }
+    if (const int32_t f = queue_.soon(1); f >= 0) {
+      for (const Corner& c : ring_of(facet_[f])) fetch(&complex_.position[c.vertex]);
     }
   }
 
-  double arrival_from(int32_t edge, const Vec3& x) const {
-    const auto& [a, b] = complex_.ends[edge];
-    return arrival(complex_.position[a], complex_.position[b], burning_.times[edge], x);
+  std::span<const Corner> ring_of(const HotFacet& facet) const {
+    return {complex_.corners.data() + facet.first, static_cast<size_t>(facet.corners)};
+  }
+
+  double arrival_from(const HotEdge& edge, const Vec3& x) const {
+    const auto& [a, b] = edge.ends;
+    return arrival(complex_.position[a], complex_.position[b], edge.times, x);
   }
 
   // The fire comes to a facet through an edge. Returns whether it becomes less thick by that.
-  bool heat(int32_t facet, int32_t edge) {
-    const Times& t = burning_.times[edge];
-    if (std::min(t[0], t[1]) >= time_[facet]) return false;
-    const double time = arrival_from(edge, middle_[facet].centroid);
-    if (time >= time_[facet]) return false;
-    time_[facet] = time;
-    const double thickness = std::max(0.0, time - middle_[facet].radius);
-    return std::exchange(burning_.thickness[facet], thickness) > thickness;
+  bool heat(HotFacet& facet, const HotEdge& edge) const {
+    if (std::min(edge.times[0], edge.times[1]) >= facet.time) return false;
+    const double time = arrival_from(edge, facet.centroid), before = facet.thickness();
+    if (time >= facet.time) return false;
+    facet.time = time;
+    return facet.thickness() < before;
   }
 
-  void burn(int32_t facet) {
-    const auto ring = complex_.ring(facet);
+  void burn(int32_t id) {
+    HotFacet& facet = facet_[id];
+    const auto ring = ring_of(facet);
     free_.clear();
     for (const Corner& c : ring) {
-      if (collapse_.facets_at[c.edge].count == 1) free_.push_back(c.edge);
+      if (edge_[c.edge].facets.count == 1) free_.push_back(c.edge);
     }
     const int32_t exit = first_free();
-    collapse_.facet_gone[facet] = 1;
-    collapse_.partner[exit] = facet;
-    const auto share = static_cast<float>(burning_.thickness[facet] / complex_.diagonal);
-    const float erosion = std::max(share, reached_[exit]);
-    burning_.erosion[facet] = erosion;
-    for (const auto& [vertex, edge] : ring) {
-      reached_[edge] = std::max(reached_[edge], erosion);
-      collapse_.facets_at[edge].remove(facet);
-      if (collapse_.facets_at[edge].count == 1) pass_on(edge);
+    collapse_.partner[exit] = id;
+    facet.gone = true;
+    facet.erosion =
+        std::max(static_cast<float>(facet.thickness() / complex_.diagonal), edge_[exit].erosion);
+    at_corner_.assign(ring.size(), kNotKnown);
+    for (size_t i = 0; i < ring.size(); ++i) {
+      HotEdge& edge = edge_[ring[i].edge];
+      edge.erosion = std::max(edge.erosion, facet.erosion);
+      edge.facets.remove(id);
+      if (edge.facets.count == 1) pass_on(ring, i);
     }
   }
 
   // Of the free edges of a facet the one that burns first.
   int32_t first_free() const {
-    const auto sum = [&](int32_t edge) {
-      return burning_.times[edge][0] + burning_.times[edge][1];
-    };
-    int32_t best = free_[0];
-    for (const int32_t edge : free_) {
-      if (sum(edge) < sum(best) || (sum(edge) == sum(best) && edge < best)) best = edge;
-    }
-    return best;
+    const auto key = [&](int32_t e) { return std::pair(edge_[e].times[0] + edge_[e].times[1], e); };
+    return *std::min_element(free_.begin(), free_.end(),
+                             [&](int32_t a, int32_t b) { return key(a) < key(b); });
   }
 
-  // From the facet in hand, over an edge that has become free, to the last facet there.
-  void pass_on(int32_t edge) {
-    for (int i = 0; i < 2; ++i) {
-      const Vec3& x = complex_.position[complex_.ends[edge][i]];
-      double first = HUGE_VAL;
-      for (const int32_t from : free_) first = std::min(first, arrival_from(from, x));
-      burning_.times[edge][i] = first;
+  // From the facet in hand, over its edge that has become free, to the last facet there.
+  void pass_on(std::span<const Corner> ring, size_t i) {
+    HotEdge& edge = edge_[ring[i].edge];
+    const size_t j = i + 1 < ring.size() ? i + 1 : 0;
+    const bool along = edge.ends[0] == ring[i].vertex;
+    edge.times = {first_at(ring, along ? i : j), first_at(ring, along ? j : i)};
+    const int32_t next = edge.facets.ids;
+    if (heat(facet_[next], edge)) queue_.push(facet_[next].thickness(), next);
+  }
+
+  // When the fire comes to a corner of the facet in hand.
+  double first_at(std::span<const Corner> ring, size_t corner) {
+    double& first = at_corner_[corner];
+    if (first != kNotKnown) return first;
+    first = HUGE_VAL;
+    const int32_t vertex = ring[corner].vertex;
+    for (const int32_t e : free_) {
+      const HotEdge& from = edge_[e];
+      if (from.ends[0] == vertex || from.ends[1] == vertex) {
+        first = std::min(first, from.times[from.ends[0] == vertex ? 0 : 1]);
+      } else if (std::min(from.times[0], from.times[1]) < first) {
+        first = std::min(first, arrival_from(from, complex_.position[vertex]));
+      }
     }
-    const int32_t next = collapse_.facets_at[edge].ids;
-    if (heat(next, edge)) queue_.push(burning_.thickness[next], next);
+    return first;
+  }
+
+  Burning result() {
+    Burning burning{array<Times>(complex_.ends.size(), run_),
+                    array<double>(complex_.dual.size(), run_),
+                    array<float>(complex_.dual.size(), run_)};
+    parallel_for(complex_.edges(), run_, [&](int64_t e) {
+      burning.times[e] = edge_[e].times;
+      collapse_.facets_at[e] = edge_[e].facets;
+    });
+    parallel_for(complex_.facets(), run_, [&](int64_t f) {
+      const bool before = collapse_.facet_gone[f] != 0;
+      const HotFacet& facet = facet_[f];
+      burning.erosion[f] = before ? 0 : facet.erosion;
+      burning.thickness[f] = before ? 0 : facet.gone ? facet.thickness() : HUGE_VAL;
+      collapse_.facet_gone[f] = facet.gone;
+    });
+    return burning;
   }
 
   const InnerComplex& complex_;
@@ -175,11 +237,10 @@ class Fire {
   Progress* progress_;
   size_t buckets_;
   BucketQueue queue_;
-  Array<Middle> middle_;
-  Array<double> time_;    // per facet: when the fire comes to its centroid
-  Array<float> reached_;  // per edge: the erosion of the facets there that have gone
-  Burning burning_;
-  std::vector<int32_t> free_;  // edges of the facet in hand
+  Array<HotFacet> facet_;
+  Array<HotEdge> edge_;
+  std::vector<int32_t> free_;      // edges of the facet in hand
+  std::vector<double> at_corner_;  // when the fire comes to its corners
 };
 
 }  // namespace

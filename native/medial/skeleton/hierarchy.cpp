@@ -19,6 +19,16 @@ Array<float> in_units(std::span<const double> thickness, const Run& run, const U
   return result;
 }
 
+// Of facets, from what they are in three respects.
+Array<Thickness> joined(std::span<const float> sheet, std::span<const float> spacings,
+                        std::span<const float> erosion, const Run& run) {
+  Array<Thickness> all(erosion.size());
+  parallel_for(static_cast<int64_t>(all.size()), run, [&](int64_t f) {
+    all[f] = {sheet[f], spacings[f], erosion[f]};
+  });
+  return all;
+}
+
 // In memory of its own, beside the arena.
 template <typename T>
 Array<T> kept(const Array<T>& values) {
@@ -53,21 +63,7 @@ Hierarchy::Hierarchy(const Samples& samples, const Facets& facets, const Thresho
   burning.times = {};
   watch.lap("wires");
   begin_stage(run.progress, "Values", 0.8, 1);
-  parts_.limb = kept(limb_values(complex, collapse, wires, run));
-  parts_.erosion = with_vertices(complex, collapse, wires, kept(burning.erosion), quiet);
-  throw_if_cancelled(run.progress);
-  const auto shares = in_units(burning.thickness, quiet, [&](int64_t) { return complex.diagonal; });
-  parts_.sheet = with_vertices(complex, collapse, wires,
-                               kept(drop_values(complex, collapse, sheets, shares, quiet)), quiet);
-  throw_if_cancelled(run.progress);
-  const auto& spacing = facets.significance.spacing;
-  const auto spacings = in_units(burning.thickness, quiet, [&](int64_t f) {
-    const auto& [p, q] = complex.generators[f];
-    return 0.5 * (spacing[p] + spacing[q]);
-  });
-  parts_.spacings =
-      with_vertices(complex, collapse, wires,
-                    kept(drop_values(complex, collapse, sheets, spacings, quiet)), quiet);
+  find_values(complex, collapse, sheets, burning, wires, facets.significance.spacing, run);
   watch.lap("values");
   parts_.outside =
       outside_components(complex, samples.count(), facets.triangulation, facets.edges, quiet);
@@ -77,6 +73,28 @@ Hierarchy::Hierarchy(const Samples& samples, const Facets& facets, const Thresho
   parts_.row = samples.row;
   parts_.complex = std::move(complex);
   advance(run.progress, 1);
+}
+
+void Hierarchy::find_values(const InnerComplex& complex, const Collapse& collapse,
+                            const Sheets& sheets, const Burning& burning, const Wires& wires,
+                            std::span<const double> spacing, const Run& run) {
+  const Run quiet{run.threads, nullptr, run.arena}, alone{1, nullptr, run.arena};
+  const auto shares = in_units(burning.thickness, quiet, [&](int64_t) { return complex.diagonal; });
+  const auto spacings = in_units(burning.thickness, quiet, [&](int64_t f) {
+    const auto& [p, q] = complex.generators[f];
+    return 0.5 * (spacing[p] + spacing[q]);
+  });
+  Array<float> sheet_values, spacing_values;
+  // Each of these works by itself.
+  const std::array<std::function<void()>, 3> work{
+      [&] { parts_.limb = kept(limb_values(complex, collapse, wires, alone)); },
+      [&] { sheet_values = drop_values(complex, collapse, sheets, shares, alone); },
+      [&] { spacing_values = drop_values(complex, collapse, sheets, spacings, alone); }};
+  parallel_for(
+      3, run, [&](int64_t i) { work[i](); }, 1);
+  parts_.values =
+      with_vertices(complex, collapse, wires,
+                    joined(sheet_values, spacing_values, burning.erosion, quiet), quiet);
 }
 
 Level Hierarchy::extract(const LevelThresholds& thresholds, Progress* progress) const {

@@ -6,6 +6,7 @@
 #include "axis/selection.h"
 #include "base/stopwatch.h"
 #include "skeleton/level.h"
+#include "skeleton/sheets.h"
 
 namespace medial {
 
@@ -23,6 +24,10 @@ class Hierarchy {
   const Timings& timings() const { return timings_; }
 
  private:
+  void find_values(const InnerComplex& complex, const Collapse& collapse, const Sheets& sheets,
+                   const Burning& burning, const Wires& wires, std::span<const double> spacing,
+                   const Run& run);
+
   Hierarchical parts_;
   Betti betti_ = {};
   int threads_;

@@ -14,20 +14,19 @@ void check(double threshold, const char* name) {
 
 bool exceeds(float value, double threshold) { return value > threshold || value == HUGE_VALF; }
 
+bool exceeds(const Thickness& value, const LevelThresholds& t) {
+  return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
+         exceeds(value.erosion, t.erosion);
+}
+
 Alive alive_at(const Hierarchical& h, const LevelThresholds& t, const Run& run) {
   const InnerComplex& complex = h.complex;
   Alive alive{array<uint8_t>(complex.dual.size(), run), array<uint8_t>(complex.ends.size(), run),
               array<uint8_t>(complex.cell.size(), run)};
-  parallel_for(complex.facets(), run, [&](int64_t f) {
-    alive.facet[f] = exceeds(h.sheet.facet[f], t.sheet) &&
-                     exceeds(h.spacings.facet[f], t.spacings) &&
-                     exceeds(h.erosion.facet[f], t.erosion);
-  });
+  parallel_for(complex.facets(), run,
+               [&](int64_t f) { alive.facet[f] = exceeds(h.values.facet[f], t); });
   parallel_for(complex.vertices(), run, [&](int64_t v) {
-    alive.vertex[v] =
-        (exceeds(h.sheet.vertex[v], t.sheet) && exceeds(h.spacings.vertex[v], t.spacings) &&
-         exceeds(h.erosion.vertex[v], t.erosion)) ||
-        h.limb[v] > t.limb;
+    alive.vertex[v] = exceeds(h.values.vertex[v], t) || h.limb[v] > t.limb;
   });
   parallel_for(complex.edges(), run, [&](int64_t e) {
     const int32_t partner = h.partner[e];

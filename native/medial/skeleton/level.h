@@ -20,7 +20,7 @@ struct LevelThresholds {
 struct Hierarchical {
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
-  Values erosion, sheet, spacings;
+  Values values;
   Array<float> limb;         // per vertex
   std::vector<int32_t> row;  // of the samples
   Array<int32_t> outside;    // as from outside_components

@@ -3,23 +3,43 @@
 #include "base/raise.h"
 
 namespace medial {
+namespace {
+
+constexpr Thickness kEndless{HUGE_VALF, HUGE_VALF, HUGE_VALF};
+
+void raise_shared(Thickness& value, const Thickness& to) {
+  raise(value.sheet, to.sheet);
+  raise(value.spacings, to.spacings);
+  raise(value.erosion, to.erosion);
+}
+
+Thickness larger(const Thickness& a, const Thickness& b) {
+  return {std::max(a.sheet, b.sheet), std::max(a.spacings, b.spacings),
+          std::max(a.erosion, b.erosion)};
+}
+
+}  // namespace
+
+Thickness Values::of_edge(int32_t partner) const {
+  if (partner == kAlone) return kEndless;
+  return partner >= 0 ? facet[partner] : vertex[with_vertex(partner)];
+}
 
 Values with_vertices(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
-                     Array<float> facets, const Run& run) {
-  Values values{std::move(facets), Array<float>(complex.cell.size(), 0)};
+                     Array<Thickness> facets, const Run& run) {
+  Values values{std::move(facets), Array<Thickness>(complex.cell.size(), Thickness{})};
   parallel_for(complex.facets(), run, [&](int64_t f) {
-    const float value = values.facet[f];
-    if (!(value > 0)) return;
+    const Thickness& value = values.facet[f];
     for (const Corner& c : complex.ring(static_cast<int32_t>(f))) {
-      raise(values.vertex[c.vertex], value);
+      raise_shared(values.vertex[c.vertex], value);
     }
   });
   for (const int32_t v : wires.order) {
-    float& next = values.vertex[other_end(complex, collapse.edge_of_vertex[v], v)];
-    next = std::max(next, values.vertex[v]);
+    Thickness& next = values.vertex[other_end(complex, collapse.edge_of_vertex[v], v)];
+    next = larger(next, values.vertex[v]);
   }
   parallel_for(complex.vertices(), run, [&](int64_t v) {
-    if (!collapse.vertex_gone(static_cast<int32_t>(v))) values.vertex[v] = HUGE_VALF;
+    if (!collapse.vertex_gone(static_cast<int32_t>(v))) values.vertex[v] = kEndless;
   });
   return values;
 }

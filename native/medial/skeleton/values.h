@@ -1,25 +1,27 @@
-// A value per cell of the complex such that no cell has a larger one than any that goes after it
-// and had to wait for it. Then what is above any threshold has the topology of the whole.
+// Values per cell of the complex such that no cell has a larger one than any that goes after it and
+// had to wait for it. Then what is above any threshold has the topology of the whole.
 #pragma once
 
 #include "skeleton/wires.h"
 
 namespace medial {
 
-// What goes together has one value: the one of an edge is that of the facet or vertex it went
-// with. Infinite for what stays.
-struct Values {
-  Array<float> facet, vertex;
+// By which facets go; see LevelThresholds.
+struct Thickness {
+  float sheet = 0, spacings = 0, erosion = 0;
+};
 
-  float of_edge(int32_t partner) const {
-    if (partner == kAlone) return HUGE_VALF;
-    return partner >= 0 ? facet[partner] : vertex[with_vertex(partner)];
-  }
+// What goes together has one value: that of an edge is the one of the facet or vertex it went with.
+// Infinite for what stays.
+struct Values {
+  Array<Thickness> facet, vertex;
+
+  Thickness of_edge(int32_t partner) const;
 };
 
 // The values of facets, and of vertices the largest of all that had to go before: the facets at
 // them and the wires that led to them.
 Values with_vertices(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
-                     Array<float> facets, const Run& run);
+                     Array<Thickness> facets, const Run& run);
 
 }  // namespace medial
