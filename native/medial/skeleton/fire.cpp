@@ -59,9 +59,8 @@ struct alignas(64) HotFacet {
 
   double thickness() const { return std::max(0.0, time - radius); }
 };
-struct HotEdge {
+struct alignas(32) HotEdge {
   Times times;  // once it is free
-  Edge ends;
   Incident facets;
   float erosion = 0;  // of the facets here that have gone
 };
@@ -103,7 +102,7 @@ class Fire {
   void light_edges() {
     parallel_for(complex_.edges(), run_, [&](int64_t e) {
       const auto& [a, b] = complex_.ends[e];
-      edge_[e] = {{}, {a, b}, collapse_.facets_at[e]};
+      edge_[e] = {{}, collapse_.facets_at[e]};
       if (edge_[e].facets.count < 2) edge_[e].times = {complex_.radius[a], complex_.radius[b]};
     });
   }
@@ -120,8 +119,8 @@ class Fire {
           facet.corners = static_cast<int32_t>(ring.size());
           facet.centroid = centroid(complex_, f);
           facet.radius = distance(facet.centroid, points[complex_.generators[f][0]]);
-          for (const Corner& c : ring) {
-            if (edge_[c.edge].facets.count == 1) heat(facet, edge_[c.edge]);
+          for (size_t i = 0; i < ring.size(); ++i) {
+            if (edge_[ring[i].edge].facets.count == 1) heat(facet, side(ring, i));
           }
           if (facet.time < HUGE_VAL) out.push_back(f);
         });
@@ -136,7 +135,11 @@ class Fire {
       for (const Corner& c : ring_of(facet_[f])) fetch(&edge_[c.edge]);
     }
     if (const int32_t f = queue_.soon(1); f >= 0) {
-      for (const Corner& c : ring_of(facet_[f])) fetch(&complex_.position[c.vertex]);
+      for (const Corner& c : ring_of(facet_[f])) {
+        fetch(&complex_.position[c.vertex]);
+        const Incident& at = edge_[c.edge].facets;
+        if (at.count == 2) fetch(&facet_[at.ids ^ f]);
+      }
     }
   }
 
@@ -144,15 +147,29 @@ class Fire {
     return {complex_.corners.data() + facet.first, static_cast<size_t>(facet.corners)};
   }
 
-  double arrival_from(const HotEdge& edge, const Vec3& x) const {
-    const auto& [a, b] = edge.ends;
-    return arrival(complex_.position[a], complex_.position[b], edge.times, x);
+  // An edge of a facet; of its ends the lower one comes first.
+  struct Side {
+    int32_t edge;
+    Edge ends;
+  };
+  static Side side(std::span<const Corner> ring, size_t i) {
+    const auto [low, high] = std::minmax(ring[i].vertex, ring[next(ring, i)].vertex);
+    return {ring[i].edge, {low, high}};
+  }
+  static size_t next(std::span<const Corner> ring, size_t i) {
+    return i + 1 < ring.size() ? i + 1 : 0;
+  }
+
+  double arrival_from(const Side& from, const Vec3& x) const {
+    return arrival(complex_.position[from.ends[0]], complex_.position[from.ends[1]],
+                   edge_[from.edge].times, x);
   }
 
   // The fire comes to a facet through an edge. Returns whether it becomes less thick by that.
-  bool heat(HotFacet& facet, const HotEdge& edge) const {
-    if (std::min(edge.times[0], edge.times[1]) >= facet.time) return false;
-    const double time = arrival_from(edge, facet.centroid), before = facet.thickness();
+  bool heat(HotFacet& facet, const Side& from) const {
+    const Times& t = edge_[from.edge].times;
+    if (std::min(t[0], t[1]) >= facet.time) return false;
+    const double time = arrival_from(from, facet.centroid), before = facet.thickness();
     if (time >= facet.time) return false;
     facet.time = time;
     return facet.thickness() < before;
@@ -162,8 +179,8 @@ class Fire {
     HotFacet& facet = facet_[id];
     const auto ring = ring_of(facet);
     free_.clear();
-    for (const Corner& c : ring) {
-      if (edge_[c.edge].facets.count == 1) free_.push_back(c.edge);
+    for (size_t i = 0; i < ring.size(); ++i) {
+      if (edge_[ring[i].edge].facets.count == 1) free_.push_back(side(ring, i));
     }
     const int32_t exit = first_free();
     collapse_.partner[exit] = id;
@@ -181,19 +198,23 @@ class Fire {
 
   // Of the free edges of a facet the one that burns first.
   int32_t first_free() const {
-    const auto key = [&](int32_t e) { return std::pair(edge_[e].times[0] + edge_[e].times[1], e); };
-    return *std::min_element(free_.begin(), free_.end(),
-                             [&](int32_t a, int32_t b) { return key(a) < key(b); });
+    const auto key = [&](const Side& free) {
+      const Times& t = edge_[free.edge].times;
+      return std::pair(t[0] + t[1], free.edge);
+    };
+    return std::min_element(free_.begin(), free_.end(),
+                            [&](const Side& a, const Side& b) { return key(a) < key(b); })
+        ->edge;
   }
 
   // From the facet in hand, over its edge that has become free, to the last facet there.
   void pass_on(std::span<const Corner> ring, size_t i) {
     HotEdge& edge = edge_[ring[i].edge];
-    const size_t j = i + 1 < ring.size() ? i + 1 : 0;
-    const bool along = edge.ends[0] == ring[i].vertex;
-    edge.times = {first_at(ring, along ? i : j), first_at(ring, along ? j : i)};
-    const int32_t next = edge.facets.ids;
-    if (heat(facet_[next], edge)) queue_.push(facet_[next].thickness(), next);
+    const size_t j = next(ring, i);
+    const bool upwards = ring[i].vertex < ring[j].vertex;
+    edge.times = {first_at(ring, upwards ? i : j), first_at(ring, upwards ? j : i)};
+    const int32_t last = edge.facets.ids;
+    if (heat(facet_[last], side(ring, i))) queue_.push(facet_[last].thickness(), last);
   }
 
   // When the fire comes to a corner of the facet in hand.
@@ -202,11 +223,11 @@ class Fire {
     if (first != kNotKnown) return first;
     first = HUGE_VAL;
     const int32_t vertex = ring[corner].vertex;
-    for (const int32_t e : free_) {
-      const HotEdge& from = edge_[e];
+    for (const Side& from : free_) {
+      const Times& t = edge_[from.edge].times;
       if (from.ends[0] == vertex || from.ends[1] == vertex) {
-        first = std::min(first, from.times[from.ends[0] == vertex ? 0 : 1]);
-      } else if (std::min(from.times[0], from.times[1]) < first) {
+        first = std::min(first, t[from.ends[0] == vertex ? 0 : 1]);
+      } else if (std::min(t[0], t[1]) < first) {
         first = std::min(first, arrival_from(from, complex_.position[vertex]));
       }
     }
@@ -239,7 +260,7 @@ class Fire {
   BucketQueue queue_;
   Array<HotFacet> facet_;
   Array<HotEdge> edge_;
-  std::vector<int32_t> free_;      // edges of the facet in hand
+  std::vector<Side> free_;         // edges of the facet in hand
   std::vector<double> at_corner_;  // when the fire comes to its corners
 };
 
