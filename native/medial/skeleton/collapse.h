@@ -17,20 +17,30 @@ namespace medial {
 inline constexpr int32_t kAlone = INT32_MIN;  // an edge that has not gone with anything
 inline constexpr int32_t with_vertex(int32_t vertex) { return ~vertex; }
 
-// How many cells are left at another, and all of their ids by exclusive or: of the last one its id.
-struct Incident {
-  int32_t count = 0, ids = 0;
+// The cells left at another one: how many, and the sum of their ids, of which the last one is
+// known. Both in one number, which several threads can change at once.
+class Incident {
+ public:
+  int32_t count() const { return static_cast<int32_t>(bits_ & kCount); }
+  int32_t last() const { return static_cast<int32_t>(bits_ >> kShift); }  // of one
+  // Of two, one of which is known.
+  int32_t other_than(int32_t id) const {
+    return static_cast<int32_t>((bits_ - with(id)) >> kShift);
+  }
 
-  void add(int32_t id) { ++count, ids ^= id; }
-  void remove(int32_t id) { --count, ids ^= id; }
-  void add_shared(int32_t id) { change_shared(1, id); }
-  void remove_shared(int32_t id) { change_shared(-1, id); }
+  void add(int32_t id) { bits_ += with(id); }
+  void remove(int32_t id) { bits_ -= with(id); }
+  void add_shared(int32_t id) { shared().fetch_add(with(id), std::memory_order_relaxed); }
+  void remove_shared(int32_t id) { shared().fetch_sub(with(id), std::memory_order_relaxed); }
 
  private:
-  void change_shared(int32_t by, int32_t id) {
-    std::atomic_ref(count).fetch_add(by, std::memory_order_relaxed);
-    std::atomic_ref(ids).fetch_xor(id, std::memory_order_relaxed);
-  }
+  static constexpr int kShift = 24;
+  static constexpr uint64_t kCount = (1u << kShift) - 1;
+
+  static uint64_t with(int32_t id) { return (static_cast<uint64_t>(id) << kShift) + 1; }
+  std::atomic_ref<uint64_t> shared() { return std::atomic_ref(bits_); }
+
+  uint64_t bits_ = 0;  // the sum wraps round, which does not matter
 };
 
 // What has gone, and with which face.
@@ -44,7 +54,7 @@ struct Collapse {
   Array<uint8_t> selected;    // per edge: it is a facet that MEDIAL selects; empty: none is
 
   bool edge_gone(int32_t edge) const { return partner[edge] != kAlone; }
-  bool is_wire(int32_t edge) const { return facets_at[edge].count == 0; }
+  bool is_wire(int32_t edge) const { return facets_at[edge].count() == 0; }
   bool vertex_gone(int32_t vertex) const { return edge_of_vertex[vertex] >= 0; }
 };
 

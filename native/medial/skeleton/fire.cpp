@@ -103,7 +103,7 @@ class Fire {
     parallel_for(complex_.edges(), run_, [&](int64_t e) {
       const auto& [a, b] = complex_.ends[e];
       edge_[e] = {{}, collapse_.facets_at[e]};
-      if (edge_[e].facets.count < 2) edge_[e].times = {complex_.radius[a], complex_.radius[b]};
+      if (edge_[e].facets.count() < 2) edge_[e].times = {complex_.radius[a], complex_.radius[b]};
     });
   }
 
@@ -120,7 +120,7 @@ class Fire {
           facet.centroid = centroid(complex_, f);
           facet.radius = distance(facet.centroid, points[complex_.generators[f][0]]);
           for (size_t i = 0; i < ring.size(); ++i) {
-            if (edge_[ring[i].edge].facets.count == 1) heat(facet, side(ring, i));
+            if (edge_[ring[i].edge].facets.count() == 1) heat(facet, side(ring, i));
           }
           if (facet.time < HUGE_VAL) out.push_back(f);
         });
@@ -138,7 +138,7 @@ class Fire {
       for (const Corner& c : ring_of(facet_[f])) {
         fetch(&complex_.position[c.vertex]);
         const Incident& at = edge_[c.edge].facets;
-        if (at.count == 2) fetch(&facet_[at.ids ^ f]);
+        if (at.count() == 2) fetch(&facet_[at.other_than(f)]);
       }
     }
   }
@@ -180,7 +180,7 @@ class Fire {
     const auto ring = ring_of(facet);
     free_.clear();
     for (size_t i = 0; i < ring.size(); ++i) {
-      if (edge_[ring[i].edge].facets.count == 1) free_.push_back(side(ring, i));
+      if (edge_[ring[i].edge].facets.count() == 1) free_.push_back(side(ring, i));
     }
     const int32_t exit = first_free();
     collapse_.partner[exit] = id;
@@ -192,7 +192,7 @@ class Fire {
       HotEdge& edge = edge_[ring[i].edge];
       edge.erosion = std::max(edge.erosion, facet.erosion);
       edge.facets.remove(id);
-      if (edge.facets.count == 1) pass_on(ring, i);
+      if (edge.facets.count() == 1) pass_on(ring, i);
     }
   }
 
@@ -213,7 +213,7 @@ class Fire {
     const size_t j = next(ring, i);
     const bool upwards = ring[i].vertex < ring[j].vertex;
     edge.times = {first_at(ring, upwards ? i : j), first_at(ring, upwards ? j : i)};
-    const int32_t last = edge.facets.ids;
+    const int32_t last = edge.facets.last();
     if (heat(facet_[last], side(ring, i))) queue_.push(facet_[last].thickness(), last);
   }
 

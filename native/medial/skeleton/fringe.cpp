@@ -70,7 +70,7 @@ class FacetPeeler {
     return static_cast<uint8_t>(std::min(kLevels * weight(dual), kLevels - 1.0));
   }
 
-  bool is_free(int32_t edge) const { return collapse_.facets_at[edge].count == 1; }
+  bool is_free(int32_t edge) const { return collapse_.facets_at[edge].count() == 1; }
 
   // The facets that have a free edge from the start.
   void start() {
@@ -131,7 +131,7 @@ class FacetPeeler {
   void find_next(int32_t facet, std::vector<int32_t>& found) const {
     for (const Corner& c : complex_.ring(facet)) {
       if (!is_free(c.edge)) continue;
-      const int32_t last = collapse_.facets_at[c.edge].ids;
+      const int32_t last = collapse_.facets_at[c.edge].last();
       if (level_[last] != kSelected) found.push_back(last);
     }
   }
@@ -172,19 +172,19 @@ class WirePeeler {
 
  private:
   bool is_loose(int32_t vertex) const {
-    const auto& [count, edge] = left_[vertex];
-    return count == 1 && collapse_.is_wire(edge) &&
-           (collapse_.selected.empty() || !collapse_.selected[edge]);
+    if (left_[vertex].count() != 1) return false;
+    const int32_t edge = left_[vertex].last();
+    return collapse_.is_wire(edge) && (collapse_.selected.empty() || !collapse_.selected[edge]);
   }
   // Of two loose ends of one wire the lower stays.
   bool goes(int32_t vertex) const {
-    const int32_t other = other_end(complex_, left_[vertex].ids, vertex);
-    return left_[other].count != 1 || other < vertex;
+    const int32_t other = other_end(complex_, left_[vertex].last(), vertex);
+    return left_[other].count() != 1 || other < vertex;
   }
 
   void round(std::vector<int32_t>& front) {
     for_all(front, run_, [&](int32_t v, int worker) {
-      const int32_t edge = left_[v].ids;
+      const int32_t edge = left_[v].last();
       if (!goes(v) || !claim(collapse_.edge_of_vertex[v], -1, edge)) return;
       collapse_.partner[edge] = with_vertex(v);
       found_.of(worker).push_back(v);

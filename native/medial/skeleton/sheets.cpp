@@ -157,9 +157,9 @@ Sheets find_sheets(const InnerComplex& complex, const Collapse& collapse, const 
                                                  if (collapse.facet_gone[f]) return;
                                                  for (const Corner& c : complex.ring(f)) {
                                                    const Incident& at = collapse.facets_at[c.edge];
-                                                   if (at.count > 2) out.push_back({c.edge, f});
-                                                   if (at.count == 2 && (at.ids ^ f) < f)
-                                                     sets.unite(f, at.ids ^ f);
+                                                   if (at.count() > 2) out.push_back({c.edge, f});
+                                                   if (at.count() == 2 && at.other_than(f) < f)
+                                                     sets.unite(f, at.other_than(f));
                                                  }
                                                });
   std::sort(junctions.begin(), junctions.end());

@@ -43,7 +43,7 @@ class WireFire {
 
  private:
   bool is_loose(int32_t vertex) const {
-    return left_[vertex].count == 1 && collapse_.is_wire(left_[vertex].ids);
+    return left_[vertex].count() == 1 && collapse_.is_wire(left_[vertex].last());
   }
 
   // Takes loose ends away, one after the other, as far as they do not have to wait.
@@ -61,7 +61,7 @@ class WireFire {
 
   // The time at a loose end, and the elongation of its edge.
   void light(int32_t vertex) {
-    const int32_t edge = left_[vertex].ids;
+    const int32_t edge = left_[vertex].last();
     const Times& t = lateral_[edge];
     const double sideways = t[complex_.ends[edge][0] == vertex ? 0 : 1];
     Front& front = front_[vertex];
@@ -78,7 +78,7 @@ class WireFire {
 
   // Returns the other end.
   int32_t take_away(int32_t vertex) {
-    const int32_t edge = left_[vertex].ids, other = other_end(complex_, edge, vertex);
+    const int32_t edge = left_[vertex].last(), other = other_end(complex_, edge, vertex);
     collapse_.partner[edge] = with_vertex(vertex);
     collapse_.edge_of_vertex[vertex] = edge;
     wires_.order.push_back(vertex);
