@@ -4,8 +4,7 @@ namespace medial {
 
 Collapse whole(const InnerComplex& complex, const FacetWeights& weight, const Run& run) {
   const auto edges = static_cast<size_t>(complex.edges());
-  Collapse collapse{array<int32_t>(edges, kAlone, run),
-                    array<int32_t>(complex.cell.size(), -1, run),
+  Collapse collapse{Array<int32_t>(edges, kAlone), array<int32_t>(complex.cell.size(), -1, run),
                     array<uint8_t>(complex.dual.size(), 0, run),
                     array<Incident>(edges, Incident{}, run), array<uint8_t>(0, run)};
   parallel_for(complex.facets(), run, [&](int64_t f) {

@@ -45,7 +45,8 @@ class Incident {
 
 // What has gone, and with which face.
 struct Collapse {
-  // Per edge: the facet that it went with, with_vertex(v) for the vertex, or kAlone.
+  // Per edge, beside the arena: the facet that it went with, with_vertex(v) for the vertex, or
+  // kAlone.
   Array<int32_t> partner;
   // Per vertex: the edge that it went with; -1: none.
   Array<int32_t> edge_of_vertex;

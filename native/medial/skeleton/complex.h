@@ -33,7 +33,7 @@ struct InnerComplex {
 
   // Facets in the order of their Delaunay edges.
   Array<Edge> generators;  // samples; the one with the lower row first
-  Array<int32_t> dual;     // position of the Delaunay edge
+  Array<int32_t> dual;     // position of the Delaunay edge in the analysis; empty after it
   Array<int32_t> offsets;  // (facets + 1) into the corners
   Array<Corner> corners;   // counter-clockwise about the direction between the generators
 
@@ -43,7 +43,7 @@ struct InnerComplex {
 
   int32_t vertices() const { return static_cast<int32_t>(cell.size()); }
   int32_t edges() const { return static_cast<int32_t>(ends.size()); }
-  int32_t facets() const { return static_cast<int32_t>(dual.size()); }
+  int32_t facets() const { return static_cast<int32_t>(generators.size()); }
   std::span<const Corner> ring(int32_t facet) const {
     return {corners.data() + offsets[facet],
             static_cast<size_t>(offsets[facet + 1] - offsets[facet])};

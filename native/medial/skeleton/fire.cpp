@@ -82,6 +82,7 @@ class Fire {
         facet_(array<HotFacet>(complex.dual.size(), run)),
         edge_(array<HotEdge>(complex.ends.size(), run)) {
     light_edges();
+    collapse_.facets_at = array<Incident>(0, run_);  // until the fire is out
     light_facets(points);
   }
 
@@ -234,20 +235,23 @@ class Fire {
     return first;
   }
 
+  // Gives memory back as soon as it can.
   Burning result() {
-    Burning burning{array<Times>(complex_.ends.size(), run_),
-                    array<double>(complex_.dual.size(), run_),
-                    array<float>(complex_.dual.size(), run_)};
-    parallel_for(complex_.edges(), run_, [&](int64_t e) {
-      burning.times[e] = edge_[e].times;
-      collapse_.facets_at[e] = edge_[e].facets;
-    });
+    const size_t facets = complex_.dual.size(), edges = complex_.ends.size();
+    Burning burning{array<Times>(0, run_), array<double>(facets, run_), array<float>(facets, run_)};
     parallel_for(complex_.facets(), run_, [&](int64_t f) {
       const bool before = collapse_.facet_gone[f] != 0;
       const HotFacet& facet = facet_[f];
       burning.erosion[f] = before ? 0 : facet.erosion;
       burning.thickness[f] = before ? 0 : facet.gone ? facet.thickness() : HUGE_VAL;
       collapse_.facet_gone[f] = facet.gone;
+    });
+    facet_ = array<HotFacet>(0, run_);
+    collapse_.facets_at = array<Incident>(edges, run_);
+    burning.times.resize(edges);
+    parallel_for(complex_.edges(), run_, [&](int64_t e) {
+      burning.times[e] = edge_[e].times;
+      collapse_.facets_at[e] = edge_[e].facets;
     });
     return burning;
   }

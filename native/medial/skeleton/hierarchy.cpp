@@ -69,8 +69,9 @@ Hierarchy::Hierarchy(const Samples& samples, const Facets& facets, const Thresho
       outside_components(complex, samples.count(), facets.triangulation, facets.edges, quiet);
   betti_ = betti_of(complex, parts_.outside, quiet);
   watch.lap("betti");
-  parts_.partner = kept(collapse.partner);
+  parts_.partner = std::move(collapse.partner);
   parts_.row = samples.row;
+  complex.dual = {};  // it means nothing without the analysis
   parts_.complex = std::move(complex);
   advance(run.progress, 1);
 }

@@ -21,8 +21,8 @@ bool exceeds(const Thickness& value, const LevelThresholds& t) {
 
 Alive alive_at(const Hierarchical& h, const LevelThresholds& t, const Run& run) {
   const InnerComplex& complex = h.complex;
-  Alive alive{array<uint8_t>(complex.dual.size(), run), array<uint8_t>(complex.ends.size(), run),
-              array<uint8_t>(complex.cell.size(), run)};
+  Alive alive{array<uint8_t>(complex.generators.size(), run),
+              array<uint8_t>(complex.ends.size(), run), array<uint8_t>(complex.cell.size(), run)};
   parallel_for(complex.facets(), run,
                [&](int64_t f) { alive.facet[f] = exceeds(h.values.facet[f], t); });
   parallel_for(complex.vertices(), run, [&](int64_t v) {
@@ -86,9 +86,18 @@ class Drawer {
   }
 
   void draw_facets() {
+    const auto facets = facets_in_order();
+    size_t corners = 0;
+    for (const int32_t f : facets) corners += complex_.ring(f).size();
+    level_.face_vertices.reserve(corners);
+    level_.face_offsets.reserve(facets.size() + 1);
+    level_.generators.reserve(facets.size());
+    level_.facet_of.reserve(facets.size());
+    level_.vertex_of.reserve(
+        static_cast<size_t>(std::count(alive_.vertex.begin(), alive_.vertex.end(), uint8_t{1})));
     level_.face_offsets.push_back(0);
     std::vector<int32_t> polygon, edges;
-    for (const int32_t f : facets_in_order()) {
+    for (const int32_t f : facets) {
       polygon.clear();
       edges.clear();
       for (const auto& [vertex, edge] : complex_.ring(f)) {
