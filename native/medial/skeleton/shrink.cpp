@@ -5,23 +5,28 @@
 namespace medial {
 namespace {
 
+bool without_length(const InnerComplex& complex, std::span<const int32_t> place, int32_t edge) {
+  const auto& [a, b] = complex.ends[edge];
+  return place[a] == place[b];
+}
+
+// An edge as a facet passes along it: `turned` against the direction of its lowest edge.
+struct Step {
+  int32_t edge;
+  bool turned;
+};
+
 class Shrinker {
  public:
-  Shrinker(const InnerComplex& complex, std::span<const int32_t> place, const Run& run)
+  // `points`: the edges without length.
+  Shrinker(const InnerComplex& complex, std::span<const int32_t> place,
+           std::span<const int32_t> points, const Run& run)
       : complex_(complex),
         place_(place),
         run_(run),
         vertices_(complex.cell.size(), run),
-        edges_(complex.ends.size(), run),
-        gone_(array<uint8_t>(complex.ends.size(), 0, run)) {}
-
-  // Whether there is anything to shrink.
-  bool shrink() {
-    const auto points =
-        parallel_append<int32_t>(complex_.edges(), run_, [&](int64_t e, auto& out, int) {
-          if (without_length(static_cast<int32_t>(e))) out.push_back(static_cast<int32_t>(e));
-        });
-    if (points.empty()) return false;
+        edges_(complex.ends.size()),
+        gone_(array<uint8_t>(complex.ends.size(), 0, run)) {
     for (const int32_t edge : points) {
       const auto& [a, b] = complex_.ends[edge];
       if (vertices_.find(a) == vertices_.find(b)) continue;
@@ -29,14 +34,13 @@ class Shrinker {
       gone_[edge] = 1;
     }
     shrink_facets();
-    return true;
   }
 
   InnerComplex result() && {
     const auto vertex =
         number(complex_.vertices(), [&](int32_t v) { return vertices_.find(v) == v; });
     const auto edge =
-        number(complex_.edges(), [&](int32_t e) { return edges_.find(e) == e && !gone_[e]; });
+        number(complex_.edges(), [&](int32_t e) { return lowest(e) == e && !gone_[e]; });
     InnerComplex result;
     result.bubbles = complex_.bubbles;
     result.diagonal = complex_.diagonal;
@@ -58,7 +62,7 @@ class Shrinker {
     for (int32_t f = 0; f < complex_.facets(); ++f) {
       if (shrunk[f]) continue;
       for (const Corner& c : complex_.ring(f)) {
-        const int32_t e = edges_.find(c.edge);
+        const int32_t e = lowest(c.edge);
         if (!gone_[e]) result.corners.push_back({vertex[vertices_.find(c.vertex)], edge[e]});
       }
       result.offsets.push_back(static_cast<int32_t>(result.corners.size()));
@@ -69,23 +73,20 @@ class Shrinker {
     for (const int32_t f : shrunk_) {
       ShrunkFacet s{complex_.generators[f], complex_.dual[f], -1,
                     vertex[vertices_.find(complex_.ring(f)[0].vertex)]};
-      for (const Corner& c : complex_.ring(f)) s.edge = std::max(s.edge, edge[edges_.find(c.edge)]);
+      for (const Corner& c : complex_.ring(f)) s.edge = std::max(s.edge, edge[lowest(c.edge)]);
       result.shrunk.push_back(s);
     }
     return result;
   }
 
  private:
-  bool without_length(int32_t edge) const {
-    const auto& [a, b] = complex_.ends[edge];
-    return place_[a] == place_[b];
-  }
+  int32_t lowest(int32_t edge) { return edges_.find(edge).root; }
 
   void shrink_facets() {
     auto flat = parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t f, auto& out, int) {
       const auto ring = complex_.ring(static_cast<int32_t>(f));
       if (std::any_of(ring.begin(), ring.end(),
-                      [&](const Corner& c) { return without_length(c.edge); })) {
+                      [&](const Corner& c) { return without_length(complex_, place_, c.edge); })) {
         out.push_back(static_cast<int32_t>(f));
       }
     });
@@ -105,9 +106,9 @@ class Shrinker {
     }
     if (points.empty()) return false;
     std::vector<int32_t> uses(complex_.ends.size(), 0);
-    for (const Corner& c : complex_.corners) ++uses[edges_.find(c.edge)];
+    for (const Corner& c : complex_.corners) ++uses[lowest(c.edge)];
     for (const int32_t f : shrunk_) {
-      for (const Corner& c : complex_.ring(f)) --uses[edges_.find(c.edge)];
+      for (const Corner& c : complex_.ring(f)) --uses[lowest(c.edge)];
     }
     const size_t before = shrunk_.size();
     for (const int32_t f : points) collapse(f, uses);
@@ -125,25 +126,22 @@ class Shrinker {
   void collapse(int32_t facet, std::vector<int32_t>& uses) {
     const auto ring = complex_.ring(facet);
     const auto own = std::find_if(ring.begin(), ring.end(), [&](const Corner& c) {
-      const int32_t edge = edges_.find(c.edge);
+      const int32_t edge = lowest(c.edge);
       return !gone_[edge] && uses[edge] == 1;
     });
     if (own == ring.end()) return;
-    gone_[edges_.find(own->edge)] = 1;
-    for (const Corner& c : ring) --uses[edges_.find(c.edge)];
+    gone_[lowest(own->edge)] = 1;
+    for (const Corner& c : ring) --uses[lowest(c.edge)];
     shrunk_.push_back(facet);
   }
 
   bool shrinks(int32_t facet) {
-    left_.clear();
-    for (const Corner& c : complex_.ring(facet)) {
-      const int32_t edge = edges_.find(c.edge);
-      if (!gone_[edge]) left_.push_back(edge);
-    }
+    walk_round(facet);
     if (left_.size() == 1) {
-      gone_[left_[0]] = 1;
-    } else if (left_.size() == 2 && left_[0] != left_[1]) {
-      edges_.unite(left_[0], left_[1]);
+      gone_[left_[0].edge] = 1;
+    } else if (left_.size() == 2 && left_[0].edge != left_[1].edge) {
+      // One way there, the other one back.
+      edges_.unite(left_[0].edge, left_[1].edge, left_[0].turned == left_[1].turned);
     } else {
       return false;
     }
@@ -151,9 +149,31 @@ class Shrinker {
     return true;
   }
 
+  // The steps round a facet, less those that are taken back at once.
+  void walk_round(int32_t facet) {
+    left_.clear();
+    for (const Corner& c : complex_.ring(facet)) {
+      const auto [edge, turned] = edges_.find(c.edge);
+      if (gone_[edge]) continue;
+      const Step step{edge, turned != (complex_.ends[c.edge][0] != c.vertex)};
+      if (!left_.empty() && is_back(left_.back(), step)) {
+        left_.pop_back();
+      } else {
+        left_.push_back(step);
+      }
+    }
+    while (left_.size() > 1 && is_back(left_.front(), left_.back())) {
+      left_.erase(left_.begin());
+      left_.pop_back();
+    }
+  }
+  static bool is_back(const Step& a, const Step& b) {
+    return a.edge == b.edge && a.turned != b.turned;
+  }
+
   // Numbers what is left; -1 for all others.
   template <typename IsLeft>
-  Array<int32_t> number(int32_t count, const IsLeft& is_left) const {
+  Array<int32_t> number(int32_t count, const IsLeft& is_left) {
     auto numbers = array<int32_t>(static_cast<size_t>(count), -1, run_);
     int32_t next = 0;
     for (int32_t id = 0; id < count; ++id) {
@@ -165,17 +185,23 @@ class Shrinker {
   const InnerComplex& complex_;
   std::span<const int32_t> place_;
   Run run_;
-  UnionFind vertices_, edges_;
+  UnionFind vertices_;
+  OrientedUnionFind edges_;
   Array<uint8_t> gone_;  // per lowest edge: shrunk to a point
-  std::vector<int32_t> shrunk_, left_;
+  std::vector<int32_t> shrunk_;
+  std::vector<Step> left_;  // round the facet in hand
 };
 
 }  // namespace
 
 InnerComplex shrink(InnerComplex complex, std::span<const int32_t> place, const Run& run) {
-  Shrinker shrinker(complex, place, run);
-  if (!shrinker.shrink()) return complex;
-  return std::move(shrinker).result();
+  const auto points =
+      parallel_append<int32_t>(complex.edges(), run, [&](int64_t e, auto& out, int) {
+        const auto edge = static_cast<int32_t>(e);
+        if (without_length(complex, place, edge)) out.push_back(edge);
+      });
+  if (points.empty()) return complex;
+  return Shrinker(complex, place, points, run).result();
 }
 
 }  // namespace medial

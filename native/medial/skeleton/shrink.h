@@ -1,9 +1,9 @@
 // Cells without extent, as of cospherical samples, shrunk to what they are, by steps that each keep
 // the topology: an edge without length shrinks to a point, unless it closes a loop; a facet that is
 // left with one edge shrinks to a point with it; a facet that is left with two edges shrinks to one
-// edge, unless both are the same already; a facet in one place goes with an edge that no other one
-// has. So the cells about the axis of a tube, whose facets are
-// segments, become a curve.
+// edge, unless both are the same already; what a facet passes to and fro does not count; a facet in
+// one place goes with an edge that no other one has. So the cells about the axis of a tube, whose
+// facets are segments, become a curve.
 #pragma once
 
 #include "skeleton/complex.h"
