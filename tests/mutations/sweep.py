@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "docs/mutations.md"
 MARK = "<!-- The rest is written by tests/mutations/sweep.py. -->\n"
 TARGETS = ("medial_tests", "medial_cost_tests")
-EQUIVALENT, SURVIVED = "equivalent", "survived"
+EQUIVALENT, SURVIVED, UNDECIDED = "equivalent", "survived", "not noticed by ctest"
 
 
 def problems() -> list[str]:
@@ -105,8 +105,8 @@ class Copy:
         return "" if succeeded else failed[1].removeprefix("tests/python/") if failed else "?"
 
 
-def outcome(copy: Copy, mutation: Mutation) -> str:
-    """What notices the fault. The copy is left without it."""
+def outcome(copy: Copy, mutation: Mutation, native: bool) -> str:
+    """What notices the fault; `native`: ctest alone is asked. The copy is left without it."""
     path = copy.tree / mutation.path
     text = path.read_text()
     path.write_text(mutation.applied(text))
@@ -117,8 +117,12 @@ def outcome(copy: Copy, mutation: Mutation) -> str:
         found = copy.noticed_by_ctest()
         if found:
             return f"ctest: {found}"
+        if mutation.equivalent:
+            return EQUIVALENT
+        if native:
+            return UNDECIDED
         found = copy.noticed_by_python(mutation.python)
-        return f"Python: {found}" if found else EQUIVALENT if mutation.equivalent else SURVIVED
+        return f"Python: {found}" if found else SURVIVED
     finally:
         path.write_text(text)
 
@@ -158,7 +162,7 @@ def publish(found: dict[str, str]) -> None:
     TABLE.write_text(head + mark + "\n" + "".join(table(found)))
 
 
-def sweep(copy: Copy, words: list[str], results: Path) -> None:
+def sweep(copy: Copy, words: list[str], results: Path, native: bool) -> None:
     copy.update()
     copy.configure()
     copy.must(*copy.compile(*TARGETS))
@@ -169,10 +173,12 @@ def sweep(copy: Copy, words: list[str], results: Path) -> None:
         if not is_wanted(mutation, words) or key(mutation) in found:
             continue
         start = time.monotonic()
-        found[key(mutation)] = outcome(copy, mutation)
-        results.write_text(json.dumps(found, indent=1))
+        result = outcome(copy, mutation, native)
         seconds = time.monotonic() - start
-        print(f"{number:3} {seconds:4.0f} s  {key(mutation)}  ->  {found[key(mutation)]}", flush=True)
+        print(f"{number:3} {seconds:4.0f} s  {key(mutation)}  ->  {result}", flush=True)
+        if result != UNDECIDED:
+            found[key(mutation)] = result
+            results.write_text(json.dumps(found, indent=1))
     publish(found)
 
 
@@ -181,6 +187,7 @@ def main() -> None:
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--folder", type=Path, help="where the copy is built; may exist")
     parser.add_argument("--only", nargs="+", default=[])
+    parser.add_argument("--native", action="store_true", help="leave what ctest does not notice for later")
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--python", default=sys.executable, help="has NumPy, SciPy and pytest")
     parser.add_argument("--jobs", type=int, default=2)
@@ -197,7 +204,7 @@ def main() -> None:
     results = folder / "results.json"
     if options.again:
         results.unlink(missing_ok=True)
-    sweep(Copy(folder, options.python, options.jobs), options.only, results)
+    sweep(Copy(folder, options.python, options.jobs), options.only, results, options.native)
 
 
 if __name__ == "__main__":
