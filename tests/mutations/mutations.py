@@ -80,8 +80,8 @@ MUTATIONS = (
         "constexpr double kOperations = 16;",
         "constexpr double kOperations = 1;",
         "the error bound is 16 times too small",
-        equivalent="The bound is generous: of 17 million random cells, fat ones, flat ones and needles, none had an error "
-        "of more than 0.058 of it, less than a sixteenth. Only how many cells are computed in integers changes.",
+        equivalent="The bound is generous: of 17 million random cells, fat ones, flat ones and needles, none had an "
+        "error of more than 0.058 of it, less than a sixteenth. Only how many cells are computed in integers changes.",
     ),
     Mutation(
         "delaunay/circumcentre.cpp",
