@@ -2,8 +2,8 @@
 #include <pybind11/stl.h>
 
 #include "arrays.h"
-#include "bindings.h"
 #include "base/parallel.h"
+#include "bindings.h"
 #include "sampling/surface_samples.h"
 
 namespace medial::python {
@@ -106,14 +106,15 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
 }  // namespace
 
 void bind_sampling(py::module_& m) {
-  py::enum_<SampleKind>(m, "SampleKind", "What a sample lies on.")
+  py::enum_<SampleKind>(m, "SampleKind", py::module_local(), "What a sample lies on.")
       .value("CORNER", SampleKind::kCorner)
       .value("SHARP", SampleKind::kSharp)
       .value("BOUNDARY", SampleKind::kBoundary)
       .value("VERTEX", SampleKind::kVertex)
       .value("SURFACE", SampleKind::kSurface);
   using S = SurfaceSamples;
-  py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", kSamplesDoc, py::is_final())
+  py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", kSamplesDoc, py::is_final(),
+                                    py::module_local())
       .def_property_readonly("points", view_property<double>(&S::points),
                              "(n, 3) float64: the samples.")
       .def_property_readonly("normals", view_property<double>(&S::normals),

@@ -57,7 +57,7 @@ auto flags(std::vector<uint8_t> Surface::*member) {
 
 void bind_options(py::module_& m) {
   const CoconeOptions paper;
-  py::class_<CoconeOptions>(m, "CoconeOptions", kOptionsDoc, py::is_final())
+  py::class_<CoconeOptions>(m, "CoconeOptions", kOptionsDoc, py::is_final(), py::module_local())
       .def(py::init(&options), py::kw_only(), py::arg("cocone_angle") = paper.cocone_angle,
            py::arg("flatness_ratio") = paper.flatness_ratio,
            py::arg("flatness_angle") = paper.flatness_angle,
@@ -77,7 +77,8 @@ void bind_options(py::module_& m) {
 
 void bind_tight_cocone(py::module_& m) {
   bind_options(m);
-  py::class_<Surface, std::shared_ptr<Surface>>(m, "TightCocone", kTightConeDoc, py::is_final())
+  py::class_<Surface, std::shared_ptr<Surface>>(m, "TightCocone", kTightConeDoc, py::is_final(),
+                                                py::module_local())
       .def(py::init(&reconstruct), py::arg("points"), py::kw_only(),
            py::arg("options") = py::none(), py::arg("progress") = nullptr, py::arg("threads") = 0)
       .def_property_readonly(
