@@ -5,21 +5,6 @@
 namespace medial {
 namespace {
 
-void check(const Extraction& x) {
-  if (!(x.thresholds.theta >= 0 && x.thresholds.theta <= std::numbers::pi / 2)) {
-    throw InvalidInputError("Expected theta from 0 to pi/2 radians, found " +
-                            std::to_string(x.thresholds.theta) + "; the paper uses pi/8.");
-  }
-  if (!(x.thresholds.rho >= 0)) {
-    throw InvalidInputError("Expected rho of 0 or more, found " + std::to_string(x.thresholds.rho) +
-                            "; the paper uses 8.");
-  }
-  if (x.side == Side::crossing) {
-    throw InvalidInputError(
-        "Expected side INNER, OUTER or BOTH, found CROSSING; choose one of them.");
-  }
-}
-
 void require_sides(SidesFrom from) {
   if (from == SidesFrom::none) {
     throw InvalidInputError(
@@ -175,66 +160,20 @@ void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> ve
   }
 }
 
-// Definition 4: |pq| >= eps^(1/4) mu, with mu the smallest ball radius at the facet's vertices and
-// eps = R / mu, where R = |pq| / rho is the umbrella radius that the Ratio condition compared.
-bool MedialAnalysis::in_limit_set(int32_t edge, const Thresholds& thresholds,
-                                  std::span<const int32_t> ring) const {
-  const Vec3& p = samples_.points[edges_.ends[edge][0]];
-  double mu = HUGE_VAL;
-  for (const int32_t cell : ring) {
-    if (!triangulation_.is_infinite(cell)) mu = std::min(mu, distance(p, voronoi_.centre[cell]));
-  }
-  const double size = distance(p, samples_.points[edges_.ends[edge][1]]);
-  const double epsilon = size / (tried_rho(significance_, edge, thresholds.rule) * mu);
-  return size >= std::pow(epsilon, 0.25) * mu;
-}
-
-FacetChoice MedialAnalysis::choice(const Extraction& x) const {
-  check(x);
+Selection MedialAnalysis::selection(const Extraction& x) const {
+  const Selection selection(
+      x, {samples_.points, triangulation_, voronoi_, edges_, significance_, sides_});
   if (x.side != Side::both) require_solid(sides_from_, tight_cocone_.get());
-  const Conditions holds(significance_, x.thresholds);
-  const auto maybe = [this, holds, side = x.side](int32_t edge) {
-    if (!holds.either(edge)) return false;
-    return side == Side::both || may_be(side, edges_.cell[edge], sides_);
-  };
-  const auto attributes = [this, holds, x](
-                              int32_t edge,
-                              const std::vector<int32_t>& ring) -> std::optional<FacetAttributes> {
-    const Side side = facet_side(ring, sides_);
-    if (x.side != Side::both && side != x.side) return {};
-    if (x.limit_set && !holds.angle(edge) && !in_limit_set(edge, x.thresholds, ring)) return {};
-    return FacetAttributes{theta_of(significance_.sines(x.thresholds.rule)[edge]),
-                           significance_.ratios(x.thresholds.rule)[edge], side};
-  };
-  return {maybe, attributes};
-}
-
-std::vector<int32_t> MedialAnalysis::chosen(const Extraction& x, std::span<const int32_t> edges,
-                                            Progress* progress) const {
-  const FacetChoice wanted = choice(x);
-  const bool by_ring = x.side != Side::both || x.limit_set;
-  std::vector<std::vector<int32_t>> rings(threads_);
-  const auto is_wanted = [&](int32_t edge, std::vector<int32_t>& ring) {
-    if (!wanted.maybe(edge)) return false;
-    if (!by_ring) return true;
-    ring_of_cells(triangulation_, edges_.ends[edge], edges_.cell[edge], ring);
-    return wanted.attributes(edge, ring).has_value();
-  };
-  return parallel_append<int32_t>(static_cast<int64_t>(edges.size()),
-                                  {threads_, progress, arena_.get()},
-                                  [&](int64_t i, std::vector<int32_t>& kept, int worker) {
-                                    if (is_wanted(edges[i], rings[worker]))
-                                      kept.push_back(static_cast<int32_t>(i));
-                                  });
+  return selection;
 }
 
 std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
-  return chosen(x, edges_by_row(), progress);
+  return selected(selection(x), edges_by_row(), {threads_, progress, arena_.get()});
 }
 
 MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
   begin_stage(progress, "Facets", 0, 1);
-  MedialMesh mesh = voronoi_facets(choice(x), samples_, triangulation_, voronoi_, edges_,
+  MedialMesh mesh = voronoi_facets(selection(x), samples_, triangulation_, voronoi_, edges_,
                                    {threads_, progress, arena_.get()});
   advance(progress, 1);
   return mesh;
@@ -279,7 +218,8 @@ std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
   const auto at = rows ? samples_of(*rows, samples_) : samples_by_row(samples_);
   std::vector<int32_t> all(edges_.ends.size());
   std::iota(all.begin(), all.end(), 0);
-  const auto ids = chosen({.thresholds = thresholds}, all, progress);
+  const auto ids =
+      selected(selection({.thresholds = thresholds}), all, {threads_, progress, arena_.get()});
   auto sizes = medial::feature_size(samples_.points, at, triangulation_, voronoi_, edges_, ids,
                                     {threads_, progress});
   advance(progress, 1);
@@ -295,7 +235,7 @@ std::vector<Triangle> MedialAnalysis::solid_triangles() const {
   parallel_for(triangulation_.cell_count(), run, [&](int64_t c) {
     const Cell& cell = triangulation_.cells[c];
     if (*std::max_element(cell.begin(), cell.end()) >= samples_.count()) {
-      sides[c] = static_cast<uint8_t>(Side::outer);
+      sides[c] = Side::outer;
     }
   });
   return in_rows(boundary_triangles(triangulation_, sides, run), samples_, run);

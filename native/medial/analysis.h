@@ -26,12 +26,6 @@ struct AnalysisOptions {
   int threads = 0;               // 0: all cores
 };
 
-struct Extraction {
-  Thresholds thresholds = {};
-  Side side = Side::both;  // both, inner or outer
-  bool limit_set = false;  // Definition 4 for facets selected by the Ratio condition alone
-};
-
 // Bytes at the peak of an analysis of so many samples of a surface and an extraction, as measured.
 // Facets that are long and thin take up to four times as many.
 inline int64_t memory_needed(int64_t points) { return 1400 * points; }
@@ -80,16 +74,11 @@ class MedialAnalysis {
   void tell_sides(const Surface& surface, std::span<const Vec3> vertices,
                   std::span<const Vec3> normals, const Csr<int32_t>& incident,
                   const CoconeOptions& options, const Run& run);
-  FacetChoice choice(const Extraction& extraction) const;
-  // Positions in `edges` of those that are selected.
-  std::vector<int32_t> chosen(const Extraction& extraction, std::span<const int32_t> edges,
-                              Progress* progress) const;
+  Selection selection(const Extraction& extraction) const;
   // Edges in lexicographic order of their input rows, and values in that order.
   std::vector<int32_t> edges_by_row() const;
   template <typename T, typename Value>
   std::vector<T> by_row(const Value& value) const;
-  bool in_limit_set(int32_t edge, const Thresholds& thresholds,
-                    std::span<const int32_t> ring) const;
 
   int threads_ = 1;
   std::unique_ptr<Arena> arena_;  // goes after all that lies in it

@@ -115,6 +115,15 @@ py::array array_of(Rows rows) {
   return view_of<Scalar>(*kept, owner);
 }
 
+// Values of an enum, each as an int32.
+template <typename Values>
+py::array numbers_of(const Values& values) {
+  std::vector<int32_t> numbers;
+  numbers.reserve(values.size());
+  for (const auto value : values) numbers.push_back(static_cast<int32_t>(value));
+  return array_of<int32_t>(std::move(numbers));
+}
+
 inline py::dict seconds(const Timings& timings) {
   py::dict result;
   for (const auto& [stage, time] : timings) result[stage.c_str()] = time;

@@ -176,8 +176,9 @@ void bind_mesh(py::module_& m) {
                              "every theta0 below it.")
       .def_property_readonly("rho", view_property<double>(&MedialMesh::rho),
                              "(f,) float64: the Ratio condition holds for every rho0 below it.")
-      .def_property_readonly("side", view_property<int32_t>(&MedialMesh::side),
-                             "(f,) int32: values of `Side`.")
+      .def_property_readonly(
+          "side", [](const MedialMesh& mesh) { return numbers_of(mesh.side); },
+          "(f,) int32: values of `Side`.")
       .def_property_readonly(
           "generators", view_property<int32_t>(&MedialMesh::generators),
           "(f, 2) int32: rows p < q of the two samples whose cells meet in the facet.")
@@ -238,7 +239,7 @@ void bind_analysis(py::module_& m) {
       .def_property_readonly("rho_both", rho_property(Rule::both),
                              "(e,) float64: as `rho` with the minimum of the two ends (Rule.BOTH).")
       .def_property_readonly(
-          "side", [](const MedialAnalysis& a) { return array_of<int32_t>(a.edge_sides()); },
+          "side", [](const MedialAnalysis& a) { return numbers_of(a.edge_sides()); },
           "(e,) int32: values of `Side` for the facet dual to each edge; all BOTH for "
           "`SidesFrom.NONE`.")
       .def_property_readonly("sides_from", &MedialAnalysis::sides_from,

@@ -86,10 +86,7 @@ void bind_tight_cocone(py::module_& m) {
           "(f, 3) int32: facets between inner and outer cells, outward, lowest row first, in "
           "lexicographic order.")
       .def_property_readonly(
-          "cell_side",
-          [](const Surface& s) {
-            return array_of<int32_t>(std::vector<int32_t>(s.sides.begin(), s.sides.end()));
-          },
+          "cell_side", [](const Surface& s) { return numbers_of(s.sides); },
           "(c,) int32: INNER or OUTER for each cell of `delaunay(points)`, infinite cells "
           "included.")
       .def_property_readonly("samples", view_property<int32_t>(&Surface::samples),

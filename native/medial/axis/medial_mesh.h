@@ -1,12 +1,8 @@
 // The closure of the selected Voronoi facets as a polygon mesh: output of MEDIAL(P).
 #pragma once
 
-#include <functional>
-#include <optional>
-
-#include "delaunay/edges.h"
+#include "axis/selection.h"
 #include "delaunay/samples.h"
-#include "inside/sides.h"
 
 namespace medial {
 
@@ -23,22 +19,8 @@ struct MedialMesh {
   int64_t rings = 0;             // of cells, walked to find all this
 };
 
-struct FacetAttributes {
-  double theta = 0, rho = 0;
-  Side side = Side::both;
-};
-
-// Which facets are wanted.
-struct FacetChoice {
-  // As far as the edge alone tells.
-  std::function<bool(int32_t edge)> maybe;
-  // None: not wanted. `ring` as from ring_of_cells.
-  std::function<std::optional<FacetAttributes>(int32_t edge, const std::vector<int32_t>& ring)>
-      attributes;
-};
-
-// The dual facets of edges.
-MedialMesh voronoi_facets(const FacetChoice& choice, const Samples& samples,
+// The selected facets.
+MedialMesh voronoi_facets(const Selection& selection, const Samples& samples,
                           const Triangulation& triangulation, const Voronoi& voronoi,
                           const Edges& edges, const Run& run);
 
