@@ -1,10 +1,10 @@
 // Progress, MedialAnalysis and MedialMesh for Python.
+#include <medial/analysis.h>
 #include <pybind11/stl.h>
 
 #include <memory>
 #include <optional>
 
-#include "analysis.h"
 #include "arrays.h"
 #include "bindings.h"
 

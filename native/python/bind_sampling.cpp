@@ -1,10 +1,9 @@
 // sample_surface for Python.
+#include <medial/sampling.h>
 #include <pybind11/stl.h>
 
 #include "arrays.h"
-#include "base/parallel.h"
 #include "bindings.h"
-#include "sampling/surface_samples.h"
 
 namespace medial::python {
 namespace {
@@ -96,11 +95,12 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
   options.keep_vertices = keep_vertices;
   options.mirrored_rows = mirrored_rows;
   options.seed = static_cast<uint64_t>(seed);
-  const Run run{thread_count(thread_argument(threads)), progress};
+  const int team = thread_argument(threads);
   const auto point_span = points.span();
   const auto face_span = faces.span();
   const py::gil_scoped_release release;
-  return std::make_shared<SurfaceSamples>(sample_surface(point_span, face_span, options, run));
+  return std::make_shared<SurfaceSamples>(
+      sample_surface(point_span, face_span, options, team, progress));
 }
 
 }  // namespace

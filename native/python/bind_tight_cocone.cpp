@@ -36,10 +36,10 @@ std::shared_ptr<Surface> reconstruct(const py::object& points, const CoconeOptio
                                      Progress* progress, int threads) {
   const Points rows(points, "points");
   const CoconeOptions chosen = options ? *options : CoconeOptions{};
-  const int team = thread_count(thread_argument(threads));
+  const int team = thread_argument(threads);
   const auto span = rows.span();
   const py::gil_scoped_release release;
-  return std::make_shared<Surface>(watertight_surface(span, chosen, {team, progress}));
+  return std::make_shared<Surface>(watertight_surface(span, chosen, team, progress));
 }
 
 CoconeOptions options(double cocone_angle, double flatness_ratio, double flatness_angle,

@@ -1,5 +1,6 @@
 // The Python module _medial; _medial.pyi documents it in full.
-#include "base/errors.h"
+#include <medial/errors.h>
+
 #include "bindings.h"
 
 namespace py = pybind11;
