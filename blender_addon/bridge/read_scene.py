@@ -9,7 +9,7 @@ import bpy
 
 from ..core.axis.shape import Shape
 from ..core.errors import InvalidInputError, ReadError
-from .made import VERSION
+from .output_object import VERSION
 from .read_object import SAMPLED_TYPES, SOURCE_TYPES, read_object
 
 # Extension -> operators that import it, the first one that this Blender has.

@@ -8,7 +8,7 @@ from types import ModuleType
 def _modules() -> tuple[ModuleType, ...]:
     from . import (
         command,
-        export,
+        export_axis,
         import_points,
         manual,
         menus,
@@ -17,26 +17,26 @@ def _modules() -> tuple[ModuleType, ...]:
         preferences,
         presets,
         properties,
-        running,
-        self_test,
-        sequence,
+        current_job,
+        self_test_operator,
+        compute_sequence,
         translation,
     )
 
     return (
         translation,
         properties,
-        self_test,
+        self_test_operator,
         preferences,
         operators,
-        export,
+        export_axis,
         import_points,
         presets,
         panels,
-        sequence,
+        compute_sequence,
         menus,
         manual,
-        running,
+        current_job,
         command,
     )
 

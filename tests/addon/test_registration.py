@@ -39,7 +39,7 @@ def present():
         "sequence import": hasattr(bpy.types, "IMPORT_SCENE_OT_medial_axis_sequence"),
         "sequence panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sequence"),
         "sequence folder": hasattr(bpy.types.Scene, "medial_axis_folder"),
-        "sequence menu": f"{MODULE}.ui.sequence" in menu_texts(bpy.types.TOPBAR_MT_file_import),
+        "sequence menu": f"{MODULE}.ui.compute_sequence" in menu_texts(bpy.types.TOPBAR_MT_file_import),
         "panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis"),
         "sampling panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sampling"),
         "surface panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_surface"),
@@ -47,7 +47,7 @@ def present():
         "progress": hasattr(bpy.types.WindowManager, "medial_axis_progress"),
         "object menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object),
         "context menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object_context_menu),
-        "export menu": f"{MODULE}.ui.export" in menu_texts(bpy.types.TOPBAR_MT_file_export),
+        "export menu": f"{MODULE}.ui.export_axis" in menu_texts(bpy.types.TOPBAR_MT_file_export),
         "handler": any(h.__module__.startswith(MODULE) for h in bpy.app.handlers.load_pre),
     }
 

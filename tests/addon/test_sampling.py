@@ -317,7 +317,7 @@ def test_budget_is_kept_and_said():
 
 def test_kept_vertices_are_samples():
     source = ellipsoid(segments=2)
-    report_of = addon("bridge.sampling_report").report_of
+    report_of = addon("bridge.report_object").report_of
     bpy.ops.object.medial_axis_sampling_report(
         sampling="SURFACE", samples=1_000, keep_vertices=True, smooth=False
     )
@@ -435,7 +435,7 @@ def test_sliders_work_on_samples():
     panel.theta = 1.2
     assert len(result.data.polygons) < facets and analyses() == count and panel.note == ""
     assert result["ma_samples"] == 3_000 and result["ma_sampling"] == "SURFACE"
-    kept = addon("bridge.results").settings_of(result)
+    kept = addon("bridge.axis_object").settings_of(result)
     assert (kept.samples, kept.smooth, kept.sampling.name) == (3_000, True, "SURFACE")
 
 
@@ -451,7 +451,7 @@ def test_export_after_sampling(tmp_path):
     source = result["ma_source"]
     select(source)
     bpy.ops.object.medial_axis_sampling_report(sampling="SURFACE", samples=1_000)
-    samples = positions(addon("bridge.sampling_report").report_of(source).data)
+    samples = positions(addon("bridge.report_object").report_of(source).data)
     first = axis["face_vertices"][axis["face_offsets"][:-1]]
     for end in (0, 1):
         away = np.linalg.norm(axis["vertices"][first] - samples[axis["generators"][:, end]], axis=1)

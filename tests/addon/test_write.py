@@ -36,7 +36,7 @@ def changed(axis, **fields):
 
 
 def written(axis, name):
-    return addon("bridge.write_object").new_mesh(
+    return addon("bridge.write_mesh").new_mesh(
         axis, name, addon("bridge.attributes").attributes()
     )
 

@@ -11,9 +11,9 @@ from mathutils.kdtree import KDTree
 
 from ..core.errors import InvalidInputError
 from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32
-from .made import DENSITY, SAMPLED, check_mode, made_of, new_object, place, remember, replace_mesh
+from .output_object import DENSITY, SAMPLED, check_mode, output_of, new_object, place, remember, replace_mesh
 from .material import LIMIT, epsilon_material
-from .write_object import new_mesh
+from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -35,7 +35,7 @@ def is_report(thing: bpy.types.Object) -> bool:
 
 def report_of(source: bpy.types.Object) -> bpy.types.Object | None:
     """The report that the next one of this source updates."""
-    return made_of(source, is_report)
+    return output_of(source, is_report)
 
 
 def check_report_writable(source: bpy.types.Object) -> None:

@@ -9,9 +9,9 @@ import bpy
 
 from ..core.settings import OPTIONS, Choice, Integer, Settings, Switch
 from .attributes import attributes
-from .made import DENSITY, SAMPLED, check_mode, made_of, new_object, place, remember, replace_mesh
+from .output_object import DENSITY, SAMPLED, check_mode, output_of, new_object, place, remember, replace_mesh
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
-from .write_object import new_mesh
+from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,7 +31,7 @@ def is_result(thing: bpy.types.Object) -> bool:
 
 def result_of(source: bpy.types.Object) -> bpy.types.Object | None:
     """The result that the next computation of this source updates."""
-    return made_of(source, is_result)
+    return output_of(source, is_result)
 
 
 def check_writable(source: bpy.types.Object) -> None:
