@@ -9,8 +9,17 @@ import bpy
 
 from ..core.settings import OPTIONS, Choice, Integer, Settings, Switch
 from .attributes import attributes
-from .output_object import DENSITY, SAMPLED, check_mode, output_of, new_object, place, remember, replace_mesh
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
+from .output_object import (
+    DENSITY,
+    SAMPLED,
+    check_mode,
+    new_object,
+    output_of,
+    place,
+    remember,
+    replace_mesh,
+)
 from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
@@ -107,7 +116,7 @@ def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: C
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
     result[ANALYSIS] = computation.key
     result[INSIDE] = str(computation.sides)
-    result[SAMPLED] = computation.sampled.reason
+    result[SAMPLED] = computation.chosen.reason
     result[DENSITY] = str(computation.density)
     _remember_settings(result, computation.settings)
     _remember_axis(result, computation.axis)

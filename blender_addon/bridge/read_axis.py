@@ -12,8 +12,8 @@ import numpy as np
 from ..core.axis.compute import MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes
-from .output_object import is_gone
 from .axis_object import UNBOUNDED, ZERO_AREA, is_result, result_of
+from .output_object import is_gone
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

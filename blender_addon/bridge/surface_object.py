@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .output_object import check_mode, output_of, new_object, place, remember, replace_mesh
+from .output_object import check_mode, new_object, output_of, place, remember, replace_mesh
 from .write_mesh import new_mesh
 
 if TYPE_CHECKING:

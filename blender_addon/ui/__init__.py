@@ -8,6 +8,8 @@ from types import ModuleType
 def _modules() -> tuple[ModuleType, ...]:
     from . import (
         command,
+        compute_sequence,
+        current_job,
         export_axis,
         import_points,
         manual,
@@ -17,9 +19,7 @@ def _modules() -> tuple[ModuleType, ...]:
         preferences,
         presets,
         properties,
-        current_job,
         self_test_operator,
-        compute_sequence,
         translation,
     )
 

@@ -15,12 +15,12 @@ from ..core.batch.frames import output_path, parse_frames
 from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.machine.job import run_task
 from . import current_job
+from .compute_operator import FromSelection
 from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
 from .selected_sources import sources
 from .translation import say
-from .compute_operator import FromSelection
 
 _PRODUCT = "medial axis"
 _AT_ONCE = 0.1  # seconds; so long finished frames are passed over without a pause

@@ -4,8 +4,8 @@ from functools import partial
 
 import bpy
 
-from ..bridge.output_object import is_gone, source_of
 from ..bridge.axis_object import check_writable, write_result
+from ..bridge.output_object import is_gone, source_of
 from ..bridge.report_object import (
     check_report_writable,
     check_source_writable,
@@ -15,13 +15,13 @@ from ..bridge.report_object import (
 from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
 from ..core.axis.compute import compute_axis
 from ..core.axis.reconstruction import reconstruct
-from ..core.axis.sampling_report import report
+from ..core.axis.sampling_report import report_sampling
 from ..core.settings import OPTIONS, SAMPLING_OPTIONS
 from . import current_job
+from .compute_operator import ComputeOperator
 from .preferences import memory_limit
 from .properties import SamplingProperties, choice, draw_sampling, number, settings_from, switch
 from .translation import say
-from .compute_operator import ComputeOperator
 
 
 class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Operator):
@@ -60,12 +60,14 @@ class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Opera
         return (
             f"{computation.points:,} points, {axis.facets:,} facets, duplicates merged "
             f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}, facets "
-            f"without area {axis.zero_area:,}; {computation.sides}; {computation.sampled.reason}; "
+            f"without area {axis.zero_area:,}; {computation.sides}; {computation.chosen.reason}; "
             f"{computation.density}"
         )
 
 
-class OBJECT_OT_medial_axis_sampling_report(ComputeOperator, SamplingProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis_sampling_report(
+    ComputeOperator, SamplingProperties, bpy.types.Operator
+):
     bl_idname = "object.medial_axis_sampling_report"
     bl_label = "Report Sampling"
     bl_description = (
@@ -103,7 +105,7 @@ class OBJECT_OT_medial_axis_sampling_report(ComputeOperator, SamplingProperties,
         check_report_writable(thing) if self.target == "COPY" else check_source_writable(thing)
 
     def work(self, shape):
-        return partial(report, shape, settings_from(self), limit=memory_limit())
+        return partial(report_sampling, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, found, frame):
         if self.target == "SOURCE":
@@ -111,7 +113,7 @@ class OBJECT_OT_medial_axis_sampling_report(ComputeOperator, SamplingProperties,
         return write_report(thing, found, frame)
 
     def summary(self, found):
-        return f"{found.sampled.reason}; {found.density}"
+        return f"{found.chosen.reason}; {found.density}"
 
 
 class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):

@@ -8,9 +8,9 @@ from ..core.machine import native
 from . import current_job
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
-from .wrapped_text import draw_wrapped
 from .selected_sources import obstacle
 from .translation import say
+from .wrapped_text import draw_wrapped
 
 
 class _Tab:

@@ -12,8 +12,8 @@ from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
 from . import self_test_operator
 from .manual import draw_manual
 from .properties import choice_of, integer_of
-from .wrapped_text import draw_wrapped
 from .translation import say
+from .wrapped_text import draw_wrapped
 
 ADDON = __package__.rpartition(".")[0]
 

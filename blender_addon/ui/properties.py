@@ -7,9 +7,9 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
+from ..bridge.axis_object import ANALYSIS, is_result, result_of, settings_of, update_result
 from ..bridge.output_object import is_gone
 from ..bridge.read_object import SOURCE_TYPES
-from ..bridge.axis_object import ANALYSIS, is_result, result_of, settings_of, update_result
 from ..bridge.report_object import is_report, report_of
 from ..bridge.surface_object import is_surface, surface_of
 from ..core.axis.compute import refilter
@@ -20,7 +20,7 @@ from ..core.settings import (
     SAMPLING_OPTIONS,
     Choice,
     Number,
-    Sampling,
+    SamplingMode,
     Settings,
     applies,
 )
@@ -111,7 +111,7 @@ class SamplingProperties:
 
 def draw_sampling(layout, properties):
     """What a choice of Sampling listens to; what does not apply is grey."""
-    chosen = Sampling[properties.sampling]
+    chosen = SamplingMode[properties.sampling]
     for name in SAMPLING_OPTIONS:
         row = layout.row()
         row.active = applies(name, chosen, properties.spacing)

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import bpy
 
+from ..bridge.axis_object import is_result
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
-from ..bridge.axis_object import is_result
 from ..bridge.report_object import is_report
 from . import current_job
 

@@ -143,7 +143,9 @@ def test_disabling_the_addon_stops_the_job():
 
 def test_source_deleted_before_the_result_is_written(capfd):
     source = ellipsoid()
-    found = addon("ui.selected_sources").Source(source.name, getattr(source, "session_uid", None), None)
+    found = addon("ui.selected_sources").Source(
+        source.name, getattr(source, "session_uid", None), None
+    )
     assert found.find() == source
     bpy.data.objects.remove(source)
     assert found.find() is None

@@ -117,9 +117,9 @@ def moved(axis, by):
 def test_self_test_notices(change, failed):
     core = addon("core.known_box")
     box = core.compute_box()
-    checks = core._of_shape(change(box.axis), box.sampled.samples.spacing)
+    checks = core._of_shape(change(box.axis), box.chosen.samples.spacing)
     assert {number for number, check in enumerate(checks, 1) if not check.passed} >= failed - {4}
-    assert all(check.passed for check in core._of_shape(box.axis, box.sampled.samples.spacing))
+    assert all(check.passed for check in core._of_shape(box.axis, box.chosen.samples.spacing))
 
 
 def test_self_test_notices_an_empty_axis():

@@ -36,9 +36,7 @@ def changed(axis, **fields):
 
 
 def written(axis, name):
-    return addon("bridge.write_mesh").new_mesh(
-        axis, name, addon("bridge.attributes").attributes()
-    )
+    return addon("bridge.write_mesh").new_mesh(axis, name, addon("bridge.attributes").attributes())
 
 
 def test_arrays_arrive():

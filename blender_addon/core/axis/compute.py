@@ -13,8 +13,10 @@ from ..machine import native
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Sampling, Settings, Side, SidesFrom
-from .sampling import Sampled, Samples, sample, sampling_warnings
+from ..settings import SamplingMode, Settings, Side, SidesFrom
+from .analysis import AnalysedSamples
+from .choose_samples import ChosenSamples, choose_samples
+from .sampling_warnings import sampling_warnings
 from .shape import Shape
 from .sides import cocone_warnings, look_inward
 
@@ -73,7 +75,7 @@ class Computation:
     axis : MedialAxis
     settings : Settings
         `side`, `sides` and `sampling` are never AUTOMATIC here.
-    sampled : Sampled
+    chosen : ChosenSamples
         What was analysed, why, and how densely it lies; what told inside from outside.
     warnings : tuple of str
         What was assumed or looks wrong, a sentence each.
@@ -82,32 +84,32 @@ class Computation:
 
     axis: MedialAxis
     settings: Settings
-    sampled: Sampled
+    chosen: ChosenSamples
     warnings: tuple[str, ...]
     seconds: float
 
     @property
     def sides(self) -> Sides:
-        return self.sampled.sides
+        return self.chosen.sides
 
     @property
     def density(self) -> Density:
-        return self.sampled.samples.density
+        return self.chosen.samples.density
 
     @property
     def key(self) -> str:
         """Names the analysis for `refilter`."""
-        return self.sampled.samples.key
+        return self.chosen.samples.key
 
     @property
     def points(self) -> int:
         """Rows that were analysed, duplicates included."""
-        return len(self.sampled.samples.points)
+        return len(self.chosen.samples.points)
 
     @property
     def duplicates(self) -> int:
         """Those of them that were merged into an earlier row with the same coordinates."""
-        return self.sampled.samples.analysis.duplicates
+        return self.chosen.samples.analysis.duplicates
 
 
 def compute(
@@ -144,14 +146,14 @@ def compute_axis(
     start = time.perf_counter()
     progress = progress or Progress()
     settings = settings.with_side()
-    sampled = sample(shape, settings, progress, limit)
-    settings = replace(settings, sides=sampled.sides.source, sampling=sampled.sampling)
-    axis = _extract(sampled.samples, settings, progress.part())
+    chosen = choose_samples(shape, settings, progress, limit)
+    settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling)
+    axis = _extract(chosen.samples, settings, progress.part())
     return Computation(
         axis=axis,
         settings=settings,
-        sampled=sampled,
-        warnings=tuple(_warnings(shape, settings, sampled, axis)),
+        chosen=chosen,
+        warnings=tuple(_warnings(shape, settings, chosen, axis)),
         seconds=time.perf_counter() - start,
     )
 
@@ -166,18 +168,18 @@ def refilter(key: str, settings: Settings) -> MedialAxis | None:
 
 
 def _warnings(
-    shape: Shape, settings: Settings, sampled: Sampled, axis: MedialAxis
+    shape: Shape, settings: Settings, chosen: ChosenSamples, axis: MedialAxis
 ) -> Iterator[str]:
-    yield from sampling_warnings(shape, sampled)
-    samples, sides = sampled.samples, settings.sides
-    if sides is SidesFrom.SURFACE and sampled.gaps and settings.side is not Side.BOTH:
+    yield from sampling_warnings(shape, chosen)
+    samples, sides = chosen.samples, settings.sides
+    if sides is SidesFrom.SURFACE and chosen.gaps and settings.side is not Side.BOTH:
         yield (
-            f"the surface is open at {sampled.gaps:,} edges: inside was taken to be where the "
+            f"the surface is open at {chosen.gaps:,} edges: inside was taken to be where the "
             "winding number of the open surface is above one half"
         )
-    if sides is SidesFrom.NORMALS and sampled.sampling is not Sampling.VERTICES and sampled.gaps:
+    if sides is SidesFrom.NORMALS and chosen.sampling is not SamplingMode.VERTICES and chosen.gaps:
         yield (
-            f"the surface is open at {sampled.gaps:,} edges: inside was taken to be behind its "
+            f"the surface is open at {chosen.gaps:,} edges: inside was taken to be behind its "
             "faces; do not trust the axis near the openings"
         )
     if sides is SidesFrom.TIGHT_COCONE:
@@ -188,11 +190,11 @@ def _warnings(
             "or choose Inside From Tight Cocone, and compute again"
         )
     elif axis.facets == 0:
-        yield _why_empty(shape, settings, sampled, axis)
+        yield _why_empty(shape, settings, chosen, axis)
 
 
-def _why_empty(shape: Shape, settings: Settings, sampled: Sampled, axis: MedialAxis) -> str:
-    closed = settings.sides is SidesFrom.SURFACE and sampled.gaps == 0
+def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: MedialAxis) -> str:
+    closed = settings.sides is SidesFrom.SURFACE and chosen.gaps == 0
     if axis.zero_area:
         return (
             f"all {axis.zero_area:,} facets that pass the conditions are points or lines, as in an "
@@ -208,7 +210,7 @@ def _why_empty(shape: Shape, settings: Settings, sampled: Sampled, axis: MedialA
             "no facet lies inside the surface that Tight Cocone closed; the axis of an open scan "
             "may lie beyond the opening: choose side Both, or lower theta or rho"
         )
-    spacing = sampled.samples.spacing
+    spacing = chosen.samples.spacing
     if closed and spacing > (thickness := 2.0 * shape.volume / shape.area):
         return (
             f"the shape is about {thickness:.2g} thick, less than its samples are apart ({spacing:.2g}); "
@@ -220,7 +222,7 @@ def _why_empty(shape: Shape, settings: Settings, sampled: Sampled, axis: MedialA
 # --- the compiled module
 
 
-def _extract(samples: Samples, settings: Settings, progress: Any | None) -> MedialAxis:
+def _extract(samples: AnalysedSamples, settings: Settings, progress: Any | None) -> MedialAxis:
     with native.own_errors() as module:
         mesh = samples.analysis.extract(
             settings.theta,
