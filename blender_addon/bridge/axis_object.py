@@ -25,7 +25,8 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..core.axis.compute import Computation, MedialAxis
+    from ..core.axis.compute import Computation
+    from ..core.axis.medial_axis import MedialAxis
 
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.axis.compute import MedialAxis
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes
 from .axis_object import UNBOUNDED, ZERO_AREA, is_result, result_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.axis.compute import MedialAxis
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import MedialAxisError
 from ..core.known_box import Check, checks_of, compute_box
 from .attributes import attributes

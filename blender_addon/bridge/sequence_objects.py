@@ -12,7 +12,7 @@ from pathlib import Path
 
 import bpy
 
-from ..core.axis.compute import MedialAxis
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from ..core.files.load_axis import load_axis
 from .attributes import attributes

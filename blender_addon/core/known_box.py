@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import __version__
-from .axis.compute import Computation, MedialAxis, compute
+from .axis.compute import Computation, compute
+from .axis.medial_axis import MedialAxis
 from .machine import native
 from .settings import SamplingMode, Settings
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..axis.compute import MedialAxis
+from ..axis.medial_axis import MedialAxis
 from ..errors import ReadError
 from .numpy_arrays import read_arrays
 
