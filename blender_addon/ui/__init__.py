@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from types import ModuleType
 
+from ..core.machine import native
+
 
 def _modules() -> tuple[ModuleType, ...]:
     from . import (
@@ -42,6 +44,7 @@ def _modules() -> tuple[ModuleType, ...]:
 
 
 def register() -> None:
+    native.load_a_copy = not __package__.startswith("bl_ext.")  # then this is no extension
     for module in _modules():
         module.register()
 
