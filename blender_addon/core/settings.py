@@ -194,7 +194,8 @@ OPTIONS: dict[str, Number | Integer | Choice | Switch] = {
     "limit_set": Switch(
         label="Limit Set",
         description="Drop facets that the ratio condition alone keeps although their samples "
-        "are too close for the size of the shape there: removes fins on tubes",
+        "are too close for the size of the shape there. This thins out fins on tubes, but only where "
+        "samples are dense: at 8,000 samples it leaves a torus as it is",
         default=False,
     ),
     "sampling": Choice(
