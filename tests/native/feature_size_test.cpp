@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
 
+#include "delaunay/edges.h"
+#include "delaunay/samples.h"
+#include "delaunay/triangulation.h"
+#include "delaunay/voronoi.h"
 #include "shapes.h"
 
 namespace medial {
