@@ -1,9 +1,18 @@
 // Cocone by brute force, and what Tight Cocone makes of samples that are sparse, noisy or missing.
+#include "cocone/cocone.h"
+
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
 
 #include <random>
 
+#include "axis/poles.h"
+#include "cocone/peeling.h"
+#include "cocone/solid.h"
+#include "cocone/watertight_surface.h"
+#include "delaunay/samples.h"
+#include "delaunay/triangulation.h"
+#include "delaunay/voronoi.h"
 #include "shapes.h"
 
 namespace medial {
