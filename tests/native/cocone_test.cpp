@@ -191,7 +191,7 @@ double volume(std::span<const Vec3> points, std::span<const Triangle> triangles)
 }
 
 WatertightSurface surface_of(std::span<const Vec3> rows) {
-  return watertight_surface(rows, {}, {2, nullptr});
+  return watertight_surface(rows, {}, 2);
 }
 
 constexpr double kEllipsoid = 4.0 / 3 * std::numbers::pi * 0.75 * 0.4;
