@@ -164,7 +164,7 @@ def _complete(wanted: argparse.Namespace) -> None:
 
 
 def _is_still(path: str) -> bool:
-    """A file without frames of its own, and no number in its name."""
+    """Whether a path is one file for all frames: its format has none, and its name no number."""
     return Path(path).suffix.lower() in READERS and not has_number(Path(path).name)
 
 

@@ -118,7 +118,7 @@ def compute_axis(
 
 def extract(computation: Computation, settings: Settings) -> MedialAxis:
     """The axis for other thresholds of a computation; the rest of the settings must be its own."""
-    return _extract(computation.sampled.samples, settings, None)
+    return extract_axis(computation.chosen.samples, settings, None)
 
 
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
