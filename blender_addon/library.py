@@ -136,7 +136,7 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     InvalidInputError
     """
     settings = replace(computation.settings, **_checked(thresholds, _THRESHOLDS))
-    return axis.extract(computation, settings)
+    return axis.extract_axis(computation, settings)
 
 
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:

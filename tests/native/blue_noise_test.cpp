@@ -2,12 +2,12 @@
 // are that they leave; where the spacing is even and where it changes. And the rows beside sharp
 // edges, which are placed before them.
 #include <gtest/gtest.h>
+#include <medial/sampling.h>
 
 #include <random>
 
 #include "sampling/mirrored_rows.h"
 #include "sampling/poisson_disk.h"
-#include "sampling/surface_samples.h"
 #include "shapes.h"
 
 namespace medial {

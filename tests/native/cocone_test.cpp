@@ -1,9 +1,9 @@
 // Cocone by brute force, and what Tight Cocone makes of samples that are sparse, noisy or missing.
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <random>
 
-#include "analysis.h"
 #include "shapes.h"
 
 namespace medial {

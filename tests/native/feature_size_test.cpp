@@ -1,7 +1,7 @@
 // The distance of samples to the axis, and the radii round them, against plain loops.
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
-#include "analysis.h"
 #include "shapes.h"
 
 namespace medial {

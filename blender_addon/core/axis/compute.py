@@ -14,7 +14,7 @@ from ..machine.progress import Progress
 from ..settings import Settings
 from .axis_warnings import axis_warnings
 from .choose_samples import ChosenSamples, choose_samples
-from .medial_axis import MedialAxis, extract_axis
+from .medial_axis import MedialAxis, extract
 from .shape import Shape
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def compute_axis(
     settings = settings.with_side()
     chosen = choose_samples(shape, settings, progress, limit)
     settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling)
-    axis = extract_axis(chosen.samples, settings, progress.part())
+    axis = extract(chosen.samples, settings, progress.part())
     return Computation(
         axis=axis,
         settings=settings,
@@ -116,12 +116,12 @@ def compute_axis(
     )
 
 
-def extract(computation: Computation, settings: Settings) -> MedialAxis:
+def extract_axis(computation: Computation, settings: Settings) -> MedialAxis:
     """The axis for other thresholds of a computation; the rest of the settings must be its own."""
-    return extract_axis(computation.chosen.samples, settings, None)
+    return extract(computation.chosen.samples, settings, None)
 
 
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
     """The axis for other thresholds of a kept analysis; None when it is no longer kept."""
     samples = CACHE.get(key)
-    return None if samples is None else extract_axis(samples, settings, None)
+    return None if samples is None else extract(samples, settings, None)

@@ -54,7 +54,7 @@ class MedialAxis:
         return len(self.face_offsets) - 1
 
 
-def extract_axis(samples: AnalysedSamples, settings: Settings, progress: Any | None) -> MedialAxis:
+def extract(samples: AnalysedSamples, settings: Settings, progress: Any | None) -> MedialAxis:
     """The facets that the settings select; `progress` is a `_medial.Progress`."""
     with native.own_errors() as module:
         mesh = samples.analysis.extract(
