@@ -1,6 +1,7 @@
 """Every code word in the docs exists: identifiers, files and options between backticks occur in the sources."""
 
 import re
+from pathlib import Path
 
 import pytest
 from conftest import ROOT
@@ -144,16 +145,22 @@ def rows(page, head):
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in table]
 
 
-def test_the_paper_is_found_in_the_code(words):
-    """Of each line all files exist, and all functions and fields stand in one of them."""
+def header_of(unit):
+    """The header of a unit, in its room or among the public ones."""
+    places = (ROOT / "native" / "medial" / unit, ROOT / "native/include/medial" / Path(unit).name)
+    return next(path for place in places if (path := place.with_suffix(".h")).is_file())
+
+
+def test_the_paper_is_found_in_the_code():
+    """Of each line all units exist, and all functions and fields stand in their rooms or in a public header."""
     table = rows("algorithm.md", "| paper | where |")
     assert len(table) > 20
     for paper, _, where, what, *_ in table:
-        units = [ROOT / "native" / "medial" / unit for unit in SPAN.findall(where)]
-        for unit in units:
-            assert unit.with_suffix(".h").is_file(), paper
-        rooms = {file for unit in units for file in unit.parent.glob("*.*")}
-        text = "".join(file.read_text(encoding="utf-8") for file in rooms)
+        folders = {header_of(unit).parent for unit in SPAN.findall(where)}
+        folders |= {ROOT / "native" / "medial" / Path(unit).parent for unit in SPAN.findall(where)}
+        folders.add(ROOT / "native" / "include" / "medial")
+        paths = [path for folder in folders for path in folder.iterdir() if path.suffix in TEXTS]
+        text = "".join(path.read_text(encoding="utf-8") for path in paths)
         for name in re.findall(r"\w+", " ".join(SPAN.findall(what))):
             assert re.search(rf"\b{name}\b", text), f"{paper}: {name}"
 
