@@ -183,3 +183,21 @@ def test_rooms_of_python_see_what_the_table_says():
         assert seen | {"core"} == MAY_IMPORT[name] - {"", "lib"} | {"core"}, name
     named = {SPAN.findall(room)[0] for room, *_ in rows("architecture.md", "| room of Python |")}
     assert named == set(MAY_IMPORT)
+
+
+def test_imports_of_the_examples_are_there():
+    """Of `from blender_addon.core.settings import Settings` and the like, in all examples."""
+    found = [
+        (module.split("."), name.strip())
+        for page in PAGES
+        for module, names in re.findall(
+            r"^ *from (?:blender_addon|medial_axis)\.([\w.]+) import (.+)$",
+            page.read_text(encoding="utf-8"),
+            flags=re.MULTILINE,
+        )
+        for name in names.split(",")
+    ]
+    assert len(found) > 3
+    for parts, name in found:
+        text = ROOT.joinpath("blender_addon", *parts).with_suffix(".py").read_text(encoding="utf-8")
+        assert re.search(rf"^(?:def|class) {name}\b|^{name} =", text, re.MULTILINE), (parts, name)
