@@ -43,7 +43,7 @@ from .core.settings import (
     Choice,
     Criteria,
     Rule,
-    Sampling,
+    SamplingMode,
     Settings,
     Side,
     SidesFrom,
@@ -68,7 +68,7 @@ __all__ = [
     "ReadError",
     "Reconstruction",
     "Rule",
-    "Sampling",
+    "SamplingMode",
     "Settings",
     "Shape",
     "Side",
@@ -118,8 +118,8 @@ def compute(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    chosen = Settings(**_checked(settings, list(OPTIONS)))
-    return axis.compute_axis(_shape(points, triangles, normals), chosen, progress)
+    wanted = Settings(**_checked(settings, list(OPTIONS)))
+    return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
 
 
 def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
