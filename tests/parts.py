@@ -134,7 +134,7 @@ def run_pytest(blender: Path, *options: str) -> None:
     """pytest with the Python that Blender uses, on all cores where pytest-xdist is installed."""
     interpreter, _ = blender_python(blender)
     spread = succeeds(interpreter, "-c", "import xdist")
-    workers = ["-n", parallel_jobs(), "--dist", "worksteal"] if spread else []
+    workers = ["-n", parallel_jobs()] if spread else []
     words = ["-q", f"--durations={LONGEST}", *workers, *options]
     run(interpreter, "-m", "pytest", *words, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
 

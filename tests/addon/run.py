@@ -23,19 +23,24 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1]))
 
-from native.packaging import pack, paths  # noqa: E402 - the line above makes it found
-from native.packaging.blender import Blender  # noqa: E402
+from native.packaging import blender as private  # noqa: E402 - the line above makes it found
+from native.packaging import pack, paths  # noqa: E402
 from native.packaging.terminal import Failure  # noqa: E402
 
+EXTENSION = f"bl_ext.user_default.{paths.PACKAGE}"
 
-def install(blender: Blender, archive: Path) -> str:
-    """Install and enable the zip; returns the name of its module."""
-    if isinstance(blender, BpyModule) or blender.version() < (4, 2):
-        blender.script(HERE / "install.py", archive)
-    else:
+
+class Blender(private.Blender):
+    """A Blender into which the zip is installed."""
+
+    def install(self, archive: Path) -> str:
+        """Install and enable the zip; returns the module name that it got."""
+        if self.version() < (4, 2):
+            self.script(HERE / "install.py", archive)
+            return paths.PACKAGE
         words = ("--command", "extension", "install-file", "-r", "user_default", "--enable")
-        blender.run(*words, archive)
-    return paths.PACKAGE if blender.version() < (4, 2) else f"bl_ext.user_default.{paths.PACKAGE}"
+        self.run(*words, archive)
+        return EXTENSION
 
 
 # Python does not get to its end: there bpy 4.2 crashes once a single handler, property or panel was registered.
@@ -63,8 +68,9 @@ class BpyModule(Blender):
     def script(self, path: Path, *arguments: object, options=(), check: bool = True) -> int:
         return self.run("-c", RUN_AND_LEAVE, path, "--", *arguments, check=check)
 
-    def version(self) -> tuple[int, ...]:
-        return (4, 2)  # or newer: there are none of older ones
+    def install(self, archive: Path) -> str:
+        self.script(HERE / "install.py", archive)
+        return EXTENSION
 
 
 def pack_sources(folder: Path) -> Path:
@@ -103,7 +109,7 @@ def main() -> int:
         )
         blender = kind(program, Path(folder) / "profile")
         archive = (arguments.zip or pack_sources(Path(folder))).resolve()
-        module = install(blender, archive)
+        module = blender.install(archive)
         blender.environment["MEDIAL_AXIS_MODULE"] = module
         if arguments.gui:
             sys.path.insert(0, str(HERE / "gui"))

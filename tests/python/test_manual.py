@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 pytest.importorskip("markdown", reason="python3-markdown is not installed")
-from native.packaging import manual  # noqa: E402 - which imports it
+from native.packaging import manual
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 
