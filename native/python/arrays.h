@@ -2,6 +2,7 @@
 // owner alive.
 #pragma once
 
+#include <medial/errors.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -11,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/vec3.h"
 
@@ -113,6 +113,15 @@ py::array array_of(Rows rows) {
   auto* kept = new Rows(std::move(rows));
   const py::capsule owner(kept, [](void* p) { delete static_cast<Rows*>(p); });
   return view_of<Scalar>(*kept, owner);
+}
+
+// Values of an enum, each as an int32.
+template <typename Values>
+py::array numbers_of(const Values& values) {
+  std::vector<int32_t> numbers;
+  numbers.reserve(values.size());
+  for (const auto value : values) numbers.push_back(static_cast<int32_t>(value));
+  return array_of<int32_t>(std::move(numbers));
 }
 
 inline py::dict seconds(const Timings& timings) {

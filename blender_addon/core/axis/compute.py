@@ -156,6 +156,11 @@ def compute_axis(
     )
 
 
+def extract(computation: Computation, settings: Settings) -> MedialAxis:
+    """The axis for other thresholds of a computation; the rest of the settings must be its own."""
+    return _extract(computation.sampled.samples, settings, None)
+
+
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
     """The axis for other thresholds of a kept analysis; None when it is no longer kept."""
     samples = CACHE.get(key)

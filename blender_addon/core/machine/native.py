@@ -52,24 +52,34 @@ def load() -> ModuleType:
 
 
 def _imported(name: str) -> ModuleType:
-    """The module, from a copy in memory where the system has such files.
+    """The module, from its file; in a legacy add-on from a copy in memory where the system has such files.
 
     Blender before 4.2 updates an add-on by writing over its files: over a mapped one, that is the end of Blender.
     """
-    if name in sys.modules or not hasattr(os, "memfd_create"):
+    if name in sys.modules or not _is_legacy_addon() or not hasattr(os, "memfd_create"):
         return importlib.import_module(name)
-    copy = os.memfd_create(NAME)
     try:
-        with open(copy, "wb", closefd=False) as stream:
-            stream.write(file().read_bytes())
-        path = f"/proc/self/fd/{copy}"
-        spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
+        copy = os.memfd_create(NAME)
+    except OSError:  # the system may refuse
+        return importlib.import_module(name)
+    with os.fdopen(copy, "wb") as stream:
+        stream.write(file().read_bytes())
+        stream.flush()
+        return _imported_from(f"/proc/self/fd/{copy}", name)
+
+
+def _is_legacy_addon() -> bool:
+    """Extensions lie in a package of Blender's; an installed package is not inside Blender, most often."""
+    return "bpy" in sys.modules and "." not in _package
+
+
+def _imported_from(path: str, name: str) -> ModuleType:
+    spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
+    try:
         module = module_from_spec(spec)
         spec.loader.exec_module(module)
     except ImportError as error:
         raise ImportError(str(error).replace(path, str(file()))) from error
-    finally:
-        os.close(copy)
     sys.modules[name] = module
     return module
 

@@ -97,17 +97,16 @@ bool is_wide(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
 // Makes facets, one after the other.
 class FacetMaker {
  public:
-  FacetMaker(const FacetChoice& choice, std::span<const Vec3> points, const Triangulation& t,
+  FacetMaker(const Selection& selection, std::span<const Vec3> points, const Triangulation& t,
              const Voronoi& voronoi, const Edges& edges)
-      : choice_(choice), points_(points), t_(t), voronoi_(voronoi), edges_(edges) {}
+      : selection_(selection), points_(points), t_(t), voronoi_(voronoi), edges_(edges) {}
 
   // The number of corners; 0 without a facet.
   int32_t append(int32_t edge, Polygons& out) {
-    if (!choice_.maybe(edge)) return 0;
-    ring_of_cells(t_, edges_.ends[edge], edges_.cell[edge], ring_);
-    ++out.rings;
-    const auto attributes = choice_.attributes(edge, ring_);
-    if (!attributes) return 0;
+    const bool wanted = selection_.wants(edge, ring_);
+    if (wanted && ring_.empty()) ring_of_cells(t_, edges_.ends[edge], edges_.cell[edge], ring_);
+    out.rings += !ring_.empty();
+    if (!wanted) return 0;
     if (t_.is_infinite(edges_.cell[edge])) {
       ++out.unbounded;
       return 0;
@@ -121,12 +120,12 @@ class FacetMaker {
     out.corners.insert(out.corners.end(), polygon_.begin(), polygon_.end());
     out.sizes.push_back(static_cast<int32_t>(polygon_.size()));
     out.edges.push_back(edge);
-    out.attributes.push_back(*attributes);
+    out.attributes.push_back(selection_.attributes(edge, ring_));
     return out.sizes.back();
   }
 
  private:
-  const FacetChoice& choice_;
+  const Selection& selection_;
   std::span<const Vec3> points_;
   const Triangulation& t_;
   const Voronoi& voronoi_;
@@ -141,7 +140,7 @@ struct Found {
   Array<int32_t> faces, corners;  // (rows + 1)
 };
 
-Found find_polygons(const FacetChoice& choice, const Samples& samples, const Triangulation& t,
+Found find_polygons(const Selection& selection, const Samples& samples, const Triangulation& t,
                     const Voronoi& voronoi, const Edges& edges, const Run& run) {
   const int64_t count = samples.count();
   const size_t rows = samples.point_of_row.size();
@@ -149,7 +148,7 @@ Found find_polygons(const FacetChoice& choice, const Samples& samples, const Tri
               array<int32_t>(rows + 1, 0, run), array<int32_t>(rows + 1, 0, run)};
   std::vector<Polygons> rooms(run.threads);
   parallel_chunks(count, run, [&](int64_t begin, int64_t end, int worker) {
-    FacetMaker maker(choice, samples.points, t, voronoi, edges);
+    FacetMaker maker(selection, samples.points, t, voronoi, edges);
     Polygons& out = rooms[worker];
     out.clear();
     for (int64_t p = begin; p < end; ++p) {
@@ -219,7 +218,7 @@ MedialMesh in_order(Found found, std::span<const int32_t> row, const Edges& edge
 
 // Numbers the Voronoi vertices in order of first use and replaces cells by these numbers. Returns
 // the number of each cell, and how many there are.
-std::pair<Array<int32_t>, int32_t> number_vertices(Array<int32_t>& corners, int32_t cells,
+std::pair<Array<int32_t>, int32_t> number_vertices(std::span<int32_t> corners, int32_t cells,
                                                    const Run& run) {
   auto number = array<int32_t>(static_cast<size_t>(cells), -1, run);
   int32_t count = 0;
@@ -252,11 +251,12 @@ void start_at_lowest(MedialMesh& mesh, const Run& run) {
 
 }  // namespace
 
-MedialMesh voronoi_facets(const FacetChoice& choice, const Samples& samples, const Triangulation& t,
-                          const Voronoi& voronoi, const Edges& edges, const Run& run) {
+MedialMesh voronoi_facets(const Selection& selection, const Samples& samples,
+                          const Triangulation& t, const Voronoi& voronoi, const Edges& edges,
+                          const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena};
-  MedialMesh mesh =
-      in_order(find_polygons(choice, samples, t, voronoi, edges, run), samples.row, edges, quiet);
+  MedialMesh mesh = in_order(find_polygons(selection, samples, t, voronoi, edges, run), samples.row,
+                             edges, quiet);
   throw_if_cancelled(run.progress);
   add_vertices(mesh, samples, t, voronoi, quiet);
   start_at_lowest(mesh, quiet);

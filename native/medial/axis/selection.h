@@ -1,38 +1,57 @@
-// Which Delaunay edges MEDIAL selects (Dey & Zhao, sect. 3): a mask over the significance arrays.
+// Which Delaunay edges MEDIAL selects (Dey & Zhao, sect. 3), and of them those of one side and of
+// the limit set (Definition 4).
 #pragma once
 
-#include <numbers>
+#include <medial/options.h>
 
 #include "axis/significance.h"
+#include "delaunay/edges.h"
+#include "inside/sides.h"
 
 namespace medial {
 
-enum class Criteria : int32_t { angle_or_ratio = 0, angle = 1, ratio = 2 };
-
-struct Thresholds {
-  double theta = std::numbers::pi / 8;
-  double rho = 8;
-  Rule rule = Rule::either;
-  Criteria criteria = Criteria::angle_or_ratio;
+// What a selection reads: the Delaunay edges with their dual Voronoi facets, and what is known of
+// them.
+struct Facets {
+  std::span<const Vec3> points;
+  const Triangulation& triangulation;
+  const Voronoi& voronoi;
+  const Edges& edges;
+  const Significance& significance;
+  const CellSides& sides;  // empty: not known
 };
 
-// A value over the ends that are tried, given that over both; nothing is above 0 where none is.
-double tried_sine(const Significance& significance, int64_t edge, Rule rule);
-double tried_rho(const Significance& significance, int64_t edge, Rule rule);
+// What is said of a selected facet.
+struct FacetAttributes {
+  double theta = 0, rho = 0;  // as the rule takes them
+  Side side = Side::both;
+};
 
-// Angle[theta] and Ratio[rho] of an edge.
-class Conditions {
+// Tells of each edge whether its facet is selected. Keeps references to what it reads.
+class Selection {
  public:
-  Conditions(const Significance& significance, const Thresholds& thresholds);
+  // A side other than `both` needs sides that are known. Throws InvalidInputError for thresholds
+  // out of range and for side `crossing`.
+  Selection(const Extraction& wanted, const Facets& facets);
 
-  bool angle(int64_t edge) const;
-  bool ratio(int64_t edge) const;
-  bool either(int64_t edge) const { return angle(edge) || ratio(edge); }
+  // Walks the ring of cells only where the edge alone does not tell; then `ring` holds it
+  // afterwards, else nothing.
+  bool wants(int32_t edge, std::vector<int32_t>& ring) const;
+  // Of an edge that is wanted, with its ring.
+  FacetAttributes attributes(int32_t edge, std::span<const int32_t> ring) const;
 
  private:
-  const Significance& s_;
-  Thresholds t_;
-  double sine_;  // the largest that does not satisfy
+  bool satisfies_angle(int32_t edge) const;
+  bool satisfies_ratio(int32_t edge) const;
+  bool in_limit_set(int32_t edge, std::span<const int32_t> ring) const;
+
+  Extraction wanted_;
+  Facets facets_;
+  double sine_;  // the largest that does not satisfy the Angle condition
 };
+
+// Positions in `edges` of those whose facets are selected, ascending.
+std::vector<int32_t> selected(const Selection& selection, std::span<const int32_t> edges,
+                              const Run& run);
 
 }  // namespace medial

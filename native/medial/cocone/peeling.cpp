@@ -65,7 +65,7 @@ class Peeling {
   CellSides sides() const {
     CellSides sides(outside_.size());
     for (size_t c = 0; c < sides.size(); ++c) {
-      sides[c] = static_cast<uint8_t>(outside_[c] ? Side::outer : Side::inner);
+      sides[c] = outside_[c] ? Side::outer : Side::inner;
     }
     return sides;
   }

@@ -6,11 +6,10 @@ namespace {
 // The boundary, seen from outside.
 FaceSet outer_faces(const Triangulation& t, const CellSides& sides, const Run& run) {
   FaceSet result(t);
-  const auto inner = static_cast<uint8_t>(Side::inner);
   parallel_for(t.cell_count(), run, [&](int64_t c) {
     for (int i = 0; i < 4; ++i) {
       const CellFace f{static_cast<int32_t>(c), i};
-      if (sides[c] != inner && sides[t.neighbors[c][i]] == inner) result.insert(f);
+      if (sides[c] != Side::inner && sides[t.neighbors[c][i]] == Side::inner) result.insert(f);
     }
   });
   return result;
@@ -77,13 +76,12 @@ SolidBoundary solid_boundary(const Triangulation& t, const Csr<int32_t>& inciden
   const auto bad = nonmanifold(t, incident, outer, run);
   result.nonmanifold_vertices = std::count(bad.begin(), bad.end(), 1);
   result.nonmanifold_edges = count_nonmanifold_edges(result.triangles, bad);
-  const auto inner = static_cast<uint8_t>(Side::inner);
   for (int64_t p = 0; p < incident.size(); ++p) {
     const auto cells = incident[p];
     result.left_outside += std::none_of(cells.begin(), cells.end(),
-                                        [&](int32_t cell) { return sides[cell] == inner; });
+                                        [&](int32_t cell) { return sides[cell] == Side::inner; });
   }
-  result.inner_cells = std::count(sides.begin(), sides.end(), inner);
+  result.inner_cells = std::count(sides.begin(), sides.end(), Side::inner);
   return result;
 }
 

@@ -184,13 +184,13 @@ CellSides sides_from_surface(std::span<const Vec3> points, std::span<const Vec3>
   const bool of_samples = vertices.data() == points.data() && surface.closed();
   const double widest =
       of_samples ? widened(largest_squared_reach(points, surface.triangles, run)) : HUGE_VAL;
-  CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
+  CellSides sides(t.cells.size(), Side::outer);
   const auto tell = [&](int64_t begin, int64_t end, int) {
     Flood flood(points, t, voronoi, winding, widest);
     const auto closed = flood(static_cast<int32_t>(begin), static_cast<int32_t>(end));
     for (int64_t c = begin; c < end; ++c) {
       if (winding.is_inside(voronoi.centre[c], closed[c - begin])) {
-        sides[c] = static_cast<uint8_t>(Side::inner);
+        sides[c] = Side::inner;
       }
     }
   };
@@ -202,14 +202,14 @@ CellSides sides_from_surface(std::span<const Vec3> points, std::span<const Vec3>
 CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3> normals,
                              const Triangulation& t, const Voronoi& voronoi, const Run& run) {
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
-  CellSides sides(t.cells.size(), static_cast<uint8_t>(Side::outer));
+  CellSides sides(t.cells.size(), Side::outer);
   const auto samples = static_cast<int32_t>(normals.size());
   const auto [x, y, z] = extremes(points.first(normals.size()));
   const Vec3 low{points[x[0]].x, points[y[0]].y, points[z[0]].z};
   const Vec3 high{points[x[1]].x, points[y[1]].y, points[z[1]].z};
   const double outward = normals[x[1]].x - normals[x[0]].x + normals[y[1]].y - normals[y[0]].y +
                          normals[z[1]].z - normals[z[0]].z;
-  const auto beyond = static_cast<uint8_t>(outward < 0 ? Side::inner : Side::outer);
+  const Side beyond = outward < 0 ? Side::inner : Side::outer;
   parallel_for(t.finite_cells, run, [&](int64_t c) {
     // Through an opening far vertices see the samples from behind: beyond the samples all is one
     // side.
@@ -221,7 +221,7 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
     for (const int32_t p : t.cells[c]) {
       if (p < samples) vote += dot(normals[p], normalized(voronoi.centre[c] - points[p]));
     }
-    if (vote < 0) sides[c] = static_cast<uint8_t>(Side::inner);
+    if (vote < 0) sides[c] = Side::inner;
   });
   share_sides(t, voronoi, sides, run);
   return sides;
@@ -230,7 +230,6 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
 CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
                          std::span<const Triangle> boundary, const Triangulation& t,
                          const Voronoi& voronoi, const Run& run) {
-  const auto inner = static_cast<uint8_t>(Side::inner);
   const double widest = widened(largest_squared_reach(points, boundary, run));
   CellSides sides(solid);
   parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
@@ -238,14 +237,14 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
     const auto like_neighbour = [&](int32_t c) {
       for (int i = 0; i < 4; ++i) {
         const int32_t n = t.neighbors[c][i];
-        const bool decided = n >= begin && n < c && solid[n] == inner;
+        const bool decided = n >= begin && n < c && solid[n] == Side::inner;
         if (decided && is_clear(points, t, voronoi, {c, i}, widest)) return n;
       }
       return -1;
     };
     int32_t last = -1;  // where the last walk ended: near, for cells are in spatial order
     for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
-      if (solid[c] != inner) continue;
+      if (solid[c] != Side::inner) continue;
       const int32_t like = like_neighbour(c);
       if (like < 0) {
         last = cell_of(points, voronoi.centre[c], last < 0 || t.is_infinite(last) ? c : last, t);
@@ -259,7 +258,7 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
 Side facet_side(std::span<const int32_t> ring, const CellSides& sides) {
   if (sides.empty()) return Side::both;
   size_t inner = 0;
-  for (const int32_t cell : ring) inner += sides[cell] == static_cast<uint8_t>(Side::inner);
+  for (const int32_t cell : ring) inner += sides[cell] == Side::inner;
   return inner == ring.size() ? Side::inner : inner == 0 ? Side::outer : Side::crossing;
 }
 

@@ -2,21 +2,15 @@
 // per facet.
 #pragma once
 
+#include <medial/options.h>
+
 #include "delaunay/voronoi.h"
 #include "inside/surface.h"
 
 namespace medial {
 
-// Which axis a facet belongs to. As an argument `both` selects every facet, as a value it means
-// "not known".
-enum class Side : int32_t { both = 0, inner = 1, outer = 2, crossing = 3 };
-
 // Side of each cell: inner or outer. Infinite cells are outer. Empty: not known.
-using CellSides = std::vector<uint8_t>;
-
-// What tells inside from outside. Automatic: the surface when it is closed, else normals when there
-// are any, else Tight Cocone.
-enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none };
+using CellSides = std::vector<Side>;
 
 // Inner exactly where the winding number of the surface at the Voronoi vertex exceeds 1/2.
 // `vertices` are those of the surface: the points themselves, or others.
@@ -39,7 +33,7 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
 
 // Whether a facet may be inner, or outer, as far as one cell of its ring tells.
 inline bool may_be(Side side, int32_t cell, const CellSides& sides) {
-  return (sides[cell] == static_cast<uint8_t>(Side::inner)) == (side == Side::inner);
+  return (sides[cell] == Side::inner) == (side == Side::inner);
 }
 
 // inner: every cell of the ring is; outer: none is; crossing: some are; both: not known.

@@ -1,13 +1,11 @@
 // Samples of a triangulated surface: its corners and sharp edges, and blue noise in between.
 #pragma once
 
+#include <medial/progress.h>
+#include <medial/types.h>
+
 #include <optional>
 #include <span>
-#include <vector>
-
-#include "base/run.h"
-#include "base/triangle.h"
-#include "base/vec3.h"
 
 namespace medial {
 
@@ -28,7 +26,7 @@ struct SamplingOptions {
 
 struct SurfaceSamples {
   std::vector<Vec3> points;
-  std::vector<Vec3> normals;
+  std::vector<Vec3> normals;      // outward; where sides meet their mean; zero where there is none
   std::vector<int32_t> triangle;  // input row
   std::vector<Vec3> barycentric;
   std::vector<SampleKind> kind;  // ascending
@@ -37,8 +35,10 @@ struct SurfaceSamples {
   double area = 0;
 };
 
-// Throws InvalidInputError for an option out of its range, and when no triangle has an area.
+// `threads` 0: all cores; the result does not depend on it. Throws InvalidInputError for an option
+// out of its range, and when no triangle has an area; Cancelled.
 SurfaceSamples sample_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                              const SamplingOptions& options, const Run& run);
+                              const SamplingOptions& options, int threads = 0,
+                              Progress* progress = nullptr);
 
 }  // namespace medial

@@ -2,13 +2,14 @@
 // as often as one likes.
 #pragma once
 
+#include <medial/medial_mesh.h>
+#include <medial/options.h>
+#include <medial/progress.h>
+#include <medial/watertight_surface.h>
+
 #include <memory>
 #include <optional>
-
-#include "axis/feature_size.h"
-#include "axis/medial_mesh.h"
-#include "axis/selection.h"
-#include "cocone/watertight_surface.h"
+#include <span>
 
 namespace medial {
 
@@ -26,31 +27,31 @@ struct AnalysisOptions {
   int threads = 0;               // 0: all cores
 };
 
-struct Extraction {
-  Thresholds thresholds = {};
-  Side side = Side::both;  // both, inner or outer
-  bool limit_set = false;  // Definition 4 for facets selected by the Ratio condition alone
-};
-
 // Bytes at the peak of an analysis of so many samples of a surface and an extraction, as measured.
 // Facets that are long and thin take up to four times as many.
 inline int64_t memory_needed(int64_t points) { return 1400 * points; }
 
+// Keeps nothing of the input. Its const members may be called from several threads.
 class MedialAnalysis {
  public:
   // Throws InvalidInputError, DegenerateInputError, Cancelled.
-  MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options, Progress* progress);
+  explicit MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options = {},
+                          Progress* progress = nullptr);
+  ~MedialAnalysis();
+  MedialAnalysis(MedialAnalysis&&) noexcept;
+  MedialAnalysis& operator=(MedialAnalysis&&) noexcept;
 
+  // The closure of F. Throws InvalidInputError, DegenerateInputError, Cancelled.
+  MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
   // Ids of the selected edges: the set F of the paper, facets without area or end included.
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
-  // The closure of F.
-  MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
 
   // Per sample, ascending by row: the largest circumradius in its umbrella, infinite for an empty
   // one.
   std::vector<double> spacing() const;
   // At the samples of `rows`, of all in ascending order when there are none: the distance to the
-  // facets of either side that the thresholds select, as feature_size.h has it.
+  // nearest Voronoi vertex of the facets of either side that the thresholds select, too large by at
+  // most 1/32 of itself.
   std::vector<double> feature_size(const Thresholds& thresholds,
                                    std::optional<std::span<const int32_t>> rows = {},
                                    Progress* progress = nullptr) const;
@@ -66,44 +67,22 @@ class MedialAnalysis {
   std::vector<uint8_t> edges_bounded() const;
 
   std::vector<int32_t> sample_rows() const;  // ascending
-  int64_t duplicates() const { return duplicates_; }
-  size_t bytes() const;  // of memory that it holds
-  int64_t finite_cells() const { return triangulation_.finite_cells; }
-  bool closed() const { return closed_; }
-  int64_t boundary_edges() const { return boundary_edges_; }
-  SidesFrom sides_from() const { return sides_from_; }
+  int64_t duplicates() const;                // rows merged into an earlier one
+  size_t bytes() const;                      // of memory that it holds
+  int64_t finite_cells() const;
+  bool closed() const;
+  int64_t boundary_edges() const;
+  SidesFrom sides_from() const;
   // Null unless the sides are from Tight Cocone; its own sides are moved away.
-  const std::shared_ptr<const WatertightSurface>& tight_cocone() const { return tight_cocone_; }
-  const Timings& timings() const { return timings_; }
+  const std::shared_ptr<const WatertightSurface>& tight_cocone() const;
+  const Timings& timings() const;
+
+  // What the stages made, for the library itself.
+  struct Parts;
+  const Parts& parts() const { return *parts_; }
 
  private:
-  void tell_sides(const Surface& surface, std::span<const Vec3> vertices,
-                  std::span<const Vec3> normals, const Csr<int32_t>& incident,
-                  const CoconeOptions& options, const Run& run);
-  FacetChoice choice(const Extraction& extraction) const;
-  // Positions in `edges` of those that are selected.
-  std::vector<int32_t> chosen(const Extraction& extraction, std::span<const int32_t> edges,
-                              Progress* progress) const;
-  // Edges in lexicographic order of their input rows, and values in that order.
-  std::vector<int32_t> edges_by_row() const;
-  template <typename T, typename Value>
-  std::vector<T> by_row(const Value& value) const;
-  bool in_limit_set(int32_t edge, const Thresholds& thresholds,
-                    std::span<const int32_t> ring) const;
-
-  int threads_ = 1;
-  std::unique_ptr<Arena> arena_;  // goes after all that lies in it
-  Samples samples_;
-  Triangulation triangulation_;
-  Voronoi voronoi_;
-  Edges edges_;
-  Significance significance_;
-  CellSides sides_;
-  SidesFrom sides_from_ = SidesFrom::none;
-  std::shared_ptr<const WatertightSurface> tight_cocone_;
-  int64_t duplicates_ = 0, boundary_edges_ = 0;
-  bool closed_ = false;
-  Timings timings_;
+  std::unique_ptr<const Parts> parts_;
 };
 
 }  // namespace medial
