@@ -116,6 +116,11 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
         "--options", metavar="TEXT", default="", help="more options in one word, as farms pass them"
     )
     files.add_argument("--force", action="store_true", help="compute also what is finished")
+    files.add_argument(
+        "--allow-scripts",
+        action="store_true",
+        help="let .blend files of INPUT run the Python scripts and drivers in them",
+    )
     files.add_argument("--json", action="store_true", help="one line of JSON per result")
     files.add_argument("--quiet", action="store_true", help="no progress and no warnings")
     parser.add_argument("--version", action="version", version=f"medial_axis {__version__}")
@@ -139,6 +144,9 @@ def _complete(wanted: argparse.Namespace) -> None:
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
     format_of(output)
     wanted.output = output
+    output_path(
+        output, "name", "file", wanted.frames and wanted.frames[0]
+    )  # it raises what is wrong
     if not wanted.inputs and not inside_blender():
         raise ValueError("Expected INPUT and OUTPUT, found one path; add the other")
     if has_number(Path(output).name) != (wanted.frames is not None):
@@ -178,8 +186,7 @@ def _items_of_file(pattern: str, wanted: argparse.Namespace) -> Iterator[Item]:
     for frame in wanted.frames or (None,):
         path = pattern if frame is None else at_frame(pattern, frame)
         stem = Path(pattern).stem.rstrip("#").rstrip("_.-")
-        output = output_path(wanted.output, stem, stem, frame)
-        yield Item(path, None, frame, output, partial(read_shape, path))
+        yield _item(wanted.output, path, None, stem, frame, partial(read_shape, path))
 
 
 def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[Item]:
@@ -190,7 +197,7 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
     stem = Path(source).stem
     try:
         if path is not None:
-            read_scene.load(path)
+            read_scene.load(path, wanted.allow_scripts)
         names = read_scene.names(list(filter(None, wanted.object or ())))
         if len(names) > 1 and "{name}" not in wanted.output:
             raise InvalidInputError(
@@ -198,14 +205,28 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
                 "add it, or choose one with --object"
             )
     except MedialAxisError as error:
-        output = output_path(wanted.output, stem, stem, None)
-        yield Item(source, None, None, output, partial(_raise, error))
+        yield Item(source, None, None, Path(wanted.output), partial(_raise, error))
         return
     for frame in wanted.frames or (None,):
         for name in names:
-            output = output_path(wanted.output, name, stem, frame)
             read = partial(read_scene.read, name, frame)
-            yield Item(source, name, frame, output, read)
+            yield _item(wanted.output, source, name, stem, frame, read)
+
+
+def _item(
+    pattern: str,
+    source: str,
+    thing: str | None,
+    file: str,
+    frame: int | None,
+    read: Callable[[], Any],
+) -> Item:
+    """One output; where it cannot have the name that the pattern gives, to read the item raises the reason."""
+    try:
+        name = file if thing is None else thing
+        return Item(source, thing, frame, output_path(pattern, name, file, frame), read)
+    except InvalidInputError as error:
+        return Item(source, thing, frame, Path(pattern), partial(_raise, error))
 
 
 def _raise(error: MedialAxisError) -> Any:

@@ -18,7 +18,8 @@ import numpy as np
 
 from .core.axis import compute as axis
 from .core.axis import reconstruction
-from .core.axis.compute import Computation, MedialAxis
+from .core.axis.compute import Computation
+from .core.axis.medial_axis import MedialAxis
 from .core.axis.reconstruction import Reconstruction
 from .core.axis.shape import Shape
 from .core.errors import (
@@ -135,7 +136,7 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     InvalidInputError
     """
     settings = replace(computation.settings, **_checked(thresholds, _THRESHOLDS))
-    return axis.extract(computation, settings)
+    return axis.extract_axis(computation, settings)
 
 
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import InvalidInputError, MemoryLimitError
 from ..machine.memory_limit import MemoryLimit, megabytes, memory_needed
-from ..settings import OPTIONS, AboveLimit, Sampling
+from ..settings import OPTIONS, AboveLimit, SamplingMode
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,8 +71,8 @@ def fewer_samples(
         f"{error.points:,} points need about {_needed(error)}, more than {limit}: at most {most:,} "
         "samples of the surface were taken"
     )
-    if settings.sampling is Sampling.VERTICES or error.points == vertices > most:
-        settings, first = replace(settings, sampling=Sampling.SURFACE), vertices
+    if settings.sampling is SamplingMode.VERTICES or error.points == vertices > most:
+        settings, first = replace(settings, sampling=SamplingMode.SURFACE), vertices
     if first > most:
         settings = replace(settings, samples=most, spacing=0.0)
     keep_vertices = settings.keep_vertices and vertices < most

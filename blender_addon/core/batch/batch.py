@@ -131,7 +131,7 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
         "warnings": [*begun.warnings, *computation.warnings],
         "seconds": round(computation.seconds, 3),
         "version": __version__,
-        "stamp": begun.stamp(thinned=bool(computation.sampled.thinned)),
+        "stamp": begun.stamp(thinned=bool(computation.chosen.thinned)),
         "digest": _digest(output),
     }
     text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
@@ -182,7 +182,7 @@ def _figures(computation: Computation) -> dict[str, Any]:
         "unbounded": axis.unbounded,
         "zero_area": axis.zero_area,
         "radius": [float(axis.radius.min()), float(axis.radius.max())],
-        "sampled": computation.sampled.reason,
+        "sampled": computation.chosen.reason,
         "density": str(computation.density),
         "inside": str(computation.sides),
     }

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from ..errors import ReadError
-from .imported import ImportedPoints, checked
+from .imported_points import ImportedPoints, checked
 from .text import Lines, Rows, open_file
 
 if TYPE_CHECKING:

@@ -153,7 +153,7 @@ def cloud(count=1_200_000):
 
 
 def job():
-    return addon("ui.running").job()
+    return addon("ui.current_job").job()
 
 
 def job_runs():
@@ -173,7 +173,7 @@ def no_result():
 
 
 def surfaces():
-    return [thing for thing in bpy.data.objects if addon("bridge.surfaces").is_surface(thing)]
+    return [thing for thing in bpy.data.objects if addon("bridge.surface_object").is_surface(thing)]
 
 
 def surface_exists():
@@ -313,7 +313,7 @@ def scene_sampling():
 
 
 def reports():
-    is_report = addon("bridge.sampling_report").is_report
+    is_report = addon("bridge.report_object").is_report
     return [thing for thing in bpy.data.objects if is_report(thing)]
 
 

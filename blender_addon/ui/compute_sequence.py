@@ -9,18 +9,18 @@ from bpy.props import BoolProperty, CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..bridge import read_scene
-from ..bridge.sequence import by_frame, write_sequence
+from ..bridge.sequence_objects import by_frame, write_sequence
 from ..core.batch.batch import Item, begin, finish
 from ..core.batch.frames import output_path, parse_frames
 from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.machine.job import run_task
-from . import running
+from . import current_job
+from .compute_operator import FromSelection
 from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
-from .sources import sources
+from .selected_sources import sources
 from .translation import say
-from .watched import FromSelection
 
 _PRODUCT = "medial axis"
 _AT_ONCE = 0.1  # seconds; so long finished frames are passed over without a pause
@@ -74,7 +74,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
             return {"PASS_THROUGH"}
         if self._job is not None:
             if not self._job.done:
-                running.show(context)
+                current_job.show(context)
                 return {"PASS_THROUGH"}
             self._take()
         self._next(context)
@@ -141,15 +141,15 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         while self._items:
             if begun := self._begin():
                 self._begun = begun
-                self._job = running.start([begun.task], _PRODUCT)
-                running.show(context)
+                self._job = current_job.start([begun.task], _PRODUCT)
+                current_job.show(context)
                 return
             if time.perf_counter() > until:
                 return
 
     def _take(self):
         """What the thread computed; Cancel in the sidebar cancels all frames."""
-        running.finish(self._job)
+        current_job.finish(self._job)
         try:
             self._finish(self._begun, self._job.outcomes()[0])
         except Cancelled:
@@ -159,7 +159,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
     def _stop(self, context):
         if self._job is not None:
             self._job.stop()
-            running.finish(self._job)
+            current_job.finish(self._job)
         self._items.clear()
         self._job = None
         if self._timer is not None:

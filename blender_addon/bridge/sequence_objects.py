@@ -12,12 +12,12 @@ from pathlib import Path
 
 import bpy
 
-from ..core.axis.compute import MedialAxis
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from ..core.files.load_axis import load_axis
 from .attributes import attributes
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
-from .write_object import new_mesh
+from .write_mesh import new_mesh
 
 SUFFIX = " Medial Axis Sequence"
 SEQUENCE = "ma_sequence"

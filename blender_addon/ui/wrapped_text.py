@@ -7,7 +7,7 @@ from .translation import say
 _CHARACTER = 7  # pixels of an average character; only decides where lines break
 
 
-def draw_sentence(context, layout, text, icon):
+def draw_wrapped(context, layout, text, icon):
     """A sentence over as many lines as the region needs."""
     width = context.region.width / context.preferences.system.ui_scale - 60
     column = layout.column(align=True)

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..bridge.made import is_gone, source_of
+from ..bridge.axis_object import is_result
+from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
-from ..bridge.results import is_result
-from ..bridge.sampling_report import is_report
-from . import running
+from ..bridge.report_object import is_report
+from . import current_job
 
 _KINDS = "a mesh, point cloud, curve, surface, text or metaball"
 
@@ -43,7 +43,7 @@ def sources(context) -> list:
 
 def obstacle(context) -> str:
     """Why an operator cannot run now, in one sentence, or an empty string."""
-    if reason := running.obstacle():
+    if reason := current_job.obstacle():
         return reason
     if sources(context):
         return ""

@@ -9,14 +9,24 @@ import bpy
 
 from ..core.settings import OPTIONS, Choice, Integer, Settings, Switch
 from .attributes import attributes
-from .made import DENSITY, SAMPLED, check_mode, made_of, new_object, place, remember, replace_mesh
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
-from .write_object import new_mesh
+from .output_object import (
+    DENSITY,
+    SAMPLED,
+    check_mode,
+    new_object,
+    output_of,
+    place,
+    remember,
+    replace_mesh,
+)
+from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..core.axis.compute import Computation, MedialAxis
+    from ..core.axis.compute import Computation
+    from ..core.axis.medial_axis import MedialAxis
 
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"
@@ -31,7 +41,7 @@ def is_result(thing: bpy.types.Object) -> bool:
 
 def result_of(source: bpy.types.Object) -> bpy.types.Object | None:
     """The result that the next computation of this source updates."""
-    return made_of(source, is_result)
+    return output_of(source, is_result)
 
 
 def check_writable(source: bpy.types.Object) -> None:
@@ -107,7 +117,7 @@ def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: C
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
     result[ANALYSIS] = computation.key
     result[INSIDE] = str(computation.sides)
-    result[SAMPLED] = computation.sampled.reason
+    result[SAMPLED] = computation.chosen.reason
     result[DENSITY] = str(computation.density)
     _remember_settings(result, computation.settings)
     _remember_axis(result, computation.axis)

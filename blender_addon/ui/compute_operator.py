@@ -7,8 +7,8 @@ import bpy
 from ..bridge.read_object import read_object
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task, run_task
-from . import running
-from .sources import Source, obstacle, sources
+from . import current_job
+from .selected_sources import Source, obstacle, sources
 from .translation import say
 
 
@@ -23,7 +23,7 @@ class FromSelection:
         return not reason
 
 
-class Watched(FromSelection):
+class ComputeOperator(FromSelection):
     """An operator that computes one object of each source; the base of those that are registered.
 
     A subclass names its `product` and has three steps: `check_writable(thing)` raises MedialAxisError when the
@@ -45,10 +45,10 @@ class Watched(FromSelection):
         if not tasks:
             return {"CANCELLED"}
         self._gone = ""
-        self._job = running.start(tasks, self.product)
+        self._job = current_job.start(tasks, self.product)
         self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
         context.window_manager.modal_handler_add(self)
-        running.show(context)
+        current_job.show(context)
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
@@ -59,7 +59,7 @@ class Watched(FromSelection):
             return {"PASS_THROUGH"}
         if not self._job.done:
             self._watch_sources()
-            running.show(context)
+            current_job.show(context)
             return {"PASS_THROUGH"}
         self._stop_watching(context)
         try:
@@ -79,7 +79,7 @@ class Watched(FromSelection):
 
     def _stop_watching(self, context):
         context.window_manager.event_timer_remove(self._timer)
-        running.finish(self._job)
+        current_job.finish(self._job)
 
     def _watch_sources(self):
         for source in self._sources:

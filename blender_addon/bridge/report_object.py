@@ -11,9 +11,18 @@ from mathutils.kdtree import KDTree
 
 from ..core.errors import InvalidInputError
 from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32
-from .made import DENSITY, SAMPLED, check_mode, made_of, new_object, place, remember, replace_mesh
 from .material import LIMIT, epsilon_material
-from .write_object import new_mesh
+from .output_object import (
+    DENSITY,
+    SAMPLED,
+    check_mode,
+    new_object,
+    output_of,
+    place,
+    remember,
+    replace_mesh,
+)
+from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -35,7 +44,7 @@ def is_report(thing: bpy.types.Object) -> bool:
 
 def report_of(source: bpy.types.Object) -> bpy.types.Object | None:
     """The report that the next one of this source updates."""
-    return made_of(source, is_report)
+    return output_of(source, is_report)
 
 
 def check_report_writable(source: bpy.types.Object) -> None:
@@ -70,7 +79,7 @@ def write_report(
     else:
         replace_mesh(report, build)
     place(report, frame)
-    analysis = found.sampled.samples.analysis
+    analysis = found.chosen.samples.analysis
     remember(report, source, len(found.vertices), analysis.duplicates, found.warnings)
     _remember_density(report, found)
     return report
@@ -78,7 +87,7 @@ def write_report(
 
 def _remember_density(report: bpy.types.Object, found: SamplingReport) -> None:
     density, worst = found.density, found.density.worst
-    report[SAMPLED] = found.sampled.reason
+    report[SAMPLED] = found.chosen.reason
     report[DENSITY] = str(density)
     report[LIMIT] = density.limit
     report[MEDIAN] = density.median

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import __version__
-from .axis.compute import Computation, MedialAxis, compute
+from .axis.compute import Computation, compute
+from .axis.medial_axis import MedialAxis
 from .machine import native
-from .settings import Sampling, Settings
+from .settings import SamplingMode, Settings
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -43,13 +44,13 @@ def compute_box() -> Computation:
     ------
     MedialAxisError
     """
-    settings = Settings(sampling=Sampling.SURFACE, samples=_SAMPLES)
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=_SAMPLES)
     return compute(_CORNERS * SIZES, _TRIANGLES, settings)
 
 
 def checks_of(box: Computation) -> list[Check]:
     """What can be seen of the axis of the box; all lengths are right up to the spacing of the samples."""
-    module, samples = native.load(), box.sampled.samples
+    module, samples = native.load(), box.chosen.samples
     return [
         Check(
             module.__version__ == __version__,

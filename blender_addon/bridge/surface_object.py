@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .made import check_mode, made_of, new_object, place, remember, replace_mesh
-from .write_object import new_mesh
+from .output_object import check_mode, new_object, output_of, place, remember, replace_mesh
+from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,7 +28,7 @@ def is_surface(thing: bpy.types.Object) -> bool:
 
 def surface_of(source: bpy.types.Object) -> bpy.types.Object | None:
     """The surface that the next reconstruction of this source updates."""
-    return made_of(source, is_surface)
+    return output_of(source, is_surface)
 
 
 def check_surface_writable(source: bpy.types.Object) -> None:

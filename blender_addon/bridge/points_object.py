@@ -11,12 +11,12 @@ import numpy as np
 from ..core.errors import InvalidInputError
 from ..core.files.rounding import rounding_warning
 from .attributes import add_normals
-from .write_object import new_mesh
+from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
     from mathutils import Matrix
 
-    from ..core.files.imported import ImportedPoints
+    from ..core.files.imported_points import ImportedPoints
 
 
 def new_points(

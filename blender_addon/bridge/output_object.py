@@ -26,9 +26,9 @@ SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
 DENSITY = "ma_density"  # how densely that lies: a sentence
 
 
-def source_of(made: bpy.types.Object) -> bpy.types.Object | None:
-    """The object that this was made of; None when it was not made, or its source is gone."""
-    source = made.get(SOURCE)
+def source_of(output: bpy.types.Object) -> bpy.types.Object | None:
+    """The object that this was made of; None when it was not made of one, or its source is gone."""
+    source = output.get(SOURCE)
     return source if isinstance(source, bpy.types.Object) else None
 
 
@@ -37,7 +37,7 @@ def is_gone(thing: bpy.types.Object | None) -> bool:
     return thing is None or not thing.users_collection
 
 
-def made_of(
+def output_of(
     source: bpy.types.Object, is_kind: Callable[[bpy.types.Object], bool]
 ) -> bpy.types.Object | None:
     """The object of a kind that the next computation of this source updates."""
@@ -52,28 +52,28 @@ def made_of(
     return min(found, key=lambda thing: thing.name, default=None)
 
 
-def check_mode(made: bpy.types.Object | None) -> None:
+def check_mode(output: bpy.types.Object | None) -> None:
     """Raise InvalidInputError when an object that was made before cannot be updated now."""
-    if made is not None and made.mode != "OBJECT":
+    if output is not None and output.mode != "OBJECT":
         raise InvalidInputError(
-            f"Expected '{made.name}' in object mode, found it in {made.mode.lower()} mode; "
+            f"Expected '{output.name}' in object mode, found it in {output.mode.lower()} mode; "
             "leave that mode and compute again"
         )
 
 
 def new_object(source: bpy.types.Object, suffix: str, mesh: bpy.types.Mesh) -> bpy.types.Object:
     """An object named after its source, in the collections of that."""
-    made = bpy.data.objects.new(source.name + suffix, mesh)
+    output = bpy.data.objects.new(source.name + suffix, mesh)
     editable = [collection for collection in source.users_collection if collection.library is None]
     for collection in editable or [bpy.context.scene.collection]:
-        collection.objects.link(made)
-    return made
+        collection.objects.link(output)
+    return output
 
 
-def replace_mesh(made: bpy.types.Object, build: Callable[[str], bpy.types.Mesh]) -> None:
+def replace_mesh(output: bpy.types.Object, build: Callable[[str], bpy.types.Mesh]) -> None:
     """Swap in a new mesh, also for linked duplicates; materials and the name stay."""
-    check_mode(made)
-    old = made.data
+    check_mode(output)
+    old = output.data
     mesh = build(old.name)
     for material in old.materials:
         mesh.materials.append(material)
@@ -83,23 +83,23 @@ def replace_mesh(made: bpy.types.Object, build: Callable[[str], bpy.types.Mesh])
     mesh.name = name
 
 
-def place(made: bpy.types.Object, frame: np.ndarray) -> None:
+def place(output: bpy.types.Object, frame: np.ndarray) -> None:
     """Put an object where `frame`, (4, 4) rotation and translation, says."""
-    made.matrix_world = Matrix(frame.tolist())
-    if made.parent is None:
-        made.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
+    output.matrix_world = Matrix(frame.tolist())
+    if output.parent is None:
+        output.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
 
 
 def remember(
-    made: bpy.types.Object,
+    output: bpy.types.Object,
     source: bpy.types.Object,
     points: int,
     duplicates: int,
     warnings: tuple[str, ...],
 ) -> None:
     """What everything that is made remembers."""
-    made[SOURCE] = source
-    made[VERSION] = __version__
-    made[POINTS] = points
-    made[DUPLICATES] = duplicates
-    made[WARNINGS] = "\n".join(warnings)
+    output[SOURCE] = source
+    output[VERSION] = __version__
+    output[POINTS] = points
+    output[DUPLICATES] = duplicates
+    output[WARNINGS] = "\n".join(warnings)
