@@ -2,6 +2,7 @@
 // owner alive.
 #pragma once
 
+#include <medial/errors.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -11,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/vec3.h"
 

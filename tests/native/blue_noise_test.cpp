@@ -2,12 +2,12 @@
 // are that they leave; where the spacing is even and where it changes. And the rows beside sharp
 // edges, which are placed before them.
 #include <gtest/gtest.h>
+#include <medial/sampling.h>
 
 #include <random>
 
 #include "sampling/mirrored_rows.h"
 #include "sampling/poisson_disk.h"
-#include "sampling/surface_samples.h"
 #include "shapes.h"
 
 namespace medial {
@@ -131,7 +131,7 @@ SurfaceSamples samples_of(const test::Mesh& mesh, double spacing, int rows, doub
   options.spacing = spacing;
   options.mirrored_rows = rows;
   options.sharp_angle = angle;
-  return sample_surface(mesh.vertices, mesh.triangles, options, {2, nullptr});
+  return sample_surface(mesh.vertices, mesh.triangles, options, 2);
 }
 
 // Two squares of side 2 that meet at a right angle in the y axis.
@@ -288,7 +288,7 @@ TEST(Sampling, MeetsTheCountAndTheSizing) {
   SamplingOptions options;
   for (const int64_t count : {600, 3000}) {
     options.count = count;
-    const auto samples = sample_surface(torus.vertices, torus.triangles, options, {2, nullptr});
+    const auto samples = sample_surface(torus.vertices, torus.triangles, options, 2);
     EXPECT_NEAR(static_cast<double>(samples.points.size()), static_cast<double>(count),
                 0.01 * static_cast<double>(count));
   }
@@ -297,13 +297,13 @@ TEST(Sampling, MeetsTheCountAndTheSizing) {
   const std::vector<double> spacings{0.05, 0.15};
   options.sites = sites;
   options.site_spacings = spacings;
-  const auto graded = sample_surface(torus.vertices, torus.triangles, options, {2, nullptr});
+  const auto graded = sample_surface(torus.vertices, torus.triangles, options, 2);
   double low = HUGE_VAL, high = 0;
   for (const double r : graded.radius) low = std::min(low, r), high = std::max(high, r);
   EXPECT_NEAR(high / low, 3, 1e-9);
   const auto most = static_cast<int64_t>(graded.points.size()) / 2;
   options.count = most;
-  const auto fewer = sample_surface(torus.vertices, torus.triangles, options, {2, nullptr});
+  const auto fewer = sample_surface(torus.vertices, torus.triangles, options, 2);
   EXPECT_LE(static_cast<int64_t>(fewer.points.size()), most);
   EXPECT_GT(static_cast<int64_t>(fewer.points.size()), most * 8 / 10);
 }

@@ -1,10 +1,19 @@
 // Cocone by brute force, and what Tight Cocone makes of samples that are sparse, noisy or missing.
+#include "cocone/cocone.h"
+
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <random>
 
-#include "analysis.h"
+#include "axis/poles.h"
+#include "cocone/peeling.h"
+#include "cocone/solid.h"
+#include "cocone/watertight_surface.h"
 #include "delaunay/circumcentre.h"
+#include "delaunay/samples.h"
+#include "delaunay/triangulation.h"
+#include "delaunay/voronoi.h"
 #include "shapes.h"
 
 namespace medial {
@@ -472,9 +481,7 @@ double volume(std::span<const Vec3> points, std::span<const Triangle> triangles)
   return sum;
 }
 
-WatertightSurface surface_of(std::span<const Vec3> rows) {
-  return watertight_surface(rows, {}, {2, nullptr});
-}
+WatertightSurface surface_of(std::span<const Vec3> rows) { return watertight_surface(rows, {}, 2); }
 
 constexpr double kEllipsoid = 4.0 / 3 * std::numbers::pi * 0.75 * 0.4;
 

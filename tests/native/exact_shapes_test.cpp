@@ -2,12 +2,13 @@
 // output lie from the axis, and the points of the axis from the output. Every bar is one and a half
 // times what was measured.
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
+#include <medial/sampling.h>
 
 #include <functional>
 #include <random>
 
-#include "analysis.h"
-#include "sampling/surface_samples.h"
+#include "base/rows.h"
 #include "shapes.h"
 
 namespace medial {
@@ -170,8 +171,7 @@ TEST_P(ExactShapes, AreMetByFiveHundredSamples) {
   SamplingOptions options;
   options.count = 500;
   options.smooth = shape.smooth;
-  const auto samples =
-      sample_surface(shape.mesh.vertices, shape.mesh.triangles, options, {2, nullptr});
+  const auto samples = sample_surface(shape.mesh.vertices, shape.mesh.triangles, options, 2);
   EXPECT_NEAR(static_cast<double>(samples.points.size()), 500, 10);
   const AnalysisInput input{
       .points = samples.points, .triangles = shape.mesh.triangles, .vertices = shape.mesh.vertices};

@@ -1,7 +1,11 @@
 // The distance of samples to the axis, and the radii round them, against plain loops.
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
-#include "analysis.h"
+#include "delaunay/edges.h"
+#include "delaunay/samples.h"
+#include "delaunay/triangulation.h"
+#include "delaunay/voronoi.h"
 #include "shapes.h"
 
 namespace medial {

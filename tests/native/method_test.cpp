@@ -1,14 +1,19 @@
 // The library against the brute-force restatement of MEDIAL in oracle.h: poles, umbrellas, theta,
 // rho, selection, Definition 4, facets and sides, on random and on degenerate inputs.
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
+#include <medial/sampling.h>
 
 #include <functional>
 #include <random>
 
-#include "analysis.h"
+#include "axis/poles.h"
+#include "axis/umbrellas.h"
+#include "delaunay/samples.h"
+#include "delaunay/triangulation.h"
+#include "delaunay/voronoi.h"
 #include "inside/buried.h"
 #include "oracle.h"
-#include "sampling/surface_samples.h"
 #include "shapes.h"
 
 namespace medial {
