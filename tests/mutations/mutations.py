@@ -516,9 +516,9 @@ MUTATIONS = (
     ),
     Mutation(
         "sampling/mirrored_rows.cpp",
-        "if (has_room(disks, left, tree) && has_room(disks, left + 1, tree)) {",
-        "if (has_room(disks, left, tree)) {",
-        "pairs stay though one of the two has no room",
+        "!(away < std::min(disk.radius, disks[j].radius))",
+        "!(away < 0.5 * std::min(disk.radius, disks[j].radius))",
+        "mirrored pairs stay though they have no room",
         python=("test_sampling.py",),
     ),
     Mutation(
