@@ -577,14 +577,28 @@ TEST(Method, OfEquallyFarVerticesTheLowestIsThePole) {
 // Rows of samples that mirror each other in three edges of a cube meet about its diagonals: their
 // facets have vertices on one line, more than two of them, and no area.
 TEST(Method, FacetsOnALineAreLeftOut) {
-  test::Mesh cube;
-  for (int i = 0; i < 8; ++i) {
-    cube.vertices.push_back({i & 1 ? 1.0 : 0.0, i & 2 ? 1.0 : 0.0, i & 4 ? 1.0 : 0.0});
-  }
-  cube.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  const test::Mesh cube{{{-1, -1, -1},
+                         {-1, 1, -1},
+                         {-1, 1, 1},
+                         {-1, -1, 1},
+                         {1, -1, -1},
+                         {1, 1, -1},
+                         {1, 1, 1},
+                         {1, -1, 1}},
+                        {{3, 2, 1},
+                         {3, 1, 0},
+                         {4, 5, 6},
+                         {4, 6, 7},
+                         {4, 7, 3},
+                         {4, 3, 0},
+                         {1, 2, 6},
+                         {1, 6, 5},
+                         {1, 5, 4},
+                         {1, 4, 0},
+                         {3, 7, 6},
+                         {3, 6, 2}}};
   SamplingOptions options;
-  options.count = 2000;
+  options.count = 1000;
   const auto samples = sample_surface(cube.vertices, cube.triangles, options, 2);
   const AnalysisInput input{
       .points = samples.points, .triangles = cube.triangles, .vertices = cube.vertices};
