@@ -34,6 +34,9 @@ class MedialAnalysis {
  public:
   // Throws InvalidInputError, DegenerateInputError, Cancelled.
   MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options, Progress* progress);
+  // Its arrays lie in its arena, and a move would free that before them.
+  MedialAnalysis(const MedialAnalysis&) = delete;
+  MedialAnalysis& operator=(const MedialAnalysis&) = delete;
 
   // Ids of the selected edges: the set F of the paper, facets without area or end included.
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
