@@ -56,16 +56,21 @@ def _imported(name: str) -> ModuleType:
 
     Blender before 4.2 updates an add-on by writing over its files: over a mapped one, that is the end of Blender.
     """
-    if name in sys.modules or not _is_legacy_addon() or not hasattr(os, "memfd_create"):
+    original = file()
+    if name in sys.modules or original is None or not _is_legacy_addon():
         return importlib.import_module(name)
     try:
         copy = os.memfd_create(NAME)
-    except OSError:  # the system may refuse
+    except (AttributeError, OSError):  # another system, or one that refuses
         return importlib.import_module(name)
     with os.fdopen(copy, "wb") as stream:
-        stream.write(file().read_bytes())
+        stream.write(original.read_bytes())
         stream.flush()
-        return _imported_from(f"/proc/self/fd/{copy}", name)
+        path = f"/proc/self/fd/{copy}"
+        try:
+            return _imported_from(path, name)
+        except ImportError as error:
+            raise ImportError(str(error).replace(path, str(original))) from error
 
 
 def _is_legacy_addon() -> bool:
@@ -74,12 +79,11 @@ def _is_legacy_addon() -> bool:
 
 
 def _imported_from(path: str, name: str) -> ModuleType:
-    spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
-    try:
-        module = module_from_spec(spec)
-        spec.loader.exec_module(module)
-    except ImportError as error:
-        raise ImportError(str(error).replace(path, str(file()))) from error
+    loader = ExtensionFileLoader(name, path)
+    spec = spec_from_file_location(name, path, loader=loader)
+    assert spec is not None, "there is one for every loader"
+    module = module_from_spec(spec)
+    loader.exec_module(module)
     sys.modules[name] = module
     return module
 

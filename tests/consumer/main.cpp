@@ -1,0 +1,27 @@
+// The medial axis of a cube of side 8 whose faces are grids of samples.
+#include <medial/analysis.h>
+
+#include <algorithm>
+#include <cstdio>
+
+int main() {
+  std::vector<medial::Vec3> points;
+  for (int x = 0; x <= 8; ++x) {
+    for (int y = 0; y <= 8; ++y) {
+      for (int z = 0; z <= 8; ++z) {
+        if (x % 8 == 0 || y % 8 == 0 || z % 8 == 0) points.push_back({1.0 * x, 1.0 * y, 1.0 * z});
+      }
+    }
+  }
+  try {
+    const medial::MedialAnalysis analysis({points});  // everything costly, once
+    for (const double theta : {0.3, 0.6}) {           // milliseconds each
+      const auto axis = analysis.extract({.thresholds = {.theta = theta}});
+      const double largest = *std::max_element(axis.radius.begin(), axis.radius.end());
+      std::printf("theta %g: %zu facets, largest ball %g\n", theta, axis.theta.size(), largest);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
