@@ -68,13 +68,13 @@ def __dir__() -> list[str]:
 
 
 def register() -> None:
-    from . import ui
+    from . import ui  # type: ignore[attr-defined] # not in the package that pip installs
 
     ui.register()
 
 
 def unregister() -> None:
-    from . import ui
+    from . import ui  # type: ignore[attr-defined] # not in the package that pip installs
 
     ui.unregister()
     _forget_modules()

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
+#include <vector>
 
 int main() {
   std::vector<medial::Vec3> points;
@@ -15,10 +17,12 @@ int main() {
   }
   try {
     const medial::MedialAnalysis analysis({points});  // everything costly, once
-    for (const double theta : {0.3, 0.6}) {           // milliseconds each
-      const auto axis = analysis.extract({.thresholds = {.theta = theta}});
-      const double largest = *std::max_element(axis.radius.begin(), axis.radius.end());
-      std::printf("theta %g: %zu facets, largest ball %g\n", theta, axis.theta.size(), largest);
+    const medial::Thresholds published, stricter{.theta = 0.8, .rho = 4};
+    for (const auto& thresholds : {published, stricter}) {
+      const medial::MedialMesh axis = analysis.extract({thresholds});  // milliseconds
+      std::printf("theta %.3f, rho %g: %zu facets, largest ball %g\n", thresholds.theta,
+                  thresholds.rho, axis.theta.size(),
+                  *std::max_element(axis.radius.begin(), axis.radius.end()));
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -59,17 +59,11 @@ def configure(folder, *definitions):
     run("cmake", "-S", CONSUMER, "-B", folder, *release, *definitions)
 
 
-def facets(text):
-    """What the project prints: [(facets, radius of the largest ball), ...]."""
-    lines = [line.replace(",", "").split() for line in text.splitlines()]
-    return [(int(words[2]), float(words[-1])) for words in lines]
-
-
 @slow
 def test_sources_as_a_part_of_another_project(with_sources):
-    found = facets(run(with_sources / "cube"))
-    assert found[0] == (192, 4.0)  # as in tests/native/analysis_test.cpp
-    assert found[1][0] <= 192
+    text = run(with_sources / "cube")
+    assert ": 192 facets, largest ball 4\n" in text  # as in tests/native/analysis_test.cpp
+    assert text in (ROOT / "docs" / "libraries.md").read_text(encoding="utf-8")
     cache = (with_sources / "CMakeCache.txt").read_text()
     assert "MEDIAL_PYTHON:BOOL=OFF" in cache and "MEDIAL_TESTS:BOOL=OFF" in cache
 
