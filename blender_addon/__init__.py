@@ -37,7 +37,7 @@ __all__ = [
     "ReadError",
     "Reconstruction",
     "Rule",
-    "Sampling",
+    "SamplingMode",
     "Settings",
     "Shape",
     "Side",
@@ -68,13 +68,13 @@ def __dir__() -> list[str]:
 
 
 def register() -> None:
-    from . import ui  # type: ignore[attr-defined] # not in the package that pip installs
+    from . import ui
 
     ui.register()
 
 
 def unregister() -> None:
-    from . import ui  # type: ignore[attr-defined] # not in the package that pip installs
+    from . import ui
 
     ui.unregister()
     _forget_modules()

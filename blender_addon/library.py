@@ -18,7 +18,8 @@ import numpy as np
 
 from .core.axis import compute as axis
 from .core.axis import reconstruction
-from .core.axis.compute import Computation, MedialAxis
+from .core.axis.compute import Computation
+from .core.axis.medial_axis import MedialAxis
 from .core.axis.reconstruction import Reconstruction
 from .core.axis.shape import Shape
 from .core.errors import (
@@ -42,7 +43,7 @@ from .core.settings import (
     Choice,
     Criteria,
     Rule,
-    Sampling,
+    SamplingMode,
     Settings,
     Side,
     SidesFrom,
@@ -67,7 +68,7 @@ __all__ = [
     "ReadError",
     "Reconstruction",
     "Rule",
-    "Sampling",
+    "SamplingMode",
     "Settings",
     "Shape",
     "Side",
@@ -117,8 +118,8 @@ def compute(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    chosen = Settings(**_checked(settings, list(OPTIONS)))
-    return axis.compute_axis(_shape(points, triangles, normals), chosen, progress)
+    wanted = Settings(**_checked(settings, list(OPTIONS)))
+    return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
 
 
 def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
@@ -135,7 +136,7 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     InvalidInputError
     """
     settings = replace(computation.settings, **_checked(thresholds, _THRESHOLDS))
-    return axis.extract(computation, settings)
+    return axis.extract_axis(computation, settings)
 
 
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:

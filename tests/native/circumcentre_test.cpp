@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <random>
 
+#include "oracle.h"
 #include "shapes.h"
 
 namespace medial {
@@ -33,6 +35,35 @@ TEST(Circumcentre, ErrorBoundHoldsAgainstAnotherOrderOfTheCorners) {
     const Circumcentre one = circumcentre(p[0], p[1], p[2], p[3]),
                        other = circumcentre(p[3], p[1], p[0], p[2]);
     EXPECT_LE(distance(one.centre, other.centre), one.error + other.error) << seed;
+  }
+}
+
+// Corners with integer coordinates, from fat to flat within one part in 2^40: the true centre is
+// known exactly.
+void expect_within_error(const std::array<test::GridPoint, 4>& p) {
+  if (test::orientation(p[0], p[1], p[2], p[3]) == 0) return;
+  const test::Oracle oracle({p.begin(), p.end()}, 1, {{0, 1, 2, 3}});
+  const test::Real exact = oracle.centre(0);
+  std::array<Vec3, 4> corners;
+  for (int i = 0; i < 4; ++i) {
+    corners[i] = {static_cast<double>(p[i].x), static_cast<double>(p[i].y),
+                  static_cast<double>(p[i].z)};
+  }
+  const auto [centre, error] = circumcentre(corners[0], corners[1], corners[2], corners[3]);
+  EXPECT_LE(test::length(exact - test::Real{centre.x, centre.y, centre.z}), error);
+  EXPECT_LE(error, 1.001 * kCoarsestError * static_cast<double>(oracle.radius(0)) +
+                       8 * DBL_EPSILON * (max_abs(corners[3]) + max_abs(centre)));
+}
+
+TEST(Circumcentre, IsWithinItsErrorOfTheExactOne) {
+  std::mt19937 random(2);
+  const auto coordinate = [&](int bits) { return static_cast<int64_t>(random() >> (32 - bits)); };
+  for (int i = 0; i < 20000; ++i) {
+    const int flatness = 1 + i % 19;
+    std::array<test::GridPoint, 4> p;
+    for (auto& q : p) q = {coordinate(20), coordinate(20), coordinate(flatness)};
+    if (i % 3 == 0) p[3] = p[2] + test::GridPoint{coordinate(3), coordinate(3), 1};  // a needle
+    expect_within_error(p);
   }
 }
 

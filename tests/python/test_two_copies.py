@@ -87,27 +87,3 @@ def test_two_packages_live_side_by_side(tmp_path):
     folder = Path(medial_axis.__file__).parent
     copy = shutil.copytree(folder, tmp_path / "copy", ignore=shutil.ignore_patterns("__pycache__"))
     run(TWO_PACKAGES, folder, copy)
-
-
-def test_only_a_legacy_add_on_is_loaded_from_memory(monkeypatch):
-    """Blender below 4.2 writes over the files of add-ons; extensions and installed packages are never written over."""
-    monkeypatch.setattr(native, "_package", "medial_axis")
-    monkeypatch.delitem(sys.modules, "bpy", raising=False)
-    assert not native._is_legacy_addon()
-    monkeypatch.setitem(sys.modules, "bpy", sys)
-    assert native._is_legacy_addon()
-    monkeypatch.setattr(native, "_package", "bl_ext.user_default.medial_axis")
-    assert not native._is_legacy_addon()
-
-
-def test_where_memory_files_are_refused_the_file_itself_is_loaded(monkeypatch):
-    def refuse(name):
-        raise PermissionError("as with vm.memfd_noexec")
-
-    name = f"{native._package}.lib.{native.NAME}"
-    kept = native.load()
-    monkeypatch.setitem(sys.modules, "bpy", sys)
-    monkeypatch.delitem(sys.modules, name, raising=False)
-    monkeypatch.setattr(native.os, "memfd_create", refuse, raising=False)
-    monkeypatch.setattr(native.importlib, "import_module", lambda wanted: (wanted, kept))
-    assert native._imported(name) == (name, kept)

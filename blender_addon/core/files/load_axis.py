@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ..axis.compute import MedialAxis
+from ..axis.medial_axis import MedialAxis
 from ..errors import ReadError
-from .arrays import read_arrays
+from .numpy_arrays import read_arrays
 
 _FIELDS = tuple(MedialAxis.__dataclass_fields__)
 

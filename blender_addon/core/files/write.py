@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from ..axis.compute import MedialAxis
+from ..axis.medial_axis import MedialAxis
 from ..errors import ExportError
 from .triangulate import triangulate
 from .whole_file import write_whole
