@@ -246,9 +246,9 @@ def start_long_run():
 
 
 def scan_file():
-    """A raw scan: that of a cap where the shared data are, or else a bare ellipsoid."""
-    path = Path(__file__).resolve().parents[4] / "shared" / "data" / "distcap.xyz"
-    if not path.exists():
+    """A raw scan: that of a cap where the optional data folder is named, or else a bare ellipsoid."""
+    path = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ""), "distcap.xyz")
+    if not path.is_file():
         path = Path(FOLDER) / "scan.xyz"
         np.savetxt(path, on_ellipsoid(3000)[0])
     return path

@@ -7,7 +7,7 @@ import tarfile
 import tempfile
 from pathlib import Path
 
-from debian import download, download_source, extract, labels, require
+from .debian import download, download_source, extract, labels, require
 
 DLLTOOL = "x86_64-w64-mingw32-dlltool"
 HEADER = re.compile(r"[^/]+/(?:Include/(.+)|PC/(pyconfig\.h)(?:\.in)?)")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Refuses a compiled module that would not live well inside Blender, and prints what it needs.
 
-    python3 native/python/check_module.py _medial.cpython-311-x86_64-linux-gnu.so ... [--local]
+    python3 native/packaging/check_module.py _medial.cpython-311-x86_64-linux-gnu.so ... [--local]
 
 A module must not need libraries that Blender brings too, must export its entry point alone, and must
 run on systems as old as RHEL 9 and Ubuntu 22.04. --local allows newer ones: it is for this machine.

@@ -1,24 +1,20 @@
-#!/usr/bin/env python3
-"""Fetches the headers of another Python, and of a pybind11 that knows it.
+"""The headers of another Python, and of a pybind11 that knows it, in a folder that the compiler is given.
 
-    python3 native/python/headers.py 3.13 trixie build/python/3.13
-    python3 native/python/headers.py 3.10 installed build/python/3.10
-    python3 native/python/headers.py 3.13 trixie build/python/windows-3.13 --windows
-
-The first takes Debian's packages of another suite. Nothing is installed, and of the packages only
-python3.X/, its pyconfig.h and pybind11/ are taken: headers of another C library never meet the
-compiler's own. The second takes those of a Python of this machine, for one that no Debian has. The
-third is for a Python on Windows. Exit code 1 and one sentence when they cannot be had.
+Most come from Debian's packages of another suite. Nothing is installed, and of the packages only python3.X/, its
+pyconfig.h and pybind11/ are taken: headers of another C library never meet the compiler's own. A Python that no
+Debian has is taken from this machine. What cannot be had is a Failure.
 """
+
+from __future__ import annotations
 
 import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-from debian import download, extract, labels
-from headers_for_windows import fetch_for_windows
+from .debian import download, extract, labels
+from .headers_for_windows import fetch_for_windows
+from .terminal import Failure
 
 INSTALLED = "installed"  # instead of a suite
 # Where Pythons lie that are not on PATH.
@@ -30,10 +26,9 @@ print(sysconfig.get_path("include"), sysconfig.get_config_h_filename(), platform
 STAMP = "packages.txt"  # written last: what was unpacked, by version
 
 
-def main(version, suite, folder, windows=False):
-    """Fill the folder; returns what it came from, such as ['pybind11-dev 3.1.0-1']."""
-    stamp = folder / STAMP
-    if not stamp.exists():
+def fill(folder: Path, version: str, suite: str, windows: bool = False) -> list[str]:
+    """Fill the folder, unless it is full; returns what it came from, such as ['pybind11-dev 3.1.0-1']."""
+    if not (folder / STAMP).exists():
         bring = copy if suite == INSTALLED else fetch_for_windows if windows else fetch
         fresh = folder.with_name(f"{folder.name}.new")
         shutil.rmtree(fresh, ignore_errors=True)
@@ -41,7 +36,12 @@ def main(version, suite, folder, windows=False):
         (fresh / STAMP).write_text("\n".join(names) + "\n", encoding="utf-8")
         shutil.rmtree(folder, ignore_errors=True)
         fresh.rename(folder)
-    return stamp.read_text(encoding="utf-8").split("\n")[:-1]
+    return origin(folder)
+
+
+def origin(folder: Path) -> list[str]:
+    """What a full folder came from."""
+    return (folder / STAMP).read_text(encoding="utf-8").splitlines()
 
 
 def copy(version, _, folder):
@@ -53,7 +53,7 @@ def copy(version, _, folder):
             shutil.copytree(include, folder / f"python{version}")
             shutil.copy(config, folder / f"python{version}" / "pyconfig.h")
             return [f"that of {python.parent}, {found}"]
-    raise SystemExit(f"expected a python{version} with its headers; Debian has none to install")
+    raise Failure(f"expected a python{version} with its headers; Debian has none to install")
 
 
 def interpreters(version):
@@ -73,8 +73,3 @@ def fetch(version, suite, folder):
         for path in (include / "pybind11", *include.glob(f"**/python{version}")):
             shutil.copytree(path, folder / path.relative_to(include))
     return labels(packages)
-
-
-if __name__ == "__main__":
-    options = {"windows": sys.argv[4:] == ["--windows"]}
-    print("\n".join(main(sys.argv[1], sys.argv[2], Path(sys.argv[3]).resolve(), **options)))

@@ -1,8 +1,12 @@
-"""Debian's packages as files: verified by a private apt, not installed. What cannot be had raises SystemExit."""
+"""Debian's packages as files: verified by a private apt, not installed. What cannot be had is a Failure."""
+
+from __future__ import annotations
 
 import shutil
 import subprocess
 from pathlib import Path
+
+from .terminal import Failure
 
 KEYRING = Path("/usr/share/keyrings/debian-archive-keyring.gpg")
 
@@ -34,7 +38,7 @@ def labels(files):
 def fetch(folder, kind, suite, words):
     require("apt-get", "dpkg-deb")
     if not KEYRING.exists():
-        raise SystemExit(f"expected {KEYRING}; install debian-archive-keyring")
+        raise Failure(f"expected {KEYRING}; install debian-archive-keyring")
     for part in ("state/lists/partial", "cache/archives/partial"):
         (folder / part).mkdir(parents=True)
     (folder / "status").touch()
@@ -47,7 +51,8 @@ def fetch(folder, kind, suite, words):
         "Dir::State::status": folder / "status",
         "Dir::Cache": folder / "cache",
         "Acquire::Languages": "none",
-        "Acquire::Check-Valid-Until": "false",  # mirrors of a moving suite may stand still
+        # Mirrors of a moving suite may stand still. So an old index would be taken, too: good enough for headers.
+        "Acquire::Check-Valid-Until": "false",
         "APT::Sandbox::User": "root",
         "APT::Update::Error-Mode": "any",
     }
@@ -56,7 +61,7 @@ def fetch(folder, kind, suite, words):
         done = subprocess.run([*apt, *command], cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
             reason = (done.stderr.strip().splitlines() or ["no reason given"])[0]
-            raise SystemExit(f"{' '.join(words)} of Debian {suite} failed: {reason}")
+            raise Failure(f"{' '.join(words)} of Debian {suite} failed: {reason}")
 
 
 def mirror():
@@ -65,11 +70,11 @@ def mirror():
     sites = subprocess.run(query, capture_output=True, text=True).stdout.split()
     mirrors = [site for site in sites if site.rstrip("/").endswith("/debian")]
     if not mirrors:
-        raise SystemExit("expected a Debian mirror among apt's sources, found none")
+        raise Failure("expected a Debian mirror among apt's sources, found none")
     return mirrors[0]
 
 
 def require(*tools):
     for tool in tools:
         if shutil.which(tool) is None:
-            raise SystemExit(f"expected {tool}, found none")
+            raise Failure(f"expected {tool}, found none")
