@@ -37,7 +37,7 @@ __all__ = [
     "ReadError",
     "Reconstruction",
     "Rule",
-    "Sampling",
+    "SamplingMode",
     "Settings",
     "Shape",
     "Side",

@@ -43,7 +43,7 @@ from .core.settings import (
     Choice,
     Criteria,
     Rule,
-    Sampling,
+    SamplingMode,
     Settings,
     Side,
     SidesFrom,
@@ -68,7 +68,7 @@ __all__ = [
     "ReadError",
     "Reconstruction",
     "Rule",
-    "Sampling",
+    "SamplingMode",
     "Settings",
     "Shape",
     "Side",
@@ -254,7 +254,7 @@ def _value(name: str, value: Any) -> Any:
     option = OPTIONS[name]
     if isinstance(option, Choice):
         return _member(name, option, value)
-    wanted = bool if isinstance(option, Switch) else type(option.default)
+    wanted: Any = bool if isinstance(option, Switch) else type(option.default)
     try:
         if isinstance(value, str) or wanted(value) != value:
             raise ValueError

@@ -109,7 +109,8 @@ class Switch:
     default: bool
 
 
-OPTIONS: dict[str, Number | Integer | Choice | Switch] = {
+# Each a Number, Integer, Choice or Switch; whoever asks for one by name knows which.
+OPTIONS: dict[str, Any] = {
     "theta": Number(
         label="Theta",
         description="Angle condition: keep a facet when the line between its two samples leaves "
@@ -291,7 +292,7 @@ OPTIONS: dict[str, Number | Integer | Choice | Switch] = {
 }
 
 # What holds for a machine and not for a result, so that it is in the preferences of Blender.
-LIMITS: dict[str, Integer | Choice] = {
+LIMITS: dict[str, Any] = {
     "memory_limit": Integer(
         label="Memory Limit",
         description="Memory that an analysis may need, in MB; 0: what is free when it starts",

@@ -11,7 +11,20 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SOURCES = ("native", "blender_addon", "tests")
 TOP = ("build_addon.py", "CMakeLists.txt", "CMakePresets.json", "pyproject.toml", ".ci/run")
 STARTS = ("", "docs", "native", "native/medial", "blender_addon", "tests")
-KINDS = {".py", ".pyi", ".h", ".cpp", ".txt", ".cmake", ".toml", ".sh", ".js", ".yaml", ".json", ".map"}
+KINDS = {
+    ".py",
+    ".pyi",
+    ".h",
+    ".cpp",
+    ".txt",
+    ".cmake",
+    ".toml",
+    ".sh",
+    ".js",
+    ".yaml",
+    ".json",
+    ".map",
+}
 
 # Words of others, and names of files that are made or chosen by users.
 FOREIGN: set[str] = set()
@@ -24,7 +37,9 @@ FILE = re.compile(r"[\w./{}#*~-]+\.(?:py|pyi|h|cpp|txt|cmake|toml|sh|js|yaml|jso
 
 def prose(page):
     """A page without its fenced and indented examples."""
-    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(
+        r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL
+    )
     return "\n".join(line for line in text.splitlines() if not line.startswith("    "))
 
 

@@ -26,7 +26,7 @@ def add_limits(parser: argparse.ArgumentParser) -> None:
 def _add(parser: argparse.ArgumentParser, options: Mapping[str, Any]) -> None:
     for name, option in options.items():
         flag = "--" + name.replace("_", "-")
-        words = {"dest": name, "default": argparse.SUPPRESS}
+        words: dict[str, Any] = {"dest": name, "default": argparse.SUPPRESS}
         if isinstance(option, Switch):
             words["action"] = argparse.BooleanOptionalAction
             shown = "on" if option.default else "off"

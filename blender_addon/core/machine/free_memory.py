@@ -8,6 +8,7 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 _GROUPS = Path("/sys/fs/cgroup")
 # Of a control group, version 2 and 1: limit, use, and the part of the use that can be dropped.
@@ -88,5 +89,6 @@ class _MemoryStatus(ctypes.Structure):
 
 def _of_windows() -> int | None:
     status = _MemoryStatus(length=ctypes.sizeof(_MemoryStatus))
-    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+    windows: Any = ctypes  # which has `windll` there alone
+    done = windows.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
     return status.available if done else None

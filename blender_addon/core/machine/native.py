@@ -71,12 +71,15 @@ def _imported(name: str) -> ModuleType:
 
 
 def _imported_from_memory(name: str) -> ModuleType:
+    library = file()
+    assert library is not None  # it was found before
     copy = os.memfd_create(NAME)
     try:
         with open(copy, "wb", closefd=False) as stream:
-            stream.write(file().read_bytes())
+            stream.write(library.read_bytes())
         path = f"/proc/self/fd/{copy}"
         spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
+        assert spec is not None and spec.loader is not None  # the loader is named
         module = module_from_spec(spec)
         spec.loader.exec_module(module)
     finally:
