@@ -59,15 +59,15 @@ def main(words: Sequence[str]) -> int:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why
         return DONE if end.code in (None, 0) else USAGE
-    teller = _Teller(wanted.json, wanted.quiet)
+    console = _Console(wanted.json, wanted.quiet)
     if problem := native.problem():
-        teller.complain(problem)
+        console.complain(problem)
         return FAILED
     with _interruptible():
         try:
-            return _run(_items(wanted), wanted, teller)
+            return _run(_items(wanted), wanted, console)
         except KeyboardInterrupt:
-            teller.complain("cancelled")
+            console.complain("cancelled")
             return CANCELLED
 
 
@@ -164,7 +164,7 @@ def _complete(wanted: argparse.Namespace) -> None:
 
 
 def _is_still(path: str) -> bool:
-    """A file without frames of its own, and no number in its name."""
+    """Whether a path is one file for all frames: its format has none, and its name no number."""
     return Path(path).suffix.lower() in READERS and not has_number(Path(path).name)
 
 
@@ -236,7 +236,7 @@ def _raise(error: MedialAxisError) -> Any:
 # --- doing it
 
 
-def _run(items: Iterable[Item], wanted: argparse.Namespace, teller: _Teller) -> int:
+def _run(items: Iterable[Item], wanted: argparse.Namespace, console: _Console) -> int:
     """All items; one that fails does not stop the others."""
     code, outputs = DONE, set()
     for item in items:
@@ -247,13 +247,13 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, teller: _Teller) -> 
                     "{file} or {name} in OUTPUT"
                 )
             begun = begin(item, wanted.settings, wanted.force, wanted.limit)
-            teller.tell(begun.kept or finish(begun, _watch(begun.task, teller.show)))
+            console.tell(begun.kept or finish(begun, _watch(begun.task, console.show)))
             outputs.add(item.output)
         except (KeyboardInterrupt, Cancelled):
-            teller.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
+            console.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
             return CANCELLED
         except MedialAxisError as error:
-            teller.tell(failure(item, error))
+            console.tell(failure(item, error))
             of_input = isinstance(error, (ReadError, InvalidInputError, DegenerateInputError))
             code = INPUT if of_input and code in (DONE, INPUT) else FAILED
     return code
@@ -292,7 +292,7 @@ def _interruptible() -> Iterator[None]:
             signal.signal(number, signal.SIG_DFL if handler is None else handler)
 
 
-class _Teller:
+class _Console:
     """What is said: results on standard output, all else on standard error."""
 
     def __init__(self, json_lines: bool, quiet: bool) -> None:

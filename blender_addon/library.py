@@ -118,8 +118,8 @@ def compute(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    chosen = Settings(**_checked(settings, list(OPTIONS)))
-    return axis.compute_axis(_shape(points, triangles, normals), chosen, progress)
+    wanted = Settings(**_checked(settings, list(OPTIONS)))
+    return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
 
 
 def extract(computation: Computation, **thresholds: Any) -> MedialAxis:

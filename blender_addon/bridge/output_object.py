@@ -1,4 +1,4 @@
-"""Objects that are made of a source, and made again when it is computed again.
+"""Objects that are made of a source, and updated in place when the source is computed again.
 
 They remember their source in a custom property; nothing is written to the source.
 """
@@ -97,7 +97,7 @@ def remember(
     duplicates: int,
     warnings: tuple[str, ...],
 ) -> None:
-    """What everything that is made remembers."""
+    """Store what every kind of output keeps: its source, and what was computed of it."""
     output[SOURCE] = source
     output[VERSION] = __version__
     output[POINTS] = points

@@ -109,7 +109,7 @@ def read(name: str, frame: int | None) -> tuple[Shape, tuple[str, ...]]:
 
 
 def _reason(text: str) -> str:
-    """What an operator failed of: its message, or the last line of a traceback."""
+    """Why an operator failed: its message, or the last line of a traceback."""
     lines = [line for line in text.strip().splitlines() if not line.startswith("Location:")]
     return lines[-1].removeprefix("Error: ") if lines else "nothing"
 

@@ -121,10 +121,10 @@ def _collection(name: str) -> bpy.types.Collection:
 
 
 def _remove(things: list[bpy.types.Object]) -> None:
-    """Objects of a sequence with their meshes and keys."""
+    """Remove objects of a sequence with their meshes and keys; objects that an artist added stay."""
     for thing in things:
         if FRAME not in thing:
-            continue  # an artist put it there
+            continue
         mesh, keys = thing.data, thing.animation_data and thing.animation_data.action
         bpy.data.objects.remove(thing)
         if mesh.users == 0:

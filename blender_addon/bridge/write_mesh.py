@@ -73,7 +73,9 @@ def _check_faces(polygons: Polygons) -> None:
 
 
 def _set_faces(mesh: bpy.types.Mesh, polygons: Polygons, positions: np.ndarray) -> None:
-    """With edges of our own: Blender takes several times as long for them, and longer than for all the rest.
+    """Set vertices, edges, corners and polygons.
+
+    The edges are made here, because Blender takes several times as long for them, longer than for all the rest.
 
     Numbers that Blender keeps unsigned it copies in one go from unsigned arrays; others it reads one by one, which
     takes 20 times as long.

@@ -291,7 +291,7 @@ OPTIONS: dict[str, Any] = {
     ),
 }
 
-# What holds for a machine and not for a result, so that it is in the preferences of Blender.
+# Options of a machine and not of a result; in Blender they stand in the preferences.
 LIMITS: dict[str, Any] = {
     "memory_limit": Integer(
         label="Memory Limit",
@@ -331,7 +331,7 @@ MEGABYTE = 1 << 20  # bytes
 
 # What needs another analysis; the other options only select facets of the one that is there.
 ANALYSED = ("side", "sides", "sampling")
-# What a choice of Sampling listens to.
+# The options that say how faces are sampled; which of them matter depends on the choice of Sampling.
 SAMPLING_OPTIONS = (
     "samples",
     "spacing",

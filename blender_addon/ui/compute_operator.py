@@ -1,4 +1,5 @@
-"""What the operators share: watched from the user interface, in one go from scripts."""
+"""The base of the operators that compute: modal in the user interface, where a timer watches a thread; from scripts
+they run in one go."""
 
 import time
 

@@ -23,7 +23,7 @@ from .selected_sources import sources
 from .translation import say
 
 _PRODUCT = "medial axis"
-_AT_ONCE = 0.1  # seconds; so long finished frames are passed over without a pause
+_AT_ONCE = 0.1  # seconds for which finished frames are passed over before Blender may draw again
 
 
 class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):

@@ -1,4 +1,4 @@
-"""The one computation that may run: who asks, who shows, who stops it."""
+"""The one computation that may run at a time: here it is started, shown, and ended."""
 
 from __future__ import annotations
 

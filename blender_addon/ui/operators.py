@@ -164,7 +164,7 @@ class OBJECT_OT_medial_axis_cancel(bpy.types.Operator):
 
 
 def _made_anew(thing):
-    """Instead of a surface, what it was made of, as long as that exists."""
+    """The source of a surface that was reconstructed, as long as it exists; else the object itself."""
     source = source_of(thing) if is_surface(thing) else None
     return thing if is_gone(source) else source
 

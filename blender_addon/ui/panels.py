@@ -39,7 +39,7 @@ class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
 
 
 class VIEW3D_PT_medial_axis_sampling(_Tab, bpy.types.Panel):
-    """What Sampling listens to, and the report"""
+    """How faces are sampled, and the report"""
 
     bl_label = "Sampling"
     bl_idname = "VIEW3D_PT_medial_axis_sampling"

@@ -110,7 +110,7 @@ class SamplingProperties:
 
 
 def draw_sampling(layout, properties):
-    """What a choice of Sampling listens to; what does not apply is grey."""
+    """Draw the options of the sampling; those that do not matter for the chosen Sampling are grey."""
     chosen = SamplingMode[properties.sampling]
     for name in SAMPLING_OPTIONS:
         row = layout.row()

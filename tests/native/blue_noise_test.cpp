@@ -225,6 +225,18 @@ TEST(Creases, AreSharpFromTheirAngleOn) {
   }
 }
 
+// A fold that goes straight on past a vertex where a third crease begins has a corner there.
+TEST(Creases, WhereThreeMeetIsACorner) {
+  const test::Mesh mesh{{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {1, 1, 0}, {-0.1, 0, 1}, {-0.9, 2, 0.9}},
+                        {{0, 3, 1}, {1, 3, 2}, {0, 1, 4}, {1, 2, 5}, {1, 5, 4}}};
+  const auto welded = make_mesh(mesh.vertices, mesh.triangles, {1, nullptr});
+  const Creases creases = find_creases(welded, 0.2, {}, false, {1, nullptr});
+  for (const auto& [p, q] : {Edge{0, 1}, Edge{1, 2}, Edge{1, 5}}) {
+    EXPECT_EQ(creases.edges[creases.find(p, q)].crease, Crease::kSharp);
+  }
+  EXPECT_TRUE(creases.corner[1]);
+}
+
 // Three triangles at an edge, or two that pass it in one direction: not clear which two sides join.
 TEST(Creases, AreSharpWhereSidesDoNotJoin) {
   test::Mesh mesh = square(1);

@@ -22,6 +22,8 @@ struct Shape {
   std::vector<Vec3> axis;                      // points spread over it
   // Bars, relative to the diagonal of the box.
   double mean, max, coverage;
+
+  friend void PrintTo(const Shape& shape, std::ostream* out) { *out << shape.name; }
 };
 
 // A grid over [0, 1]^2 on a surface that closes in u; equal vertices are welded by their

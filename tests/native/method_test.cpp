@@ -2,6 +2,7 @@
 // rho, selection, Definition 4, facets and sides, on random and on degenerate inputs.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
+#include <medial/sampling.h>
 
 #include <functional>
 #include <random>
@@ -11,6 +12,7 @@
 #include "delaunay/samples.h"
 #include "delaunay/triangulation.h"
 #include "delaunay/voronoi.h"
+#include "inside/buried.h"
 #include "oracle.h"
 #include "shapes.h"
 
@@ -534,6 +536,64 @@ TEST(Method, AVoronoiVertexInTheTangentPlaneCountsAsAbove) {
   }
 }
 
+// Of Voronoi vertices that are equally far the one of the lowest cell is the pole.
+TEST(Method, OfEquallyFarVerticesTheLowestIsThePole) {
+  const auto rows = Cloud{lattice(4), 1}.rows();
+  const medial::Run run{1, nullptr};
+  const Samples samples = make_samples(rows, run);
+  const Triangulation t = triangulate(samples.points, run);
+  const Voronoi v = voronoi(samples.points, t, run);
+  const auto incident = incident_cells(t, samples.count(), run);
+  const Poles p = poles(samples.points, t, v, incident, run);
+  int bounded = 0;
+  for (int32_t id = 0; id < samples.count(); ++id) {
+    if (p.unbounded[id]) continue;
+    ++bounded;
+    double farthest = 0;
+    for (const int32_t c : incident[id]) {
+      farthest = std::max(farthest, distance(v.centre[c], samples.points[id]));
+    }
+    for (const int32_t c : incident[id]) {
+      if (distance(v.centre[c], samples.points[id]) < farthest) continue;
+      EXPECT_EQ(p.vector[id], v.centre[c] - samples.points[id]);
+      break;
+    }
+  }
+  EXPECT_EQ(bounded, 8);
+}
+
+// Rows of samples that mirror each other in three edges of a cube meet about its diagonals: their
+// facets have vertices on one line, more than two of them, and no area.
+TEST(Method, FacetsOnALineAreLeftOut) {
+  test::Mesh cube;
+  for (int i = 0; i < 8; ++i) {
+    cube.vertices.push_back({i & 1 ? 1.0 : 0.0, i & 2 ? 1.0 : 0.0, i & 4 ? 1.0 : 0.0});
+  }
+  cube.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  SamplingOptions options;
+  options.count = 2000;
+  const auto samples = sample_surface(cube.vertices, cube.triangles, options, {2, nullptr});
+  const AnalysisInput input{
+      .points = samples.points, .triangles = cube.triangles, .vertices = cube.vertices};
+  const MedialMesh mesh = MedialAnalysis(input, {}, nullptr).extract({.side = Side::inner});
+  EXPECT_GT(mesh.generators.size(), 500u);
+  EXPECT_GT(mesh.zero_area, 0);
+  for (size_t f = 0; f < mesh.generators.size(); ++f) {
+    const auto at = [&](int32_t i) {
+      return mesh.vertices[mesh.face_vertices[mesh.face_offsets[f] + i]];
+    };
+    const int32_t size = mesh.face_offsets[f + 1] - mesh.face_offsets[f];
+    Vec3 area;
+    double longest = 0;
+    for (int32_t i = 1; i < size; ++i) {
+      longest = std::max(longest, distance(at(i), at(0)));
+      if (i > 1) area = area + cross(at(i - 1) - at(0), at(i) - at(0));
+    }
+    EXPECT_GT(length(area), 1e-9 * longest * longest);
+  }
+}
+
 TEST(Method, RepeatedRowsAndTheirOrderChangeNothing) {
   for (uint32_t seed = 0; seed < 20; ++seed) {
     const Cloud cloud = rounded(gaussian(24, 1000 + seed));
@@ -753,6 +813,60 @@ TEST(MethodSides, ByNormals) {
     expect_same_sides(analysis, oracle, inside);
     if (HasFailure()) return;
   }
+}
+
+// What tells inside from outside, when it was not said: a closed surface, else normals, else Tight
+// Cocone.
+TEST(MethodSides, AreFromTheBestThatThereIs) {
+  auto mesh = rough_star(2, 0.02, 1);
+  const std::vector<Vec3> normals = mesh.vertices;
+  const auto from = [&](const AnalysisInput& input) {
+    return MedialAnalysis(input, {.threads = 1}, nullptr).sides_from();
+  };
+  EXPECT_EQ(from({.points = mesh.vertices, .triangles = mesh.triangles, .normals = normals}),
+            SidesFrom::surface);
+  mesh.triangles.pop_back();
+  EXPECT_EQ(from({.points = mesh.vertices, .triangles = mesh.triangles, .normals = normals}),
+            SidesFrom::normals);
+  EXPECT_EQ(from({.points = mesh.vertices, .triangles = mesh.triangles}), SidesFrom::tight_cocone);
+  EXPECT_EQ(from({.points = mesh.vertices}), SidesFrom::tight_cocone);
+  EXPECT_THROW(MedialAnalysis({mesh.vertices}, {.sides = SidesFrom::surface}, nullptr),
+               InvalidInputError);
+  EXPECT_THROW(MedialAnalysis({mesh.vertices}, {.sides = SidesFrom::normals}, nullptr),
+               InvalidInputError);
+}
+
+// Of two stars that overlap, the parts inside of the other bound nothing; a flake without thickness
+// neither.
+TEST(MethodSides, WhatLiesInsideOfTheUnionIsBuried) {
+  test::Mesh mesh = rough_star(2, 0.3, 11);
+  const auto other = rough_star(2, 0.3, 12);
+  const auto first = static_cast<int32_t>(mesh.vertices.size());
+  for (const Vec3& v : other.vertices) mesh.vertices.push_back(v + Vec3{0.7, 0.2, 0.1});
+  for (const auto& [a, b, c] : other.triangles) {
+    mesh.triangles.push_back({first + a, first + b, first + c});
+  }
+  std::vector<Vec3> points, normals;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+    points.push_back((1.0 / 3) * (p + q + r));
+    normals.push_back(normalized(cross(q - p, r - p)));
+  }
+  normals[5] = {};
+  const double offset = 1e-3;
+  const auto found = buried(points, normals, offset, mesh.vertices, mesh.triangles, {2, nullptr});
+  int count = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const auto is_inside = [&](double height) {
+      const Vec3 x = points[i] + height * normals[i];
+      return test::turns(mesh.vertices, mesh.triangles, {x.x, x.y, x.z}) > 0.5L;
+    };
+    const bool expected = i != 5 && is_inside(offset) == is_inside(-offset);
+    EXPECT_EQ(found[i] != 0, expected) << i;
+    count += expected;
+  }
+  EXPECT_GT(count, 20);
+  EXPECT_LT(count, static_cast<int>(points.size()) / 2);
 }
 
 // A Voronoi vertex is inside where it and its cell lie in the solid that Tight Cocone found: by

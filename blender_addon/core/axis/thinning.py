@@ -18,9 +18,10 @@ if TYPE_CHECKING:
     from ..settings import Settings
     from .shape import Shape
 
-_KEPT = 0.95  # of what fits, for a number of samples is met within some percent
-_PER_OCTAVE = 8  # grids that are tried
-_OCTAVES = 20
+# The share of what fits that is asked for, because a number of samples is met within some percent only.
+_KEPT = 0.95
+_PER_OCTAVE = 8  # grids that are tried for each doubling of the resolution
+_OCTAVES = 20  # doublings of the resolution
 
 
 def thinned_rows(
@@ -102,7 +103,7 @@ def spread_rows(points: NDArray[np.float64], most: int) -> NDArray[np.int32]:
 
 
 def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
-    """Points that are left; the error again when these are none, or nothing may be thinned."""
+    """How many points may be kept; raises the error again where nothing may be thinned, or too few would be left."""
     most = int(_KEPT * limit.points)
     if limit.above_limit is not AboveLimit.THIN or most < OPTIONS["samples"].minimum:
         raise error

@@ -74,7 +74,7 @@ def _given(words: argparse.Namespace, options: Mapping[str, Any]) -> dict[str, A
 
 
 def _help(option: Any, shown: str) -> str:
-    """argparse replaces % itself."""
+    """The help of an option; % is doubled, for argparse replaces what follows a single one."""
     return f"{option.description} (default: {shown})".replace("%", "%%")
 
 

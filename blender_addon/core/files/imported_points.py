@@ -57,7 +57,7 @@ def checked(
     sizes: NDArray | None = None,
     corners: NDArray | None = None,
 ) -> ImportedPoints:
-    """What a file holds, after a look at all that the file may have got wrong.
+    """The points of a file, when everything that the file may have got wrong was looked at.
 
     Parameters
     ----------

@@ -125,7 +125,7 @@ def _read_header(stream: BinaryIO, name: str) -> tuple[str, list[_Element], int]
 
 
 def _take(words: list[str], order: str | None, elements: list[_Element]) -> str | None:
-    """Take one line of the header; the byte order as far as it is known."""
+    """Read one line of the header into `elements`; returns the byte order as far as it is known."""
     if words[0] == "format":
         return _ORDERS[words[1]]
     if words[0] == "element":

@@ -105,7 +105,7 @@ class Lines:
             self.advance()
 
     def advance(self) -> None:
-        """Take the line."""
+        """Go on to the next line that holds something."""
         while raw := self._stream.readline():
             self.number += 1
             self.line = _COMMENT.sub("", raw)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 _GROUPS = Path("/sys/fs/cgroup")
-# Of a control group, version 2 and 1: limit, use, and the part of the use that can be dropped.
+# The files of a control group, in version 2 and 1: its limit, its use, and the part of the use that can be dropped.
 _FILES = (
     ("", "memory.max", "memory.current", "inactive_file"),
     ("memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
@@ -19,7 +19,7 @@ _FILES = (
 
 
 def free_memory() -> int | None:
-    """Bytes; None where the system does not say.
+    """The bytes that can be had now; None where the system does not say.
 
     Linux: what is available, also in the containers round this process. Windows: the physical memory
     that is available. Elsewhere: all memory of the machine.
@@ -35,7 +35,7 @@ def free_memory() -> int | None:
 
 
 def _available(text: str) -> int:
-    """Of /proc/meminfo."""
+    """The available bytes that the text of /proc/meminfo states."""
     found = re.search(r"^MemAvailable:\s+(\d+) kB$", text, re.MULTILINE)
     if found is None:
         raise ValueError("no MemAvailable")
@@ -62,7 +62,7 @@ def _left(folder: Path, limit: str, use: str, droppable: str) -> int | None:
         most = int((folder / limit).read_text(encoding="ascii"))
         used = int((folder / use).read_text(encoding="ascii"))
         stat = (folder / "memory.stat").read_text(encoding="ascii")
-    except (OSError, ValueError):  # 'max'
+    except (OSError, ValueError):  # a group without a limit says 'max'
         return None
     cached = re.search(rf"^{droppable} (\d+)$", stat, re.MULTILINE)
     return max(0, most - used + (int(cached[1]) if cached else 0))
