@@ -1,11 +1,11 @@
 """Builds the library with one fault at a time and says which test notices it.
 
-    python3 tests/mutations/sweep.py --check                   each text occurs once in the sources; takes no time
-    python3 tests/mutations/sweep.py --folder FOLDER           all mutations; the table goes into docs/mutations.md
-    python3 tests/mutations/sweep.py --folder FOLDER --only selection.cpp   some of them, by words in what the table says
+    python3 tests/mutations/sweep.py --check                each text occurs once in the sources; takes no time
+    python3 tests/mutations/sweep.py --folder FOLDER        all mutations; the table goes into docs/mutations.md
+    python3 tests/mutations/sweep.py --folder FOLDER --only selection.cpp   some, by words in what the table says
 
-Works on a copy of the tree in FOLDER, so the checkout is not touched. What was found is kept there, and a sweep that was
-stopped goes on where it was; --again forgets. `ctest` is asked first. What it does not notice is put to the Python
+Works on a copy of the tree in FOLDER, so the checkout is not touched. What was found is kept there, and a sweep that
+was stopped goes on where it was; --again forgets. `ctest` is asked first. What it does not notice is put to the Python
 tests that the mutation names, or to all of them when it names none.
 """
 
@@ -38,7 +38,11 @@ def problems() -> list[str]:
         except (OSError, ValueError) as error:
             found.append(str(error))
     names = [m.breaks for m in MUTATIONS]
-    found += [f"Expected one mutation, found several that say {n!r}." for n in {*names} if names.count(n) > 1]
+    found += [
+        f"Expected one mutation, found several that say {n!r}."
+        for n in {*names}
+        if names.count(n) > 1
+    ]
     return found
 
 
@@ -75,16 +79,27 @@ class Copy:
         self.must(*self.run("cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", *options))
 
     def compile(self, *targets: str) -> tuple[bool, str]:
-        return self.run("cmake", "--build", self.build, "--parallel", str(self.jobs), "--target", *targets)
+        return self.run(
+            "cmake", "--build", self.build, "--parallel", str(self.jobs), "--target", *targets
+        )
 
     def must(self, succeeded: bool, text: str) -> None:
         if not succeeded:
-            raise SystemExit(f"Expected the sources to build and to pass without a fault, found:\n{text[-3000:]}")
+            raise SystemExit(
+                f"Expected the sources to build and to pass without a fault, found:\n{text[-3000:]}"
+            )
 
     def noticed_by_ctest(self) -> str:
         """The first test that fails; empty when none does."""
         succeeded, text = self.run(
-            "ctest", "--test-dir", self.build, "--stop-on-failure", "--timeout", "300", "-j", str(self.jobs)
+            "ctest",
+            "--test-dir",
+            self.build,
+            "--stop-on-failure",
+            "--timeout",
+            "300",
+            "-j",
+            str(self.jobs),
         )
         if succeeded:
             return ""
@@ -100,7 +115,9 @@ class Copy:
         for module in self.build.glob("_medial.*.so"):
             shutil.copy(module, library)
         names = [f"tests/python/{file}" for file in files] or ["tests/python"]
-        succeeded, text = self.run(self.python, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *names)
+        succeeded, text = self.run(
+            self.python, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *names
+        )
         failed = re.search(r"^(?:FAILED|ERROR) (\S+?)(?: - .*)?$", text, re.MULTILINE)
         return "" if succeeded else failed[1].removeprefix("tests/python/") if failed else "?"
 
@@ -113,7 +130,9 @@ def outcome(copy: Copy, mutation: Mutation, native: bool) -> str:
     try:
         succeeded, said = copy.compile(*TARGETS)
         if not succeeded:
-            raise SystemExit(f"Expected a fault that compiles, found ({mutation.breaks}):\n{said[-3000:]}")
+            raise SystemExit(
+                f"Expected a fault that compiles, found ({mutation.breaks}):\n{said[-3000:]}"
+            )
         found = copy.noticed_by_ctest()
         if found:
             return f"ctest: {found}"
@@ -183,11 +202,15 @@ def sweep(copy: Copy, words: list[str], results: Path, native: bool) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--folder", type=Path, help="where the copy is built; may exist")
     parser.add_argument("--only", nargs="+", default=[])
-    parser.add_argument("--native", action="store_true", help="leave what ctest does not notice for later")
+    parser.add_argument(
+        "--native", action="store_true", help="leave what ctest does not notice for later"
+    )
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--python", default=sys.executable, help="has NumPy, SciPy and pytest")
     parser.add_argument("--jobs", type=int, default=2)

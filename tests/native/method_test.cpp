@@ -573,7 +573,7 @@ TEST(Method, FacetsOnALineAreLeftOut) {
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   SamplingOptions options;
   options.count = 2000;
-  const auto samples = sample_surface(cube.vertices, cube.triangles, options, {2, nullptr});
+  const auto samples = sample_surface(cube.vertices, cube.triangles, options, 2);
   const AnalysisInput input{
       .points = samples.points, .triangles = cube.triangles, .vertices = cube.vertices};
   const MedialMesh mesh = MedialAnalysis(input, {}, nullptr).extract({.side = Side::inner});
