@@ -1,9 +1,9 @@
 #include "axis/feature_size.h"
 
 #include <array>
-#include <atomic>
 #include <bit>
 
+#include "base/atomic.h"
 #include "base/nearest.h"
 
 namespace medial {
@@ -20,9 +20,7 @@ std::vector<uint8_t> cells_round(std::span<const int32_t> edge_ids, const Triang
     std::vector<int32_t> ring;
     for (int64_t i = begin; i < end; ++i) {
       ring_of_cells(t, edges.ends[edge_ids[i]], edges.cell[edge_ids[i]], ring);
-      for (const int32_t cell : ring) {
-        std::atomic_ref(marked[cell]).store(1, std::memory_order_relaxed);
-      }
+      for (const int32_t cell : ring) shared_store(marked[cell], uint8_t{1});
     }
   });
   return marked;

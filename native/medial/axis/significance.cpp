@@ -11,12 +11,6 @@ struct Shapes {
   Array<double> radius;  // infinite for an empty umbrella
 };
 
-double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a;
-  const double twice_area = length(cross(u, v));
-  return length(u) * length(v) * distance(b, c) / (2 * twice_area);
-}
-
 Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Run& run) {
   Shapes result{array<Vec3>(umbrellas.items.size(), run),
                 array<double>(static_cast<size_t>(umbrellas.size()), HUGE_VAL, run)};

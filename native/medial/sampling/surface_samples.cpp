@@ -2,9 +2,9 @@
 
 #include <climits>
 #include <numbers>
-#include <sstream>
 
 #include "base/rows.h"
+#include "base/text.h"
 #include "sampling/mirrored_rows.h"
 #include "sampling/poisson_disk.h"
 
@@ -29,16 +29,13 @@ struct FixedSample {
   double radius;
 };
 
-std::string text(double x) {
-  std::ostringstream out;
-  out << x;
-  return out.str();
-}
-
 // The surface and what does not depend on the spacing.
 struct Model {
   Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
         const SamplingOptions& options, const Run& run);
+  // The curved surface refers to the mesh beside it.
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
 
   TriangleMesh mesh;
   Creases creases;
