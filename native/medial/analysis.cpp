@@ -197,14 +197,16 @@ MedialAnalysis::~MedialAnalysis() = default;
 MedialAnalysis::MedialAnalysis(MedialAnalysis&&) noexcept = default;
 MedialAnalysis& MedialAnalysis::operator=(MedialAnalysis&&) noexcept = default;
 
-std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
-  return selected(selection(*parts_, x), edges_by_row(*parts_), parts_->run(progress));
+std::vector<int32_t> MedialAnalysis::select(const Extraction& extraction,
+                                            Progress* progress) const {
+  return selected(selection(*parts_, extraction), edges_by_row(*parts_), parts_->run(progress));
 }
 
-MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
+MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progress) const {
   begin_stage(progress, "Facets", 0, 1);
-  MedialMesh mesh = voronoi_facets(selection(*parts_, x), parts_->samples, parts_->triangulation,
-                                   parts_->voronoi, parts_->edges, parts_->run(progress));
+  MedialMesh mesh =
+      voronoi_facets(selection(*parts_, extraction), parts_->samples, parts_->triangulation,
+                     parts_->voronoi, parts_->edges, parts_->run(progress));
   advance(progress, 1);
   return mesh;
 }
