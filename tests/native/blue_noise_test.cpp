@@ -162,6 +162,23 @@ TEST(MirroredRows, LieAtTheSamePlacesOnBothSidesOfASharpEdge) {
   EXPECT_LT(between, 8);  // discs at the ends of the edge
 }
 
+// Rows, edges and discs between them keep the distance of discs; seen from one side of the edge.
+TEST(MirroredRows, KeepTheirDistance) {
+  for (const double spacing : {0.08, 0.093, 0.11}) {
+    const auto samples = samples_of(folded(), spacing, 3);
+    double nearest = HUGE_VAL;
+    for (size_t i = 0; i < samples.points.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        const Vec3 &a = samples.points[i], &b = samples.points[j];
+        const bool one_side = (a.x == 0 && b.x == 0) || (a.z == 0 && b.z == 0);
+        if (one_side) nearest = std::min(nearest, distance(a, b));
+      }
+    }
+    EXPECT_GE(nearest, 0.726 * spacing);
+    EXPECT_LT(nearest, 0.8 * spacing);
+  }
+}
+
 TEST(MirroredRows, TheEdgeItselfIsSampledAtEvenSteps) {
   const auto samples = samples_of(folded(), 0.13, 0);
   std::vector<double> along;

@@ -99,6 +99,31 @@ TEST(Circumcentre, ExactPathAgreesWithAKnownSphere) {
       1e-12);
 }
 
+// From fat triangles to needles, of which the exact path takes over: the same direction.
+TEST(UnitNormal, TurnsWithItsCorners) {
+  std::mt19937 random(3);
+  const auto coordinate = [&](int bits) { return static_cast<int64_t>(random() >> (32 - bits)); };
+  int exact = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const test::GridPoint a{coordinate(20), coordinate(20), coordinate(20)};
+    const test::GridPoint step{coordinate(4), coordinate(4), coordinate(4)};
+    const test::GridPoint tiny{coordinate(1), coordinate(1), coordinate(1)};
+    const int64_t far = int64_t{1} << (i % 30);
+    const test::GridPoint b = a + far * step, c = a + 2 * far * step + tiny;
+    const auto n = test::cross(test::to<test::Wide>(b - a), test::to<test::Wide>(c - a));
+    if (n == test::Vector<test::Wide>{0, 0, 0}) continue;
+    const auto vec = [](const test::GridPoint& p) {
+      return Vec3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+    };
+    const auto [direction, error] = unit_normal(vec(a), vec(b), vec(c));
+    const test::Real expected = test::unit(test::to<long double>(n));
+    const test::Real found{direction.x, direction.y, direction.z};
+    EXPECT_LE(test::length(found - expected), error);
+    exact += error == 4 * DBL_EPSILON;
+  }
+  EXPECT_GT(exact, 500);
+}
+
 TEST(UnitNormal, OfANeedleIsExact) {
   const Vec3 a{0, 0, 0}, b{1, 1, 0}, c{2, 2, 0x1p-60};
   const Vec3 n = unit_normal(a, b, c).direction;

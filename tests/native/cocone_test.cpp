@@ -497,6 +497,29 @@ void expect_watertight(const WatertightSurface& surface) {
   for (const auto& [edge, sum] : balance) EXPECT_EQ(sum, 0);
 }
 
+// Where the solid is pinched: edges of more than two triangles, and vertices whose triangles are
+// not one disc, counted from the triangles alone.
+TEST(TightCocone, CountsWhereItsSurfaceIsNoManifold) {
+  int64_t all_edges = 0;
+  for (uint32_t seed = 0; seed < 5; ++seed) {
+    const WatertightSurface surface = surface_of(noisy(test::ellipsoid(600, seed), 0.06, seed));
+    int64_t edges = 0, vertices = 0;
+    for (const auto& [edge, uses] : test::edge_uses(surface.triangles)) edges += uses > 2;
+    for (int32_t p = 0; p < 600; ++p) {
+      std::vector<Edge> links;
+      for (const Triangle& t : surface.triangles) {
+        if (has(t, p)) links.push_back(link_of(t, p));
+      }
+      vertices += !links.empty() && !put_in_cycle(links);
+    }
+    EXPECT_EQ(surface.nonmanifold_edges, edges);
+    EXPECT_EQ(surface.nonmanifold_vertices, vertices);
+    expect_watertight(surface);
+    all_edges += edges;
+  }
+  EXPECT_GT(all_edges, 20);
+}
+
 // Dense samples: all are good, all lie on the surface, and next to nothing is missing.
 TEST(TightCocone, TakesEverySampleOfASmoothSurface) {
   for (uint32_t seed = 0; seed < 4; ++seed) {

@@ -536,6 +536,18 @@ TEST(Method, AVoronoiVertexInTheTangentPlaneCountsAsAbove) {
   }
 }
 
+// Samples of a sphere are cospherical up to the rounding of their coordinates: all cells have one
+// Voronoi vertex, and no facet has an area.
+TEST(Method, SamplesOfASphereHaveNoFacets) {
+  for (uint32_t seed = 0; seed < 200; ++seed) {
+    std::vector<Vec3> rows = gaussian(30, seed);
+    for (Vec3& p : rows) p = Vec3{3, 4, 5} + normalized(p);
+    const MedialMesh mesh = analysis_of(rows).extract({.thresholds = kAll});
+    EXPECT_EQ(mesh.generators.size(), 0u) << seed;
+    EXPECT_GT(mesh.zero_area, 0);
+  }
+}
+
 // Of Voronoi vertices that are equally far the one of the lowest cell is the pole.
 TEST(Method, OfEquallyFarVerticesTheLowestIsThePole) {
   const auto rows = Cloud{lattice(4), 1}.rows();

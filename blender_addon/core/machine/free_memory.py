@@ -8,7 +8,6 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 _GROUPS = Path("/sys/fs/cgroup")
 # The files of a control group, in version 2 and 1: its limit, its use, and the part of the use that can be dropped.
