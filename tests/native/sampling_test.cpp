@@ -25,8 +25,8 @@ Creases creases_of(const test::Mesh& mesh, TriangleMesh& welded, double angle = 
 TEST(Creases, AFoldIsOneSharpChainAndFourBoundaryChains) {
   TriangleMesh mesh;
   const Creases creases = creases_of(folded(), mesh);
-  EXPECT_EQ(creases.edges[creases.find(1, 0)].crease, Crease::kSharp);
-  EXPECT_EQ(creases.edges[creases.find(0, 3)].crease, Crease::kNone);
+  EXPECT_EQ(creases.edges[creases.find(1, 0)].crease, Crease::sharp);
+  EXPECT_EQ(creases.edges[creases.find(0, 3)].crease, Crease::none);
   EXPECT_EQ(creases.find(2, 5), -1);
   EXPECT_EQ(creases.chains.size(), 7);  // every vertex is a corner: right angles
   EXPECT_EQ(std::count(creases.corner.begin(), creases.corner.end(), 1), 6);
@@ -40,7 +40,7 @@ TEST(Creases, EveryCreaseIsInOneChainWhateverTheTurn) {
     std::map<int32_t, int> uses;
     for (const ChainLink& link : creases.chains.items) ++uses[link.edge];
     for (size_t e = 0; e < creases.edges.size(); ++e) {
-      EXPECT_EQ(uses[static_cast<int32_t>(e)], creases.edges[e].crease != Crease::kNone);
+      EXPECT_EQ(uses[static_cast<int32_t>(e)], creases.edges[e].crease != Crease::none);
     }
   }
 }
@@ -63,7 +63,7 @@ TEST(PnTriangles, KeepTheirCornersAndAgreeAlongEveryEdge) {
   const CurvedSurface surface(mesh, creases, true, {2, nullptr});
   int sharp = 0;
   for (const MeshEdge& edge : creases.edges) {
-    sharp += edge.crease == Crease::kSharp;
+    sharp += edge.crease == Crease::sharp;
     for (int i = 0; i <= 8; ++i) {
       std::array<Vec3, 2> reached;
       for (const int side : {0, 1}) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cfloat>
 
-// Before Boost 1.76 one of its own headers includes another that is deprecated.
+// In Boost 1.74 the header of the tree includes one that is deprecated, which would be reported.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <boost/geometry/geometries/register/point.hpp>
 #include <boost/geometry/index/rtree.hpp>

@@ -120,14 +120,15 @@ struct CanonicalCell {
 
   // The lowest finite id, infinite cells after the finite ones.
   int32_t bucket(int32_t points) const { return ids[0] == kInfinite ? points + ids[1] : ids[0]; }
-  // In the order of the sorted ids but for the first.
+  // Cells of one bucket, which share their lowest id, are ordered by the others, ascending.
   std::pair<uint64_t, int32_t> key() const {
     const auto [low, high] = std::minmax(ids[2], ids[3]);
     return {static_cast<uint64_t>(ids[1]) << 32 | static_cast<uint32_t>(low), high};
   }
 };
 
-// By ranks: cells come in any order, so that a sort by branches would guess wrong half of the time.
+// Each id goes to the slot of its rank, which is counted from comparisons. A sort would branch by
+// them, and as cells come in any order the processor would guess wrong half of the time.
 CanonicalCell canonical(const Cell& x) {
   const int a = x[0] > x[1], b = x[0] > x[2], c = x[0] > x[3];
   const int d = x[1] > x[2], e = x[1] > x[3], f = x[2] > x[3];

@@ -90,7 +90,7 @@ std::optional<SurfacePlace> walk_from_edge(const TriangleMesh& mesh, const Creas
       return SurfacePlace{triangle, barycentric(mesh.triangles[triangle], base, at_end, at_third)};
     }
     const int32_t next = creases.find(base[out], flat.third);
-    if (creases.edges[next].crease != Crease::kNone) return {};
+    if (creases.edges[next].crease != Crease::none) return {};
     const Edge& sides = creases.edges[next].triangles;
     const double size = std::sqrt(slope * slope + flat.y * flat.y);
     triangle = sides[sides[0] == triangle];

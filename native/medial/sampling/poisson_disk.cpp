@@ -340,7 +340,8 @@ std::vector<std::vector<int32_t>> by_size(std::span<const Piece> pieces, double 
   return sizes;
 }
 
-// As many darts as its area wants, to within one: the rest is carried over to the next piece.
+// The number of each piece's first dart. A piece gets as many darts as its area asks for, rounded
+// down; what is lost by this is carried over to the next piece.
 std::vector<int64_t> numbered(std::span<const Piece> pieces, std::span<const int32_t> of,
                               double per_disk_area, uint64_t seed) {
   std::vector<int64_t> first(of.size() + 1);
