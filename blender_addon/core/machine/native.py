@@ -62,17 +62,16 @@ def _imported(name: str) -> ModuleType:
     Some systems refuse files in memory, or libraries in them. The module is then loaded from its file, which
     computes the same.
     """
-    if load_a_copy and name not in sys.modules and hasattr(os, "memfd_create"):
+    original = file()
+    if load_a_copy and original and name not in sys.modules and hasattr(os, "memfd_create"):
         try:
-            return _imported_from_memory(name, file())
+            return _imported_from_memory(name, original)
         except (OSError, ImportError):
             pass  # what is wrong with the file itself is said below
     return importlib.import_module(name)
 
 
-def _imported_from_memory(name: str, original: Path | None) -> ModuleType:
-    if original is None:
-        raise ImportError(f"no file of {name}")
+def _imported_from_memory(name: str, original: Path) -> ModuleType:
     copy = os.memfd_create(NAME)
     try:
         with open(copy, "wb", closefd=False) as stream:
@@ -80,7 +79,7 @@ def _imported_from_memory(name: str, original: Path | None) -> ModuleType:
         path = f"/proc/self/fd/{copy}"
         loader = ExtensionFileLoader(name, path)
         spec = spec_from_file_location(name, path, loader=loader)
-        assert spec is not None, "there is one for every loader"
+        assert spec is not None  # there is one for every loader
         module = module_from_spec(spec)
         loader.exec_module(module)
     finally:
