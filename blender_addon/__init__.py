@@ -7,7 +7,7 @@ Importing this package is cheap: NumPy and the compiled module are first touched
 (library.py), `bpy` by `register`.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 bl_info = {
     "name": "Medial Axis",
@@ -52,15 +52,15 @@ __all__ = [
 
 if TYPE_CHECKING:
     from .library import *  # noqa: F403
+else:  # type checkers would let every name pass
 
+    def __getattr__(name: str) -> object:
+        """The names of the library, imported when one is first used."""
+        if name not in __all__:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from . import library
 
-def __getattr__(name: str) -> Any:
-    """The names of the library, imported when one is first used."""
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from . import library
-
-    return getattr(library, name)
+        return getattr(library, name)
 
 
 def __dir__() -> list[str]:

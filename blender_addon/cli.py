@@ -144,9 +144,8 @@ def _complete(wanted: argparse.Namespace) -> None:
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
     format_of(output)
     wanted.output = output
-    output_path(
-        output, "name", "file", wanted.frames and wanted.frames[0]
-    )  # it raises what is wrong
+    first = wanted.frames[0] if wanted.frames else None
+    output_path(output, "name", "file", first)  # it raises what is wrong
     if not wanted.inputs and not inside_blender():
         raise ValueError("Expected INPUT and OUTPUT, found one path; add the other")
     if has_number(Path(output).name) != (wanted.frames is not None):

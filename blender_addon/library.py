@@ -254,7 +254,7 @@ def _value(name: str, value: Any) -> Any:
     option = OPTIONS[name]
     if isinstance(option, Choice):
         return _member(name, option, value)
-    wanted = bool if isinstance(option, Switch) else type(option.default)
+    wanted: Any = bool if isinstance(option, Switch) else type(option.default)
     try:
         if isinstance(value, str) or wanted(value) != value:
             raise ValueError

@@ -109,7 +109,8 @@ class Switch:
     default: bool
 
 
-OPTIONS: dict[str, Number | Integer | Choice | Switch] = {
+# Number, Integer, Choice or Switch; whoever names one knows which.
+OPTIONS: dict[str, Any] = {
     "theta": Number(
         label="Theta",
         description="Angle condition: keep a facet when the line between its two samples leaves "
@@ -291,7 +292,7 @@ OPTIONS: dict[str, Number | Integer | Choice | Switch] = {
 }
 
 # Options of a machine and not of a result; in Blender they stand in the preferences.
-LIMITS: dict[str, Integer | Choice] = {
+LIMITS: dict[str, Any] = {
     "memory_limit": Integer(
         label="Memory Limit",
         description="Memory that an analysis may need, in MB; 0: what is free when it starts",

@@ -71,14 +71,6 @@ std::unique_ptr<Arena> arena_for(size_t points) {
   return std::make_unique<Arena>(2 * kBytesPerPoint * points);
 }
 
-// Has memory ready for the stages, on a thread of its own.
-std::jthread touching(Arena& arena, size_t points, int threads) {
-  if (threads == 1) return {};
-  return std::jthread([&arena, points](const std::stop_token& stop) {
-    arena.touch(kBytesPerPoint * points, stop);
-  });
-}
-
 std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& samples) {
   const auto end = static_cast<int64_t>(samples.point_of_row.size());
   std::vector<int32_t> ids;
@@ -143,8 +135,9 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
   const std::vector<Vec3>& points = made.samples.points;
   watch.lap("samples");
   {
-    // CGAL leaves the other cores idle.
-    const std::jthread toucher = touching(*made.arena, points.size(), made.threads);
+    // CGAL leaves the other cores idle: they have memory ready for the stages that follow.
+    std::optional<ArenaToucher> toucher;
+    if (made.threads > 1) toucher.emplace(*made.arena, kBytesPerPoint * points.size());
     made.triangulation = triangulate(points, run, &watch);
   }
   watch.lap("cells");
@@ -204,14 +197,16 @@ MedialAnalysis::~MedialAnalysis() = default;
 MedialAnalysis::MedialAnalysis(MedialAnalysis&&) noexcept = default;
 MedialAnalysis& MedialAnalysis::operator=(MedialAnalysis&&) noexcept = default;
 
-std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
-  return selected(selection(*parts_, x), edges_by_row(*parts_), parts_->run(progress));
+std::vector<int32_t> MedialAnalysis::select(const Extraction& extraction,
+                                            Progress* progress) const {
+  return selected(selection(*parts_, extraction), edges_by_row(*parts_), parts_->run(progress));
 }
 
-MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
+MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progress) const {
   begin_stage(progress, "Facets", 0, 1);
-  MedialMesh mesh = voronoi_facets(selection(*parts_, x), parts_->samples, parts_->triangulation,
-                                   parts_->voronoi, parts_->edges, parts_->run(progress));
+  MedialMesh mesh =
+      voronoi_facets(selection(*parts_, extraction), parts_->samples, parts_->triangulation,
+                     parts_->voronoi, parts_->edges, parts_->run(progress));
   advance(progress, 1);
   return mesh;
 }

@@ -9,6 +9,11 @@
 namespace medial {
 
 struct MedialAnalysis::Parts {
+  Parts() = default;
+  // The arrays lie in the arena, and a move would free that before them.
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
   int threads = 1;
   std::unique_ptr<Arena> arena;  // goes after all that lies in it
   Samples samples;

@@ -84,16 +84,8 @@ std::optional<Points> optional_points(const py::object& rows, const char* name) 
   return rows.is_none() ? std::optional<Points>() : Points(rows, name);
 }
 
-// A view of the caller's rows; an array of int32 alone needs no copy, and others have no use.
-std::optional<std::span<const int32_t>> optional_rows(const py::object& rows) {
-  if (rows.is_none()) return {};
-  using Rows = py::array_t<int32_t, py::array::c_style>;
-  if (!py::isinstance<Rows>(rows) || py::cast<Rows>(rows).ndim() != 1) {
-    throw InvalidInputError("Expected rows as a contiguous (m,) int32 array, found " +
-                            describe(rows) + "; convert it.");
-  }
-  const auto view = py::reinterpret_borrow<Rows>(rows);
-  return std::span<const int32_t>(view.data(), static_cast<size_t>(view.size()));
+std::optional<std::span<const int32_t>> optional_ids(const py::object& ids, const char* name) {
+  return ids.is_none() ? std::optional<std::span<const int32_t>>() : ids_of(ids, name);
 }
 
 std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles,
@@ -272,7 +264,7 @@ void bind_analysis(py::module_& m) {
           "feature_size",
           [](const MedialAnalysis& a, double theta, double rho, Rule rule, Criteria criteria,
              const py::object& rows, Progress* progress) {
-            const auto chosen = optional_rows(rows);
+            const auto chosen = optional_ids(rows, "rows");
             std::vector<double> sizes;
             {
               const py::gil_scoped_release release;

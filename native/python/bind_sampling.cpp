@@ -107,11 +107,11 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
 
 void bind_sampling(py::module_& m) {
   py::enum_<SampleKind>(m, "SampleKind", py::module_local(), "What a sample lies on.")
-      .value("CORNER", SampleKind::kCorner)
-      .value("SHARP", SampleKind::kSharp)
-      .value("BOUNDARY", SampleKind::kBoundary)
-      .value("VERTEX", SampleKind::kVertex)
-      .value("SURFACE", SampleKind::kSurface);
+      .value("CORNER", SampleKind::corner)
+      .value("SHARP", SampleKind::sharp)
+      .value("BOUNDARY", SampleKind::boundary)
+      .value("VERTEX", SampleKind::vertex)
+      .value("SURFACE", SampleKind::surface);
   using S = SurfaceSamples;
   py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", kSamplesDoc, py::is_final(),
                                     py::module_local())

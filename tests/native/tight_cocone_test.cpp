@@ -98,7 +98,7 @@ TEST(TightCocone, CancelsInEveryStage) {
   const auto points = test::ellipsoid(20000, 4);
   for (const double share : {0.0, 0.6, 0.905, 0.935, 0.955, 0.975}) {
     Progress progress;
-    std::jthread watcher([&] {
+    Thread watcher([&] {
       while (progress.fraction() < share) std::this_thread::yield();
       progress.cancel();
     });

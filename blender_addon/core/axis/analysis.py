@@ -58,9 +58,10 @@ class AnalysedSamples:
     def bytes(self) -> int:
         """The memory that these samples and their analysis hold."""
         density = self.density
-        arrays = (self.points, self.kinds, self.normals, self.rows, density.points)
-        arrays += (density.spacing, density.feature_size, density.edges)
-        return self.analysis.bytes + sum(0 if x is None else x.nbytes for x in arrays)
+        own = (self.points, self.kinds, self.normals, self.rows)
+        others = (density.points, density.spacing, density.feature_size, density.edges)
+        arrays = [x for x in (*own, *others) if x is not None]
+        return int(self.analysis.bytes) + sum(x.nbytes for x in arrays)
 
 
 @dataclass(frozen=True, eq=False)

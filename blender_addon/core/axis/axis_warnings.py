@@ -29,7 +29,8 @@ def axis_warnings(
         )
     if sides is SidesFrom.TIGHT_COCONE:
         yield from cocone_warnings(samples.analysis.tight_cocone, samples.points)
-    if sides is SidesFrom.NORMALS and look_inward(samples.points, samples.normals):
+    normals = samples.normals if sides is SidesFrom.NORMALS else None
+    if normals is not None and look_inward(samples.points, normals):
         yield (
             "the normals point inward, so inside and outside are exchanged; turn them round, "
             "or choose Inside From Tight Cocone, and compute again"

@@ -102,7 +102,7 @@ class Density:
         apart = _APART * float(np.linalg.norm(np.ptp(self.points, axis=0)))
         left = np.flatnonzero(~self.at_edge)
         left = left[np.argsort(-self.epsilon[left], kind="stable")]
-        found = []
+        found: list[tuple[tuple[float, ...], float]] = []
         while len(left) and len(found) < _PLACES:
             place = self.points[left[0]]
             found.append((tuple(place.tolist()), float(self.epsilon[left[0]])))

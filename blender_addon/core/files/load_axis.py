@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -29,8 +30,9 @@ def load_axis(path: str | os.PathLike) -> MedialAxis:
             f"{'no ' + missing[0] if missing else 'arrays that contradict each other'}; "
             "export it again"
         )
-    counts = {name: int(arrays.pop(name)) for name in ("unbounded", "zero_area")}
-    return MedialAxis(**arrays, **counts)
+    fields: dict[str, Any] = {**arrays}
+    fields |= {name: int(arrays[name]) for name in ("unbounded", "zero_area")}
+    return MedialAxis(**fields)
 
 
 def _fit(arrays: dict[str, np.ndarray]) -> bool:

@@ -59,7 +59,7 @@ def read_npz(path: str | os.PathLike) -> ImportedPoints:
                 f"Expected {key} (n, 3) in '{name}', found {array.shape} of {array.dtype}; "
                 "save it in that shape"
             )
-    points, triangles, normals = (arrays.get(key) for key in ("points", "triangles", "normals"))
+    points, triangles, normals = arrays["points"], arrays.get("triangles"), arrays.get("normals")
     if normals is not None and normals.shape != points.shape:
         raise ReadError(
             f"Expected as many normals as points in '{name}', found {len(normals)} and "

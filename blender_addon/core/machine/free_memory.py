@@ -88,5 +88,7 @@ class _MemoryStatus(ctypes.Structure):
 
 def _of_windows() -> int | None:
     status = _MemoryStatus(length=ctypes.sizeof(_MemoryStatus))
-    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(  # type: ignore[attr-defined]
+        ctypes.byref(status)
+    )
     return status.available if done else None

@@ -24,7 +24,7 @@ class Task:
 class Outcome:
     """What became of a task: what its work returned, or an error."""
 
-    value: Any | None
+    value: Any
     error: MedialAxisError | None
 
 

@@ -62,23 +62,26 @@ def _imported(name: str) -> ModuleType:
     Some systems refuse files in memory, or libraries in them. The module is then loaded from its file, which
     computes the same.
     """
-    if load_a_copy and name not in sys.modules and hasattr(os, "memfd_create"):
+    original = file()
+    if load_a_copy and original and name not in sys.modules and hasattr(os, "memfd_create"):
         try:
-            return _imported_from_memory(name)
+            return _imported_from_memory(name, original)
         except (OSError, ImportError):
             pass  # what is wrong with the file itself is said below
     return importlib.import_module(name)
 
 
-def _imported_from_memory(name: str) -> ModuleType:
+def _imported_from_memory(name: str, original: Path) -> ModuleType:
     copy = os.memfd_create(NAME)
     try:
         with open(copy, "wb", closefd=False) as stream:
-            stream.write(file().read_bytes())
+            stream.write(original.read_bytes())
         path = f"/proc/self/fd/{copy}"
-        spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
+        loader = ExtensionFileLoader(name, path)
+        spec = spec_from_file_location(name, path, loader=loader)
+        assert spec is not None  # there is one for every loader
         module = module_from_spec(spec)
-        spec.loader.exec_module(module)
+        loader.exec_module(module)
     finally:
         os.close(copy)
     sys.modules[name] = module

@@ -9,7 +9,7 @@
 
 namespace medial {
 
-enum class SampleKind : int32_t { kCorner, kSharp, kBoundary, kVertex, kSurface };
+enum class SampleKind : int32_t { corner, sharp, boundary, vertex, surface };
 
 struct SamplingOptions {
   std::optional<int64_t> count;  // one of count, spacing and sites

@@ -65,7 +65,7 @@ bool is_on_a_line(const std::vector<int32_t>& polygon, std::span<const Vec3> poi
   }
   const Vec3 along = normalized(voronoi.centre[far] - start);
   const double radius = distance(start, points[t.cells[polygon[0]][0]]);
-  // Beyond all rounding of the largest of their balls.
+  // Farther from the line than this is beyond all rounding, even in the largest of the balls.
   const double clear = 4 * kCoarsestError * (radius + std::sqrt(farthest));
   const auto squared_beside = [&](int32_t v) {
     return squared_length(cross(voronoi.centre[v] - start, along));

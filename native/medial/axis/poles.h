@@ -7,8 +7,8 @@
 namespace medial {
 
 struct Poles {
-  Array<Vec3>
-      vector;  // v_p = p+ - p; for an unbounded cell the mean direction of its infinite edges
+  // v_p = p+ - p; for an unbounded cell the mean direction of its infinite edges.
+  Array<Vec3> vector;
   Array<uint8_t> unbounded;  // the pole is at infinity
 };
 

@@ -35,7 +35,7 @@ class UnionFind {
 
  private:
   Array<int32_t> parent_;
-  std::vector<int32_t> joined_;  // whoever is no representative
+  std::vector<int32_t> joined_;  // ids that no longer represent their set
 };
 
 // Disjoint sets of things that can be turned over: within a set it is known which of them are

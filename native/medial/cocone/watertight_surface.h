@@ -14,7 +14,7 @@ std::vector<Triangle> in_rows(std::vector<Triangle> triangles, const Samples& sa
                               const Run& run);
 
 // In terms of the rows.
-WatertightSurface describe(TightCocone result, SolidBoundary boundary, const Samples& samples,
+WatertightSurface describe(TightCocone found, SolidBoundary boundary, const Samples& samples,
                            const Run& run);
 
 }  // namespace medial

@@ -34,8 +34,8 @@ Surface closed_surface(const DistinctRows& corners, std::span<const Triangle> tr
   return surface;
 }
 
-// Tells inside from outside at one place after the other: between neighbours there is little to
-// cross.
+// Tells inside from outside at one place after the other; little surface lies between places that
+// follow each other.
 class Follower {
  public:
   explicit Follower(const WindingNumber& winding) : winding_(winding) {}
