@@ -25,6 +25,7 @@ def package() -> str:
     spec = importlib.util.spec_from_file_location(
         name, front, submodule_search_locations=[str(FOLDER)]
     )
+    assert spec is not None and spec.loader is not None, "of a file of Python"
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     spec.loader.exec_module(module)

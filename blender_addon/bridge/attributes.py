@@ -11,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.axis.compute import MedialAxis
+    from ..core.axis.medial_axis import MedialAxis
     from ..core.axis.sampling_report import SamplingReport
 
 

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.axis.compute import MedialAxis
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes
-from .made import is_gone
-from .results import UNBOUNDED, ZERO_AREA, is_result, result_of
+from .axis_object import UNBOUNDED, ZERO_AREA, is_result, result_of
+from .output_object import is_gone
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -5,11 +5,11 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.axis.compute import MedialAxis
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import MedialAxisError
-from ..core.self_test import Check, checks_of, compute_box
+from ..core.known_box import Check, checks_of, compute_box
 from .attributes import attributes
-from .write_object import new_mesh
+from .write_mesh import new_mesh
 
 
 def self_test() -> list[Check]:

@@ -4,7 +4,7 @@ import bpy
 from bpy.props import CollectionProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper, axis_conversion, orientation_helper
 
-from ..bridge.new_points import new_points
+from ..bridge.points_object import new_points
 from ..core.errors import MedialAxisError
 from ..core.files.read import import_points
 from .paths import RELATIVE, chosen_files

@@ -2,6 +2,7 @@
 // owner alive.
 #pragma once
 
+#include <medial/errors.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -11,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/vec3.h"
 
@@ -30,7 +30,7 @@ inline std::string describe(const py::handle& object) {
 inline py::array checked_rows(const py::handle& object, const char* name, int columns,
                               const std::string& kinds, const char* expected) {
   const bool array = py::isinstance<py::array>(object);
-  const auto view = array ? py::reinterpret_borrow<py::array>(object) : py::array();
+  auto view = array ? py::reinterpret_borrow<py::array>(object) : py::array();
   if (!array || view.ndim() != 2 || view.shape(1) != columns ||
       kinds.find(view.dtype().kind()) == std::string::npos) {
     throw InvalidInputError("Expected " + std::string(name) + " as " + expected + ", found " +

@@ -133,7 +133,7 @@ def attribute(mesh, name):
 
 def result_of(source):
     """The result object of a source, or None."""
-    return addon("bridge.results").result_of(source)
+    return addon("bridge.axis_object").result_of(source)
 
 
 def analyses():
@@ -207,4 +207,4 @@ def reports(capfd):
 
 def medial_objects():
     """All result objects in the file."""
-    return [thing for thing in bpy.data.objects if addon("bridge.results").is_result(thing)]
+    return [thing for thing in bpy.data.objects if addon("bridge.axis_object").is_result(thing)]

@@ -87,7 +87,7 @@ def attempt(seed):
         assert again == answer
     elif single:
         assert contents() == before, f"after {answer} something was left"
-    assert addon("ui.running").job() is None
+    assert addon("ui.current_job").job() is None
     return answer
 
 

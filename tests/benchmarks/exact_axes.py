@@ -38,13 +38,13 @@ def row(name: str, turn: int, samples: int, worst: bool) -> list[str]:
     frame = inputs.rotation(turn) if turn else np.eye(3)
     mesh = resampled.turned(mesh, frame) if turn else mesh
     result = resampled.of_surface(mesh, samples)
-    points, axis = result.sampled.samples.points, result.axis
+    points, axis = result.chosen.samples.points, result.axis
     found = judge.measured(shape, mesh, frame, axis, len(points))
     missed = found.missed(name)
     print(name, turn, found, "missed", missed, file=sys.stderr, flush=True)
     if worst:
         off = judge.off_axis(shape, axis.vertices @ frame, resampled.spacing(shape.area, samples))
-        print(spikes.worst(axis, points, result.sampled.samples.kinds, off), file=sys.stderr)
+        print(spikes.worst(axis, points, result.chosen.samples.kinds, off), file=sys.stderr)
     return [name, "no" if turn == 0 else str(turn), *(cell(found, x, x in missed) for x in FIELDS)]
 
 

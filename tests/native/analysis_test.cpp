@@ -1,6 +1,5 @@
-#include "analysis.h"
-
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <thread>
 

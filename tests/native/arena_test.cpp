@@ -5,7 +5,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "analysis.h"
+#include "analysis_parts.h"
 #include "delaunay/triangulation.h"
 #include "process_memory.h"
 #include "shapes.h"
@@ -13,11 +13,12 @@
 namespace medial {
 namespace {
 
-// Its arrays would lie in an arena that is gone.
-static_assert(!std::is_move_constructible_v<MedialAnalysis>);
-static_assert(!std::is_move_assignable_v<MedialAnalysis>);
+// The arrays of an analysis would lie in an arena that is gone. The analysis itself moves the
+// pointer to all of them.
+static_assert(!std::is_move_constructible_v<MedialAnalysis::Parts>);
+static_assert(!std::is_move_assignable_v<MedialAnalysis::Parts>);
+static_assert(!std::is_copy_constructible_v<MedialAnalysis::Parts>);
 static_assert(!std::is_copy_constructible_v<MedialAnalysis>);
-static_assert(!std::is_copy_assignable_v<MedialAnalysis>);
 
 constexpr size_t kMegabyte = 1 << 20;
 

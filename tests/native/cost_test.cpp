@@ -1,10 +1,10 @@
 // What an analysis and an extract cost, in counts that are the same on every machine.
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <array>
 #include <string>
 
-#include "analysis.h"
 #include "counted_new.h"
 #include "shapes.h"
 

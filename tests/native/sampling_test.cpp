@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
+#include <medial/sampling.h>
 
 #include "sampling/poisson_disk.h"
-#include "sampling/surface_samples.h"
 #include "shapes.h"
 
 namespace medial {
@@ -14,7 +14,7 @@ test::Mesh folded() {
 }
 
 SurfaceSamples sampled(const test::Mesh& mesh, SamplingOptions options, int threads = 2) {
-  return sample_surface(mesh.vertices, mesh.triangles, options, {threads, nullptr});
+  return sample_surface(mesh.vertices, mesh.triangles, options, threads);
 }
 
 Creases creases_of(const test::Mesh& mesh, TriangleMesh& welded, double angle = 0.5) {
@@ -219,7 +219,7 @@ TEST(Sampling, StopsWhenCancelled) {
   const auto torus = test::torus(40, 20);
   SamplingOptions options;
   options.count = 1000;
-  EXPECT_THROW(sample_surface(torus.vertices, torus.triangles, options, {2, &progress}), Cancelled);
+  EXPECT_THROW(sample_surface(torus.vertices, torus.triangles, options, 2, &progress), Cancelled);
 }
 
 }  // namespace

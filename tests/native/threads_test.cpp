@@ -2,12 +2,12 @@
 // which this program has its own.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 #include <pthread.h>
 
 #include <atomic>
 #include <cerrno>
 
-#include "analysis.h"
 #include "shapes.h"
 
 namespace {

@@ -1,15 +1,18 @@
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <thread>
 
-#include "analysis.h"
+#include "delaunay/edges.h"
+#include "delaunay/face_set.h"
+#include "delaunay/samples.h"
 #include "shapes.h"
 
 namespace medial {
 namespace {
 
 WatertightSurface surface_of(std::span<const Vec3> points, int threads = 2) {
-  return watertight_surface(points, {}, {threads, nullptr});
+  return watertight_surface(points, {}, threads);
 }
 
 double volume(std::span<const Vec3> points, std::span<const Triangle> triangles) {
@@ -100,7 +103,7 @@ TEST(TightCocone, CancelsInEveryStage) {
       progress.cancel();
     });
     try {
-      watertight_surface(points, {}, {2, &progress});
+      watertight_surface(points, {}, 2, &progress);
     } catch (const Cancelled&) {
     }
   }

@@ -297,7 +297,8 @@ def test_graded_samples_are_apart(medial):
 PROGRAM = """
 import hashlib, sys
 sys.path.insert(0, sys.argv[1])
-import conftest, meshes
+import conftest
+from support import meshes
 from medial_axis.core.machine import native
 samples = native.load().sample_surface(*meshes.torus(), count=5000, smooth=True, threads=int(sys.argv[2]))
 print(hashlib.sha256(samples.points.tobytes() + samples.radius.tobytes()).hexdigest())

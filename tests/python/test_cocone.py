@@ -43,7 +43,7 @@ def clouds():
 
 CLOUDS = dict(clouds())
 BOX = SHAPES["box"].sample(190, 1)
-COINCIDENT = inputs.structured_cases() | {"box": BOX, "box turned": BOX @ inputs.rotation(4).T}
+COINCIDENT = inputs.structured_cases() | {"box": BOX, "box turned": inputs.turned(BOX, 7, 2, 3, 1)}
 STRUCTURED = {  # those of which exact arithmetic settles most
     name: COINCIDENT[name]
     for name in (

@@ -45,7 +45,7 @@ def near(
     home = _cells(points[left], lowest, reach, size)
     for step in product((-1, 0, 1), repeat=3):
         cell = home + np.dot(step, _strides(size))
-        first, last = (np.searchsorted(cells, cell, side) for side in ("left", "right"))
+        first, last = np.searchsorted(cells, cell, "left"), np.searchsorted(cells, cell, "right")
         while len(some := np.flatnonzero(first < last)):
             away = np.linalg.norm(points[left[some]] - others[first[some]], axis=1)
             found[left[some[away <= reach]]] = True

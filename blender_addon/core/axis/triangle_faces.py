@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class TriangleFaces:
-    """What has `triangles`, (f, 3) int32, has faces as a `MedialAxis` has them."""
+    """Gives a class that has `triangles`, (f, 3) int32, the arrays of faces that a `MedialAxis` has."""
 
     triangles: NDArray[np.int32]
 

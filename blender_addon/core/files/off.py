@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import ReadError
-from .imported import ImportedPoints, are_normals, left_out
+from .imported_points import ImportedPoints, are_normals, left_out
 from .text import Lines, Rows
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import OutOfMemoryError, ReadError
-from .arrays import read_npy, read_npz
-from .imported import ImportedPoints
+from .imported_points import ImportedPoints
+from .numpy_arrays import read_npy, read_npz
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import ReadError
-from .imported import ImportedPoints, checked
+from .imported_points import ImportedPoints, checked
 from .text import open_file
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from typing import BinaryIO
 from ..errors import ExportError
 
 
-def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], None]) -> Path:
+def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) -> Path:
     """Write a file.
 
     Parameters

@@ -1,4 +1,4 @@
-"""One bar over several calls of the compiled module, and one word that cancels them all."""
+"""The progress of several calls of the compiled module as one fraction, and one `cancel` for all of them."""
 
 from __future__ import annotations
 

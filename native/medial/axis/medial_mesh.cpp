@@ -218,7 +218,7 @@ MedialMesh in_order(Found found, std::span<const int32_t> row, const Edges& edge
 
 // Numbers the Voronoi vertices in order of first use and replaces cells by these numbers. Returns
 // the number of each cell, and how many there are.
-std::pair<Array<int32_t>, int32_t> number_vertices(Array<int32_t>& corners, int32_t cells,
+std::pair<Array<int32_t>, int32_t> number_vertices(std::span<int32_t> corners, int32_t cells,
                                                    const Run& run) {
   auto number = array<int32_t>(static_cast<size_t>(cells), -1, run);
   int32_t count = 0;

@@ -5,11 +5,11 @@
 //   rho_p   = |pq| / max over t in U_p of R_t
 #pragma once
 
+#include <medial/options.h>
+
 #include "axis/umbrellas.h"
 
 namespace medial {
-
-enum class Rule : int32_t { either = 0, both = 1 };
 
 // Per edge, the larger value of the two ends (rule EITHER) and the smaller one (rule BOTH).
 struct Significance {

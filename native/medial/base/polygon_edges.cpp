@@ -1,12 +1,13 @@
 #include "base/polygon_edges.h"
 
+#include <medial/errors.h>
+
 #include <algorithm>
 #include <compare>
 #include <string>
 
 #include "base/atomic.h"
 #include "base/csr.h"
-#include "base/errors.h"
 
 namespace medial {
 namespace {

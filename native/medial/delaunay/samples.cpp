@@ -1,9 +1,9 @@
 #include "delaunay/samples.h"
 
+#include <medial/errors.h>
+
 #include <numbers>
 #include <string>
-
-#include "base/errors.h"
 
 namespace medial {
 

@@ -50,7 +50,7 @@ class SolidAngle {
 
   int32_t build(int32_t begin, int32_t end);
   void describe_leaf(Node& node) const;
-  void describe_parent(Node& node, const Node& left, const Node& right) const;
+  static void describe_parent(Node& node, const Node& left, const Node& right);
   Term term(int32_t id, const Vec3& query) const;
 
   std::vector<Corners> corners_;

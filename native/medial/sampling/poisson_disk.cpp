@@ -231,7 +231,8 @@ class Neighbourhood {
   };
 
   static size_t cell(int x, int y, int z) {
-    return static_cast<size_t>((x * kLocal + y) * kLocal + z);
+    const auto plane = static_cast<size_t>(x) * kLocal + static_cast<size_t>(y);
+    return plane * kLocal + static_cast<size_t>(z);
   }
   std::array<double, 3> local(const Vec3& p) const {
     auto x = grid_->cells(p);
@@ -241,7 +242,7 @@ class Neighbourhood {
 
   const Grid* grid_ = nullptr;
   std::array<double, 3> low_{};
-  std::array<int32_t, kLocal * kLocal * kLocal> heads_{};
+  std::array<int32_t, size_t{kLocal} * kLocal * kLocal> heads_{};
   std::vector<Linked> disks_;
 };
 

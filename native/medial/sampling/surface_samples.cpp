@@ -1,4 +1,4 @@
-#include "sampling/surface_samples.h"
+#include <medial/sampling.h>
 
 #include <climits>
 #include <numbers>
@@ -469,7 +469,8 @@ void append(const Model& model, const Turn& turn, SurfaceSamples& samples) {
 }  // namespace
 
 SurfaceSamples sample_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                              const SamplingOptions& options, const Run& run) {
+                              const SamplingOptions& options, int threads, Progress* progress) {
+  const Run run{thread_count(threads), progress};
   require_valid(options, vertices.size());
   begin_stage(run.progress, "Sharp edges", 0, 0.2);
   const Model model(vertices, triangles, options, run);

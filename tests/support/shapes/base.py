@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import NDArray
-
 from support.sampling import poisson_disc
 
 Array = NDArray[np.float64]

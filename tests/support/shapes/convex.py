@@ -5,7 +5,6 @@ from functools import cached_property
 from itertools import combinations
 
 import numpy as np
-
 from support import distance
 
 from .base import Array, Rng, Shape, shares

@@ -6,7 +6,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-
 from support import distance
 
 from .base import Array, Rng, Shape, directions, reject, shares

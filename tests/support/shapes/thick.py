@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-
 from support import distance
 
 from .base import Array, Rng, Shape, directions, reject, shares

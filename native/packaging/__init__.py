@@ -1,0 +1,1 @@
+"""How sources become a zip: Debian's packages, compiled modules, manual, presets, licences. Standard library only."""

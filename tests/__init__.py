@@ -1,0 +1,1 @@
+"""Everything that must hold, and what shows or measures it. `parts.py` is what `build_addon.py test` runs."""
