@@ -133,8 +133,8 @@ MUTATIONS = (
     ),
     Mutation(
         "delaunay/edges.cpp",
-        "(row_[q] > row_[p])",
-        "(row_[q] < row_[p])",
+        "int{row_[q] > row_[p]}",
+        "int{row_[q] < row_[p]}",
         "edges begin at their higher row",
     ),
     Mutation(
@@ -202,8 +202,8 @@ MUTATIONS = (
     ),
     Mutation(
         "axis/significance.cpp",
-        "  if (q.umbrella)\n",
-        "  if (false && q.umbrella)\n",
+        "  if (q.umbrella) bits",
+        "  if (false && q.umbrella) bits",
         "edges of the umbrella of q are tried from there",
     ),
     Mutation(
@@ -440,8 +440,8 @@ MUTATIONS = (
     # ---- sampling
     Mutation(
         "sampling/creases.cpp",
-        "<= cosine ? Crease::kSharp : Crease::kNone",
-        ">= cosine ? Crease::kSharp : Crease::kNone",
+        "<= cosine ? Crease::sharp : Crease::none",
+        ">= cosine ? Crease::sharp : Crease::none",
         "flat edges are sharp",
     ),
     Mutation(

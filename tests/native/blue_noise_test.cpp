@@ -186,7 +186,7 @@ TEST(MirroredRows, TheEdgeItselfIsSampledAtEvenSteps) {
     const bool on_edge = samples.points[i].x == 0 && samples.points[i].z == 0;
     if (on_edge) along.push_back(samples.points[i].y);
     EXPECT_EQ(on_edge && along.back() > 0 && along.back() < 2,
-              samples.kind[i] == SampleKind::kSharp);
+              samples.kind[i] == SampleKind::sharp);
   }
   std::sort(along.begin(), along.end());
   ASSERT_EQ(along.size(), 17u);  // 16 parts of 0.125
@@ -237,8 +237,8 @@ TEST(Creases, AreSharpFromTheirAngleOn) {
   for (const auto& [angle, sharp] : {std::pair{1.4, 1}, std::pair{1.75, 0}}) {
     const auto mesh = make_mesh(folded().vertices, folded().triangles, {1, nullptr});
     const Creases creases = find_creases(mesh, angle, {}, false, {1, nullptr});
-    EXPECT_EQ(creases.edges[creases.find(0, 1)].crease == Crease::kSharp, sharp == 1);
-    EXPECT_EQ(creases.edges[creases.find(0, 2)].crease, Crease::kBoundary);
+    EXPECT_EQ(creases.edges[creases.find(0, 1)].crease == Crease::sharp, sharp == 1);
+    EXPECT_EQ(creases.edges[creases.find(0, 2)].crease, Crease::boundary);
   }
 }
 
@@ -249,7 +249,7 @@ TEST(Creases, WhereThreeMeetIsACorner) {
   const auto welded = make_mesh(mesh.vertices, mesh.triangles, {1, nullptr});
   const Creases creases = find_creases(welded, 0.2, {}, false, {1, nullptr});
   for (const auto& [p, q] : {Edge{0, 1}, Edge{1, 2}, Edge{1, 5}}) {
-    EXPECT_EQ(creases.edges[creases.find(p, q)].crease, Crease::kSharp);
+    EXPECT_EQ(creases.edges[creases.find(p, q)].crease, Crease::sharp);
   }
   EXPECT_TRUE(creases.corner[1]);
 }
@@ -261,12 +261,12 @@ TEST(Creases, AreSharpWhereSidesDoNotJoin) {
   mesh.triangles.push_back({0, 2, 4});
   const auto three = make_mesh(mesh.vertices, mesh.triangles, {1, nullptr});
   const Creases at_three = find_creases(three, 3, {}, false, {1, nullptr});
-  EXPECT_EQ(at_three.edges[at_three.find(0, 2)].crease, Crease::kSharp);
+  EXPECT_EQ(at_three.edges[at_three.find(0, 2)].crease, Crease::sharp);
   mesh = square(1);
   std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
   const auto flipped = make_mesh(mesh.vertices, mesh.triangles, {1, nullptr});
   const Creases at_flipped = find_creases(flipped, 3.2, {}, false, {1, nullptr});
-  EXPECT_EQ(at_flipped.edges[at_flipped.find(0, 2)].crease, Crease::kSharp);
+  EXPECT_EQ(at_flipped.edges[at_flipped.find(0, 2)].crease, Crease::sharp);
   EXPECT_FALSE(at_flipped.edges[at_flipped.find(0, 2)].manifold);
 }
 
