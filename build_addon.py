@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Builds, shows and tests the Medial Axis add-on.
 
     python3 build_addon.py build     compile the native modules, pack dist/medial_axis-VERSION.zip

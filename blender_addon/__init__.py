@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The medial axis of meshes and point clouds: an add-on of Blender, and a package that needs no Blender.
 
     import medial_axis

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the command line: `python3 -m medial_axis ...`, `python3 FOLDER ...`, and inside any Blender
 `blender --background [FILE] --python FOLDER/__main__.py -- ...`, where FOLDER is this package's.
 """

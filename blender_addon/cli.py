@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line (docs/command_line.md): files in, medial axes as files out.
 
 The same in three places: `blender --command medial_axis` from 4.2, `blender --background --python .../__main__.py --`

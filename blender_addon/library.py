@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The front door for Python programs: arrays in, a medial axis out (docs/libraries.md).
 
     import medial_axis

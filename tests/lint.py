@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Layout, lint and types of the sources. A tool that is not installed is skipped by name."""
 
 from __future__ import annotations

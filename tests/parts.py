@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What `build_addon.py test` runs, part by part.
 
 A part is a function of the Blender. It returns nothing, or a remark for the summary; it raises Failure when something

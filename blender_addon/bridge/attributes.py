@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Attributes in Blender: tables of those of a medial axis and of samples, and the normals of oriented points."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Medial axes as objects: how they are found, made and updated, and what they remember."""
 
 from __future__ import annotations

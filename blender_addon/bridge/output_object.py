@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Objects that are made of a source, and updated in place when the source is computed again.
 
 They remember their source in a custom property; nothing is written to the source.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Points from a file -> a mesh object, with faces and normals where the file has them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A result object -> the medial axis that it holds, in the object's own frame."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """An object as the artist sees it -> points, triangles and normals in its rigid frame.
 
 The medial axis is not affine invariant. So the world matrix L is split into a rigid frame R

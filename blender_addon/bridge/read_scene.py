@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files that Blender reads -> the shapes in them, for the command line. No user interface."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reports of samples: objects of their own, or an attribute of the source; how they are found and updated."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Does what is installed here compute a medial axis that is known, and does Blender take it?"""
 
 from __future__ import annotations

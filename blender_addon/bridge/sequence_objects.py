@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Medial axes of several frames as objects of which one is shown at a time.
 
 Their visibility is keyed, so that viewport, render and render farm show the right one without this add-on:

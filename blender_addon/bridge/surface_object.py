@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Surface objects that Tight Cocone made: how they are found, made, updated, and what they remember."""
 
 from __future__ import annotations

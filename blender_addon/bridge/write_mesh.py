@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Polygons -> a Blender mesh with attributes. Here alone float64 becomes float32."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The medial axis of a box, which everybody knows: does what is installed here compute it?"""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every option of the method: default, range, unit and words. This is their only home.
 
 Dey & Zhao, sect. 3: an edge is selected by Angle[theta] or Ratio[rho].

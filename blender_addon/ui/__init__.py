@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's user interface: properties, operators, panels, menus. No geometry."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The base of the operators that compute: modal in the user interface, where a timer watches a thread; from scripts
 they run in one go."""
 

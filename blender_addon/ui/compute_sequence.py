@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The medial axis of an animated object over a range of frames, and its playback."""
 
 import time

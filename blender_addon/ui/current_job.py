@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The one computation that may run at a time: here it is started, shown, and ended."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """File > Export > Medial Axis: the active object's medial axis as a file."""
 
 import os

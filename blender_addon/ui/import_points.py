@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """File > Import > Points: `.xyz`, `.xyzn` and `.off` files as mesh objects."""
 
 import bpy

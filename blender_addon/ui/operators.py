@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Compute Medial Axis, Report Sampling, Reconstruct Surface, and Cancel."""
 
 from functools import partial

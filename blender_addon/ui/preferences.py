@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Edit > Preferences > Add-ons > Medial Axis: what is installed, memory, a test of it, and the manual."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The options of core.settings as Blender properties, and those of the panel."""
 
 import ctypes

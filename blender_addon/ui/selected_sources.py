@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What an operator computes from: the selection, and why there may be nothing to compute."""
 
 from dataclasses import dataclass

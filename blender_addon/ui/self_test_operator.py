@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Self-Test: a known medial axis is computed, and each check says what it found."""
 
 import bpy

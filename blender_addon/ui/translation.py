@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The language of the user interface.
 
 Blender translates labels and descriptions by itself. Sentences from below the user interface are English; `say`

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sentences in panels: Blender's labels do not wrap."""
 
 import textwrap

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What an analysis keeps: the results of the stages that extractions read.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A Blender with a profile of its own, and the Python that it uses."""
 
 from __future__ import annotations

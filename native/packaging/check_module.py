@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Refuses a compiled module that would not live well inside Blender, and prints what it needs.
 
     python3 native/packaging/check_module.py _medial.cpython-311-x86_64-linux-gnu.so ... [--local]

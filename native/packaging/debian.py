@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Debian's packages as files: verified by a private apt, not installed. What cannot be had is a Failure."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The headers of another Python, and of a pybind11 that knows it, in a folder that the compiler is given.
 
 Most come from Debian's packages of another suite. Nothing is installed, and of the packages only python3.X/, its

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a compiler on Debian needs to make a module for a Python on Windows, without anything from Windows."""
 
 import re

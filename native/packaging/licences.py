@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """THIRD_PARTY_LICENSES: what of others is compiled into the modules, in which version, and under which terms.
 
 The versions are those of the Debian packages that the headers and static libraries belong to; the terms are the files

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the manual that is installed with the add-on: docs/ as web pages that need no network.
 
     python3 native/packaging/manual.py docs FOLDER

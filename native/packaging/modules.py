@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Compiles `_medial` for each Python into blender_addon/lib, with headers from Debian's packages."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The Debian packages that each command needs; they are installed where that is allowed, or else named."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The zip that people install, and one per system for the extensions platform."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where things lie in the checkout, and the one version number."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the presets of the panel, as Blender writes such files itself: every setting, one a line.
 
     python3 native/packaging/presets.py FOLDER

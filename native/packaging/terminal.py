@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Commands that are run for the person at the terminal, and how their failures are told."""
 
 from __future__ import annotations

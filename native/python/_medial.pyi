@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The medial axis of a surface sample (Dey & Zhao's MEDIAL), computed in C++.
 
 Every id that leaves this module is a row of the input array: `edges`, `generators`, cells and umbrellas

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // NumPy arrays in and out: checked views of the caller's memory, read-only arrays that keep their
 // owner alive.
 #pragma once

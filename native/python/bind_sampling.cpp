@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // sample_surface for Python.
 #include <medial/sampling.h>
 #include <pybind11/stl.h>

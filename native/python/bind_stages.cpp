@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stages by themselves, for study and tests: each starts from the points and ends with ids of
 // input rows.
 #include "arrays.h"

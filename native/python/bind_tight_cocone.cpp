@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CoconeOptions and TightCocone for Python.
 #include "arrays.h"
 #include "bindings.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The Python module _medial; _medial.pyi documents it in full.
 #include <medial/errors.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the installed add-on inside Blender; start them with run.py."""
 
 import sys

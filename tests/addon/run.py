@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Installs the add-on's zip into a private Blender profile and runs the tests inside that Blender.
 
     python3 tests/addon/run.py --zip dist/medial_axis-0.1.0.zip [--blender blender] [pytest arguments]

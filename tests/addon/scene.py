@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes and measuring sticks for the tests inside Blender."""
 
 import ctypes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line inside Blender: objects, frames, and the same bytes as without Blender."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files made inside Blender: by our operator, and of the result by Blender's own exporters, read back."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The thread that computes: watched, cancelled, and never left behind."""
 
 import threading

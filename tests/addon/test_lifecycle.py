@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Two hundred runs leave nothing behind; updates, removal and what is written, each in a Blender of its own."""
 
 import os

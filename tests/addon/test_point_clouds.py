@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Point cloud objects, and points that geometry nodes make of a mesh, as sources."""
 
 import bpy

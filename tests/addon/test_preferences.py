@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The preferences page: what is installed, the self-test, and the manual."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on comes and goes without a trace; every option is what core.settings says."""
 
 import ast

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Whatever an artist has, one click: samples of the faces, the axis in the solid, or one clear sentence."""
 
 import math

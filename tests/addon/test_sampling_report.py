@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Report Sampling: the samples and their epsilon, as an object or on the source."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sequences: files of every frame, and objects that play them in viewport and render."""
 
 from pathlib import Path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The user interface in German: every text has its translation, none is left over, and sentences find theirs."""
 
 import re

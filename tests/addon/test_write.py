@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writing a mesh: exact in float32, and all or nothing."""
 
 from types import SimpleNamespace

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every text that the add-on shows: labels and descriptions of what is registered, and sentences of its sources."""
 
 import ast

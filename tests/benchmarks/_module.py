@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Lets the benchmarks find the compiled module and the shapes of the tests from a plain checkout."""
 
 import argparse

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The axis of every mesh of the data folder, whole and damaged, by way of the add-on: a Markdown table.
 
     python3 tests/benchmarks/all_meshes.py [--output table.md] [--meshes spot_low.obj ...] [--sampling NAME] [--worst]

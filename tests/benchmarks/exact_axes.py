@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Axes of triangle meshes of shapes whose axes are known exactly, by way of the add-on: a Markdown table.
 
     python3 tests/benchmarks/exact_axes.py [--output table.md] [--shapes box ...] [--turns 3] [--worst]

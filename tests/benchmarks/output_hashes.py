@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Prints a hash of everything that a compiled module returns, input by input: equal before and after a change that
 must not change any result.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The medial axis of a cube of side 8 whose faces are grids of samples.
 #include <medial/analysis.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One model of the demo, inside Blender: install the zip, compute, export, render, report.
 
     blender --background --factory-startup --python-exit-code 1 --python tests/demo/blender_demo.py -- \\

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Computes and renders the medial axis of some models, each in a Blender of its own, and prints what they report."""
 
 from __future__ import annotations

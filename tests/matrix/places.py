@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where Blenders come from: this machine, other Debians in folders, the package index of Python."""
 
 from __future__ import annotations

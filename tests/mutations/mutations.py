@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One-line faults, one for each thing that a stage has to get right: what the tests are measured by.
 
 A mutation replaces `old`, which occurs exactly once in its file, by `new`. `sweep.py` builds each and runs the tests.

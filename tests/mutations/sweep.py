@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the library with one fault at a time and says which test notices it.
 
     python3 tests/mutations/sweep.py --check                  each text occurs once in the sources; takes no time

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The vocabulary of the stages against what it says in plain loops.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Poisson discs from below and from above: how near they come to each other, and how wide the holes
 // are that they leave; where the spacing is even and where it changes. And the rows beside sharp
 // edges, which are placed before them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cocone by brute force, and what Tight Cocone makes of samples that are sparse, noisy or missing.
 #include "cocone/cocone.h"
 

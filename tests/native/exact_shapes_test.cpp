@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inner axes of 500 samples of shapes whose axes are known exactly: how far the vertices of the
 // output lie from the axis, and the points of the axis from the output. Every bar is one and a half
 // times what was measured.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The distance of samples to the axis, and the radii round them, against plain loops.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // 10,000 small inputs, most of them degenerate: no crash, no broken invariant.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The library against the brute-force restatement of MEDIAL in oracle.h: poles, umbrellas, theta,
 // rho, selection, Definition 4, facets and sides, on random and on degenerate inputs.
 #include <gtest/gtest.h>

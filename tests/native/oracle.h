@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MEDIAL(P) restated by brute force from the definitions of the paper, for some dozens of points
 // whose coordinates are integers below 2^20 (times a power of two). It shares no code with the
 // library. Every sign, tie and coincidence is decided in exact integers; angles and lengths are

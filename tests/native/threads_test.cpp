@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What becomes of loops where the system gives no more threads: it says so by pthread_create, for
 // which this program has its own.
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes blender_addon/ importable as the package `medial_axis`, and gives tests its compiled module."""
 
 import importlib.util

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Judges of the sampling that know nothing of how it is done: even, apart, without holes, blind to the triangulation.
 
 White noise, as areas alone would give, has chi-square 1 per degree of freedom and a flat spectrum of 1; blue noise

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """build_addon.py and native/packaging: what they ask for, what they pack, what they refuse."""
 
 import ast

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line without Blender: what is written, what is said, and with which exit code it ends."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cocone's thin and flat samples and its candidates equal the brute-force restatement as sets.
 
 Where rounding may decide a comparison the reference gives two answers and the module's lies between; there are few.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How dense samples are: figures of made-up estimates, and nearness against brute force."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every code word in the docs exists: identifiers, files and options between backticks occur in the sources."""
 
 import ast

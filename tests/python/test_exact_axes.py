@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes of shapes with exactly known axes, by way of the add-on: sampled at 16,000, default thresholds."""
 
 import numpy as np

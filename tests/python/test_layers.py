@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The dependency rule, read from the sources: ui -> bridge -> core -> _medial -> analysis -> the rooms of the core.
 
 The rooms are folders, and what each may see is written down here, room by room. No bpy in core, no ui in bridge, no

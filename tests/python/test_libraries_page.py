@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The examples of docs/libraries.md are those that are compiled and run elsewhere, and print what the page says."""
 
 import os

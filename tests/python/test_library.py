@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The package as a library: what `import medial_axis` offers, and that it computes what the add-on computes."""
 
 import inspect

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The installed manual: every page, every picture, every link."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Memory: what the cache holds, what an analysis may need, and what is done when it needs more."""
 
 import argparse

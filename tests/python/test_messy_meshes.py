@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every mesh has a defined outcome: an axis inside the solid, a warning that says what was assumed, or one sentence.
 
 Whether a vertex of the axis is outside is judged by crossings of a ray, for meshes that are closed.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Changes of the input or the thresholds whose effect on the output is known exactly."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The list of mutations in tests/mutations: each still fits the sources. What notices them: docs/mutations.md."""
 
 import importlib.util

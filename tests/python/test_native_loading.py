@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where the compiled module is loaded from: its file, or a copy in memory, each in a Python of its own."""
 
 import os

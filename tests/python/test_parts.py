@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """tests/parts.py and tests/lint.py: which parts run, how they end, what is skipped."""
 
 import json

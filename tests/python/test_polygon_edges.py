@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The edges of polygons: against a dictionary, and what is refused."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The typed stub and the module say the same: names, parameters, defaults, docstrings; in both directions."""
 
 import ast

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Two copies of the compiled module in one process, as of an installed package and of an add-on: each for itself."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The types that the package promises (py.typed), as the type checker of a program reads them.
 
 It is mypy; skipped by name where there is none. `build_addon.py test --only lint` checks the package itself.

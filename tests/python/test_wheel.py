@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The package as pip builds and installs it: an sdist, a wheel of it, and the same bytes as the add-on.
 
 Compiles the whole core in a virtual environment of its own; skipped by name where pip cannot get the build backend.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The folder of real meshes and scans, which are not in the repository; what needs them is skipped by name without."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small point sets for the tests: hundreds in general position, and structured ones full of coincidences."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """From a mesh to a medial axis by way of samples of its surface, as the add-on and as the bare module do it."""
 
 from typing import Any

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The option --slow, for the tests that take minutes; a conftest imports these three hooks of pytest."""
 
 import pytest

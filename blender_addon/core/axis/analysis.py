@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Points and their analysis: the one place where a `_medial.MedialAnalysis` is made, or found again in the cache."""
 
 from __future__ import annotations

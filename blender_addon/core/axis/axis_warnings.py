@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What was assumed of a shape or looks wrong with its medial axis, a sentence each."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which samples of the faces lie where the surface bounds nothing, because another part of the solid covers it."""
 
 from __future__ import annotations

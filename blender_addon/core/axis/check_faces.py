@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a shape has faces that can be sampled."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which points are analysed: the vertices as they are, or samples of the faces that lie densely enough."""
 
 from __future__ import annotations

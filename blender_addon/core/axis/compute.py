@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """From an object to its medial axis: what is analysed, and what of it is selected."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How densely samples lie for the shape: epsilon, the hole round a sample as a share of the feature size there.
 
 Dey & Zhao's theorem holds for epsilon-samples: every point of the surface has a sample within epsilon times

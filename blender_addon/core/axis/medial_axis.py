@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The medial axis as arrays, and how it is extracted from analysed samples."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How many samples of the faces a pass takes, and how far apart they lie."""
 
 from __future__ import annotations

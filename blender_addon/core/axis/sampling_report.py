@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How densely an object is sampled, sample by sample: the theorem's condition as a diagnosis."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What has to be said about the samples that were chosen."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The input of the method, whatever it was read from."""
 
 from __future__ import annotations

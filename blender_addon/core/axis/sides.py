@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What tells inside from outside: which of faces, normals and Tight Cocone, why, and how well."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One pass: the faces of a shape are sampled, and the samples are analysed and judged."""
 
 from __future__ import annotations

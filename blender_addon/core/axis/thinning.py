@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Fewer points for less memory: fewer samples of the faces, or some of the points of a cloud."""
 
 from __future__ import annotations

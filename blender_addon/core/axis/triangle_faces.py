@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Triangles as the faces that Blender and the file formats take."""
 
 from __future__ import annotations

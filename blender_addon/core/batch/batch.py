@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Medial axes as files, one after the other; what is finished is recognised and left.
 
 Beside every output lies its report, `<output>.json`: figures, warnings, and a stamp of all that the output

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ranges of frames, and names of files with a number in them."""
 
 from __future__ import annotations

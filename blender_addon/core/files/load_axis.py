@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.npz` files that the export wrote -> medial axes."""
 
 from __future__ import annotations

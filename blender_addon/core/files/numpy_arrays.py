@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.npy` and `.npz`: arrays of NumPy (docs/formats.md)."""
 
 from __future__ import annotations

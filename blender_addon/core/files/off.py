@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.off`: points and polygons as text, with a header OFF, NOFF, COFF, STOFF or several of these (docs/formats.md)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.ply`: points and polygons, as text or binary (docs/formats.md)."""
 
 from __future__ import annotations

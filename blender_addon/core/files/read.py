@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Points from files, with normals and polygons where a file has them (docs/formats.md)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.stl`: triangles, as text or binary (docs/formats.md)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Text files of numbers, one row per line: what `.xyz` and `.off` have in common.
 
 From `#` or `//` to the end of a line is comment. Comments and blank lines are passed over. Any byte

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Planar polygons as triangles, without new vertices and, where they are convex, without triangles of no area.
 
 A fan from a fixed corner degenerates where that corner lies on a straight side (Voronoi facets of nearly

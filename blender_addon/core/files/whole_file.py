@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files that appear whole or not at all: written beside their target, then renamed onto it."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Medial axes as files: `.ma`, `.ply`, `.obj`, `.off` and `.npz` (docs/formats.md).
 
 A file appears whole or not at all: it is written beside its target and renamed. Numbers in text have 17

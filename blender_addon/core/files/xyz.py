@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.xyz` and `.xyzn`: a point per line, x y z, then nx ny nz (docs/formats.md)."""
 
 from __future__ import annotations

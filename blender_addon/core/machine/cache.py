@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A memory of the last analyses, so that other thresholds for the same points cost milliseconds."""
 
 from __future__ import annotations

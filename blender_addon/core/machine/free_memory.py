@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How much memory can be had on this machine now without swapping."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Work on several shapes: at once, or in a thread that can be watched and cancelled."""
 
 from __future__ import annotations

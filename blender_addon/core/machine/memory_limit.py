@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How much memory an analysis needs, how much it may have, and that it does not begin when it needs more."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The compiled module `_medial`: it is loaded when it is first needed; `lib/` has one file per Python ABI."""
 
 from __future__ import annotations

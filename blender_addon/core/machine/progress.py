@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The progress of several calls of the compiled module as one fraction, and one `cancel` for all of them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MEDIAL(P): everything that does not depend on the thresholds, computed once; the axis, extracted
 // as often as one likes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The medial axis as a polygon mesh: the closure of the selected Voronoi facets.
 #pragma once
 

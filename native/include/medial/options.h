@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What one may ask for, and the defaults of those who published the methods.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Progress of one job, shared by the thread that computes and the one that watches, and its cancel
 // flag.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Samples of a triangulated surface: its corners and sharp edges, and blue noise in between.
 #pragma once
 

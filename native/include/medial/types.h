@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The words of the library: points, ids, sides. All data are plain arrays of these.
 //
 // Ids are rows of the caller's arrays, int32_t; -1 means none. Angles are radians; lengths are in

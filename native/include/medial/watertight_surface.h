@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // TIGHTCOCONE(P): the watertight surface through samples, and what is to be said of it (Dey &
 // Goswami 2003).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Makes the polygons of the selected Voronoi facets: output of MEDIAL(P).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Poles (Dey & Zhao, Definition 1).
 #pragma once
 

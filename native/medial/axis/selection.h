@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which Delaunay edges MEDIAL selects (Dey & Zhao, sect. 3), and of them those of one side and of
 // the limit set (Definition 4).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How strongly each Delaunay edge pq satisfies the two conditions (Dey & Zhao, sect. 3.1 and 3.2),
 // for all thresholds at once: the Angle condition [theta0] holds at p exactly when theta_p >
 // theta0, the Ratio condition [rho0] exactly when rho_p > rho0, where

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A range of addresses, reserved at once, that becomes memory as it is used. The only unit that
 // knows how the system hands out memory.
 #pragma once

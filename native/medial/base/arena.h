@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The memory of an analysis: what one stage frees serves the next. The system takes long to hand
 // out fresh memory, longer than some stages take.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Changes of plain memory that several threads make at the same time, without an order among them.
 // As by std::atomic_ref, which libc++ before 19 lacks.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The nearest of many fixed points. The only unit that knows Boost.Geometry.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loops over ids on all cores. A loop body writes only slots of its own ids, so results never
 // depend on the threads.
 #pragma once

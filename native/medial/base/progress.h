@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the stages tell a Progress, where there is one.
 #pragma once
 

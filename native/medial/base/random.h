@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random numbers that depend on nothing but what is put in: the same on every machine.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sorting ids: a counting sort into buckets by all threads, then small sorts within the buckets.
 #pragma once
 

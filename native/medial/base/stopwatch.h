@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Takes the seconds of the stages of a computation, in order.
 #pragma once
 

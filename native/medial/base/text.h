@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers as error messages write them: six digits at most.
 #pragma once
 

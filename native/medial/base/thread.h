@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A thread that is waited for where its variable ends. As std::jthread, which libc++ before 20
 // lacks.
 #pragma once

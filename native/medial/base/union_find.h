@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Disjoint sets of ids 0..n-1 as parent pointers; a set is represented by its lowest id.
 #pragma once
 

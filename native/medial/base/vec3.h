@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The arithmetic of points and vectors of R^3, and boxes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cocone: which samples are flat, and the candidate triangles of the surface through them (Amenta,
 // Choi, Dey & Leekha 2002; flatness: Dey & Giesen 2001).
 #pragma once

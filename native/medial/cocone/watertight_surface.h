@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What Tight Cocone found, in terms of the input rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Circumcentres and triangle normals that stay right for nearly flat simplices: doubles with an
 // error bound, and exact integer arithmetic where the bound is too large.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sets of Delaunay triangles, and the walk from triangle to triangle round an edge.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/triangulation.h"
 
 // CGAL's containers, too, take their memory from the arena of the run.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inside and outside: a side per Delaunay cell (where its Voronoi vertex lies), and from it a side
 // per facet.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solid angle of a triangle soup seen from a point, in full turns (over 4 pi): summed exactly, or
 // hierarchically with Taylor's remainder as a rigorous bound for the expansion of distant clusters
 // (Barill et al. 2018).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The triangles of a mesh made fit for sampling, and where its surface is not smooth: edges,
 // corners, and the chains of edges between them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A spacing for every place, from spacings at some sites.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender's window: plays one scene with mouse and keyboard, and asserts on the data.
 
 A scene is a generator; what it yields is how many seconds Blender's own loop runs before it goes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What every shape with a known medial axis gives, and throwing random points."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ellipsoids, whose axes are elliptical discs or segments, and shells, whose axes are the middle surfaces."""
 
 from collections.abc import Callable

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A ball swept along a rectangle, a segment or a curve: the swept set is the axis and the radius is constant."""
 
 from dataclasses import dataclass
