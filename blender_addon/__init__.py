@@ -1,7 +1,14 @@
-"""The medial axis of meshes and point clouds inside Blender, computed by a compiled core.
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The medial axis of meshes and point clouds: an add-on of Blender, and a package that needs no Blender.
 
-Importing this package needs no Blender; `bpy` is first touched by `register`.
+    import medial_axis
+    found = medial_axis.compute(points, triangles)
+
+Importing this package is cheap: NumPy and the compiled module are first touched by the first name that needs them
+(library.py), `bpy` by `register`.
 """
+
+from typing import TYPE_CHECKING
 
 bl_info = {
     "name": "Medial Axis",
@@ -14,6 +21,51 @@ bl_info = {
 }
 
 __version__ = ".".join(str(part) for part in bl_info["version"])
+
+# What library.py offers; a test compares.
+__all__ = [
+    "Cancelled",
+    "Computation",
+    "Criteria",
+    "DegenerateInputError",
+    "ExportError",
+    "InvalidInputError",
+    "MedialAxis",
+    "MedialAxisError",
+    "NativeModuleError",
+    "OutOfMemoryError",
+    "Progress",
+    "ReadError",
+    "Reconstruction",
+    "Rule",
+    "SamplingMode",
+    "Settings",
+    "Shape",
+    "Side",
+    "SidesFrom",
+    "compute",
+    "extract",
+    "read",
+    "read_axis",
+    "reconstruct",
+    "write",
+]
+
+if TYPE_CHECKING:
+    from .library import *  # noqa: F403
+else:  # type checkers would let every name pass
+
+    def __getattr__(name: str) -> object:
+        """The names of the library, imported when one is first used."""
+        if name not in __all__:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from . import library
+
+        return getattr(library, name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
 
 
 def register() -> None:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the command line: `python3 -m medial_axis ...`, `python3 FOLDER ...`, and inside any Blender
 `blender --background [FILE] --python FOLDER/__main__.py -- ...`, where FOLDER is this package's.
 """
@@ -25,6 +26,7 @@ def package() -> str:
     spec = importlib.util.spec_from_file_location(
         name, front, submodule_search_locations=[str(FOLDER)]
     )
+    assert spec is not None and spec.loader is not None, "of a file of Python"
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     spec.loader.exec_module(module)

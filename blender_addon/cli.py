@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line (docs/command_line.md): files in, medial axes as files out.
 
 The same in three places: `blender --command medial_axis` from 4.2, `blender --background --python .../__main__.py --`
@@ -59,15 +60,15 @@ def main(words: Sequence[str]) -> int:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why
         return DONE if end.code in (None, 0) else USAGE
-    teller = _Teller(wanted.json, wanted.quiet)
+    console = _Console(wanted.json, wanted.quiet)
     if problem := native.problem():
-        teller.complain(problem)
+        console.complain(problem)
         return FAILED
     with _interruptible():
         try:
-            return _run(_items(wanted), wanted, teller)
+            return _run(_items(wanted), wanted, console)
         except KeyboardInterrupt:
-            teller.complain("cancelled")
+            console.complain("cancelled")
             return CANCELLED
 
 
@@ -116,6 +117,11 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
         "--options", metavar="TEXT", default="", help="more options in one word, as farms pass them"
     )
     files.add_argument("--force", action="store_true", help="compute also what is finished")
+    files.add_argument(
+        "--allow-scripts",
+        action="store_true",
+        help="let .blend files of INPUT run the Python scripts and drivers in them",
+    )
     files.add_argument("--json", action="store_true", help="one line of JSON per result")
     files.add_argument("--quiet", action="store_true", help="no progress and no warnings")
     parser.add_argument("--version", action="version", version=f"medial_axis {__version__}")
@@ -139,6 +145,8 @@ def _complete(wanted: argparse.Namespace) -> None:
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
     format_of(output)
     wanted.output = output
+    first = wanted.frames[0] if wanted.frames else None
+    output_path(output, "name", "file", first)  # it raises what is wrong
     if not wanted.inputs and not inside_blender():
         raise ValueError("Expected INPUT and OUTPUT, found one path; add the other")
     if has_number(Path(output).name) != (wanted.frames is not None):
@@ -156,7 +164,7 @@ def _complete(wanted: argparse.Namespace) -> None:
 
 
 def _is_still(path: str) -> bool:
-    """A file without frames of its own, and no number in its name."""
+    """Whether a path is one file for all frames: its format has none, and its name no number."""
     return Path(path).suffix.lower() in READERS and not has_number(Path(path).name)
 
 
@@ -178,8 +186,7 @@ def _items_of_file(pattern: str, wanted: argparse.Namespace) -> Iterator[Item]:
     for frame in wanted.frames or (None,):
         path = pattern if frame is None else at_frame(pattern, frame)
         stem = Path(pattern).stem.rstrip("#").rstrip("_.-")
-        output = output_path(wanted.output, stem, stem, frame)
-        yield Item(path, None, frame, output, partial(read_shape, path))
+        yield _item(wanted.output, path, None, stem, frame, partial(read_shape, path))
 
 
 def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[Item]:
@@ -190,7 +197,7 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
     stem = Path(source).stem
     try:
         if path is not None:
-            read_scene.load(path)
+            read_scene.load(path, wanted.allow_scripts)
         names = read_scene.names(list(filter(None, wanted.object or ())))
         if len(names) > 1 and "{name}" not in wanted.output:
             raise InvalidInputError(
@@ -198,14 +205,28 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
                 "add it, or choose one with --object"
             )
     except MedialAxisError as error:
-        output = output_path(wanted.output, stem, stem, None)
-        yield Item(source, None, None, output, partial(_raise, error))
+        yield Item(source, None, None, Path(wanted.output), partial(_raise, error))
         return
     for frame in wanted.frames or (None,):
         for name in names:
-            output = output_path(wanted.output, name, stem, frame)
             read = partial(read_scene.read, name, frame)
-            yield Item(source, name, frame, output, read)
+            yield _item(wanted.output, source, name, stem, frame, read)
+
+
+def _item(
+    pattern: str,
+    source: str,
+    thing: str | None,
+    file: str,
+    frame: int | None,
+    read: Callable[[], Any],
+) -> Item:
+    """One output; where it cannot have the name that the pattern gives, to read the item raises the reason."""
+    try:
+        name = file if thing is None else thing
+        return Item(source, thing, frame, output_path(pattern, name, file, frame), read)
+    except InvalidInputError as error:
+        return Item(source, thing, frame, Path(pattern), partial(_raise, error))
 
 
 def _raise(error: MedialAxisError) -> Any:
@@ -215,7 +236,7 @@ def _raise(error: MedialAxisError) -> Any:
 # --- doing it
 
 
-def _run(items: Iterable[Item], wanted: argparse.Namespace, teller: _Teller) -> int:
+def _run(items: Iterable[Item], wanted: argparse.Namespace, console: _Console) -> int:
     """All items; one that fails does not stop the others."""
     code, outputs = DONE, set()
     for item in items:
@@ -226,13 +247,13 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, teller: _Teller) -> 
                     "{file} or {name} in OUTPUT"
                 )
             begun = begin(item, wanted.settings, wanted.force, wanted.limit)
-            teller.tell(begun.kept or finish(begun, _watch(begun.task, teller.show)))
+            console.tell(begun.kept or finish(begun, _watch(begun.task, console.show)))
             outputs.add(item.output)
         except (KeyboardInterrupt, Cancelled):
-            teller.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
+            console.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
             return CANCELLED
         except MedialAxisError as error:
-            teller.tell(failure(item, error))
+            console.tell(failure(item, error))
             of_input = isinstance(error, (ReadError, InvalidInputError, DegenerateInputError))
             code = INPUT if of_input and code in (DONE, INPUT) else FAILED
     return code
@@ -271,7 +292,7 @@ def _interruptible() -> Iterator[None]:
             signal.signal(number, signal.SIG_DFL if handler is None else handler)
 
 
-class _Teller:
+class _Console:
     """What is said: results on standard output, all else on standard error."""
 
     def __init__(self, json_lines: bool, quiet: bool) -> None:

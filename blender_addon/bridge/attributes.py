@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Attributes in Blender: tables of those of a medial axis and of samples, and the normals of oriented points."""
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.axis.compute import MedialAxis
+    from ..core.axis.medial_axis import MedialAxis
     from ..core.axis.sampling_report import SamplingReport
 
 

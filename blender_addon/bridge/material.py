@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One material for all medial axes, colour by radius, and one for all reports, colour by epsilon.
 
 The range of colours comes from properties of the object, so that every axis shows its whole range

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A result object -> the medial axis that it holds, in the object's own frame."""
 
 from __future__ import annotations
@@ -9,11 +10,11 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.axis.compute import MedialAxis
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes
-from .made import is_gone
-from .results import UNBOUNDED, ZERO_AREA, is_result, result_of
+from .axis_object import UNBOUNDED, ZERO_AREA, is_result, result_of
+from .output_object import is_gone
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """An object as the artist sees it -> points, triangles and normals in its rigid frame.
 
 The medial axis is not affine invariant. So the world matrix L is split into a rigid frame R
@@ -43,7 +44,7 @@ def read_object(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Sha
     points, triangles, normals = shape.points, shape.triangles, shape.normals
     if not np.array_equal(rest, np.identity(3)):
         points = points @ rest.T
-        with np.errstate(invalid="ignore"):  # who uses them looks whether they are finite
+        with np.errstate(invalid="ignore"):  # what uses the normals checks that they are finite
             normals = None if normals is None else normals @ _of_normals(rest).T
     if np.linalg.det(rest) < 0.0:
         triangles = np.ascontiguousarray(triangles[:, ::-1])

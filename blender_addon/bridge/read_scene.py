@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files that Blender reads -> the shapes in them, for the command line. No user interface."""
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ import bpy
 
 from ..core.axis.shape import Shape
 from ..core.errors import InvalidInputError, ReadError
-from .made import VERSION
+from .output_object import VERSION
 from .read_object import SAMPLED_TYPES, SOURCE_TYPES, read_object
 
 # Extension -> operators that import it, the first one that this Blender has.
@@ -32,8 +33,15 @@ def open_file() -> str:
     return bpy.data.filepath
 
 
-def load(path: str) -> None:
+def load(path: str, allow_scripts: bool = False) -> None:
     """Open a .blend file, or import another one into an empty file; what was open is gone.
+
+    Parameters
+    ----------
+    path : str
+    allow_scripts : bool
+        Whether Python in a .blend file may run: registered text blocks, and drivers that are more than simple
+        expressions. It is always said, so that no preference of the machine decides.
 
     Raises
     ------
@@ -44,7 +52,7 @@ def load(path: str) -> None:
     path = str(Path(path).resolve())
     try:
         if path.lower().endswith(".blend"):
-            bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+            bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=allow_scripts)
             return
         operator = _importer(path)
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
@@ -102,7 +110,7 @@ def read(name: str, frame: int | None) -> tuple[Shape, tuple[str, ...]]:
 
 
 def _reason(text: str) -> str:
-    """What an operator failed of: its message, or the last line of a traceback."""
+    """Why an operator failed: its message, or the last line of a traceback."""
     lines = [line for line in text.strip().splitlines() if not line.startswith("Location:")]
     return lines[-1].removeprefix("Error: ") if lines else "nothing"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Does what is installed here compute a medial axis that is known, and does Blender take it?"""
 
 from __future__ import annotations
@@ -5,11 +6,11 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.axis.compute import MedialAxis
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import MedialAxisError
-from ..core.self_test import Check, checks_of, compute_box
+from ..core.known_box import Check, checks_of, compute_box
 from .attributes import attributes
-from .write_object import new_mesh
+from .write_mesh import new_mesh
 
 
 def self_test() -> list[Check]:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What can go wrong, each as one sentence: what was expected, what was found, what to do."""
 
 from __future__ import annotations

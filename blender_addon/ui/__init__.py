@@ -1,14 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's user interface: properties, operators, panels, menus. No geometry."""
 
 from __future__ import annotations
 
 from types import ModuleType
 
+from ..core.machine import native
+
 
 def _modules() -> tuple[ModuleType, ...]:
     from . import (
         command,
-        export,
+        compute_sequence,
+        current_job,
+        export_axis,
         import_points,
         manual,
         menus,
@@ -17,31 +22,30 @@ def _modules() -> tuple[ModuleType, ...]:
         preferences,
         presets,
         properties,
-        running,
-        self_test,
-        sequence,
+        self_test_operator,
         translation,
     )
 
     return (
         translation,
         properties,
-        self_test,
+        self_test_operator,
         preferences,
         operators,
-        export,
+        export_axis,
         import_points,
         presets,
         panels,
-        sequence,
+        compute_sequence,
         menus,
         manual,
-        running,
+        current_job,
         command,
     )
 
 
 def register() -> None:
+    native.load_a_copy = not __package__.startswith("bl_ext.")  # then this is no extension
     for module in _modules():
         module.register()
 

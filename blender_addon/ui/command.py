@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`blender --command medial_axis`, in Blenders that have such commands: from 4.2."""
 
 import bpy

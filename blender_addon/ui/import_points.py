@@ -1,10 +1,11 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """File > Import > Points: `.xyz`, `.xyzn` and `.off` files as mesh objects."""
 
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper, axis_conversion, orientation_helper
 
-from ..bridge.new_points import new_points
+from ..bridge.points_object import new_points
 from ..core.errors import MedialAxisError
 from ..core.files.read import import_points
 from .paths import RELATIVE, chosen_files

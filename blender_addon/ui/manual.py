@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The manual that comes with the add-on: buttons, and Online Manual in Blender's context menus."""
 
 from pathlib import Path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Entries in Blender's menus; being there is also what lets F3 find an operator."""
 
 import bpy

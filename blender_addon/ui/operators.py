@@ -1,30 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Compute Medial Axis, Report Sampling, Reconstruct Surface, and Cancel."""
 
 from functools import partial
 
 import bpy
 
-from ..bridge.made import is_gone, source_of
-from ..bridge.results import check_writable, write_result
-from ..bridge.sampling_report import (
+from ..bridge.axis_object import check_writable, write_result
+from ..bridge.output_object import is_gone, source_of
+from ..bridge.report_object import (
     check_report_writable,
     check_source_writable,
     write_on_source,
     write_report,
 )
-from ..bridge.surfaces import check_surface_writable, is_surface, write_surface
+from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
 from ..core.axis.compute import compute_axis
 from ..core.axis.reconstruction import reconstruct
-from ..core.axis.sampling_report import report
+from ..core.axis.sampling_report import report_sampling
 from ..core.settings import OPTIONS, SAMPLING_OPTIONS
-from . import running
+from . import current_job
+from .compute_operator import ComputeOperator
 from .preferences import memory_limit
 from .properties import SamplingProperties, choice, draw_sampling, number, settings_from, switch
 from .translation import say
-from .watched import Watched
 
 
-class OBJECT_OT_medial_axis(Watched, SamplingProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Operator):
     """Compute the medial axis of the selected objects, with the radius at every point"""
 
     bl_idname = "object.medial_axis"
@@ -60,12 +61,14 @@ class OBJECT_OT_medial_axis(Watched, SamplingProperties, bpy.types.Operator):
         return (
             f"{computation.points:,} points, {axis.facets:,} facets, duplicates merged "
             f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}, facets "
-            f"without area {axis.zero_area:,}; {computation.sides}; {computation.sampled.reason}; "
+            f"without area {axis.zero_area:,}; {computation.sides}; {computation.chosen.reason}; "
             f"{computation.density}"
         )
 
 
-class OBJECT_OT_medial_axis_sampling_report(Watched, SamplingProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis_sampling_report(
+    ComputeOperator, SamplingProperties, bpy.types.Operator
+):
     bl_idname = "object.medial_axis_sampling_report"
     bl_label = "Report Sampling"
     bl_description = (
@@ -103,7 +106,7 @@ class OBJECT_OT_medial_axis_sampling_report(Watched, SamplingProperties, bpy.typ
         check_report_writable(thing) if self.target == "COPY" else check_source_writable(thing)
 
     def work(self, shape):
-        return partial(report, shape, settings_from(self), limit=memory_limit())
+        return partial(report_sampling, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, found, frame):
         if self.target == "SOURCE":
@@ -111,10 +114,10 @@ class OBJECT_OT_medial_axis_sampling_report(Watched, SamplingProperties, bpy.typ
         return write_report(thing, found, frame)
 
     def summary(self, found):
-        return f"{found.sampled.reason}; {found.density}"
+        return f"{found.chosen.reason}; {found.density}"
 
 
-class OBJECT_OT_tight_cocone_surface(Watched, bpy.types.Operator):
+class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
     bl_idname = "object.tight_cocone_surface"
     bl_label = "Reconstruct Surface (Tight Cocone)"
     bl_description = (
@@ -152,17 +155,17 @@ class OBJECT_OT_medial_axis_cancel(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context):
-        if running.job() is None:
+        if current_job.job() is None:
             cls.poll_message_set(say("Nothing is being computed"))
-        return running.job() is not None
+        return current_job.job() is not None
 
     def execute(self, _context):
-        running.job().cancel()
+        current_job.job().cancel()
         return {"FINISHED"}
 
 
 def _made_anew(thing):
-    """Instead of a surface, what it was made of, as long as that exists."""
+    """The source of a surface that was reconstructed, as long as it exists; else the object itself."""
     source = source_of(thing) if is_surface(thing) else None
     return thing if is_gone(source) else source
 

@@ -1,16 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar tab of the 3D viewport."""
 
 import bpy
 
-from ..bridge import made, results, sampling_report, surfaces
+from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.material import LIMIT
 from ..core.machine import native
-from . import running
+from . import current_job
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
-from .sentence import draw_sentence
-from .sources import obstacle
+from .selected_sources import obstacle
 from .translation import say
+from .wrapped_text import draw_wrapped
 
 
 class _Tab:
@@ -31,15 +32,15 @@ class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         if problem := native.problem():
-            draw_sentence(context, layout.box(), problem, "ERROR")
+            draw_wrapped(context, layout.box(), problem, "ERROR")
         _draw_settings(context, layout)
         _draw_compute(context, layout)
         for note in context.scene.medial_axis.note.splitlines():
-            draw_sentence(context, layout, note, "INFO")
+            draw_wrapped(context, layout, note, "INFO")
 
 
 class VIEW3D_PT_medial_axis_sampling(_Tab, bpy.types.Panel):
-    """What Sampling listens to, and the report"""
+    """How faces are sampled, and the report"""
 
     bl_label = "Sampling"
     bl_idname = "VIEW3D_PT_medial_axis_sampling"
@@ -52,7 +53,7 @@ class VIEW3D_PT_medial_axis_sampling(_Tab, bpy.types.Panel):
         column.use_property_split = True
         column.use_property_decorate = False
         draw_sampling(column, settings)
-        if running.job() is None:  # Blender keeps a button grey that was so below the mouse
+        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
             button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
             copy_settings(settings, button)
         report = shown_report(context)
@@ -104,7 +105,7 @@ def _draw_settings(context, layout):
 
 
 def _draw_compute(context, layout):
-    job = running.job()
+    job = current_job.job()
     if job is not None:
         _draw_progress(context, layout, job)
         return
@@ -119,7 +120,7 @@ def _draw_compute(context, layout):
     )
     reason = obstacle(context)
     if reason and reason != native.problem():
-        draw_sentence(context, layout, reason, "INFO")
+        draw_wrapped(context, layout, reason, "INFO")
 
 
 def _draw_progress(context, layout, job):
@@ -134,23 +135,23 @@ def _draw_progress(context, layout, job):
 
 
 def _draw_figures(context, layout, result):
-    smallest, largest = results.radius_range(result)
+    smallest, largest = axis_object.radius_range(result)
     _draw_table(
         layout,
         result,
         {
-            "Points": f"{result.get(made.POINTS, 0):,}",
-            "Duplicates": f"{result.get(made.DUPLICATES, 0):,}",
+            "Points": f"{result.get(output_object.POINTS, 0):,}",
+            "Duplicates": f"{result.get(output_object.DUPLICATES, 0):,}",
             "Facets": f"{len(result.data.polygons):,}",
             "Vertices": f"{len(result.data.vertices):,}",
-            "Unbounded": f"{result.get(results.UNBOUNDED, 0):,}",
-            "Without Area": f"{result.get(results.ZERO_AREA, 0):,}",
+            "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
+            "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
             "Radius": f"{smallest:.3g} to {largest:.3g}",
         },
     )
-    for name in (made.SAMPLED, made.DENSITY, results.INSIDE):
+    for name in (output_object.SAMPLED, output_object.DENSITY, axis_object.INSIDE):
         if sentence := result.get(name):
-            draw_sentence(context, layout, sentence, "INFO")
+            draw_wrapped(context, layout, sentence, "INFO")
     _draw_warnings(context, layout, result)
 
 
@@ -159,13 +160,13 @@ def _draw_surface(context, layout, surface):
         layout,
         surface,
         {
-            "Points": f"{surface.get(made.POINTS, 0):,}",
-            "Duplicates": f"{surface.get(made.DUPLICATES, 0):,}",
-            "Off Surface": f"{surface.get(surfaces.OFF_SURFACE, 0):,}",
+            "Points": f"{surface.get(output_object.POINTS, 0):,}",
+            "Duplicates": f"{surface.get(output_object.DUPLICATES, 0):,}",
+            "Off Surface": f"{surface.get(surface_object.OFF_SURFACE, 0):,}",
             "Triangles": f"{len(surface.data.polygons):,}",
-            "Non-Manifold": f"{surface.get(surfaces.NONMANIFOLD_EDGES, 0):,} edges",
-            "": f"{surface.get(surfaces.NONMANIFOLD_VERTICES, 0):,} points",
-            "Cavities": f"{surface.get(surfaces.CAVITIES, 0):,}",
+            "Non-Manifold": f"{surface.get(surface_object.NONMANIFOLD_EDGES, 0):,} edges",
+            "": f"{surface.get(surface_object.NONMANIFOLD_VERTICES, 0):,} points",
+            "Cavities": f"{surface.get(surface_object.CAVITIES, 0):,}",
         },
     )
     _draw_warnings(context, layout, surface)
@@ -173,20 +174,20 @@ def _draw_surface(context, layout, surface):
 
 def _draw_report(context, layout, report):
     limit = report.get(LIMIT, 0.0)
-    worst = report.get(sampling_report.WORST) or [0.0]
+    worst = report.get(report_object.WORST) or [0.0]
     _draw_table(
         layout,
         report,
         {
-            "Samples": f"{report.get(made.POINTS, 0):,}",
-            "Epsilon": f"{report.get(sampling_report.MEDIAN, 0.0):.2f} (median)",
-            "95 % Below": f"{report.get(sampling_report.P95, 0.0):.2f}",
-            f"Above {limit:g}": f"{100 * report.get(sampling_report.SHARE, 0.0):.1f} %",
-            "And at Edges": f"{100 * report.get(sampling_report.SHARE_OF_ALL, 0.0):.1f} %",
+            "Samples": f"{report.get(output_object.POINTS, 0):,}",
+            "Epsilon": f"{report.get(report_object.MEDIAN, 0.0):.2f} (median)",
+            "95 % Below": f"{report.get(report_object.P95, 0.0):.2f}",
+            f"Above {limit:g}": f"{100 * report.get(report_object.SHARE, 0.0):.1f} %",
+            "And at Edges": f"{100 * report.get(report_object.SHARE_OF_ALL, 0.0):.1f} %",
             "Worst": f"{worst[0]:.2g}",
         },
     )
-    draw_sentence(context, layout, report.get(made.SAMPLED, ""), "INFO")
+    draw_wrapped(context, layout, report.get(output_object.SAMPLED, ""), "INFO")
     _draw_warnings(context, layout, report)
 
 
@@ -200,8 +201,8 @@ def _draw_table(layout, thing, figures):
 
 
 def _draw_warnings(context, layout, thing):
-    for warning in thing.get(made.WARNINGS, "").splitlines():
-        draw_sentence(context, layout, warning, "ERROR")
+    for warning in thing.get(output_object.WARNINGS, "").splitlines():
+        draw_wrapped(context, layout, warning, "ERROR")
 
 
 CLASSES = (

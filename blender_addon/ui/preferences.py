@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Edit > Preferences > Add-ons > Medial Axis: what is installed, memory, a test of it, and the manual."""
 
 import os
@@ -9,11 +10,11 @@ from ..core.machine import native
 from ..core.machine.cache import CACHE
 from ..core.machine.memory_limit import MemoryLimit
 from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
-from . import self_test
+from . import self_test_operator
 from .manual import draw_manual
 from .properties import choice_of, integer_of
-from .sentence import draw_sentence
 from .translation import say
+from .wrapped_text import draw_wrapped
 
 ADDON = __package__.rpartition(".")[0]
 
@@ -54,7 +55,7 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
 
 def _draw_installed(context, layout):
     if problem := native.problem():
-        draw_sentence(context, layout, problem, "ERROR")
+        draw_wrapped(context, layout, problem, "ERROR")
     file = native.file()
     table = {
         "Version": __version__,
@@ -81,8 +82,8 @@ def _draw_memory(layout, preferences):
 
 def _draw_test(context, layout):
     layout.operator("wm.medial_axis_self_test", icon="CHECKMARK")
-    for check in self_test.last():
-        draw_sentence(context, layout, check.found, "CHECKMARK" if check.passed else "ERROR")
+    for check in self_test_operator.last():
+        draw_wrapped(context, layout, check.found, "CHECKMARK" if check.passed else "ERROR")
 
 
 class WM_OT_medial_axis_free_memory(bpy.types.Operator):

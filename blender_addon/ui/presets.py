@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Presets of the panel: Blender's menu of them, with those that come with the add-on."""
 
 from pathlib import Path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The options of core.settings as Blender properties, and those of the panel."""
 
 import ctypes
@@ -7,11 +8,11 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
-from ..bridge.made import is_gone
+from ..bridge.axis_object import ANALYSIS, is_result, result_of, settings_of, update_result
+from ..bridge.output_object import is_gone
 from ..bridge.read_object import SOURCE_TYPES
-from ..bridge.results import ANALYSIS, is_result, result_of, settings_of, update_result
-from ..bridge.sampling_report import is_report, report_of
-from ..bridge.surfaces import is_surface, surface_of
+from ..bridge.report_object import is_report, report_of
+from ..bridge.surface_object import is_surface, surface_of
 from ..core.axis.compute import refilter
 from ..core.errors import MedialAxisError
 from ..core.settings import (
@@ -20,11 +21,11 @@ from ..core.settings import (
     SAMPLING_OPTIONS,
     Choice,
     Number,
-    Sampling,
+    SamplingMode,
     Settings,
     applies,
 )
-from . import running
+from . import current_job
 from .translation import IN_CONTEXT
 
 
@@ -110,8 +111,8 @@ class SamplingProperties:
 
 
 def draw_sampling(layout, properties):
-    """What a choice of Sampling listens to; what does not apply is grey."""
-    chosen = Sampling[properties.sampling]
+    """Draw the options of the sampling; those that do not matter for the chosen Sampling are grey."""
+    chosen = SamplingMode[properties.sampling]
     for name in SAMPLING_OPTIONS:
         row = layout.row()
         row.active = applies(name, chosen, properties.spacing)
@@ -179,7 +180,7 @@ def _refilter(panel, context):
     """Apply new thresholds to the shown result at once, as long as its analysis is kept."""
     panel.note = ""
     result = shown_result(context)
-    if result is None or is_gone(result) or running.job() is not None:
+    if result is None or is_gone(result) or current_job.job() is not None:
         return
     try:
         panel.note = _refilter_result(result, panel)
@@ -215,7 +216,7 @@ class MedialAxisPanelSettings(SamplingProperties, bpy.types.PropertyGroup):
 
 
 def _percentage(_):
-    job = running.job()
+    job = current_job.job()
     return 0.0 if job is None else 100 * job.fraction
 
 

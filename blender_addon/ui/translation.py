@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The language of the user interface.
 
 Blender translates labels and descriptions by itself. Sentences from below the user interface are English; `say`
@@ -33,7 +34,7 @@ def say(text) -> str:
 
 @lru_cache(maxsize=512)
 def _said(text, language):
-    """`language` is whatever changes with it."""
+    """The translation of a sentence; `language` is only there to keep the cached ones of two languages apart."""
     templates = _templates()
     if text in templates:
         return _translated(text)

@@ -1,9 +1,16 @@
-#include "analysis.h"
-
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <numeric>
+
+#include "analysis_parts.h"
+#include "axis/feature_size.h"
+#include "axis/medial_mesh.h"
+#include "cocone/watertight_surface.h"
+#include "skeleton/hierarchy.h"
 
 namespace medial {
 namespace {
+
+using Parts = MedialAnalysis::Parts;
 
 void require_sides(SidesFrom from) {
   if (from == SidesFrom::none) {
@@ -66,14 +73,6 @@ std::unique_ptr<Arena> arena_for(size_t points) {
   return std::make_unique<Arena>(2 * kBytesPerPoint * points);
 }
 
-// Has memory ready for the stages, on a thread of its own.
-std::jthread touching(Arena& arena, size_t points, int threads) {
-  if (threads == 1) return {};
-  return std::jthread([&arena, points](const std::stop_token& stop) {
-    arena.touch(kBytesPerPoint * points, stop);
-  });
-}
-
 std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& samples) {
   const auto end = static_cast<int64_t>(samples.point_of_row.size());
   std::vector<int32_t> ids;
@@ -88,83 +87,130 @@ std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& sa
   return ids;
 }
 
+void tell_sides(Parts& made, const Surface& surface, std::span<const Vec3> vertices,
+                std::span<const Vec3> normals, const Csr<int32_t>& incident,
+                const CoconeOptions& options, const Run& run) {
+  const std::vector<Vec3>& points = made.samples.points;
+  if (made.sides_from == SidesFrom::surface) {
+    made.sides =
+        sides_from_surface(points, vertices, surface, made.triangulation, made.voronoi, run);
+  } else if (made.sides_from == SidesFrom::normals) {
+    made.sides = sides_from_normals(points, unit_normals(normals, made.samples), made.triangulation,
+                                    made.voronoi, run);
+  } else if (made.sides_from == SidesFrom::tight_cocone) {
+    const Poles p = poles(points, made.triangulation, made.voronoi, incident, run);
+    TightCocone found =
+        medial::tight_cocone(points, made.triangulation, made.voronoi, incident, p, options, run);
+    SolidBoundary boundary = solid_boundary(made.triangulation, incident, found.sides, run);
+    made.sides = sides_in_solid(points, found.sides, boundary.triangles, made.triangulation,
+                                made.voronoi, run);
+    found.sides = {};
+    made.tight_cocone = std::make_shared<WatertightSurface>(
+        describe(std::move(found), std::move(boundary), made.samples, run));
+  }
+}
+
+std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const AnalysisOptions& options,
+                                      Progress* progress) {
+  auto kept = std::make_unique<Parts>();
+  Parts& made = *kept;
+  made.threads = thread_count(options.threads);
+  made.arena = arena_for(input.points.size());
+  const Run run = made.run(progress), quiet = made.run();
+  Stopwatch watch(made.timings);
+  begin_stage(progress, "Samples", 0, 0.02);
+  require_corners(input.triangles, input.vertices.value_or(input.points).size());
+  if (input.normals) require_normals(*input.normals, input.points.size());
+  made.samples = make_samples(input.points, quiet);
+  const int32_t count = made.samples.count();
+  made.duplicates = static_cast<int64_t>(input.points.size()) - count;
+  require_volume(made.samples.points);
+  const Samples apart =
+      input.vertices ? distinct_rows(*input.vertices, "vertex", quiet) : Samples{};
+  const Samples& corners = input.vertices ? apart : made.samples;
+  const Surface surface =
+      make_surface(input.triangles, corners.point_of_row, corners.count(), quiet);
+  made.closed = surface.closed();
+  made.boundary_edges = surface.open_edges();
+  made.sides_from = resolve(options.sides, surface, input.normals.has_value());
+  if (options.bounding_sphere) add_bounding_sphere(made.samples);
+  const std::vector<Vec3>& points = made.samples.points;
+  watch.lap("samples");
+  {
+    // CGAL leaves the other cores idle: they have memory ready for the stages that follow.
+    std::optional<ArenaToucher> toucher;
+    if (made.threads > 1) toucher.emplace(*made.arena, kBytesPerPoint * points.size());
+    made.triangulation = triangulate(points, run, &watch);
+  }
+  watch.lap("cells");
+  made.voronoi = voronoi(points, made.triangulation, run);
+  watch.lap("voronoi");
+  begin_stage(progress, "Delaunay edges", 0.66, 0.68);
+  Csr<int32_t> incident = incident_cells(made.triangulation, count, run);
+  made.edges = delaunay_edges(made.triangulation, incident, made.samples.row, run);
+  watch.lap("complex");
+  {
+    const Umbrellas u = umbrellas(points, made.triangulation, made.voronoi, incident, run);
+    watch.lap("umbrellas");
+    if (made.sides_from != SidesFrom::tight_cocone) incident = {};
+    made.significance = medial::significance(points, made.edges, u, run);
+    watch.lap("significance");
+  }
+  tell_sides(made, surface, corners.points, input.normals.value_or(std::span<const Vec3>()),
+             incident, options.cocone, run);
+  watch.lap("sides");
+  begin_stage(progress, "Inside and outside", 0.99, 1);
+  advance(progress, 1);
+  return kept;
+}
+
+Selection selection(const Parts& made, const Extraction& x) {
+  const Selection selection(x, {made.samples.points, made.triangulation, made.voronoi, made.edges,
+                                made.significance, made.sides});
+  if (x.side != Side::both) require_solid(made.sides_from, made.tight_cocone.get());
+  return selection;
+}
+
+// In lexicographic order of their input rows.
+std::vector<int32_t> edges_by_row(const Parts& made) {
+  std::vector<int32_t> order;
+  order.reserve(made.edges.ends.size());
+  for (const int32_t p : samples_by_row(made.samples)) {
+    for (int32_t e = made.edges.first[p]; e < made.edges.first[p + 1]; ++e) order.push_back(e);
+  }
+  return order;
+}
+
+// Values of the edges in that order.
+template <typename T, typename Value>
+std::vector<T> by_row(const Parts& made, const Value& value) {
+  const auto order = edges_by_row(made);
+  std::vector<T> result(order.size());
+  parallel_for(made.edges.count(), {made.threads}, [&](int64_t i) { result[i] = value(order[i]); });
+  return result;
+}
+
 }  // namespace
 
 MedialAnalysis::MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options,
                                Progress* progress)
-    : threads_(thread_count(options.threads)), arena_(arena_for(input.points.size())) {
-  const Run run{threads_, progress, arena_.get()}, quiet{threads_, nullptr, arena_.get()};
-  Stopwatch watch(timings_);
-  begin_stage(progress, "Samples", 0, 0.02);
-  require_corners(input.triangles, input.vertices.value_or(input.points).size());
-  if (input.normals) require_normals(*input.normals, input.points.size());
-  samples_ = make_samples(input.points, quiet);
-  const int32_t count = samples_.count();
-  duplicates_ = static_cast<int64_t>(input.points.size()) - count;
-  require_volume(samples_.points);
-  const Samples apart =
-      input.vertices ? distinct_rows(*input.vertices, "vertex", quiet) : Samples{};
-  const Samples& corners = input.vertices ? apart : samples_;
-  const Surface surface =
-      make_surface(input.triangles, corners.point_of_row, corners.count(), quiet);
-  closed_ = surface.closed();
-  boundary_edges_ = surface.open_edges();
-  sides_from_ = resolve(options.sides, surface, input.normals.has_value());
-  if (options.bounding_sphere) add_bounding_sphere(samples_);
-  const std::vector<Vec3>& points = samples_.points;
-  watch.lap("samples");
-  {
-    // CGAL leaves the other cores idle.
-    const std::jthread toucher = touching(*arena_, points.size(), threads_);
-    triangulation_ = triangulate(points, run, &watch);
-  }
-  watch.lap("cells");
-  voronoi_ = voronoi(points, triangulation_, run);
-  watch.lap("voronoi");
-  begin_stage(progress, "Delaunay edges", 0.66, 0.68);
-  Csr<int32_t> incident = incident_cells(triangulation_, count, run);
-  edges_ = delaunay_edges(triangulation_, incident, samples_.row, run);
-  watch.lap("complex");
-  {
-    const Umbrellas u = umbrellas(points, triangulation_, voronoi_, incident, run);
-    watch.lap("umbrellas");
-    if (sides_from_ != SidesFrom::tight_cocone) incident = {};
-    significance_ = medial::significance(points, edges_, u, run);
-    watch.lap("significance");
-  }
-  tell_sides(surface, corners.points, input.normals.value_or(std::span<const Vec3>()), incident,
-             options.cocone, run);
-  watch.lap("sides");
-  begin_stage(progress, "Inside and outside", 0.99, 1);
+    : parts_(analysed(input, options, progress)) {}
+MedialAnalysis::~MedialAnalysis() = default;
+MedialAnalysis::MedialAnalysis(MedialAnalysis&&) noexcept = default;
+MedialAnalysis& MedialAnalysis::operator=(MedialAnalysis&&) noexcept = default;
+
+std::vector<int32_t> MedialAnalysis::select(const Extraction& extraction,
+                                            Progress* progress) const {
+  return selected(selection(*parts_, extraction), edges_by_row(*parts_), parts_->run(progress));
+}
+
+MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progress) const {
+  begin_stage(progress, "Facets", 0, 1);
+  MedialMesh mesh =
+      voronoi_facets(selection(*parts_, extraction), parts_->samples, parts_->triangulation,
+                     parts_->voronoi, parts_->edges, parts_->run(progress));
   advance(progress, 1);
-}
-
-void MedialAnalysis::tell_sides(const Surface& surface, std::span<const Vec3> vertices,
-                                std::span<const Vec3> normals, const Csr<int32_t>& incident,
-                                const CoconeOptions& options, const Run& run) {
-  const std::vector<Vec3>& points = samples_.points;
-  if (sides_from_ == SidesFrom::surface) {
-    sides_ = sides_from_surface(points, vertices, surface, triangulation_, voronoi_, run);
-  } else if (sides_from_ == SidesFrom::normals) {
-    sides_ =
-        sides_from_normals(points, unit_normals(normals, samples_), triangulation_, voronoi_, run);
-  } else if (sides_from_ == SidesFrom::tight_cocone) {
-    const Poles p = poles(points, triangulation_, voronoi_, incident, run);
-    TightCocone found =
-        medial::tight_cocone(points, triangulation_, voronoi_, incident, p, options, run);
-    SolidBoundary boundary = solid_boundary(triangulation_, incident, found.sides, run);
-    sides_ = sides_in_solid(points, found.sides, boundary.triangles, triangulation_, voronoi_, run);
-    found.sides = {};
-    tight_cocone_ = std::make_shared<WatertightSurface>(
-        describe(std::move(found), std::move(boundary), samples_, run));
-  }
-}
-
-Selection MedialAnalysis::selection(const Extraction& x) const {
-  const Selection selection(
-      x, {samples_.points, triangulation_, voronoi_, edges_, significance_, sides_});
-  if (x.side != Side::both) require_solid(sides_from_, tight_cocone_.get());
-  return selection;
+  return mesh;
 }
 
 Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
@@ -174,52 +220,27 @@ Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
         "Expected side INNER for a hierarchy, found another one; the outer axis reaches infinity, "
         "where fire has no rim to start from.");
   }
-  require_solid(sides_from_, tight_cocone_.get());
-  const Facets facets{samples_.points, triangulation_, voronoi_, edges_, significance_, sides_};
-  return Hierarchy(samples_, facets, thresholds, {threads_, progress, arena_.get()});
-}
-
-std::vector<int32_t> MedialAnalysis::select(const Extraction& x, Progress* progress) const {
-  return selected(selection(x), edges_by_row(), {threads_, progress, arena_.get()});
-}
-
-MedialMesh MedialAnalysis::extract(const Extraction& x, Progress* progress) const {
-  begin_stage(progress, "Facets", 0, 1);
-  MedialMesh mesh = voronoi_facets(selection(x), samples_, triangulation_, voronoi_, edges_,
-                                   {threads_, progress, arena_.get()});
-  advance(progress, 1);
-  return mesh;
-}
-
-template <typename T, typename Value>
-std::vector<T> MedialAnalysis::by_row(const Value& value) const {
-  const auto order = edges_by_row();
-  std::vector<T> result(order.size());
-  parallel_for(edges_.count(), {threads_}, [&](int64_t i) { result[i] = value(order[i]); });
-  return result;
-}
-
-std::vector<int32_t> MedialAnalysis::edges_by_row() const {
-  std::vector<int32_t> order;
-  order.reserve(edges_.ends.size());
-  for (const int32_t p : samples_by_row(samples_)) {
-    for (int32_t e = edges_.first[p]; e < edges_.first[p + 1]; ++e) order.push_back(e);
-  }
-  return order;
+  require_solid(parts_->sides_from, parts_->tight_cocone.get());
+  return make_hierarchy(parts_->samples,
+                        {parts_->samples.points, parts_->triangulation, parts_->voronoi,
+                         parts_->edges, parts_->significance, parts_->sides},
+                        thresholds, parts_->run(progress));
 }
 
 std::vector<double> MedialAnalysis::theta(Rule rule) const {
-  return by_row<double>([&](int32_t e) { return theta_of(significance_.sines(rule)[e]); });
+  return by_row<double>(*parts_,
+                        [&](int32_t e) { return theta_of(parts_->significance.sines(rule)[e]); });
 }
 
 std::vector<double> MedialAnalysis::rho(Rule rule) const {
-  return by_row<double>([&](int32_t e) { return significance_.ratios(rule)[e]; });
+  return by_row<double>(*parts_, [&](int32_t e) { return parts_->significance.ratios(rule)[e]; });
 }
 
 std::vector<double> MedialAnalysis::spacing() const {
   std::vector<double> result;
-  result.reserve(samples_.row.size());
-  for (const int32_t id : samples_by_row(samples_)) result.push_back(significance_.spacing[id]);
+  result.reserve(parts_->samples.row.size());
+  for (const int32_t id : samples_by_row(parts_->samples))
+    result.push_back(parts_->significance.spacing[id]);
   return result;
 }
 
@@ -227,62 +248,76 @@ std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
                                                  std::optional<std::span<const int32_t>> rows,
                                                  Progress* progress) const {
   begin_stage(progress, "Feature size", 0, 1);
-  const auto at = rows ? samples_of(*rows, samples_) : samples_by_row(samples_);
-  std::vector<int32_t> all(edges_.ends.size());
+  const auto at = rows ? samples_of(*rows, parts_->samples) : samples_by_row(parts_->samples);
+  std::vector<int32_t> all(parts_->edges.ends.size());
   std::iota(all.begin(), all.end(), 0);
   const auto ids =
-      selected(selection({.thresholds = thresholds}), all, {threads_, progress, arena_.get()});
-  auto sizes = medial::feature_size(samples_.points, at, triangulation_, voronoi_, edges_, ids,
-                                    {threads_, progress});
+      selected(selection(*parts_, {.thresholds = thresholds}), all, parts_->run(progress));
+  auto sizes =
+      medial::feature_size(parts_->samples.points, at, parts_->triangulation, parts_->voronoi,
+                           parts_->edges, ids, {parts_->threads, progress});
   advance(progress, 1);
   return sizes;
 }
 
 std::vector<Triangle> MedialAnalysis::solid_triangles() const {
-  require_sides(sides_from_);
-  if (tight_cocone_) return tight_cocone_->triangles;
-  const Run run{threads_, nullptr};
-  CellSides sides(sides_);
+  require_sides(parts_->sides_from);
+  if (parts_->tight_cocone) return parts_->tight_cocone->triangles;
+  const Run run{parts_->threads, nullptr};
+  CellSides sides(parts_->sides);
   // The points of a bounding sphere are no samples, and what touches them lies outside.
-  parallel_for(triangulation_.cell_count(), run, [&](int64_t c) {
-    const Cell& cell = triangulation_.cells[c];
-    if (*std::max_element(cell.begin(), cell.end()) >= samples_.count()) {
+  parallel_for(parts_->triangulation.cell_count(), run, [&](int64_t c) {
+    const Cell& cell = parts_->triangulation.cells[c];
+    if (*std::max_element(cell.begin(), cell.end()) >= parts_->samples.count()) {
       sides[c] = Side::outer;
     }
   });
-  return in_rows(boundary_triangles(triangulation_, sides, run), samples_, run);
+  return in_rows(boundary_triangles(parts_->triangulation, sides, run), parts_->samples, run);
 }
 
 std::vector<Edge> MedialAnalysis::edge_rows() const {
-  return by_row<Edge>([&](int32_t e) {
-    const auto& [p, q] = edges_.ends[e];
-    return Edge{samples_.row[p], samples_.row[q]};
+  return by_row<Edge>(*parts_, [&](int32_t e) {
+    const auto& [p, q] = parts_->edges.ends[e];
+    return Edge{parts_->samples.row[p], parts_->samples.row[q]};
   });
 }
 
 std::vector<Side> MedialAnalysis::edge_sides() const {
-  if (sides_.empty()) return std::vector<Side>(edges_.ends.size(), Side::both);
-  return by_row<Side>([&](int32_t e) {
+  if (parts_->sides.empty()) return std::vector<Side>(parts_->edges.ends.size(), Side::both);
+  return by_row<Side>(*parts_, [&](int32_t e) {
     thread_local std::vector<int32_t> ring;
-    ring_of_cells(triangulation_, edges_.ends[e], edges_.cell[e], ring);
-    return facet_side(ring, sides_);
+    ring_of_cells(parts_->triangulation, parts_->edges.ends[e], parts_->edges.cell[e], ring);
+    return facet_side(ring, parts_->sides);
   });
 }
 
 std::vector<uint8_t> MedialAnalysis::edges_bounded() const {
-  return by_row<uint8_t>([&](int32_t e) { return !triangulation_.is_infinite(edges_.cell[e]); });
+  return by_row<uint8_t>(*parts_, [&](int32_t e) {
+    return !parts_->triangulation.is_infinite(parts_->edges.cell[e]);
+  });
 }
 
 size_t MedialAnalysis::bytes() const {
-  const size_t of_samples = samples_.points.capacity() * sizeof(Vec3) +
-                            (samples_.row.capacity() + samples_.point_of_row.capacity()) * 4;
-  return arena_->held() + of_samples + sides_.capacity();
+  const size_t of_samples =
+      parts_->samples.points.capacity() * sizeof(Vec3) +
+      (parts_->samples.row.capacity() + parts_->samples.point_of_row.capacity()) * 4;
+  return parts_->arena->held() + of_samples + parts_->sides.capacity();
 }
 
 std::vector<int32_t> MedialAnalysis::sample_rows() const {
-  std::vector<int32_t> rows = samples_by_row(samples_);
-  for (int32_t& id : rows) id = samples_.row[id];
+  std::vector<int32_t> rows = samples_by_row(parts_->samples);
+  for (int32_t& id : rows) id = parts_->samples.row[id];
   return rows;
 }
+
+int64_t MedialAnalysis::duplicates() const { return parts_->duplicates; }
+int64_t MedialAnalysis::finite_cells() const { return parts_->triangulation.finite_cells; }
+bool MedialAnalysis::closed() const { return parts_->closed; }
+int64_t MedialAnalysis::boundary_edges() const { return parts_->boundary_edges; }
+SidesFrom MedialAnalysis::sides_from() const { return parts_->sides_from; }
+const std::shared_ptr<const WatertightSurface>& MedialAnalysis::tight_cocone() const {
+  return parts_->tight_cocone;
+}
+const Timings& MedialAnalysis::timings() const { return parts_->timings; }
 
 }  // namespace medial

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The medial axis of a surface sample (Dey & Zhao's MEDIAL), computed in C++.
 
 Every id that leaves this module is a row of the input array: `edges`, `generators`, cells and umbrellas
@@ -274,8 +275,8 @@ class Level:
 
 @final
 class Hierarchy:
-    """All levels of the inner medial axis, from one ordered collapse of the inner Voronoi complex: each has the topology
-    of the solid. Made by `MedialAnalysis.hierarchy`.
+    """All levels of the inner medial axis, from one ordered collapse of the inner Voronoi complex: each has the
+    topology of the solid. Made by `MedialAnalysis.hierarchy`.
 
     The complex: its vertices are the inner cells, its edges the triangles between two of them, its facets the Delaunay
     edges all of whose cells are inner, its 3-cells the samples all of whose cells are inner. Cells without extent, as

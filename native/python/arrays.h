@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // NumPy arrays in and out: checked views of the caller's memory, read-only arrays that keep their
 // owner alive.
 #pragma once
 
+#include <medial/errors.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -11,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.h"
 #include "base/stopwatch.h"
 #include "base/vec3.h"
 
@@ -30,7 +31,7 @@ inline std::string describe(const py::handle& object) {
 inline py::array checked_rows(const py::handle& object, const char* name, int columns,
                               const std::string& kinds, const char* expected) {
   const bool array = py::isinstance<py::array>(object);
-  const auto view = array ? py::reinterpret_borrow<py::array>(object) : py::array();
+  auto view = array ? py::reinterpret_borrow<py::array>(object) : py::array();
   if (!array || view.ndim() != 2 || view.shape(1) != columns ||
       kinds.find(view.dtype().kind()) == std::string::npos) {
     throw InvalidInputError("Expected " + std::string(name) + " as " + expected + ", found " +
@@ -85,6 +86,18 @@ class Triangles {
  private:
   py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
 };
+
+// A view of the caller's ids. Others than int32, contiguous, would need a copy, and have no use.
+inline std::span<const int32_t> ids_of(const py::object& ids, const char* name) {
+  using Ids = py::array_t<int32_t, py::array::c_style>;
+  if (!py::isinstance<Ids>(ids) || py::cast<Ids>(ids).ndim() != 1) {
+    throw InvalidInputError("Expected " + std::string(name) +
+                            " as a contiguous (m,) int32 array, found " + describe(ids) +
+                            "; convert it.");
+  }
+  const auto view = py::reinterpret_borrow<Ids>(ids);
+  return {view.data(), static_cast<size_t>(view.size())};
+}
 
 // Rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis for
 // one).

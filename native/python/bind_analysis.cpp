@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Progress, MedialAnalysis and MedialMesh for Python.
+#include <medial/analysis.h>
 #include <pybind11/stl.h>
 
 #include <memory>
 #include <optional>
 
-#include "analysis.h"
 #include "arrays.h"
 #include "bindings.h"
 
@@ -95,16 +96,8 @@ std::optional<Points> optional_points(const py::object& rows, const char* name) 
   return rows.is_none() ? std::optional<Points>() : Points(rows, name);
 }
 
-// A view of the caller's rows; an array of int32 alone needs no copy, and others have no use.
-std::optional<std::span<const int32_t>> optional_rows(const py::object& rows) {
-  if (rows.is_none()) return {};
-  using Rows = py::array_t<int32_t, py::array::c_style>;
-  if (!py::isinstance<Rows>(rows) || py::cast<Rows>(rows).ndim() != 1) {
-    throw InvalidInputError("Expected rows as a contiguous (m,) int32 array, found " +
-                            describe(rows) + "; convert it.");
-  }
-  const auto view = py::reinterpret_borrow<Rows>(rows);
-  return std::span<const int32_t>(view.data(), static_cast<size_t>(view.size()));
+std::optional<std::span<const int32_t>> optional_ids(const py::object& ids, const char* name) {
+  return ids.is_none() ? std::optional<std::span<const int32_t>>() : ids_of(ids, name);
 }
 
 std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles,
@@ -130,14 +123,16 @@ Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria c
 }
 
 void bind_enums(py::module_& m) {
-  py::enum_<Side>(m, "Side", "Which axis a facet belongs to; also the values of MedialMesh.side.")
+  py::enum_<Side>(m, "Side", py::module_local(),
+                  "Which axis a facet belongs to; also the values of MedialMesh.side.")
       .value("BOTH", Side::both, "As an argument every facet, as a value not known.")
       .value("INNER", Side::inner,
              "Every Voronoi vertex of the facet is inside; by Tight Cocone, every cell round the "
              "dual edge, too.")
       .value("OUTER", Side::outer, "None is.")
       .value("CROSSING", Side::crossing, "Some are; only as a value.");
-  py::enum_<SidesFrom>(m, "SidesFrom", "What tells inside from outside, for `MedialAnalysis`.")
+  py::enum_<SidesFrom>(m, "SidesFrom", py::module_local(),
+                       "What tells inside from outside, for `MedialAnalysis`.")
       .value("AUTOMATIC", SidesFrom::automatic,
              "SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE.")
       .value("SURFACE", SidesFrom::surface, "The winding number of the triangles.")
@@ -146,18 +141,19 @@ void bind_enums(py::module_& m) {
       .value("TIGHT_COCONE", SidesFrom::tight_cocone,
              "The watertight surface of `TightCocone`; needs the points only.")
       .value("NONE", SidesFrom::none, "Nothing; every facet has side BOTH.");
-  py::enum_<Rule>(m, "Rule",
+  py::enum_<Rule>(m, "Rule", py::module_local(),
                   "Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3).")
       .value("EITHER", Rule::either, "p or q, the paper's text.")
       .value("BOTH", Rule::both, "p and q, per criterion.");
-  py::enum_<Criteria>(m, "Criteria", "Which conditions select (Dey & Zhao, sect. 3.1 and 3.2).")
+  py::enum_<Criteria>(m, "Criteria", py::module_local(),
+                      "Which conditions select (Dey & Zhao, sect. 3.1 and 3.2).")
       .value("ANGLE_OR_RATIO", Criteria::angle_or_ratio)
       .value("ANGLE", Criteria::angle)
       .value("RATIO", Criteria::ratio);
 }
 
 void bind_progress(py::module_& m) {
-  py::class_<Progress>(m, "Progress", kProgressDoc, py::is_final())
+  py::class_<Progress>(m, "Progress", kProgressDoc, py::is_final(), py::module_local())
       .def(py::init<>())
       .def_property_readonly("fraction", &Progress::fraction,
                              "Share of the whole job that is done, 0 to 1, never falling.")
@@ -168,7 +164,7 @@ void bind_progress(py::module_& m) {
 }
 
 void bind_mesh(py::module_& m) {
-  py::class_<MedialMesh>(m, "MedialMesh", kMeshDoc, py::is_final())
+  py::class_<MedialMesh>(m, "MedialMesh", kMeshDoc, py::is_final(), py::module_local())
       .def_property_readonly(
           "vertices", view_property<double>(&MedialMesh::vertices),
           "(v, 3) float64: Voronoi vertices, the centres of empty balls, in order of first use.")
@@ -221,7 +217,7 @@ void bind_analysis(py::module_& m) {
   bind_hierarchy(m);
   m.def("memory_needed", &memory_needed, kMemoryDoc, py::arg("points"));
   const Thresholds paper;
-  py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final())
+  py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final(), py::module_local())
       .def(py::init(&analyse), py::arg("points"), py::arg("triangles") = py::none(), py::kw_only(),
            py::arg("vertices") = py::none(), py::arg("normals") = py::none(),
            py::arg("sides") = SidesFrom::automatic, py::arg("cocone") = py::none(),
@@ -281,7 +277,7 @@ void bind_analysis(py::module_& m) {
           "feature_size",
           [](const MedialAnalysis& a, double theta, double rho, Rule rule, Criteria criteria,
              const py::object& rows, Progress* progress) {
-            const auto chosen = optional_rows(rows);
+            const auto chosen = optional_ids(rows, "rows");
             std::vector<double> sizes;
             {
               const py::gil_scoped_release release;

@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hierarchy and Level for Python.
-#include "analysis.h"
+#include <medial/analysis.h>
+
 #include "arrays.h"
 #include "bindings.h"
+#include "skeleton/level.h"
 
 namespace medial::python {
 namespace {
@@ -45,7 +48,7 @@ auto part_property(const Part& part) {
 
 py::array generator_rows(const Hierarchy& h) {
   std::vector<Edge> rows;
-  for (const auto& [p, q] : h.complex().generators) {
+  for (const auto& [p, q] : h.parts().complex.generators) {
     rows.push_back({h.parts().row[p], h.parts().row[q]});
   }
   return array_of<int32_t>(std::move(rows));
@@ -53,7 +56,7 @@ py::array generator_rows(const Hierarchy& h) {
 
 py::array shrunk_rows(const Hierarchy& h) {
   std::vector<std::array<int32_t, 4>> rows;
-  for (const ShrunkFacet& s : h.complex().shrunk) {
+  for (const ShrunkFacet& s : h.parts().complex.shrunk) {
     const auto& [p, q] = s.generators;
     rows.push_back({h.parts().row[p], h.parts().row[q], s.edge, s.vertex});
   }
@@ -62,7 +65,7 @@ py::array shrunk_rows(const Hierarchy& h) {
 
 py::array bubble_rows(const Hierarchy& h) {
   std::vector<int32_t> rows;
-  for (const int32_t p : h.complex().bubbles) rows.push_back(h.parts().row[p]);
+  for (const int32_t p : h.parts().complex.bubbles) rows.push_back(h.parts().row[p]);
   return array_of<int32_t>(std::move(rows));
 }
 
@@ -163,41 +166,43 @@ void bind_hierarchy(py::module_& m) {
        "betti", [](const Hierarchy& h) { return betti_tuple(h.betti()); },
        "Components, tunnels and cavities of the complex, and so of every level.")
       .def_property_readonly(
-          "diagonal", [](const Hierarchy& h) { return h.complex().diagonal; },
+          "diagonal", [](const Hierarchy& h) { return h.diagonal(); },
           "Of the box of the samples: the unit of `sheet`, `erosion` and `limb`.")
       .def_property_readonly(
-          "cells",
-          part_property<int32_t>([](const Hierarchy& h) -> auto& { return h.complex().cell; }),
+          "cells", part_property<int32_t>([](const Hierarchy& h) -> auto& {
+            return h.parts().complex.cell;
+          }),
           "(v,) int32: cell of each vertex, the lowest of several in one place, as numbered by "
           "`delaunay` (without a\nbounding sphere).")
       .def_property_readonly("vertices", part_property<double>([](const Hierarchy& h) -> auto& {
-                               return h.complex().position;
+                               return h.parts().complex.position;
                              }),
                              "(v, 3) float64: where they are.")
       .def_property_readonly("radius", part_property<double>([](const Hierarchy& h) -> auto& {
-                               return h.complex().radius;
+                               return h.parts().complex.radius;
                              }),
                              "(v,) float64: radius of each vertex' empty ball.")
       .def_property_readonly("edges", part_property<int32_t>([](const Hierarchy& h) -> auto& {
-                               return h.complex().ends;
+                               return h.parts().complex.ends;
                              }),
                              "(e, 2) int32: ends of each edge, the lower vertex first.")
       .def_property_readonly("generators", &generator_rows,
                              "(f, 2) int32: rows p < q of the samples of each facet.")
       .def_property_readonly(
-          "facet_offsets",
-          part_property<int32_t>([](const Hierarchy& h) -> auto& { return h.complex().offsets; }),
+          "facet_offsets", part_property<int32_t>([](const Hierarchy& h) -> auto& {
+            return h.parts().complex.offsets;
+          }),
           "(f + 1,) int32: facet i has the corners facet_offsets[i] : facet_offsets[i + 1].")
       .def_property_readonly(
           "facet_vertices",
           [](const Hierarchy& h) {
-            return corner_part<int32_t>(h.complex().corners, &Corner::vertex);
+            return corner_part<int32_t>(h.parts().complex.corners, &Corner::vertex);
           },
           "(c,) int32: vertex at each corner.")
       .def_property_readonly(
           "facet_edges",
           [](const Hierarchy& h) {
-            return corner_part<int32_t>(h.complex().corners, &Corner::edge);
+            return corner_part<int32_t>(h.parts().complex.corners, &Corner::edge);
           },
           "(c,) int32: edge from each corner to the next.")
       .def_property_readonly("shrunk", &shrunk_rows,

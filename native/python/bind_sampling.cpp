@@ -1,10 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // sample_surface for Python.
+#include <medial/sampling.h>
 #include <pybind11/stl.h>
 
 #include "arrays.h"
 #include "bindings.h"
-#include "base/parallel.h"
-#include "sampling/surface_samples.h"
 
 namespace medial::python {
 namespace {
@@ -96,24 +96,26 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
   options.keep_vertices = keep_vertices;
   options.mirrored_rows = mirrored_rows;
   options.seed = static_cast<uint64_t>(seed);
-  const Run run{thread_count(thread_argument(threads)), progress};
+  const int team = thread_argument(threads);
   const auto point_span = points.span();
   const auto face_span = faces.span();
   const py::gil_scoped_release release;
-  return std::make_shared<SurfaceSamples>(sample_surface(point_span, face_span, options, run));
+  return std::make_shared<SurfaceSamples>(
+      sample_surface(point_span, face_span, options, team, progress));
 }
 
 }  // namespace
 
 void bind_sampling(py::module_& m) {
-  py::enum_<SampleKind>(m, "SampleKind", "What a sample lies on.")
-      .value("CORNER", SampleKind::kCorner)
-      .value("SHARP", SampleKind::kSharp)
-      .value("BOUNDARY", SampleKind::kBoundary)
-      .value("VERTEX", SampleKind::kVertex)
-      .value("SURFACE", SampleKind::kSurface);
+  py::enum_<SampleKind>(m, "SampleKind", py::module_local(), "What a sample lies on.")
+      .value("CORNER", SampleKind::corner)
+      .value("SHARP", SampleKind::sharp)
+      .value("BOUNDARY", SampleKind::boundary)
+      .value("VERTEX", SampleKind::vertex)
+      .value("SURFACE", SampleKind::surface);
   using S = SurfaceSamples;
-  py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", kSamplesDoc, py::is_final())
+  py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", kSamplesDoc, py::is_final(),
+                                    py::module_local())
       .def_property_readonly("points", view_property<double>(&S::points),
                              "(n, 3) float64: the samples.")
       .def_property_readonly("normals", view_property<double>(&S::normals),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The stages by themselves, for study and tests: each starts from the points and ends with ids of
 // input rows.
 #include "arrays.h"
@@ -219,18 +220,6 @@ int64_t open_edges(const py::object& points, const py::object& triangles) {
   require_corners(face_span, row_span.size());
   const Samples samples = distinct_rows(row_span, "point", all_cores());
   return make_surface(face_span, samples.point_of_row, samples.count(), all_cores()).open_edges();
-}
-
-// A view of the caller's ids.
-std::span<const int32_t> ids_of(const py::object& ids, const char* name) {
-  using Ids = py::array_t<int32_t, py::array::c_style>;
-  if (!py::isinstance<Ids>(ids) || py::cast<Ids>(ids).ndim() != 1) {
-    throw InvalidInputError("Expected " + std::string(name) +
-                            " as a contiguous int32 array, found " + describe(ids) +
-                            "; convert it.");
-  }
-  const auto view = py::reinterpret_borrow<Ids>(ids);
-  return {view.data(), static_cast<size_t>(view.size())};
 }
 
 py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& face_vertices,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CoconeOptions and TightCocone for Python.
 #include "arrays.h"
 #include "bindings.h"
@@ -36,10 +37,10 @@ std::shared_ptr<Surface> reconstruct(const py::object& points, const CoconeOptio
                                      Progress* progress, int threads) {
   const Points rows(points, "points");
   const CoconeOptions chosen = options ? *options : CoconeOptions{};
-  const int team = thread_count(thread_argument(threads));
+  const int team = thread_argument(threads);
   const auto span = rows.span();
   const py::gil_scoped_release release;
-  return std::make_shared<Surface>(watertight_surface(span, chosen, {team, progress}));
+  return std::make_shared<Surface>(watertight_surface(span, chosen, team, progress));
 }
 
 CoconeOptions options(double cocone_angle, double flatness_ratio, double flatness_angle,
@@ -57,7 +58,7 @@ auto flags(std::vector<uint8_t> Surface::*member) {
 
 void bind_options(py::module_& m) {
   const CoconeOptions paper;
-  py::class_<CoconeOptions>(m, "CoconeOptions", kOptionsDoc, py::is_final())
+  py::class_<CoconeOptions>(m, "CoconeOptions", kOptionsDoc, py::is_final(), py::module_local())
       .def(py::init(&options), py::kw_only(), py::arg("cocone_angle") = paper.cocone_angle,
            py::arg("flatness_ratio") = paper.flatness_ratio,
            py::arg("flatness_angle") = paper.flatness_angle,
@@ -77,7 +78,8 @@ void bind_options(py::module_& m) {
 
 void bind_tight_cocone(py::module_& m) {
   bind_options(m);
-  py::class_<Surface, std::shared_ptr<Surface>>(m, "TightCocone", kTightConeDoc, py::is_final())
+  py::class_<Surface, std::shared_ptr<Surface>>(m, "TightCocone", kTightConeDoc, py::is_final(),
+                                                py::module_local())
       .def(py::init(&reconstruct), py::arg("points"), py::kw_only(),
            py::arg("options") = py::none(), py::arg("progress") = nullptr, py::arg("threads") = 0)
       .def_property_readonly(

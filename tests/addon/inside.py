@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender: enables the installed add-on and hands over to pytest."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender before 4.2, or with the bpy module: installs and enables the zip given after `--`, for good."""
 
 import sys

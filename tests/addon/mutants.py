@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Objects that nobody models on purpose, and options that nobody would choose: a number -> one of each.
 
 The same number always gives the same, so a failure can be looked at alone.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Installs the add-on's zip into a private Blender profile and runs the tests inside that Blender.
 
     python3 tests/addon/run.py --zip dist/medial_axis-0.1.0.zip [--blender blender] [pytest arguments]
@@ -15,62 +16,32 @@ the tests. The exit code is 0 when every test passed.
 from __future__ import annotations
 
 import argparse
-import os
 import shlex
-import subprocess
 import sys
 import tempfile
-import zipfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-ADDON = HERE.parents[1] / "blender_addon"
 sys.path.insert(0, str(HERE.parents[1]))
 
-from build_addon import manual_pages  # noqa: E402 - it lies above this folder
+from native.packaging import blender as private  # noqa: E402 - the line above makes it found
+from native.packaging import pack, paths  # noqa: E402
+from native.packaging.terminal import Failure  # noqa: E402
 
-PACKAGE = "medial_axis"
+EXTENSION = f"bl_ext.user_default.{paths.PACKAGE}"
 
 
-class Blender:
-    """A Blender with a profile of its own, into which the zip is installed."""
-
-    def __init__(self, program: list[str], folder: Path) -> None:
-        self.program = program
-        self.environment = {**os.environ, "HOME": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
-        self.environment["TMPDIR"] = str(folder)  # Blender saves quit.blend there
-        folder.mkdir(parents=True, exist_ok=True)
-        for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES", "EXTENSIONS"):
-            path = folder / part.lower()
-            path.mkdir(parents=True, exist_ok=True)
-            self.environment[f"BLENDER_USER_{part}"] = str(path)
-
-    def run(self, *arguments: object, check: bool = True) -> int:
-        command = [*self.program, *map(str, arguments)]
-        code = subprocess.run(command, env=self.environment).returncode
-        if check and code != 0:
-            raise SystemExit(f"{' '.join(command)} ended with exit code {code}")
-        return code
-
-    def script(self, path: Path, *arguments: object, options=(), check: bool = True) -> int:
-        quiet = ("--background", *options, "--python-exit-code", "1")
-        return self.run(*quiet, "--python", path, "--", *arguments, check=check)
-
-    def version(self) -> tuple[int, ...]:
-        text = subprocess.run(
-            [*self.program, "--version"], env=self.environment, capture_output=True, text=True
-        ).stdout
-        return tuple(int(part) for part in text.split()[1].split(".")[:2])
+class Blender(private.Blender):
+    """A Blender into which the zip is installed."""
 
     def install(self, archive: Path) -> str:
         """Install and enable the zip; returns the module name that it got."""
-        if self.version() >= (4, 2):
-            self.run(
-                "--command", "extension", "install-file", "-r", "user_default", "--enable", archive
-            )
-            return f"bl_ext.user_default.{PACKAGE}"
-        self.script(HERE / "install.py", archive)
-        return PACKAGE
+        if self.version() < (4, 2):
+            self.script(HERE / "install.py", archive)
+            return paths.PACKAGE
+        words = ("--command", "extension", "install-file", "-r", "user_default", "--enable")
+        self.run(*words, archive)
+        return EXTENSION
 
 
 # Python does not get to its end: there bpy 4.2 crashes once a single handler, property or panel was registered.
@@ -100,18 +71,13 @@ class BpyModule(Blender):
 
     def install(self, archive: Path) -> str:
         self.script(HERE / "install.py", archive)
-        return f"bl_ext.user_default.{PACKAGE}"
+        return EXTENSION
 
 
-def pack(folder: Path) -> Path:
+def pack_sources(folder: Path) -> Path:
     """The sources with the compiled modules as an installable zip."""
-    target = folder / f"{PACKAGE}.zip"
-    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
-        for path in sorted(ADDON.rglob("*")):
-            if path.is_file() and "__pycache__" not in path.parts:
-                archive.write(path, f"{PACKAGE}/{path.relative_to(ADDON).as_posix()}")
-        for name, path in manual_pages(folder).items():
-            archive.write(path, f"{PACKAGE}/{name}")
+    target = folder / f"{paths.PACKAGE}.zip"
+    pack.write_zip(target, pack.inside_folder(pack.contents()))
     return target
 
 
@@ -143,7 +109,7 @@ def main() -> int:
             else (Blender, shlex.split(arguments.blender))
         )
         blender = kind(program, Path(folder) / "profile")
-        archive = (arguments.zip or pack(Path(folder))).resolve()
+        archive = (arguments.zip or pack_sources(Path(folder))).resolve()
         module = blender.install(archive)
         blender.environment["MEDIAL_AXIS_MODULE"] = module
         if arguments.gui:
@@ -160,4 +126,7 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except Failure as failure:
+        sys.exit(str(failure))

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes and measuring sticks for the tests inside Blender."""
 
 import ctypes
@@ -133,7 +134,7 @@ def attribute(mesh, name):
 
 def result_of(source):
     """The result object of a source, or None."""
-    return addon("bridge.results").result_of(source)
+    return addon("bridge.axis_object").result_of(source)
 
 
 def analyses():
@@ -207,4 +208,4 @@ def reports(capfd):
 
 def medial_objects():
     """All result objects in the file."""
-    return [thing for thing in bpy.data.objects if addon("bridge.results").is_result(thing)]
+    return [thing for thing in bpy.data.objects if addon("bridge.axis_object").is_result(thing)]

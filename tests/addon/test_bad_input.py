@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input through the operator: one sentence each; never a crash, a NaN or half an object."""
 
 import bpy

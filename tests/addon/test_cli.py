@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line inside Blender: objects, frames, and the same bytes as without Blender."""
 
 import json
@@ -96,6 +97,28 @@ def test_frames_of_a_file(here, run):
         np.testing.assert_allclose(axis.radius, expected.radius, rtol=1e-5, atol=1e-6)
     rings = {(here / "axes" / f"Ring_{frame:04d}.npz").read_bytes() for frame in (1, 3, 5)}
     assert len(rings) == 1, "what does not move has one axis"
+
+
+def scripted(path="scripted.blend"):
+    """A file with an ellipsoid, and a registered text that writes a file as soon as Python may run."""
+    ellipsoid("Body")
+    text = bpy.data.texts.new("startup.py")
+    text.write("open('ran', 'w').close()")
+    text.use_module = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(Path(path).absolute()))
+    bpy.data.texts.remove(text)
+    return path
+
+
+@pytest.mark.parametrize("flag, ran", [((), False), (("--allow-scripts",), True)])
+def test_python_in_a_file_runs_only_where_it_is_allowed(here, flag, ran):
+    """Whatever the machine prefers: here Blender itself is told to let it run, or not to."""
+    path = scripted()
+    for option in ("--enable-autoexec", "--disable-autoexec"):
+        Path("ran").unlink(missing_ok=True)
+        done = in_blender(path, "axis.npz", "--force", *flag, file=(option,))
+        assert done.returncode == 0, done.stderr
+        assert Path("ran").exists() is ran, f"{option} decided"
 
 
 def test_open_file_is_the_input_where_none_is_named(here, run):

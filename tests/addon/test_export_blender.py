@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files made inside Blender: by our operator, and of the result by Blender's own exporters, read back."""
 
 import os
@@ -112,7 +113,7 @@ def test_npz_holds_all_attributes(result, tmp_path):
     assert np.array_equal(np.diff(arrays["face_offsets"]), corner_counts(mesh))
     assert np.array_equal(arrays["face_vertices"], np.concatenate(polygons(mesh)))
     assert arrays["generators"].shape == (len(mesh.polygons), 2)
-    source = addon("bridge.made").source_of(result)
+    source = addon("bridge.output_object").source_of(result)
     samples = world_positions(source)[
         arrays["generators"]
     ]  # the axis lies halfway between its generators
@@ -123,7 +124,7 @@ def test_npz_holds_all_attributes(result, tmp_path):
 
 def test_read_axis_is_the_computed_axis_in_float32(result):
     read = addon("bridge.read_axis").read_axis(result)
-    analysis, results = addon("core.axis.compute"), addon("bridge.results")
+    analysis, results = addon("core.axis.compute"), addon("bridge.axis_object")
     axis = analysis.refilter(result[results.ANALYSIS], results.settings_of(result))
     for name in ("face_offsets", "face_vertices", "side", "generators", "unbounded"):
         assert np.array_equal(getattr(read, name), getattr(axis, name)), name
@@ -134,7 +135,7 @@ def test_read_axis_is_the_computed_axis_in_float32(result):
 
 def test_source_exports_its_result(result, tmp_path):
     export(tmp_path / "result.off")
-    select(addon("bridge.made").source_of(result))
+    select(addon("bridge.output_object").source_of(result))
     export(tmp_path / "source.off")
     assert (tmp_path / "result.off").read_bytes() == (tmp_path / "source.off").read_bytes()
 
@@ -241,7 +242,7 @@ def test_export_does_not_change_the_result(result, tmp_path):
 
 
 def test_menu_entry():
-    draw = addon("ui.export").menu_func_export
+    draw = addon("ui.export_axis").menu_func_export
     assert draw in bpy.types.TOPBAR_MT_file_export._dyn_ui_initialize()
     shown = {}
     layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
@@ -261,8 +262,8 @@ def test_menu_entry():
     ],
 )
 def test_file_browser_keeps_name_and_format_together(path, shown, chosen, expected):
-    cls = addon("ui.export").EXPORT_SCENE_OT_medial_axis
-    extensions = addon("ui.export")._EXTENSIONS
+    cls = addon("ui.export_axis").EXPORT_SCENE_OT_medial_axis
+    extensions = addon("ui.export_axis")._EXTENSIONS
 
     class Browser:
         filepath, file_format, _shown_format = path, chosen, shown

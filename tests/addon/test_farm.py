@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Jobs of render farms: they compile as the engines document it, and their command lines are run for real."""
 
 import json

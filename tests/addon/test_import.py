@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """File > Import of `.xyz`, `.xyzn` and `.off` files, and of points through Blender's own importers."""
 
 from types import SimpleNamespace

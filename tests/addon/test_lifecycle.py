@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Two hundred runs leave nothing behind; updates, removal and what is written, each in a Blender of its own."""
 
 import os
@@ -189,6 +190,20 @@ def test_update_while_the_older_version_runs(blender, tmp_path):
         assert bpy.ops.wm.medial_axis_self_test() == {{"FINISHED"}}
         """
     play(blender, tmp_path, name, update)
+
+
+def mapped_files():
+    """The files of this process that hold code or data in place, as Linux lists them."""
+    return Path("/proc/self/maps").read_text(encoding="utf-8", errors="replace")
+
+
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="the system has no files in memory")
+def test_only_legacy_installs_load_a_copy_of_the_compiled_module():
+    native, legacy = addon("core.machine.native"), not MODULE.startswith("bl_ext.")
+    native.load()
+    assert native.load_a_copy is legacy
+    assert (str(native.file()) in mapped_files()) is not legacy
+    assert ("memfd:_medial" in mapped_files()) is legacy
 
 
 def test_removal_leaves_nothing_but_the_preferences_of_blender(blender, tmp_path):

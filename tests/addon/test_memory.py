@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Memory in Blender: what is kept, how it is freed, and the limit of an analysis, with and without faces."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A thousand objects and options at random: an answer each, a sound result or one sentence, and never a crash.
 
 A crash ends Blender and so the tests; `run.py -s -k mutants` prints each number before it is tried.
@@ -87,7 +88,7 @@ def attempt(seed):
         assert again == answer
     elif single:
         assert contents() == before, f"after {answer} something was left"
-    assert addon("ui.running").job() is None
+    assert addon("ui.current_job").job() is None
     return answer
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Compute Medial Axis on real objects: what is made, what it is called, what stays as it was."""
 
 import bpy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Point cloud objects, and points that geometry nodes make of a mesh, as sources."""
 
 import bpy
@@ -105,7 +106,7 @@ def test_point_cloud_with_normals():
 def test_point_cloud_gives_a_surface():
     source = point_cloud(on_ellipsoid(CLOUD)[0])
     assert bpy.ops.object.tight_cocone_surface() == {"FINISHED"}
-    surface = addon("bridge.surfaces").surface_of(source)
+    surface = addon("bridge.surface_object").surface_of(source)
     assert len(surface.data.vertices) == CLOUD and len(surface.data.polygons) == 2 * CLOUD - 4
 
 

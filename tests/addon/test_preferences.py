@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The preferences page: what is installed, the self-test, and the manual."""
 
 import os
@@ -52,7 +53,7 @@ def page():
 
 @pytest.fixture(autouse=True)
 def no_last_test():
-    addon("ui.self_test")._last.clear()
+    addon("ui.self_test_operator")._last.clear()
 
 
 def test_page_names_what_is_installed():
@@ -96,7 +97,7 @@ def test_self_test_fails_without_the_module(monkeypatch, tmp_path):
     monkeypatch.setattr(native, "_module", None)
     with pytest.raises(RuntimeError, match="Failed: Expected the compiled module for"):
         bpy.ops.wm.medial_axis_self_test()
-    assert not addon("ui.self_test").last()[0].passed
+    assert not addon("ui.self_test_operator").last()[0].passed
 
 
 def moved(axis, by):
@@ -115,15 +116,15 @@ def moved(axis, by):
     ids=["moved", "radii", "shrunk"],
 )
 def test_self_test_notices(change, failed):
-    core = addon("core.self_test")
+    core = addon("core.known_box")
     box = core.compute_box()
-    checks = core._of_shape(change(box.axis), box.sampled.samples.spacing)
+    checks = core._of_shape(change(box.axis), box.chosen.samples.spacing)
     assert {number for number, check in enumerate(checks, 1) if not check.passed} >= failed - {4}
-    assert all(check.passed for check in core._of_shape(box.axis, box.sampled.samples.spacing))
+    assert all(check.passed for check in core._of_shape(box.axis, box.chosen.samples.spacing))
 
 
 def test_self_test_notices_an_empty_axis():
-    core = addon("core.self_test")
+    core = addon("core.known_box")
     axis = core.compute_box().axis
     empty = type(axis)(**vars(axis) | {"face_offsets": np.zeros(1, np.int32)})
     assert [check.passed for check in core._of_shape(empty, 0.1)] == [False]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Presets of the panel: those that come with the add-on, and the user's own."""
 
 import math

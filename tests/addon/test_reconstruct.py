@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Reconstruct Surface (Tight Cocone): the object that is made, made again, or not made at all."""
 
 import bmesh
@@ -28,11 +29,11 @@ from test_transforms import PLACES, place
 
 
 def surface_of(source):
-    return addon("bridge.surfaces").surface_of(source)
+    return addon("bridge.surface_object").surface_of(source)
 
 
 def surfaces():
-    return [thing for thing in bpy.data.objects if addon("bridge.surfaces").is_surface(thing)]
+    return [thing for thing in bpy.data.objects if addon("bridge.surface_object").is_surface(thing)]
 
 
 def reconstruct():
@@ -360,10 +361,10 @@ def test_refusal_while_another_computation_runs_names_it():
     points, _ = on_ellipsoid(300_000)
     work = addon("core.axis.reconstruction").reconstruct
     task = addon("core.machine.job").Task("Big", lambda progress: work(points, progress))
-    addon("ui.running").start([task], "surface")
+    addon("ui.current_job").start([task], "surface")
     for operator in ("tight_cocone_surface", "medial_axis"):
         refuse("A surface is being computed; wait", operator=operator)
-    addon("ui.running").stop()
+    addon("ui.current_job").stop()
 
 
 def test_mirrored_source_is_still_outward():

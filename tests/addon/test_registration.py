@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The add-on comes and goes without a trace; every option is what core.settings says."""
 
 import ast
@@ -39,7 +40,8 @@ def present():
         "sequence import": hasattr(bpy.types, "IMPORT_SCENE_OT_medial_axis_sequence"),
         "sequence panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sequence"),
         "sequence folder": hasattr(bpy.types.Scene, "medial_axis_folder"),
-        "sequence menu": f"{MODULE}.ui.sequence" in menu_texts(bpy.types.TOPBAR_MT_file_import),
+        "sequence menu": f"{MODULE}.ui.compute_sequence"
+        in menu_texts(bpy.types.TOPBAR_MT_file_import),
         "panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis"),
         "sampling panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_sampling"),
         "surface panel": hasattr(bpy.types, "VIEW3D_PT_medial_axis_surface"),
@@ -47,7 +49,7 @@ def present():
         "progress": hasattr(bpy.types.WindowManager, "medial_axis_progress"),
         "object menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object),
         "context menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object_context_menu),
-        "export menu": f"{MODULE}.ui.export" in menu_texts(bpy.types.TOPBAR_MT_file_export),
+        "export menu": f"{MODULE}.ui.export_axis" in menu_texts(bpy.types.TOPBAR_MT_file_export),
         "handler": any(h.__module__.startswith(MODULE) for h in bpy.app.handlers.load_pre),
     }
 
@@ -84,7 +86,7 @@ def test_importing_needs_no_blender():
     top = [
         node for node in ast.parse(source).body if isinstance(node, (ast.Import, ast.ImportFrom))
     ]
-    assert top == []
+    assert [getattr(node, "module", None) for node in top] == ["typing"]
 
 
 def test_one_version():
@@ -162,14 +164,14 @@ def test_defaults_are_those_of_the_compiled_module():
 def test_what_does_not_apply_is_grey():
     settings = addon("core.settings")
     of = {
-        name: {kind.name for kind in settings.Sampling if settings.applies(name, kind, 0.0)}
+        name: {kind.name for kind in settings.SamplingMode if settings.applies(name, kind, 0.0)}
         for name in settings.SAMPLING_OPTIONS
     }
     everywhere, faces = {"AUTOMATIC", "VERTICES", "SURFACE", "ADAPTIVE"}, {"AUTOMATIC", "ADAPTIVE"}
     assert of["epsilon"] == everywhere and of["budget"] == faces
     others = set(of) - {"epsilon", "budget"}
     assert all(of[name] == faces | {"SURFACE"} for name in others)
-    assert not settings.applies("samples", settings.Sampling.SURFACE, 1.0)
+    assert not settings.applies("samples", settings.SamplingMode.SURFACE, 1.0)
     assert {"sampling", *of} == set(SAMPLING)
 
 

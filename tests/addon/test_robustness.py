@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What other processes do at the same time: Blender is killed while it writes, two write the same file."""
 
 import os

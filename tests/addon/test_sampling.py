@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Whatever an artist has, one click: samples of the faces, the axis in the solid, or one clear sentence."""
 
 import math
@@ -317,7 +318,7 @@ def test_budget_is_kept_and_said():
 
 def test_kept_vertices_are_samples():
     source = ellipsoid(segments=2)
-    report_of = addon("bridge.sampling_report").report_of
+    report_of = addon("bridge.report_object").report_of
     bpy.ops.object.medial_axis_sampling_report(
         sampling="SURFACE", samples=1_000, keep_vertices=True, smooth=False
     )
@@ -435,7 +436,7 @@ def test_sliders_work_on_samples():
     panel.theta = 1.2
     assert len(result.data.polygons) < facets and analyses() == count and panel.note == ""
     assert result["ma_samples"] == 3_000 and result["ma_sampling"] == "SURFACE"
-    kept = addon("bridge.results").settings_of(result)
+    kept = addon("bridge.axis_object").settings_of(result)
     assert (kept.samples, kept.smooth, kept.sampling.name) == (3_000, True, "SURFACE")
 
 
@@ -451,7 +452,7 @@ def test_export_after_sampling(tmp_path):
     source = result["ma_source"]
     select(source)
     bpy.ops.object.medial_axis_sampling_report(sampling="SURFACE", samples=1_000)
-    samples = positions(addon("bridge.sampling_report").report_of(source).data)
+    samples = positions(addon("bridge.report_object").report_of(source).data)
     first = axis["face_vertices"][axis["face_offsets"][:-1]]
     for end in (0, 1):
         away = np.linalg.norm(axis["vertices"][first] - samples[axis["generators"][:, end]], axis=1)
@@ -464,9 +465,9 @@ def test_cancel_works_in_every_pass(delay):
     shape = addon("bridge.read_object").read_object(source, bpy.context.evaluated_depsgraph_get())
     settings = addon("core.settings")
     wanted = settings.Settings(
-        sampling=settings.Sampling.ADAPTIVE, samples=200_000, budget=1_000_000, epsilon=0.02
+        sampling=settings.SamplingMode.ADAPTIVE, samples=200_000, budget=1_000_000, epsilon=0.02
     )
-    work = partial(addon("core.axis.sampling_report").report, shape, wanted)
+    work = partial(addon("core.axis.sampling_report").report_sampling, shape, wanted)
     job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
     seen, end = [], time.monotonic() + delay
     while time.monotonic() < end:
@@ -482,8 +483,8 @@ def test_progress_is_one_bar_over_all_passes():
     source = thin_and_thick()
     shape = addon("bridge.read_object").read_object(source, bpy.context.evaluated_depsgraph_get())
     settings = addon("core.settings")
-    wanted = settings.Settings(sampling=settings.Sampling.ADAPTIVE, samples=3_000)
-    work = partial(addon("core.axis.sampling_report").report, shape, wanted)
+    wanted = settings.Settings(sampling=settings.SamplingMode.ADAPTIVE, samples=3_000)
+    work = partial(addon("core.axis.sampling_report").report_sampling, shape, wanted)
     job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
     seen = []
     while not job.done:
@@ -492,7 +493,7 @@ def test_progress_is_one_bar_over_all_passes():
     fractions = [fraction for fraction, _ in seen]
     assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
     assert len({stage for _, stage in seen}) > 3
-    assert job.outcomes()[0].value.sampled.sampling is settings.Sampling.ADAPTIVE
+    assert job.outcomes()[0].value.chosen.sampling is settings.SamplingMode.ADAPTIVE
 
 
 # --- messy meshes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Report Sampling: the samples and their epsilon, as an object or on the source."""
 
 import bpy
@@ -27,7 +28,7 @@ def report(source, **settings):
     """Run the operator on a source; the report, which must be there."""
     select(source)
     assert bpy.ops.object.medial_axis_sampling_report(**settings) == {"FINISHED"}
-    return addon("bridge.sampling_report").report_of(source)
+    return addon("bridge.report_object").report_of(source)
 
 
 def cylinder():
@@ -128,8 +129,8 @@ def test_selected_report_stands_for_its_source():
     found = report(source, **EVEN)
     assert bpy.context.selected_objects == [found]
     assert bpy.ops.object.medial_axis(**EVEN) == {"FINISHED"}
-    assert addon("bridge.results").result_of(source) is not None
-    assert addon("bridge.results").result_of(found) is None
+    assert addon("bridge.axis_object").result_of(source) is not None
+    assert addon("bridge.axis_object").result_of(found) is None
     bpy.data.objects.remove(source)
     select(found)
     refuse("is a report whose source is gone", operator=REPORT)
@@ -167,7 +168,7 @@ def test_epsilon_on_the_source():
     source = ellipsoid(segments=3)
     select(source)
     assert bpy.ops.object.medial_axis_sampling_report(target="SOURCE", **EVEN) == {"FINISHED"}
-    assert addon("bridge.sampling_report").report_of(source) is None
+    assert addon("bridge.report_object").report_of(source) is None
     values = attribute(source.data, "ma_epsilon")
     found = report(source, **EVEN)
     samples, epsilon = positions(found.data), attribute(found.data, "ma_epsilon")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sequences: files of every frame, and objects that play them in viewport and render."""
 
 from pathlib import Path
@@ -196,7 +197,7 @@ def test_nothing_is_left_of_files_that_are_broken(growing, tmp_path, broken):
 
 
 def test_names_of_files():
-    by_frame = addon("bridge.sequence").by_frame
+    by_frame = addon("bridge.sequence_objects").by_frame
     paths = [Path(f"{name}.npz") for name in ("a_0002", "a_0010", "b.001", "c-0005", "d_-03", "e7")]
     found = {name: list(frames) for name, frames in by_frame(paths).items()}
     assert found == {"a": [2, 10], "b": [1], "c": [5], "d": [-3], "e": [7]}

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What tells inside from outside: which source is used, why, what is said of it, what is refused."""
 
 import collections

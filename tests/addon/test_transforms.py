@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The axis lies where the artist sees the shape; scale, shear and mirror are applied first."""
 
 import math

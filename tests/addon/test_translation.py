@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The user interface in German: every text has its translation, none is left over, and sentences find theirs."""
 
 import re
@@ -208,7 +209,7 @@ def test_panels_keep_english_and_show_german(german):
         region=SimpleNamespace(width=2000),
         preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
     )
-    addon("ui.sentence").draw_sentence(context, layout, result["ma_inside"], "INFO")
+    addon("ui.wrapped_text").draw_wrapped(context, layout, result["ma_inside"], "INFO")
     assert lines == ["Innen nach Oberfläche: die Flächen sind geschlossen"]
 
 

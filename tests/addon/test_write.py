@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writing a mesh: exact in float32, and all or nothing."""
 
 from types import SimpleNamespace
@@ -15,7 +16,7 @@ def honeycomb(rows, columns):
     corners = first[:, None] + np.array([0, 1, 2, width + 2, width + 1, width])
     count, facets = (rows + 1) * width + 2, rows * columns
     random = np.random.default_rng(0)
-    return addon("core.axis.compute").MedialAxis(
+    return addon("core.axis.medial_axis").MedialAxis(
         vertices=random.normal(size=(count, 3)),
         radius=random.random(count),
         face_offsets=np.arange(0, 6 * facets + 1, 6, dtype=np.int32),
@@ -36,9 +37,7 @@ def changed(axis, **fields):
 
 
 def written(axis, name):
-    return addon("bridge.write_object").new_mesh(
-        axis, name, addon("bridge.attributes").attributes()
-    )
+    return addon("bridge.write_mesh").new_mesh(axis, name, addon("bridge.attributes").attributes())
 
 
 def test_arrays_arrive():

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every text that the add-on shows: labels and descriptions of what is registered, and sentences of its sources."""
 
 import ast
@@ -105,7 +106,7 @@ def sentences():
     folder = Path(addon().__file__).parent
     found = set()
     for room in ("core", "bridge", "ui"):
-        for path in sorted((folder / room).glob("*.py")):
+        for path in sorted((folder / room).rglob("*.py")):
             if path.relative_to(folder).as_posix() not in HIDDEN:
                 found |= texts_of(ast.parse(path.read_text(encoding="utf-8")), room == "ui")
     names = {path.stem.replace("_", " ") for path in (folder / "presets").rglob("*.py")}
@@ -174,7 +175,7 @@ def drawn_nodes(tree):
 def compiled():
     """Stages of a computation, and the errors that a user can meet; sources of C++."""
     folder = Path(__file__).resolve().parents[2] / "native" / "medial"
-    sources = "\n".join(path.read_text(encoding="utf-8") for path in sorted(folder.glob("*.cpp")))
+    sources = "\n".join(path.read_text(encoding="utf-8") for path in sorted(folder.rglob("*.cpp")))
     stages = set(re.findall(r'begin_stage\([\w.]+, "([^"]+)"', sources))
     errors = map(said, re.findall(r"throw \w+Error\((.*?)\);\n", sources, re.DOTALL))
     return stages | {text for text in errors if text.startswith(MET)} | PLACES

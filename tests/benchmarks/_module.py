@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Lets the benchmarks find the compiled module and the shapes of the tests from a plain checkout."""
 
 import argparse
@@ -8,9 +9,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = Path(os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon"))
-DATA = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ROOT.parent / "shared" / "data"))
 
 sys.path.insert(0, str(ROOT / "tests"))
+
+from support.data import DATA  # noqa: E402, F401 - found through the line above; for the benchmarks
 
 
 def load():

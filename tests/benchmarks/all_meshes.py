@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The axis of every mesh of the data folder, whole and damaged, by way of the add-on: a Markdown table.
 
     python3 tests/benchmarks/all_meshes.py [--output table.md] [--meshes spot_low.obj ...] [--sampling NAME] [--worst]
@@ -29,17 +30,17 @@ HEADER += ["spike", "s", "what was said"]
 
 def row(name: str, sampling: str, worst: bool) -> list[str]:
     from medial_axis.core.errors import DegenerateInputError, InvalidInputError
-    from medial_axis.core.settings import Sampling
+    from medial_axis.core.settings import SamplingMode
 
     vertices, triangles = messy.load(name, lambda file: _module.DATA / file)
     gaps = medial.open_edges(vertices, triangles) if len(triangles) else 0
     start = time.process_time()
     try:
-        result = resampled.by_the_addon((vertices, triangles), sampling=Sampling[sampling])
+        result = resampled.by_the_addon((vertices, triangles), sampling=SamplingMode[sampling])
     except (DegenerateInputError, InvalidInputError) as refusal:
         return [name, str(len(triangles)), str(gaps), *[""] * 7, f"refused: {refusal}"]
     seconds = time.process_time() - start
-    axis, samples = result.axis, result.sampled.samples
+    axis, samples = result.axis, result.chosen.samples
     closed = len(triangles) > 0 and gaps == 0
     outside = ~crossings.inside(axis.vertices, vertices, triangles) if closed else None
     length = spikes.lengths(axis, samples.points)
@@ -52,7 +53,7 @@ def row(name: str, sampling: str, worst: bool) -> list[str]:
         name,
         str(len(triangles)),
         str(gaps),
-        result.sampled.sampling.value.lower(),
+        result.chosen.sampling.value.lower(),
         str(result.points),
         str(axis.facets),
         str(spikes.components(axis)),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL's Delaunay triangulation alone: bare_triangulation FILE, a file of doubles x y z x y z ...
 // Prints seconds, those of the processor, and the bytes of memory that it added to the points.
 #include <CGAL/Delaunay_triangulation_3.h>

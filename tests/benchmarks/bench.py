@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What a medial axis costs beside the bare Delaunay triangulation of the same points: JSON and Markdown tables.
 
     python3 build_addon.py bench [--quick] [--largest N] [--repeats K] [--only WORD ...] [--output FOLDER]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the whole operator costs in Blender beside the bare triangulation of the same points, and what a slider costs.
 
 Used by bench.py. Click: the operator from the mesh object to the evaluated object of the axis. Change: another

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Convergence to exactly known medial axes: a Markdown table and the fitted orders in the sample spacing.
 
     python3 tests/benchmarks/convergence.py [--output table.md] [--sizes 2000 8000 ...] [--shapes ellipsoid ...]

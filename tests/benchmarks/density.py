@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The same axis with the same theta and rho, whatever the density of samples: a Markdown table.
 
     python3 tests/benchmarks/density.py [--output table.md] [--shapes box ...]

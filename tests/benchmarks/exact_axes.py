@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Axes of triangle meshes of shapes whose axes are known exactly, by way of the add-on: a Markdown table.
 
     python3 tests/benchmarks/exact_axes.py [--output table.md] [--shapes box ...] [--turns 3] [--worst]
@@ -38,13 +39,13 @@ def row(name: str, turn: int, samples: int, worst: bool) -> list[str]:
     frame = inputs.rotation(turn) if turn else np.eye(3)
     mesh = resampled.turned(mesh, frame) if turn else mesh
     result = resampled.of_surface(mesh, samples)
-    points, axis = result.sampled.samples.points, result.axis
+    points, axis = result.chosen.samples.points, result.axis
     found = judge.measured(shape, mesh, frame, axis, len(points))
     missed = found.missed(name)
     print(name, turn, found, "missed", missed, file=sys.stderr, flush=True)
     if worst:
         off = judge.off_axis(shape, axis.vertices @ frame, resampled.spacing(shape.area, samples))
-        print(spikes.worst(axis, points, result.sampled.samples.kinds, off), file=sys.stderr)
+        print(spikes.worst(axis, points, result.chosen.samples.kinds, off), file=sys.stderr)
     return [name, "no" if turn == 0 else str(turn), *(cell(found, x, x in missed) for x in FIELDS)]
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender: one run of Compute Medial Axis from object to object, and what other thresholds cost then.
 
     MEDIAL_AXIS_MODULE=medial_axis blender --background --factory-startup --python-exit-code 1 \

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The hierarchy of every mesh of the data folder, by the add-on's own samples: a Markdown table.
 
     python3 tests/benchmarks/levels.py [--output table.md] [--meshes hand_closed.obj ...]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One measurement in a process of its own: seconds, memory, and how busy the machine was with other things.
 
     python3 tests/benchmarks/measuring.py FOLDER ours|qhull [--threads N] [--sides NONE]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tight Cocone and the inner axis on noisy samples: a Markdown table.
 
     python3 tests/benchmarks/noise.py [--output table.md] [--samples 8000] [--seeds 3]

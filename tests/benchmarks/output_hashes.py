@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Prints a hash of everything that a compiled module returns, input by input: equal before and after a change that
 must not change any result.
 
@@ -12,7 +13,6 @@ analysed on one, two and three threads, with every source of sides, and extracte
 import hashlib
 import importlib.util
 import itertools
-import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -20,7 +20,10 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-DATA = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ROOT.parent / "shared" / "data"))
+sys.path.insert(0, str(ROOT / "tests"))
+
+from support.data import DATA  # noqa: E402 - found through the line above
+
 THREADS = (1, 2, 3)
 FILES = ("3holes.off", "spot_low.obj", "knot1.off", "rocker-arm.off", "liver.ply", "club.off")
 SCANS = ("cactus.xyz", "distcap.xyz")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What samples of a triangulated surface cost, and how good they are: a Markdown table.
 
     python3 tests/benchmarks/sampling.py [--output table.md] [--threads N]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The inner axis near sharp edges, by how the edges are sampled: a Markdown table.
 
     python3 tests/benchmarks/sharp_edges.py [--output table.md] [--count 16000]

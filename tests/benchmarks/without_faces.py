@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes with and without their faces: does Tight Cocone find the same inside? A Markdown table.
 
     python3 tests/benchmarks/without_faces.py [--output table.md] [--files igea.ply ...]

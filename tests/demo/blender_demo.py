@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """One model of the demo, inside Blender: install the zip, compute, export, render, report.
 
     blender --background --factory-startup --python-exit-code 1 --python tests/demo/blender_demo.py -- \\
@@ -159,7 +160,7 @@ def write(result, folder, name):
 
 def figures(package, result):
     """One row of the table: what was computed, and how long it took."""
-    results = importlib.import_module(package + ".bridge.results")
+    results = importlib.import_module(package + ".bridge.axis_object")
     analysis = importlib.import_module(package + ".core.axis.compute")
     key = result[results.ANALYSIS]
     start = time.perf_counter()

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The picture of a medial axis: camera, light, and a surface like thin glass round the coloured axis."""
 
 import math

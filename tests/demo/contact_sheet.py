@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Contact sheets: what one click makes of each primitive of Blender and of each mesh of the data folder.
 
     blender --background --factory-startup --python-exit-code 1 --python tests/demo/contact_sheet.py -- \\

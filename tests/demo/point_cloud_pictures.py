@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of what artists get from points alone: the watertight surface left, the inner axis in it right.
 
     blender --background --factory-startup --python-exit-code 1 --python tests/demo/point_cloud_pictures.py -- \\

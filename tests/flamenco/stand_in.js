@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Flamenco Manager as far as its documentation promises it to job types, and no more.
 //
 //     node stand_in.js JOB_TYPE.js SETTINGS.json     prints the job type and the compiled tasks as JSON

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # debian_blender.sh SUITE FOLDER MIRROR: a private Debian with the Blender of that suite and what the tests need.
 #   trixie -> Blender 4.3, Python 3.13      sid -> Blender 5.2, Python 3.14 (a moving suite)
 # Needs root and debootstrap; does nothing when all is there. Nothing stays mounted: rm -rf FOLDER removes it.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The mesh that every Blender and the command line without one get: what they make of it must be the same bytes."""
 
 import hashlib

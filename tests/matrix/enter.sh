@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # enter.sh FOLDER PROGRAM ...: runs a program inside a chroot, which sees this checkout, /tmp and the test data
 # under their own names. The mounts are gone when it ends. Needs root.
 set -eu

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where Blenders come from: this machine, other Debians in folders, the package index of Python."""
 
 from __future__ import annotations
@@ -15,10 +16,11 @@ ROOT = HERE.parents[1]
 CHROOTS = Path(os.environ.get("MEDIAL_AXIS_BLENDERS", ROOT / "build" / "blenders"))
 INSTALL = ("-m", "pip", "install", "--only-binary", ":all:")
 READY = "ready"  # a file that is written last
-sys.path.insert(0, str(ROOT / "native" / "python"))
+sys.path.insert(0, str(ROOT))
 
-from debian import mirror  # noqa: E402 - it lies in that folder
-from headers import interpreters  # noqa: E402 - and so does this
+from native.packaging.debian import mirror  # noqa: E402 - the line above makes it found
+from native.packaging.headers import interpreters  # noqa: E402
+from native.packaging.terminal import Failure  # noqa: E402
 
 
 class UnavailableError(Exception):
@@ -68,7 +70,7 @@ class Chroot(Installed):
         CHROOTS.mkdir(parents=True, exist_ok=True)
         try:
             source = mirror()
-        except SystemExit as reason:
+        except Failure as reason:
             raise UnavailableError(str(reason)) from None
         run_logged([HERE / "debian_blender.sh", self.suite, CHROOTS / self.suite, source], log)
         return super().prepare(log)

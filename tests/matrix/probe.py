@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside any Blender with the installed add-on: one mesh by the operator, the export and the command line,
 its picture, and what ran it.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tests the installed add-on in every Blender that this machine has or can get.
 
     python3 tests/matrix/run.py ZIP [--quick] [--keep FOLDER] [--table docs/compatibility.md]

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # wine.sh FOLDER ARGUMENT...: runs FOLDER/python.exe, a Python for Windows, with the packages of FOLDER/site.
 # Windows knows this machine's files as drive Z; a path from / on is on it as long as the current folder is.
 set -euo pipefail

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs in a Python without Blender: the command line on one mesh, and what ran it.
 
 Arguments: the file that the answer is written to, as JSON, and the folder that the zip was unpacked into.

@@ -1,6 +1,6 @@
-#include "analysis.h"
-
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <thread>
 
@@ -50,7 +50,7 @@ TEST(MedialAnalysis, GridCubeHasExactlyTheFacetsOfItsTwelveSheets) {
 TEST(MedialAnalysis, CancelsFromAnotherThread) {
   const auto points = test::ellipsoid(200000, 5);
   Progress progress;
-  std::jthread watcher([&] {
+  Thread watcher([&] {
     while (progress.fraction() < 0.1) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     progress.cancel();
   });
@@ -62,7 +62,7 @@ TEST(MedialAnalysis, CancelsInEveryStage) {
   const auto mesh = test::torus(150, 80);
   for (const double share : {0.0, 0.3, 0.55, 0.6, 0.7, 0.75, 0.85, 0.93}) {
     Progress progress;
-    std::jthread watcher([&] {
+    Thread watcher([&] {
       while (progress.fraction() < share) std::this_thread::yield();
       progress.cancel();
     });

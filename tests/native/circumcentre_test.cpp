@@ -1,10 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/circumcentre.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <random>
 
+#include "oracle.h"
 #include "shapes.h"
 
 namespace medial {
@@ -33,6 +36,35 @@ TEST(Circumcentre, ErrorBoundHoldsAgainstAnotherOrderOfTheCorners) {
     const Circumcentre one = circumcentre(p[0], p[1], p[2], p[3]),
                        other = circumcentre(p[3], p[1], p[0], p[2]);
     EXPECT_LE(distance(one.centre, other.centre), one.error + other.error) << seed;
+  }
+}
+
+// Corners with integer coordinates, from fat to flat within one part in 2^40: the true centre is
+// known exactly.
+void expect_within_error(const std::array<test::GridPoint, 4>& p) {
+  if (test::orientation(p[0], p[1], p[2], p[3]) == 0) return;
+  const test::Oracle oracle({p.begin(), p.end()}, 1, {{0, 1, 2, 3}});
+  const test::Real exact = oracle.centre(0);
+  std::array<Vec3, 4> corners;
+  for (int i = 0; i < 4; ++i) {
+    corners[i] = {static_cast<double>(p[i].x), static_cast<double>(p[i].y),
+                  static_cast<double>(p[i].z)};
+  }
+  const auto [centre, error] = circumcentre(corners[0], corners[1], corners[2], corners[3]);
+  EXPECT_LE(test::length(exact - test::Real{centre.x, centre.y, centre.z}), error);
+  EXPECT_LE(error, 1.001 * kCoarsestError * static_cast<double>(oracle.radius(0)) +
+                       8 * DBL_EPSILON * (max_abs(corners[3]) + max_abs(centre)));
+}
+
+TEST(Circumcentre, IsWithinItsErrorOfTheExactOne) {
+  std::mt19937 random(2);
+  const auto coordinate = [&](int bits) { return static_cast<int64_t>(random() >> (32 - bits)); };
+  for (int i = 0; i < 20000; ++i) {
+    const int flatness = 1 + i % 19;
+    std::array<test::GridPoint, 4> p;
+    for (auto& q : p) q = {coordinate(20), coordinate(20), coordinate(flatness)};
+    if (i % 3 == 0) p[3] = p[2] + test::GridPoint{coordinate(3), coordinate(3), 1};  // a needle
+    expect_within_error(p);
   }
 }
 
@@ -66,6 +98,31 @@ TEST(Circumcentre, ExactPathAgreesWithAKnownSphere) {
   EXPECT_LT(
       spread(o.centre, {centre + Vec3{1, 0, 0}, centre + Vec3{0, 1, 0}, centre + Vec3{-1, 0, 0}}),
       1e-12);
+}
+
+// From fat triangles to needles, of which the exact path takes over: the same direction.
+TEST(UnitNormal, TurnsWithItsCorners) {
+  std::mt19937 random(3);
+  const auto coordinate = [&](int bits) { return static_cast<int64_t>(random() >> (32 - bits)); };
+  int exact = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const test::GridPoint a{coordinate(20), coordinate(20), coordinate(20)};
+    const test::GridPoint step{coordinate(4), coordinate(4), coordinate(4)};
+    const test::GridPoint tiny{coordinate(1), coordinate(1), coordinate(1)};
+    const int64_t far = int64_t{1} << (i % 30);
+    const test::GridPoint b = a + far * step, c = a + 2 * far * step + tiny;
+    const auto n = test::cross(test::to<test::Wide>(b - a), test::to<test::Wide>(c - a));
+    if (n == test::Vector<test::Wide>{0, 0, 0}) continue;
+    const auto vec = [](const test::GridPoint& p) {
+      return Vec3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+    };
+    const auto [direction, error] = unit_normal(vec(a), vec(b), vec(c));
+    const test::Real expected = test::unit(test::to<long double>(n));
+    const test::Real found{direction.x, direction.y, direction.z};
+    EXPECT_LE(test::length(found - expected), error);
+    exact += error == 4 * DBL_EPSILON;
+  }
+  EXPECT_GT(exact, 500);
 }
 
 TEST(UnitNormal, OfANeedleIsExact) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the global operators new and delete of a test program counted so far.
 #pragma once
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // 10,000 small inputs, most of them degenerate: no crash, no broken invariant.
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <set>
 
-#include "analysis.h"
 #include "shapes.h"
 
 namespace medial {

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <medial/sampling.h>
 
 #include "sampling/poisson_disk.h"
-#include "sampling/surface_samples.h"
 #include "shapes.h"
 
 namespace medial {
@@ -14,7 +15,7 @@ test::Mesh folded() {
 }
 
 SurfaceSamples sampled(const test::Mesh& mesh, SamplingOptions options, int threads = 2) {
-  return sample_surface(mesh.vertices, mesh.triangles, options, {threads, nullptr});
+  return sample_surface(mesh.vertices, mesh.triangles, options, threads);
 }
 
 Creases creases_of(const test::Mesh& mesh, TriangleMesh& welded, double angle = 0.5) {
@@ -25,8 +26,8 @@ Creases creases_of(const test::Mesh& mesh, TriangleMesh& welded, double angle = 
 TEST(Creases, AFoldIsOneSharpChainAndFourBoundaryChains) {
   TriangleMesh mesh;
   const Creases creases = creases_of(folded(), mesh);
-  EXPECT_EQ(creases.edges[creases.find(1, 0)].crease, Crease::kSharp);
-  EXPECT_EQ(creases.edges[creases.find(0, 3)].crease, Crease::kNone);
+  EXPECT_EQ(creases.edges[creases.find(1, 0)].crease, Crease::sharp);
+  EXPECT_EQ(creases.edges[creases.find(0, 3)].crease, Crease::none);
   EXPECT_EQ(creases.find(2, 5), -1);
   EXPECT_EQ(creases.chains.size(), 7);  // every vertex is a corner: right angles
   EXPECT_EQ(std::count(creases.corner.begin(), creases.corner.end(), 1), 6);
@@ -40,7 +41,7 @@ TEST(Creases, EveryCreaseIsInOneChainWhateverTheTurn) {
     std::map<int32_t, int> uses;
     for (const ChainLink& link : creases.chains.items) ++uses[link.edge];
     for (size_t e = 0; e < creases.edges.size(); ++e) {
-      EXPECT_EQ(uses[static_cast<int32_t>(e)], creases.edges[e].crease != Crease::kNone);
+      EXPECT_EQ(uses[static_cast<int32_t>(e)], creases.edges[e].crease != Crease::none);
     }
   }
 }
@@ -63,7 +64,7 @@ TEST(PnTriangles, KeepTheirCornersAndAgreeAlongEveryEdge) {
   const CurvedSurface surface(mesh, creases, true, {2, nullptr});
   int sharp = 0;
   for (const MeshEdge& edge : creases.edges) {
-    sharp += edge.crease == Crease::kSharp;
+    sharp += edge.crease == Crease::sharp;
     for (int i = 0; i <= 8; ++i) {
       std::array<Vec3, 2> reached;
       for (const int side : {0, 1}) {
@@ -107,20 +108,42 @@ TEST(Pieces, CoverTheirTriangles) {
   }
 }
 
-TEST(KdTree, FindsTheNearest) {
+TEST(Nearest, FindsTheNearest) {
   const auto points = test::random_points(500, 7);
-  const KdTree tree(points);
-  std::vector<std::pair<double, int32_t>> found;
+  const Nearest tree(points);
+  std::vector<Neighbour> found;
   for (const Vec3& query : test::random_points(100, 8)) {
-    tree.nearest(query, 5, found);
+    tree.find(query, 5, found);
+    EXPECT_EQ(tree.distance(query), found[0].distance);
     std::vector<double> all;
     for (const Vec3& p : points) all.push_back(distance(p, query));
     std::sort(all.begin(), all.end());
     ASSERT_EQ(found.size(), 5u);
-    for (int i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(found[i].first, all[i]);
+    for (int i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(found[i].distance, all[i]);
   }
-  tree.nearest({}, 600, found);
+  tree.find({}, 600, found);
   EXPECT_EQ(found.size(), 500u);
+}
+
+TEST(Nearest, TakesTheLowestIdsOfEquallyNearSites) {
+  std::vector<Vec3> sites;
+  for (int i = 0; i < 1000; ++i) {
+    sites.push_back({i % 10 * 0.1, i / 10 % 10 * 0.1, i / 100 * 0.1});
+  }
+  const Nearest tree(sites);
+  std::vector<Neighbour> found;
+  for (const Vec3& query : sites) {
+    std::vector<std::pair<double, int32_t>> all;
+    for (const Vec3& site : sites) {
+      all.push_back({squared_length(site - query), static_cast<int32_t>(all.size())});
+    }
+    std::sort(all.begin(), all.end());
+    for (const size_t count : {1, 5, 20}) {
+      tree.find(query, count, found);
+      ASSERT_EQ(found.size(), count);
+      for (size_t i = 0; i < count; ++i) ASSERT_EQ(found[i].id, all[i].second);
+    }
+  }
 }
 
 TEST(SizingField, GrowsNoFasterThanItsGrading) {
@@ -197,7 +220,7 @@ TEST(Sampling, StopsWhenCancelled) {
   const auto torus = test::torus(40, 20);
   SamplingOptions options;
   options.count = 1000;
-  EXPECT_THROW(sample_surface(torus.vertices, torus.triangles, options, {2, &progress}), Cancelled);
+  EXPECT_THROW(sample_surface(torus.vertices, torus.triangles, options, 2, &progress), Cancelled);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Seeded inputs for the native tests, and what they ask of triangles.
 #pragma once
 

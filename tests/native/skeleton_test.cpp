@@ -1,13 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The hierarchy of the inner axis, and what its collapse is built from.
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <set>
 #include <thread>
 
-#include "analysis.h"
 #include "base/union_find.h"
 #include "shapes.h"
 #include "skeleton/bucket_queue.h"
+#include "skeleton/level.h"
 
 namespace medial {
 namespace {

@@ -1,15 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
+#include <medial/analysis.h>
 
 #include <thread>
 
-#include "analysis.h"
+#include "delaunay/edges.h"
+#include "delaunay/face_set.h"
+#include "delaunay/samples.h"
 #include "shapes.h"
 
 namespace medial {
 namespace {
 
 WatertightSurface surface_of(std::span<const Vec3> points, int threads = 2) {
-  return watertight_surface(points, {}, {threads, nullptr});
+  return watertight_surface(points, {}, threads);
 }
 
 double volume(std::span<const Vec3> points, std::span<const Triangle> triangles) {
@@ -95,12 +99,12 @@ TEST(TightCocone, CancelsInEveryStage) {
   const auto points = test::ellipsoid(20000, 4);
   for (const double share : {0.0, 0.6, 0.905, 0.935, 0.955, 0.975}) {
     Progress progress;
-    std::jthread watcher([&] {
+    Thread watcher([&] {
       while (progress.fraction() < share) std::this_thread::yield();
       progress.cancel();
     });
     try {
-      watertight_surface(points, {}, {2, &progress});
+      watertight_surface(points, {}, 2, &progress);
     } catch (const Cancelled&) {
     }
   }

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Makes blender_addon/ importable as the package `medial_axis`, and gives tests its compiled module."""
 
 import importlib.util
@@ -11,9 +12,15 @@ ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = Path(
     os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon")
 )  # or an installed copy
-DATA = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ROOT.parent / "shared" / "data"))
 
-sys.path.insert(0, str(ROOT / "tests"))  # shapes, meshes and distance, shared with tests/benchmarks
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]  # native.packaging, tests.parts; support
+
+from support.data import DATA  # noqa: E402 - the line above makes it found
+from support.slow import (  # noqa: E402, F401 - hooks, which pytest finds here
+    pytest_addoption,
+    pytest_collection_modifyitems,
+    pytest_configure,
+)
 
 
 def _register_package() -> None:
@@ -29,21 +36,6 @@ def _register_package() -> None:
 
 
 _register_package()
-
-
-def pytest_configure(config):
-    config.addinivalue_line("markers", "slow: minutes long; left out unless --slow is given")
-
-
-def pytest_addoption(parser):
-    parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
-
-
-def pytest_collection_modifyitems(config, items):
-    if not config.getoption("--slow"):
-        for item in items:
-            if "slow" in item.keywords:
-                item.add_marker(pytest.mark.skip(reason="minutes long; run with --slow"))
 
 
 @pytest.fixture(scope="session")

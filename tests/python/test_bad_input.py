@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every error of the module's contract: the right class, one sentence, nothing half-made; valid extreme input."""
 
 import re

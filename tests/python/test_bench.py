@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The benchmark: what its figures are made of. No test looks at seconds."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Judges of the sampling that know nothing of how it is done: even, apart, without holes, blind to the triangulation.
 
 White noise, as areas alone would give, has chi-square 1 per degree of freedom and a flat spectrum of 1; blue noise
@@ -297,7 +298,8 @@ def test_graded_samples_are_apart(medial):
 PROGRAM = """
 import hashlib, sys
 sys.path.insert(0, sys.argv[1])
-import conftest, meshes
+import conftest
+from support import meshes
 from medial_axis.core.machine import native
 samples = native.load().sample_surface(*meshes.torus(), count=5000, smooth=True, threads=int(sys.argv[2]))
 print(hashlib.sha256(samples.points.tobytes() + samples.radius.tobytes()).hexdigest())

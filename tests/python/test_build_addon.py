@@ -1,36 +1,43 @@
-"""build_addon.py: what it asks for, what it packs, what it refuses."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""build_addon.py and native/packaging: what they ask for, what they pack, what they refuse."""
 
-import importlib.util
+import ast
 import os
 import re
 import subprocess
 import sys
 import tarfile
 import zipfile
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
+import build_addon
+from native.packaging import (
+    check_module,
+    headers_for_windows,
+    licences,
+    modules,
+    needs,
+    pack,
+    paths,
+    presets,
+)
+from native.packaging.terminal import Failure, python_that
+
+ROOT = paths.ROOT
 
 
-def module_of(path):
-    """A script of this repository as a module."""
-    spec = importlib.util.spec_from_file_location(path.stem, path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+@pytest.fixture(autouse=True)
+def environment(monkeypatch):
+    """The commands may change these; afterwards they are as before."""
+    for name in ("PATH", "PYTHONHOME", "PYTHONPATH", "VIRTUAL_ENV"):
+        monkeypatch.setenv(name, os.environ.get(name, ""))
+        if not os.environ[name]:
+            monkeypatch.delenv(name)
 
 
 @pytest.fixture
-def script(monkeypatch):
-    """build_addon.py, with an environment that it may change."""
-    monkeypatch.setenv("PATH", os.environ["PATH"])
-    return module_of(ROOT / "build_addon.py")
-
-
-@pytest.fixture
-def sources(script, tmp_path, monkeypatch):
+def sources(tmp_path, monkeypatch):
     """A tiny add-on in place of the real one."""
     addon = tmp_path / "blender_addon"
     for name in (
@@ -45,8 +52,10 @@ def sources(script, tmp_path, monkeypatch):
     manifest = 'version = "1.2.3"\n\n[permissions]\n'
     (addon / "blender_manifest.toml").write_text(manifest, encoding="utf-8")
     (tmp_path / "LICENSE").write_text("licence", encoding="utf-8")
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "guide.md").write_text("# Guide\n", encoding="utf-8")
     for name, path in {"ROOT": tmp_path, "ADDON": addon, "DIST": tmp_path / "dist"}.items():
-        monkeypatch.setattr(script, name, path)
+        monkeypatch.setattr(paths, name, path)
     return addon
 
 
@@ -57,44 +66,67 @@ def test_help_is_there(command):
     assert done.returncode == 0 and done.stdout.startswith("usage:") and "--help" in done.stdout
 
 
-def test_missing_packages_without_rights_name_the_command_and_exit_2(script, monkeypatch, capsys):
-    monkeypatch.setattr(script.shutil, "which", lambda name: f"/usr/bin/{name}")
+def test_the_driver_runs_on_python_3_8():
+    """Its files hold no newer syntax, as far as Python itself can tell; a newer library is up to the linter."""
+    files = [ROOT / "build_addon.py", *(ROOT / "native" / "packaging").glob("*.py")]
+    files += [ROOT / "tests" / name for name in ("parts.py", "lint.py", "demo/show.py")]
+    for file in files:
+        ast.parse(file.read_text(encoding="utf-8"), str(file), feature_version=(3, 8))
+
+
+def test_missing_packages_without_rights_name_the_command_and_exit_2(monkeypatch, capsys):
+    monkeypatch.setattr(needs.shutil, "which", lambda name: f"/usr/bin/{name}")
     monkeypatch.setattr(
-        script, "is_installed", lambda package: package not in ("cmake", "libcgal-dev")
+        needs, "is_installed", lambda package: package not in ("cmake", "libcgal-dev")
     )
-    monkeypatch.setattr(script, "administrator_prefix", lambda: None)
-    assert script.main(["build"]) == 2
+    monkeypatch.setattr(needs, "administrator_prefix", lambda: None)
+    assert build_addon.main(["build"]) == 2
     advice = (
         "sudo apt-get update && sudo apt-get install -y --no-install-recommends cmake libcgal-dev"
     )
     assert advice in capsys.readouterr().err
 
 
-def test_missing_packages_with_rights_are_installed(script, monkeypatch):
+def test_missing_packages_with_rights_are_installed(monkeypatch):
     commands = []
-    monkeypatch.setattr(script.shutil, "which", lambda name: f"/usr/bin/{name}")
-    monkeypatch.setattr(script, "is_installed", lambda package: package != "xvfb")
-    monkeypatch.setattr(script, "administrator_prefix", lambda: ["sudo", "-n"])
-    monkeypatch.setattr(script, "run", lambda *words: commands.append(" ".join(words)))
-    script.require(script.TEST_NEEDS)
+    monkeypatch.setattr(needs.shutil, "which", lambda name: f"/usr/bin/{name}")
+    monkeypatch.setattr(needs, "is_installed", lambda package: package != "xvfb")
+    monkeypatch.setattr(needs, "administrator_prefix", lambda: ["sudo", "-n"])
+    monkeypatch.setattr(needs, "run", lambda *words: commands.append(" ".join(words)))
+    needs.require(needs.TEST)
     assert commands == [
         "sudo -n apt-get update -q",
         "sudo -n env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends xvfb",
     ]
 
 
-def test_nothing_missing_runs_nothing(script, monkeypatch):
-    monkeypatch.setattr(script, "is_installed", lambda package: True)
-    monkeypatch.setattr(script, "run", lambda *words: pytest.fail("ran " + " ".join(words)))
-    script.require(script.BUILD_NEEDS)
+def test_nothing_missing_runs_nothing(monkeypatch):
+    monkeypatch.setattr(needs, "is_installed", lambda package: True)
+    monkeypatch.setattr(needs, "run", lambda *words: pytest.fail("ran " + " ".join(words)))
+    needs.require(needs.BUILD)
 
 
-def test_missing_blender_exits_2(script, monkeypatch):
-    monkeypatch.setattr(script, "require", lambda needs: None)
-    assert script.main(["build", "--blender", "no-such-blender"]) == 2
+@pytest.mark.parametrize("command", [["build"], ["test"]])
+def test_readme_names_what_the_commands_install(command):
+    """The two sentences of the README that promise what is installed."""
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    wanted = needs.DEMO if command == ["build"] else needs.MATRIX
+    named = set(re.findall(r"[\w+.-]+", readme))
+    assert not set(wanted.values()) - named
 
 
-def test_zip_holds_what_is_needed_and_nothing_else(script, sources):
+def test_missing_blender_exits_2(monkeypatch):
+    monkeypatch.setattr(needs, "require", lambda needs: None)
+    assert build_addon.main(["build", "--blender", "no-such-blender"]) == 2
+
+
+def test_a_python_that_nobody_has_is_named_with_advice():
+    assert python_that("import json", "") == sys.executable
+    with pytest.raises(Failure, match="runs 'import no_such', found none: .*; install it"):
+        python_that("import no_such", "install it")
+
+
+def test_zip_holds_what_is_needed_and_nothing_else(sources):
     for extra in (
         "core/__pycache__/a.cpython-311.pyc",
         ".hidden/b.py",
@@ -104,19 +136,23 @@ def test_zip_holds_what_is_needed_and_nothing_else(script, sources):
     ):
         (sources / extra).parent.mkdir(parents=True, exist_ok=True)
         (sources / extra).write_text("not wanted", encoding="utf-8")
-    target = script.pack()
+    target = pack.pack()
     assert target.name == "medial_axis-1.2.3.zip"
     assert sorted(zipfile.ZipFile(target).namelist()) == [
         "medial_axis/LICENSE",
+        "medial_axis/THIRD_PARTY_LICENSES",
         "medial_axis/__init__.py",
         "medial_axis/blender_manifest.toml",
         "medial_axis/core/a.py",
         "medial_axis/lib/_medial.cpython-311-x86_64-linux-gnu.so",
+        "medial_axis/manual/guide.html",
+        "medial_axis/manual/style.css",
+        *(f"medial_axis/presets/medial_axis/{name}.py" for name in sorted(presets.PRESETS)),
     ]
 
 
-def test_zip_for_the_platform_has_no_folder_and_says_what_it_is_for(script, sources):
-    first = script.pack()
+def test_zip_for_the_platform_has_no_folder_and_says_what_it_is_for(sources):
+    first = pack.pack()
     target = first.with_name("medial_axis-1.2.3-linux-x64.zip")
     with zipfile.ZipFile(first) as ours, zipfile.ZipFile(target) as platform:
         names = platform.namelist()
@@ -127,10 +163,13 @@ def test_zip_for_the_platform_has_no_folder_and_says_what_it_is_for(script, sour
             assert platform.read(name) == ours.read(f"medial_axis/{name}")
 
 
-def test_modules_for_windows_are_in_the_zip_for_people_and_have_one_of_their_own(script, sources):
+def test_modules_for_windows_are_in_the_zip_for_people_and_have_one_of_their_own(
+    sources, monkeypatch
+):
     (sources / "lib" / "_medial.cp311-win_amd64.pyd").write_text("for Windows")
-    first = script.pack()
-    modules = {
+    monkeypatch.setattr(licences, "WINDOWS", ())  # that compiler may not be installed
+    first = pack.pack()
+    found = {
         system: [
             name.rpartition("/")[2]
             for name in zipfile.ZipFile(
@@ -141,58 +180,58 @@ def test_modules_for_windows_are_in_the_zip_for_people_and_have_one_of_their_own
         for system in ("", "-linux-x64", "-windows-x64")
     }
     linux, windows = "_medial.cpython-311-x86_64-linux-gnu.so", "_medial.cp311-win_amd64.pyd"
-    assert modules == {"": [windows, linux], "-linux-x64": [linux], "-windows-x64": [windows]}
+    assert found == {"": [windows, linux], "-linux-x64": [linux], "-windows-x64": [windows]}
     (sources / "lib" / windows).unlink()
-    script.pack()
+    pack.pack()
     assert not first.with_name("medial_axis-1.2.3-windows-x64.zip").exists(), "nothing old is left"
 
 
-def test_same_sources_same_zip(script, sources):
-    first = script.pack().read_bytes()
+def test_same_sources_same_zip(sources):
+    first = pack.pack().read_bytes()
     for path in sources.rglob("*.py"):
         os.utime(path, (0, 0))
-    assert script.pack().read_bytes() == first
+    assert pack.pack().read_bytes() == first
 
 
-def test_versions_must_agree(script, sources):
+def test_versions_must_agree(sources):
     (sources / "blender_manifest.toml").write_text('version = "1.2.4"\n', encoding="utf-8")
-    with pytest.raises(script.Failure, match=r"1\.2\.4.*1, 2, 3"):
-        script.pack()
+    with pytest.raises(Failure, match=r"1\.2\.4.*1, 2, 3"):
+        pack.pack()
 
 
-def test_real_versions_agree(script):
+def test_real_versions_agree():
     """Manifest and bl_info by the script itself; the newest heading of the changelog; the compiled modules."""
-    version = script.version()
+    version = paths.version()
     assert version.count(".") == 2
     changelog = (ROOT / "docs" / "changelog.md").read_text(encoding="utf-8")
-    assert re.findall(r"^## (\S+)", changelog, re.MULTILINE)[0] == version
-    modules = sorted(script.LIBRARY.glob("_medial.*.so"))
-    assert modules and all(version.encode() in module.read_bytes() for module in modules)
+    assert re.findall(r"^## (\d\S+)", changelog, re.MULTILINE)[0] == version
+    compiled = sorted(paths.LIBRARY.glob("_medial.*.so"))
+    assert compiled and all(version.encode() in module.read_bytes() for module in compiled)
 
 
-def test_python_whose_headers_cannot_be_had_is_named(script, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(script, "BUILD", tmp_path)
-    monkeypatch.setattr(script, "PYTHONS", {"3.11": "bookworm", "3.99": "no-such-suite"})
+def test_python_whose_headers_cannot_be_had_is_named(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    monkeypatch.setattr(modules, "PYTHONS", {"3.11": "bookworm", "3.99": "no-such-suite"})
     monkeypatch.setenv("PATH", str(tmp_path))  # no apt-get
-    assert script.other_headers("cpython-311-x86_64-linux-gnu") == {}
+    assert modules.other_headers("cpython-311-x86_64-linux-gnu") == {}
     out = capsys.readouterr().out
     assert out == "No module for Python 3.99: expected apt-get, found none\n"
 
 
-def test_headers_that_are_there_are_used_without_a_network(script, tmp_path, monkeypatch, capsys):
+def test_headers_that_are_there_are_used_without_a_network(tmp_path, monkeypatch, capsys):
     folder = tmp_path / "python" / "3.13"
     folder.mkdir(parents=True)
     (folder / "packages.txt").write_text("libpython3.13-dev 1\npybind11-dev 2\n")
-    monkeypatch.setattr(script, "BUILD", tmp_path)
-    monkeypatch.setattr(script, "PYTHONS", {"3.13": "trixie"})
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    monkeypatch.setattr(modules, "PYTHONS", {"3.13": "trixie"})
     monkeypatch.setenv("PATH", str(tmp_path))
-    assert script.other_headers("cpython-311-x86_64-linux-gnu") == {"3.13": folder}
+    assert modules.other_headers("cpython-311-x86_64-linux-gnu") == {"3.13": folder}
     assert capsys.readouterr().out == "Python 3.13: libpython3.13-dev 1, pybind11-dev 2\n"
 
 
 @pytest.mark.parametrize("there", [True, False])
 def test_headers_of_a_python_that_no_debian_has_are_of_this_machine(
-    script, tmp_path, monkeypatch, capsys, there
+    tmp_path, monkeypatch, capsys, there
 ):
     """A stand-in for Python 9.9, which has one header and its configuration apart, as Debian's Pythons have."""
     include, config = tmp_path / "include", tmp_path / "apart" / "pyconfig.h"
@@ -202,11 +241,11 @@ def test_headers_of_a_python_that_no_debian_has_are_of_this_machine(
     if there:
         (tmp_path / "python9.9").write_text(f"#!/bin/sh\necho {include} {config} 9.9.1\n")
         (tmp_path / "python9.9").chmod(0o755)
-    monkeypatch.setattr(script, "BUILD", tmp_path)
-    monkeypatch.setattr(script, "PYTHONS", {"9.9": "installed"})
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    monkeypatch.setattr(modules, "PYTHONS", {"9.9": "installed"})
     monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
     folder = tmp_path / "python" / "9.9"
-    assert script.other_headers("cpython-311-x86_64-linux-gnu") == (
+    assert modules.other_headers("cpython-311-x86_64-linux-gnu") == (
         {"9.9": folder} if there else {}
     )
     out = capsys.readouterr().out
@@ -232,20 +271,15 @@ def compile_library(folder, source, *options):
 GOOD = 'extern "C" __attribute__((visibility("default"))) int PyInit__medial() { return 0; }\n'
 
 
-@pytest.fixture
-def checker():
-    return module_of(ROOT / "native" / "python" / "check_module.py")
-
-
-def test_module_that_exports_one_symbol_passes(checker, tmp_path):
-    (_, text) = checker.check(compile_library(tmp_path, GOOD))
+def test_module_that_exports_one_symbol_passes(tmp_path):
+    (_, text) = check_module.check(compile_library(tmp_path, GOOD))
     assert "exports PyInit__medial only" in text
 
 
-def test_module_that_exports_more_is_refused(checker, tmp_path):
+def test_module_that_exports_more_is_refused(tmp_path):
     module = compile_library(tmp_path, GOOD + 'extern "C" int other() { return 1; }\n')
     with pytest.raises(SystemExit, match="PyInit__medial only, found 2"):
-        checker.check(module)
+        check_module.check(module)
 
 
 WINDOWS_MODULE = """
@@ -269,26 +303,18 @@ The Function Table
         (("medial\n\n", "medial\n\t[   1] other\n\n"), "must export PyInit__medial only, found 2"),
     ],
 )
-def test_module_for_windows_needs_python_and_windows_alone(
-    checker, tmp_path, monkeypatch, change, told
-):
+def test_module_for_windows_needs_python_and_windows_alone(tmp_path, monkeypatch, change, told):
     module = tmp_path / "_medial.cp311-win_amd64.pyd"
     module.write_bytes(b"123")
-    monkeypatch.setattr(checker, "output", lambda *words: WINDOWS_MODULE.replace(*change))
+    monkeypatch.setattr(check_module, "output", lambda *words: WINDOWS_MODULE.replace(*change))
     if told is None:
-        assert checker.check(module)[0].endswith("needs python311.dll, KERNEL32.dll")
+        assert check_module.check(module)[0].endswith("needs python311.dll, KERNEL32.dll")
     else:
         with pytest.raises(SystemExit, match=told):
-            checker.check(module)
+            check_module.check(module)
 
 
-@pytest.fixture
-def for_windows(monkeypatch):
-    monkeypatch.syspath_prepend(str(ROOT / "native" / "python"))
-    return module_of(ROOT / "native" / "python" / "headers_for_windows.py")
-
-
-def test_headers_for_windows_have_its_configuration(for_windows, tmp_path):
+def test_headers_for_windows_have_its_configuration(tmp_path):
     names = (
         "Include/Python.h",
         "Include/cpython/a.h",
@@ -300,7 +326,7 @@ def test_headers_for_windows_have_its_configuration(for_windows, tmp_path):
         for name in names:
             (tmp_path / "file").write_text(name)
             archive.add(tmp_path / "file", f"Python-3.13.5/{name}")
-    for_windows.unpack_headers(tmp_path / "source.tar", tmp_path / "headers")
+    headers_for_windows.unpack_headers(tmp_path / "source.tar", tmp_path / "headers")
     found = sorted(
         str(path.relative_to(tmp_path / "headers"))
         for path in (tmp_path / "headers").rglob("*")
@@ -310,10 +336,12 @@ def test_headers_for_windows_have_its_configuration(for_windows, tmp_path):
     assert (tmp_path / "headers/pyconfig.h").read_text() == "PC/pyconfig.h.in"
 
 
-def test_import_library_has_the_names_of_python_and_knows_data(for_windows, tmp_path, monkeypatch):
+def test_import_library_has_the_names_of_python_and_knows_data(tmp_path, monkeypatch):
     source = 'extern "C" { int PyInit(){return 0;} int _PyOther(){return 0;} int PyExc_A = 1; int other; }'
-    monkeypatch.setattr(for_windows, "DLLTOOL", "true")  # it may not be installed
-    for_windows.make_import_library(compile_library(tmp_path, source), "python399", tmp_path)
+    monkeypatch.setattr(headers_for_windows, "DLLTOOL", "true")  # it may not be installed
+    headers_for_windows.make_import_library(
+        compile_library(tmp_path, source), "python399", tmp_path
+    )
     text = (tmp_path / "python399.def").read_text().splitlines()
     assert text[:2] == ["LIBRARY python399.dll", "EXPORTS"]
     assert sorted(text[2:]) == ["PyExc_A DATA", "PyInit", "_PyOther"]
@@ -322,53 +350,32 @@ def test_import_library_has_the_names_of_python_and_knows_data(for_windows, tmp_
 @pytest.mark.parametrize(
     "name", ["libtbb.so.12", "libgmp.so.10", "libmpfr.so.6", "libpython3.11.so.1.0"]
 )
-def test_module_that_needs_blenders_libraries_is_refused(checker, tmp_path, name):
+def test_module_that_needs_blenders_libraries_is_refused(tmp_path, name):
     needed = tmp_path / name
     subprocess.run(
         ["g++", "-shared", "-fPIC", "-o", needed, f"-Wl,-soname,{name}", "-x", "c++", "/dev/null"],
         check=True,
     )
     with pytest.raises(SystemExit, match=f"must not need {name}"):
-        checker.check(compile_library(tmp_path, GOOD, "-Wl,--no-as-needed", needed))
+        check_module.check(compile_library(tmp_path, GOOD, "-Wl,--no-as-needed", needed))
 
 
-def test_module_for_newer_systems_is_refused_unless_it_is_for_this_one(
-    checker, tmp_path, monkeypatch
-):
+def test_module_for_newer_systems_is_refused_unless_it_is_for_this_one(tmp_path, monkeypatch):
     source = '#include <cstdio>\nextern "C" __attribute__((visibility("default"))) '
     module = compile_library(tmp_path, source + 'int PyInit__medial() { return std::puts(""); }\n')
-    checker.check(module)
-    monkeypatch.setitem(checker.NEWEST, "GLIBC", "2.2")
+    check_module.check(module)
+    monkeypatch.setitem(check_module.NEWEST, "GLIBC", "2.2")
     with pytest.raises(SystemExit, match=r"needs GLIBC_2\.\d+.*, newer than 2\.2; .*--local"):
-        checker.check(module)
-    assert checker.check(module, local=True)
+        check_module.check(module)
+    assert check_module.check(module, local=True)
 
 
-def test_newest_version_counts_in_numbers(checker):
-    assert checker.newest("GLIBC", "GLIBC_2.9 GLIBC_2.34 GLIBC_2.4 GLIBCXX_3.4.29") == "2.34"
-    assert checker.newest("CXXABI", "GLIBC_2.9") == ""
+def test_newest_version_counts_in_numbers():
+    assert check_module.newest("GLIBC", "GLIBC_2.9 GLIBC_2.34 GLIBC_2.4 GLIBCXX_3.4.29") == "2.34"
+    assert check_module.newest("CXXABI", "GLIBC_2.9") == ""
 
 
-def test_one_failing_part_fails_the_whole(script, monkeypatch, capsys):
-    def fail(blender):
-        raise script.Failure("broken")
-
-    def skip(blender):
-        raise script.Skip("no tool")
-
-    monkeypatch.setattr(script, "require", lambda needs: None)
-    monkeypatch.setattr(script, "find_blender", lambda name: name)
-    monkeypatch.setattr(script, "PARTS", {"one": fail, "two": skip, "three": lambda blender: None})
-    assert script.main(["test"]) == 1
-    text = capsys.readouterr().out
-    summary = text[text.index("Summary") :].splitlines()
-    verdicts = [line.split(" s  ")[1] for line in summary[1:4]]
-    assert verdicts == ["FAILED: broken", "skipped: no tool", "passed"]
-    assert script.main(["test", "--only", "two", "three"]) == 0
-    assert script.main(["test", "--only", "four"]) == 1
-
-
-def test_clean_removes_what_was_made(script, tmp_path, monkeypatch):
+def test_clean_removes_what_was_made(tmp_path, monkeypatch):
     for name in (
         "build/release/x",
         "dist/a.zip",
@@ -385,29 +392,63 @@ def test_clean_removes_what_was_made(script, tmp_path, monkeypatch):
         "DIST": "dist",
         "LIBRARY": "blender_addon/lib",
     }.items():
-        monkeypatch.setattr(script, name, tmp_path / path)
-    assert script.main(["clean"]) == 0
+        monkeypatch.setattr(paths, name, tmp_path / path)
+    assert build_addon.main(["clean"]) == 0
     assert sorted(p.name for p in tmp_path.rglob("*") if p.is_file()) == ["a.png", "keep.py"]
-    assert script.main(["clean", "--all"]) == 0
+    assert build_addon.main(["clean", "--all"]) == 0
     assert [p.name for p in tmp_path.rglob("*") if p.is_file()] == ["keep.py"]
 
 
-def test_manual_pages_are_whole(script, tmp_path):
-    """Every page of docs/ is there, and every link between pages leads to a page and a heading."""
-    pages = {name: path.read_text() for name, path in script.manual_pages(tmp_path).items()}
-    documents = sorted((ROOT / "docs").glob("*.md"))
-    assert list(pages) == [f"manual/{path.stem}.html" for path in documents]
-    for page, document in zip(pages.values(), documents, strict=True):
-        assert page.count("<pre>") == document.read_text().count("\n```") // 2
-        for name, place in re.findall(r'<a href="([\w.]+)(?:#([\w-]+))?">', page):
-            target = pages[f"manual/{name}"]
-            assert not place or f'id="{place}"' in target
+# --- presets and licences
 
 
-def test_manual_page_shows_markdown_as_it_is(script):
-    page = script.manual_page(
-        "# Big & *small*\n\na < b [x](other.md#y-z) ![p](q.png)\n```python\n# no heading\n```\nend\n"
-    )
-    assert '<h1 id="big-amp-small">Big &amp; *small*</h1>' in page
-    assert 'a &lt; b <a href="other.html#y-z">x</a> \n' in page
-    assert "<pre># no heading\n</pre>" in page and "q.png" not in page
+def test_presets_say_every_setting():
+    """Run as Blender does; tests/addon/test_presets.py compares the values inside Blender."""
+    values = presets.defaults()
+    assert len(values) > 10 and values["side"] == "AUTOMATIC" and values["smooth"] is True
+    text = presets.preset({**values, "rho": 16.0}).splitlines()
+    assert text[:4] == ["import bpy", "", "settings = bpy.context.scene.medial_axis", ""]
+    assert len(text) == 4 + len(values) and "settings.rho = 16.0" in text
+
+
+def test_preset_of_an_unknown_setting_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setitem(presets.PRESETS, "Odd", {"no_such": 1})
+    with pytest.raises(KeyError, match="preset Odd: no setting is called no_such"):
+        presets.write_presets(tmp_path / "presets", presets.defaults())
+
+
+LINUX = "lib/_medial.cpython-311-x86_64-linux-gnu.so"
+
+
+def test_licences_name_what_is_compiled_in_with_versions_and_terms():
+    text = licences.text([LINUX])
+    for name in ("libcgal-dev", "libboost", "pybind11-dev"):
+        assert re.search(rf"^Debian package {name}\S* \d+\.\d+", text, re.MULTILINE), name
+    for words in (
+        "Boost Software License - Version 1.0",
+        "Redistributions in binary form must reproduce",
+        "GNU LESSER GENERAL PUBLIC LICENSE",
+    ):
+        assert words in text
+    assert "winpthreads" not in text and len(text) < 200_000
+
+
+def test_licences_name_the_pybind11_of_other_pythons(tmp_path, monkeypatch):
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    for name in ("3.14", "windows/3.13"):
+        folder = tmp_path / "python" / name
+        folder.mkdir(parents=True)
+        (folder / "packages.txt").write_text("libpython-dev 1\npybind11-dev 9.9\n")
+    newer = "another version: pybind11-dev 9.9 (cpython-314)"
+    assert newer in licences.text([LINUX, LINUX.replace("311", "314")])
+    assert "9.9" not in licences.text([LINUX])
+
+
+def test_licence_that_is_not_at_hand_is_a_failure(tmp_path, monkeypatch):
+    monkeypatch.setattr(licences, "DOCUMENTS", tmp_path)
+    with pytest.raises(Failure, match="Expected the licence of CGAL at .*libcgal-dev/copyright"):
+        licences.text([LINUX])
+    nothing = licences.Component("Nothing", "/no/such/*.h", "none")
+    monkeypatch.setattr(licences, "EVERYWHERE", (nothing,))
+    with pytest.raises(Failure, match=r"Expected Nothing as /no/such/\*\.h, found none"):
+        licences.text([LINUX])

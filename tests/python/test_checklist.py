@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every test and scene that docs/checklist.md names is there."""
 
 import re

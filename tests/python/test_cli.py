@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line without Blender: what is written, what is said, and with which exit code it ends."""
 
 import json
@@ -17,7 +18,7 @@ from medial_axis import cli
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.batch import batch, option_words
 from medial_axis.core.batch.frames import at_frame, output_path, parse_frames
-from medial_axis.core.errors import ExportError
+from medial_axis.core.errors import ExportError, InvalidInputError
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.read import import_points
 from medial_axis.core.files.write import export_axis
@@ -191,6 +192,7 @@ def test_degrees_are_exact_where_it_matters():
         (["a.off", "a.ma", "--options", "'"], "No closing quotation"),
         (["a.off", "a.txt"], "ends in .ma"),
         (["a.off", "folder"], "ends in .ma"),
+        (["a.off", "out/CON.ma"], "found 'CON.ma'"),
         (["a.off", "b.off", "a.ma"], "{name} in OUTPUT"),
         (["a_##.off", "a.ma", "--frames", "1-3"], "--frames together with ####"),
         (["a.off", "a_####.ma"], "--frames together with ####"),
@@ -269,6 +271,59 @@ def test_frames():
         parse_frames("1-999999999")
     assert at_frame("a_####/b_##.ply", 123) == "a_0123/b_123.ply"
     assert output_path("{file}/{name}_##.ma", "A/b: #1", "x", 3) == Path("x/A_b_ #1_03.ma")
+
+
+DEVICES = (
+    "CON",
+    "nul",
+    "Aux",
+    "prn",
+    "COM1",
+    "com9",
+    "LPT1",
+    "COM¹",
+    "CONIN$",
+    "NUL.txt",
+    "con .x",
+)
+
+
+@pytest.mark.parametrize("name", [".", "..", "...", "Body.", "Body ", " ", *DEVICES])
+def test_names_that_lead_elsewhere_are_refused(name):
+    """An object called .. would write into the folder above; devices and trailing dots are those of Windows."""
+    with pytest.raises(InvalidInputError, match="Expected a name that files can have on every"):
+        output_path("axes/{name}/axis.npz", name, "file", None)
+    with pytest.raises(InvalidInputError, match=re.escape(f"found '{name}' for '{{file}}'")):
+        output_path("axes/{file}/axis.npz", "name", name, None)
+
+
+@pytest.mark.parametrize("name", DEVICES)
+def test_devices_are_refused_with_any_extension(name):
+    with pytest.raises(InvalidInputError, match="Expected a name that files can have on every"):
+        output_path("axes/{name}.ma", name, "file", None)
+
+
+@pytest.mark.parametrize("name", ["console", "COM10", "Nullo", ".hidden", "a..b", "a b", "..a"])
+def test_names_like_those_are_taken(name):
+    assert output_path("axes/{name}.ma", name, "file", None) == Path(f"axes/{name}.ma")
+
+
+def test_numbers_can_make_a_device():
+    assert output_path("com#_{name}.ma", "a", "b", 1) == Path("com1_a.ma")
+    with pytest.raises(InvalidInputError, match="found 'com1.ma' for 'com#.ma'"):
+        output_path("com#.ma", "a", "b", 1)
+
+
+def test_folders_of_the_user_are_taken_as_they_are():
+    assert output_path("../aux/{name}.ma", "a", "b", None) == Path("../aux/a.ma")
+
+
+def test_refused_name_of_an_output_stops_no_other(here, run):
+    write_egg(here / "nul.xyz")
+    code, reports, said = run("nul.xyz", "egg.xyz", "axes/")
+    assert code == cli.INPUT and [r["status"] for r in reports] == ["failed", "done"]
+    assert "found 'nul.ma' for '{name}.ma' in OUTPUT" in said
+    assert files(here / "axes") == ["egg.ma", "egg.ma.json"]
 
 
 # --- resuming
@@ -486,5 +541,14 @@ def test_documented_options_are_all():
         elif not isinstance(option, Choice):
             shown = f"{shown:g}"
         assert table.get(name.replace("_", "-")) == shown, name
-    for flag in ("frames", "object", "format", "options", "force", "json", "quiet"):
+    for flag in (
+        "frames",
+        "object",
+        "format",
+        "options",
+        "force",
+        "allow-scripts",
+        "json",
+        "quiet",
+    ):
         assert flag in table

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cocone's thin and flat samples and its candidates equal the brute-force restatement as sets.
 
 Where rounding may decide a comparison the reference gives two answers and the module's lies between; there are few.
@@ -43,7 +44,7 @@ def clouds():
 
 CLOUDS = dict(clouds())
 BOX = SHAPES["box"].sample(190, 1)
-COINCIDENT = inputs.structured_cases() | {"box": BOX, "box turned": BOX @ inputs.rotation(4).T}
+COINCIDENT = inputs.structured_cases() | {"box": BOX, "box turned": inputs.turned(BOX, 7, 2, 3, 1)}
 STRUCTURED = {  # those of which exact arithmetic settles most
     name: COINCIDENT[name]
     for name in (

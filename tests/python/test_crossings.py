@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The judge of inside and outside, against the sum of solid angles."""
 
 import numpy as np

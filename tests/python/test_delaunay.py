@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The triangulation against Qhull, which shares no code with it, up to 20,000 points; cells equal as sets."""
 
 import numpy as np

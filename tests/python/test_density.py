@@ -1,14 +1,15 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How dense samples are: figures of made-up estimates, and nearness against brute force."""
 
 import numpy as np
 import pytest
-from medial_axis.core.axis import sampling
+from medial_axis.core.axis import choose_samples
 from medial_axis.core.axis.density import Density, estimate, percent
 from medial_axis.core.axis.nearness import near
-from medial_axis.core.axis.sampling_report import report
+from medial_axis.core.axis.sampling_report import report_sampling
 from medial_axis.core.axis.shape import Shape
 from medial_axis.core.machine.cache import CACHE
-from medial_axis.core.settings import Sampling, Settings
+from medial_axis.core.settings import SamplingMode, Settings
 from support.meshes import icosphere
 from support.shapes import SHAPES
 
@@ -112,10 +113,10 @@ def test_all_samples_where_there_are_few(analysed):
 
 def test_a_report_is_of_all_samples(monkeypatch):
     shape = Shape(*icosphere(4))
-    whole = report(shape, Settings(sampling=Sampling.VERTICES))
+    whole = report_sampling(shape, Settings(sampling=SamplingMode.VERTICES))
     CACHE.clear()
-    monkeypatch.setattr(sampling, "LOOKED_AT", 100)
-    some = report(shape, Settings(sampling=Sampling.VERTICES))
-    assert len(some.sampled.samples.density.points) <= 100
+    monkeypatch.setattr(choose_samples, "LOOKED_AT", 100)
+    some = report_sampling(shape, Settings(sampling=SamplingMode.VERTICES))
+    assert len(some.chosen.samples.density.points) <= 100
     np.testing.assert_array_equal(some.epsilon, whole.epsilon)
     assert some.density.share == whole.density.share

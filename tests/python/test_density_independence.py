@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The paper's headline: one theta and one rho serve every density; the axes agree within the coarser spacing."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every stage equals the brute-force reference: exact sets of triangles and edges, arrays to 1e-9.
 
 General position: the reference starts from Qhull's cells. Structured input: from the module's own cells, after an

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes of shapes with exactly known axes, by way of the add-on: sampled at 16,000, default thresholds."""
 
 import numpy as np
@@ -20,7 +21,7 @@ def test_bars(name, turn):
     frame = inputs.rotation(turn) if turn else np.eye(3)
     mesh = resampled.turned(mesh, frame) if turn else mesh
     result = resampled.of_surface(mesh, 16_000)
-    points = result.sampled.samples.points
+    points = result.chosen.samples.points
     found = axis_bars.measured(shape, mesh, frame, result.axis, len(points))
     assert len(points) == pytest.approx(16_000, rel=0.02)
     assert not found.missed(name), found

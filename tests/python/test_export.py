@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files written by core/files/write.py: counts, exact numbers, valid references, and writing whole or not at all."""
 
 import os

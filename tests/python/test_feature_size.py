@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How densely the samples lie: their spacing, the local feature size, and the quotient that the theorem speaks of."""
 
 import re

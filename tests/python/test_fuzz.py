@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """10,000 small inputs, most of them degenerate: no crash, no broken invariant, errors only where they belong.
 
 And 10,000 for Tight Cocone, of which a run without --slow takes 2,000.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The hierarchy of the inner axis: one ordered collapse, all of whose levels have the topology of the solid."""
 
 import gc

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What is read from `.xyz`, `.xyzn` and `.off` files, and what is refused."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """PLY, OBJ, STL and arrays of NumPy: the same cube comes out of each, and nothing wrong goes in."""
 
 import io

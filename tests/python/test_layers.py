@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The dependency rule, read from the sources: ui -> bridge -> core -> _medial -> analysis -> the rooms of the core.
 
 The rooms are folders, and what each may see is written down here, room by room. No bpy in core, no ui in bridge, no
@@ -22,7 +23,7 @@ MAY_IMPORT = {
         "core/machine",
         "core/axis",
         "",
-    },  # errors and settings, which all may see; the self-test on top
+    },  # errors and settings, which all may see; the known box on top
     "core/machine": {"core", "lib"},
     "core/axis": {"core", "core/machine"},
     "core/files": {"core", "core/machine", "core/axis"},
@@ -30,7 +31,7 @@ MAY_IMPORT = {
     "bridge": {*CORE, ""},
     "ui": {*CORE, "bridge", ""},
 }
-ON_TOP = {"core.self_test"}  # of core; the rooms below do not see it
+ON_TOP = {"core.known_box"}  # of core; the rooms below do not see it
 
 
 # --- Python
@@ -140,7 +141,7 @@ def native_files(folder):
     return sorted(p for p in (NATIVE / folder).rglob("*") if p.suffix in {".h", ".cpp"})
 
 
-NATIVE_FILES = native_files("medial") + native_files("python")
+NATIVE_FILES = native_files("include") + native_files("medial") + native_files("python")
 
 
 def users_of(*prefixes):
@@ -162,8 +163,41 @@ MAY_INCLUDE = {
     "cocone": {"base", "delaunay", "inside", "axis"},
     "skeleton": {"base", "delaunay", "inside", "axis"},
     "sampling": {"base", "inside"},
-    ".": {"base", "delaunay", "inside", "axis", "cocone", "skeleton", "sampling"},  # the analysis, on top
+    ".": {
+        "base",
+        "delaunay",
+        "inside",
+        "axis",
+        "cocone",
+        "skeleton",
+        "sampling",
+    },  # the analysis, on top
 }
+
+
+# The words that every room may use, and the public headers that only those who make what is in them see.
+VOCABULARY = {"types.h", "errors.h", "progress.h", "options.h"}
+PUBLIC = {
+    "medial_mesh.h": {"axis"},
+    "watertight_surface.h": {"cocone"},
+    "hierarchy.h": {"skeleton"},
+    "sampling.h": {"sampling"},
+    "analysis.h": {"."},
+}
+
+
+def test_every_public_header_is_in_a_table():
+    names = {path.name for path in native_files("include")}
+    assert names == VOCABULARY | set(PUBLIC)
+
+
+@pytest.mark.parametrize("path", native_files("include"), ids=lambda path: path.name)
+def test_public_headers_see_only_public_ones(path):
+    """And the standard library, whose headers have no ending."""
+    assert path.suffix == ".h", "nothing is compiled here"
+    for name in includes_of(path):
+        if "." in name or "/" in name:
+            assert name.startswith("medial/") and (NATIVE / "include" / name).is_file()
 
 
 def test_cgal_has_one_home():
@@ -180,7 +214,7 @@ def test_each_part_of_boost_has_one_home():
 
 
 def test_the_system_has_one_home():
-    assert users_of("sys/") == [MEDIAL / "base" / "arena.h"]
+    assert users_of("sys/", "windows.h") == [MEDIAL / "base" / "address_space.cpp"]
 
 
 def test_pybind_and_python_have_one_home():
@@ -200,12 +234,14 @@ def native_room(path):
 )
 def test_native_looks_down_only(path):
     """Own headers are named with their room; a unit sees its own room and those that the table allows."""
-    foreign = ("CGAL/", "boost/", "sys/")
+    foreign = ("CGAL/", "boost/", "sys/", "windows.h", "medial/")
     own = [n for n in includes_of(path) if n.endswith((".h", ".hpp")) and not n.startswith(foreign)]
     rooms = {str(Path(name).parent.as_posix()) for name in own}
     room = native_room(path)
     assert rooms <= {room, *MAY_INCLUDE[room]}
     assert all((MEDIAL / name).is_file() for name in own)
+    public = {n.removeprefix("medial/") for n in includes_of(path) if n.startswith("medial/")}
+    assert all(name in VOCABULARY or room in PUBLIC[name] for name in public)
 
 
 def test_every_folder_of_the_core_is_a_room():

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """tests/matrix/run.py: what is skipped, what fails, what the table says; no Blender is started."""
 
 import importlib.util

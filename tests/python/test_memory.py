@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Memory: what the cache holds, what an analysis may need, and what is done when it needs more."""
 
 import argparse
@@ -5,10 +6,10 @@ import argparse
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.axis import sampling
+from medial_axis.core.axis import analysis
 from medial_axis.core.axis.compute import compute_axis, refilter
 from medial_axis.core.axis.reconstruction import reconstruct
-from medial_axis.core.axis.sampling_report import report
+from medial_axis.core.axis.sampling_report import report_sampling
 from medial_axis.core.axis.shape import Shape
 from medial_axis.core.axis.thinning import fewer_samples, spread_rows
 from medial_axis.core.batch import option_words
@@ -17,7 +18,7 @@ from medial_axis.core.machine import cache, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
 from medial_axis.core.machine.memory_limit import MemoryLimit, memory_needed
-from medial_axis.core.settings import MEGABYTE, OPTIONS, AboveLimit, Sampling, Settings
+from medial_axis.core.settings import MEGABYTE, OPTIONS, AboveLimit, SamplingMode, Settings
 from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)
@@ -122,14 +123,14 @@ def test_the_same_key_is_counted_once():
 
 
 def test_kept_bytes_are_those_of_analyses_and_arrays():
-    found = compute_axis(cloud(2000), Settings()).sampled.samples
+    found = compute_axis(cloud(2000), Settings()).chosen.samples
     assert CACHE.bytes == found.bytes >= found.analysis.bytes + found.points.nbytes
     assert found.analysis.bytes > 100 * len(found.points)
 
 
 def test_an_analysis_larger_than_the_cache_serves_its_own_run(monkeypatch):
     monkeypatch.setattr(cache, "CACHE", AnalysisCache(1000))
-    monkeypatch.setattr(sampling, "CACHE", cache.CACHE)
+    monkeypatch.setattr(analysis, "CACHE", cache.CACHE)
     found = compute_axis(cloud(2000), Settings())
     assert found.axis.facets > 0 and len(cache.CACHE) == 0
     assert refilter(found.key, found.settings) is None
@@ -228,8 +229,8 @@ def test_limits_out_of_range_are_refused(megabytes):
 # --- refusing
 
 
-@pytest.mark.parametrize("work", [compute_axis, report])
-@pytest.mark.parametrize("settings", [Settings(), Settings(sampling=Sampling.SURFACE)])
+@pytest.mark.parametrize("work", [compute_axis, report_sampling])
+@pytest.mark.parametrize("settings", [Settings(), Settings(sampling=SamplingMode.SURFACE)])
 def test_too_many_points_are_refused_before_they_are_analysed(room, work, settings):
     room(2000)
     before = CACHE.analyses
@@ -246,7 +247,7 @@ def test_a_surface_of_too_many_points_is_refused(room):
 
 def test_a_fine_spacing_is_refused_before_it_is_sampled(room, monkeypatch):
     room(50_000)
-    settings = Settings(sampling=Sampling.SURFACE, spacing=0.01)
+    settings = Settings(sampling=SamplingMode.SURFACE, spacing=0.01)
     with pytest.raises(MemoryLimitError, match=r"found \d\d\d,\d\d\d,\d\d\d, which"):
         compute_axis(ball(), settings)
 
@@ -256,7 +257,7 @@ def test_what_is_kept_is_never_refused(room):
     first = compute_axis(shape, settings)
     room(2000)
     again = compute_axis(shape, settings)
-    assert again.sampled.samples.analysis is first.sampled.samples.analysis
+    assert again.chosen.samples.analysis is first.chosen.samples.analysis
 
 
 # --- thinning
@@ -272,8 +273,8 @@ def test_thinned_clouds_keep_what_fits_evenly_spread(room):
         f"memory of {-(-memory_needed(5000) // MEGABYTE)} MB: {found.points:,} of the 20,000 points, "
         "evenly spread, were kept"
     ) == found.warnings[0]
-    rows = found.sampled.samples.rows
-    assert (shape.points[rows] == found.sampled.samples.points).all()
+    rows = found.chosen.samples.rows
+    assert (shape.points[rows] == found.chosen.samples.points).all()
     assert found.axis.facets > 0
 
 
@@ -287,33 +288,33 @@ def test_generators_of_thinned_clouds_are_rows_of_the_whole_cloud(room):
         assert np.linalg.norm(ends - vertex, axis=1) == pytest.approx(
             axis.radius[axis.face_vertices[axis.face_offsets[0]]], rel=1e-6
         )
-        assert set(axis.generators.ravel()) <= set(found.sampled.samples.rows)
+        assert set(axis.generators.ravel()) <= set(found.chosen.samples.rows)
 
 
 def test_a_thinned_cloud_is_no_cloud_of_its_own_in_the_cache(room):
     room(5000)
     shape = cloud()
     found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
-    alone = compute_axis(Shape(found.sampled.samples.points, NO_FACES), Settings())
-    assert (found.axis.generators == found.sampled.samples.rows[alone.axis.generators]).all()
+    alone = compute_axis(Shape(found.chosen.samples.points, NO_FACES), Settings())
+    assert (found.axis.generators == found.chosen.samples.rows[alone.axis.generators]).all()
 
 
 def test_thinned_normals_stay_with_their_points(room):
     room(5000)
     shape = Shape(egg(20_000), NO_FACES, egg(20_000))
-    found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN)).sampled
+    found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN)).chosen
     assert (found.samples.normals == found.samples.points).all()
 
 
 @pytest.mark.parametrize(
     "settings",
     [
-        Settings(sampling=Sampling.VERTICES),
+        Settings(sampling=SamplingMode.VERTICES),
         Settings(),
-        Settings(sampling=Sampling.SURFACE),
-        Settings(sampling=Sampling.SURFACE, spacing=0.5),
-        Settings(sampling=Sampling.SURFACE, samples=500, keep_vertices=True),
-        Settings(sampling=Sampling.ADAPTIVE, samples=3000, epsilon=0.02),
+        Settings(sampling=SamplingMode.SURFACE),
+        Settings(sampling=SamplingMode.SURFACE, spacing=0.5),
+        Settings(sampling=SamplingMode.SURFACE, samples=500, keep_vertices=True),
+        Settings(sampling=SamplingMode.ADAPTIVE, samples=3000, epsilon=0.02),
     ],
     ids=["vertices", "automatic", "count", "spacing", "keep vertices", "budget"],
 )
@@ -332,16 +333,16 @@ def test_thinned_surfaces_have_fewer_samples(room, settings):
 def test_what_fits_is_not_thinned(room):
     room(20_000)
     found = compute_axis(cloud(), Settings(), limit=MemoryLimit(0, THIN))
-    assert found.points == 20_000 and not found.sampled.thinned
+    assert found.points == 20_000 and not found.chosen.thinned
 
 
 def test_a_small_spacing_that_fits_stays(room):
     """Only the budget of the later passes is more than fits."""
     room(5000)
-    settings = Settings(sampling=Sampling.ADAPTIVE, spacing=3.0, epsilon=0.02)
+    settings = Settings(sampling=SamplingMode.ADAPTIVE, spacing=3.0, epsilon=0.02)
     found = compute_axis(ball(), settings, limit=MemoryLimit(0, THIN))
-    alone = compute_axis(ball(), Settings(sampling=Sampling.SURFACE, spacing=3.0))
-    assert found.sampled.samples.spacing == alone.sampled.samples.spacing
+    alone = compute_axis(ball(), Settings(sampling=SamplingMode.SURFACE, spacing=3.0))
+    assert found.chosen.samples.spacing == alone.chosen.samples.spacing
 
 
 def test_no_more_samples_are_asked_for_than_there_may_be(room):
@@ -349,7 +350,7 @@ def test_no_more_samples_are_asked_for_than_there_may_be(room):
     vast = Shape(np.broadcast_to(np.zeros(3), (30_000_000, 3)), np.zeros((1, 3), np.int32))
     error = MemoryLimitError("too much", 30_000_000)
     found, _ = fewer_samples(vast, Settings(), 16_000, MemoryLimit(0, THIN), error)
-    assert (found.sampling, found.samples) == (Sampling.SURFACE, OPTIONS["samples"].maximum)
+    assert (found.sampling, found.samples) == (SamplingMode.SURFACE, OPTIONS["samples"].maximum)
 
 
 def test_too_little_for_anything_is_refused(room):

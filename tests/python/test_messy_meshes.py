@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every mesh has a defined outcome: an axis inside the solid, a warning that says what was assumed, or one sentence.
 
 Whether a vertex of the axis is outside is judged by crossings of a ray, for meshes that are closed.
@@ -6,7 +7,7 @@ Whether a vertex of the axis is outside is judged by crossings of a ray, for mes
 import numpy as np
 import pytest
 from medial_axis.core.errors import DegenerateInputError, InvalidInputError
-from medial_axis.core.settings import Sampling, SidesFrom
+from medial_axis.core.settings import SamplingMode, SidesFrom
 from support import crossings, distance, messy, resampled, spikes
 
 SMALL = [name for name in (*messy.CLOSED, *messy.OPEN) if name not in messy.LARGE]
@@ -47,7 +48,7 @@ def assert_inside(axis, mesh):
 
 def assert_no_spike(result):
     """Single flakes at creases may lie apart; a spike is longer, or there are more of them."""
-    samples = result.sampled.samples
+    samples = result.chosen.samples
     length = spikes.lengths(result.axis, samples.points)
     where = spikes.worst(result.axis, samples.points, samples.kinds, length)
     assert np.mean(length > LONG) < FEW and length.max() < LONGEST, where
@@ -61,7 +62,7 @@ def assert_sentences(result):
 def test_files(medial, computed, name):
     mesh, result = computed(name)
     assert result.axis.facets > 100
-    assert result.sampled.reason and result.sides.reason
+    assert result.chosen.reason and result.sides.reason
     assert_sentences(result)
     if medial.open_edges(*mesh) == 0:
         assert result.sides.source is SidesFrom.SURFACE
@@ -82,7 +83,7 @@ def test_closed_solids(medial, computed, name):
     "name", ["mannequin.off", "spot_low.obj", "rocker-arm.off", "hand_closed.obj"]
 )
 def test_no_long_spike_on_smooth_meshes(computed, name):
-    _, result = computed(name, sampling=Sampling.SURFACE)
+    _, result = computed(name, sampling=SamplingMode.SURFACE)
     assert_no_spike(result)
 
 
@@ -105,7 +106,7 @@ def test_an_elephant_with_holes_and_duplicates(medial, computed):
 
 def test_loose_vertices_of_the_bunny_are_no_samples(computed):
     """They belong to no face; when faces are sampled they are left out, and that is said."""
-    mesh, result = computed("stanford-bunny.obj", sampling=Sampling.SURFACE)
+    mesh, result = computed("stanford-bunny.obj", sampling=SamplingMode.SURFACE)
     loose = len(mesh[0]) - len(np.unique(mesh[1]))
     assert loose == 1113
     assert any(f"{loose:,}" in text for text in result.warnings)
@@ -135,35 +136,35 @@ def test_walls_inside_the_openscad_part_bound_nothing(computed):
 
 def test_a_box_in_a_box_is_not_seen(computed):
     """Winding number 2 is inside, too: only the outer box counts."""
-    mesh, result = computed("box in a box", sampling=Sampling.SURFACE)
-    _, alone = computed("crossing boxes", sampling=Sampling.SURFACE)
-    points = result.sampled.samples.points
+    mesh, result = computed("box in a box", sampling=SamplingMode.SURFACE)
+    _, alone = computed("crossing boxes", sampling=SamplingMode.SURFACE)
+    points = result.chosen.samples.points
     assert (np.abs(points / (1.0, 0.7, 0.4)).max(axis=1) > 0.999).all()
     assert any("overlap" in text for text in result.warnings) and alone.axis.facets > 100
     assert_inside(result.axis, mesh)
 
 
 def test_a_ball_on_a_ball_is_one(computed):
-    _, twice = computed("ball on a ball", sampling=Sampling.SURFACE)
+    _, twice = computed("ball on a ball", sampling=SamplingMode.SURFACE)
     assert_inside(twice.axis, messy.MADE["ball on a ball"]())
 
 
 def test_a_thin_sheet(computed):
     """Its walls are a hundredth of the spacing apart: an axis between them, or one sentence; never one outside."""
-    mesh, result = computed("thin sheet", sampling=Sampling.SURFACE)
+    mesh, result = computed("thin sheet", sampling=SamplingMode.SURFACE)
     assert_inside(result.axis, mesh)
     assert result.axis.facets > 0 or result.warnings
 
 
 @pytest.mark.parametrize("name", ["two grids", "open box", "some flipped"])
 def test_open_meshes_say_so(medial, computed, name):
-    mesh, result = computed(name, sampling=Sampling.SURFACE)
+    mesh, result = computed(name, sampling=SamplingMode.SURFACE)
     assert medial.open_edges(*mesh) > 0
     assert "open" in result.sides.reason + " ".join(result.warnings)
     assert_sentences(result)
 
 
-@pytest.mark.parametrize("sampling", [Sampling.SURFACE, Sampling.VERTICES])
+@pytest.mark.parametrize("sampling", [SamplingMode.SURFACE, SamplingMode.VERTICES])
 def test_faces_that_look_inward_say_so(computed, sampling):
     """As a warning beside an empty axis, or as a refusal."""
     try:

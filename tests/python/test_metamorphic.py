@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Changes of the input or the thresholds whose effect on the output is known exactly."""
 
 import itertools
@@ -272,6 +273,26 @@ def test_limit_set_removes_fins_of_a_tube(medial):
         np.linalg.norm(analysis.extract(limit_set=x).vertices[:, 1:], axis=1) for x in (False, True)
     ]
     assert np.mean(middle[1]) < np.mean(middle[0])
+
+
+@pytest.mark.parametrize("name", ["torus", "knot"])
+def test_limit_set_leaves_tubes_of_8000_samples_as_they_are(medial, name):
+    """As the README and the panel say: it acts on dense samples only."""
+    analysis = medial.MedialAnalysis(shapes.SHAPES[name].sample(8000, 0))
+    inner = {"side": medial.Side.INNER}
+    plain, limited = (analysis.extract(**inner, limit_set=x).generators for x in (False, True))
+    assert len(plain) > 20_000 and np.array_equal(plain, limited)
+
+
+def test_limit_set_halves_the_fins_of_a_torus_of_16000_samples(medial):
+    torus = shapes.SHAPES["torus"]
+    analysis = medial.MedialAnalysis(torus.sample(16000, 0))
+    fins = []
+    for limit_set in (False, True):
+        mesh = analysis.extract(side=medial.Side.INNER, limit_set=limit_set)
+        away = torus.axis_distance(mesh.vertices)[mesh.face_vertices] / torus.small
+        fins.append(np.count_nonzero(np.maximum.reduceat(away, mesh.face_offsets[:-1]) > 0.01))
+    assert 0.4 * fins[0] < fins[1] < 0.6 * fins[0]
 
 
 def test_duplicates_are_merged_and_counted(medial, points):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Facets whose vertices lie on one line, though more than two: symmetric samples have them; they have no area."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The edges of polygons: against a dictionary, and what is refused."""
 
 import itertools
@@ -68,5 +69,7 @@ def test_refused(medial, offsets, corners, found):
 @pytest.mark.parametrize("dtype", [np.int64, np.float64])
 def test_other_types_are_refused(medial, dtype):
     offsets, corners = arrays((0, 1, 2))
-    with pytest.raises(medial.InvalidInputError, match="face_vertices as a contiguous int32 array"):
+    with pytest.raises(
+        medial.InvalidInputError, match="face_vertices as a contiguous \\(m,\\) int32 array"
+    ):
         medial.polygon_edges(offsets, corners.astype(dtype), 3)

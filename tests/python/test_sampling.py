@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Samples of triangulated surfaces: blue noise without holes, creases covered, deterministic, for any mesh."""
 
 import subprocess

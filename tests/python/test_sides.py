@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A facet is inner exactly when all its Voronoi vertices have generalized winding number > 1/2: against brute force.
 
 Only a facet with a vertex on the surface itself, where the winding number jumps, may differ.

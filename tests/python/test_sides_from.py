@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What tells inside from outside: the rule of AUTOMATIC, the vote of normals, and the errors of each choice."""
 
 import re

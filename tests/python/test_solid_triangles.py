@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The surface as the samples see it, and the parts of a surface that are no boundary of its solid."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The typed stub and the module say the same: names, parameters, defaults, docstrings; in both directions."""
 
 import ast
@@ -173,7 +174,7 @@ def test_settings_of_the_add_on_have_the_same_defaults(medial):
 
 
 def test_the_fields_of_the_result_are_those_of_the_add_on(medial):
-    from medial_axis.core.axis.compute import MedialAxis
+    from medial_axis.core.axis.medial_axis import MedialAxis
 
     assert set(MedialAxis.__dataclass_fields__) == {
         name

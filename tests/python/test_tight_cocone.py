@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tight Cocone: watertight, of the right topology, with the right inside, on solids whose truth is known."""
 
 from functools import cache

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The exact axes that everything else is judged by: against tangent balls, formulas in closed form, and meshes.
 
 A tangent ball at a point of the surface grows inward as long as the shape's depth at its centre is its radius; the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How alike two axes of one shape are, in spacings of the sparser of the two samples."""
 
 from typing import Any

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the axis of a mesh of a shape with an exactly known axis is measured by, and the bars."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Cocone's flat samples and candidates restated by brute force from the docstring of `_medial.cocone`.
 
 Starts from the exact Voronoi vertices of `reference.Medial`. Where a comparison is closer than `reference.NEAR`, so

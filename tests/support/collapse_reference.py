@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The ordered collapse as it is defined: sets and loops over everything, for some dozens of points.
 
 Independent of the compiled core but for the Delaunay cells, their sides, theta, rho and spacing, and for the order of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Inside or outside of closed triangles by counting signed crossings of a ray; shares nothing with the product.
 
 All rays go the same way. Which of two triangles a ray through their common edge crosses is decided once per edge and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Exact distances used as ground truth: to ellipsoids, curves and triangles. Arrays in, arrays out."""
 
 from collections.abc import Callable

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Small point sets for the tests: hundreds in general position, and structured ones full of coincidences."""
 
 import itertools
@@ -16,6 +17,18 @@ def rotation(seed: int) -> Array:
     q *= np.sign(np.diag(r))
     q[:, 0] *= np.linalg.det(q)
     return q
+
+
+def turned(points: Array, w: int, x: int, y: int, z: int) -> Array:
+    """(n, 3) points turned by the quaternion w + xi + yj + zk, with the same rounding on every machine: products of
+    matrices are left to a library that chooses its own order."""
+    rows = (
+        (w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z),
+    )
+    matrix = np.array(rows) / (w * w + x * x + y * y + z * z)
+    return (points[:, None, :] * matrix[None]).sum(axis=2)
 
 
 def generic(kind: str, n: int, seed: int) -> Array:

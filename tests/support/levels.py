@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the levels of a hierarchy are, from its values alone: masks, closedness, Betti numbers by another count."""
 
 import numpy as np

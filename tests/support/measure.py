@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Distances between a computed medial axis and the exact one of a shape. Used by the tests and the benchmarks."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Closed and open triangle meshes: (vertices (n, 3) float64, triangles (m, 3) int32, outward)."""
 
 from collections.abc import Callable

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes with everything that goes wrong with meshes: files of the optional data folder, damaged ones, made ones."""
 
 from collections.abc import Callable

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Dey & Zhao's MEDIAL restated by brute force, for a few hundred points. Shares no code with the product.
 
 Coordinates become integers (doubles are dyadic), so circumcentres are exact rationals and every sign, tie and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """From a mesh to a medial axis by way of samples of its surface, as the add-on and as the bare module do it."""
 
 from typing import Any
@@ -21,9 +22,9 @@ def by_the_addon(mesh: Mesh, **options: Any) -> Any:
 
 def of_surface(mesh: Mesh, count: int, **options: Any) -> Any:
     """The same with so many samples of the surface, whatever its vertices are like."""
-    from medial_axis.core.settings import Sampling
+    from medial_axis.core.settings import SamplingMode
 
-    return by_the_addon(mesh, sampling=Sampling.SURFACE, samples=count, **options)
+    return by_the_addon(mesh, sampling=SamplingMode.SURFACE, samples=count, **options)
 
 
 def graded(medial: Any, mesh: Mesh, count: int, ratio: float = 10.0) -> tuple[Any, Any]:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """From a truth value per Delaunay cell to one per facet: a facet is dual to an edge and has the cells round it."""
 
 from itertools import combinations

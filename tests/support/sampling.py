@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Seeded maximal Poisson-disc samples: no two samples closer than a radius, no room for another one.
 
 Greedy dart throwing in random order, restated as rounds over a neighbour graph so that NumPy can run it:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Closed triangle meshes of the shapes with exactly known axes: 2,000 to 6,000 triangles, a box 12.
 
 Every vertex lies on the shape; between the vertices the mesh is flat, as an artist's is.

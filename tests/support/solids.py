@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solids whose surfaces have a known topology, for surface reconstruction: those of `shapes` and others."""
 
 from dataclasses import dataclass

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How far a computed axis juts out where nothing of the shape explains it.
 
 A medial ball touches the surface at two places. The angle between the two, seen from the centre, says how firmly the

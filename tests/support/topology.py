@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What kind of surface some triangles are: uses of edges, components, Euler characteristic, volume."""
 
 import numpy as np

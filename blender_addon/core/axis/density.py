@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How densely samples lie for the shape: epsilon, the hole round a sample as a share of the feature size there.
 
 Dey & Zhao's theorem holds for epsilon-samples: every point of the surface has a sample within epsilon times
@@ -19,9 +20,10 @@ from .nearness import near
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# Samples too sparse for the theorem, as a share of all, that are no reason to sample again.
+# Up to this share of samples may be too sparse for the theorem without a reason to sample again.
 DENSE_ENOUGH = 0.1
-# So many of the samples tell shares to a percent, and cost half of what all of a million do.
+# Where shares are enough, so many samples are looked at: they tell shares to a percent, and cost half of what all of a
+# million do.
 LOOKED_AT = 20_000
 _HOLE = 0.85  # radius of the largest holes between even samples, in spacings
 _PLACES = 5  # how many of the worst places are named
@@ -101,7 +103,7 @@ class Density:
         apart = _APART * float(np.linalg.norm(np.ptp(self.points, axis=0)))
         left = np.flatnonzero(~self.at_edge)
         left = left[np.argsort(-self.epsilon[left], kind="stable")]
-        found = []
+        found: list[tuple[tuple[float, ...], float]] = []
         while len(left) and len(found) < _PLACES:
             place = self.points[left[0]]
             found.append((tuple(place.tolist()), float(self.epsilon[left[0]])))
@@ -119,7 +121,7 @@ class Density:
 
     def _quantile(self, share: float) -> float:
         counted = self.epsilon if self.at_edge.all() else self.epsilon[~self.at_edge]
-        rank = math.ceil(share * (len(counted) - 1))  # the higher one: some are infinite
+        rank = math.ceil(share * (len(counted) - 1))  # no mean of two values, for some are infinite
         return float(np.partition(counted, rank)[rank])
 
 
@@ -137,7 +139,7 @@ def estimate(
     ----------
     analysis : _medial.MedialAnalysis
     points : (n, 3) float64
-        What it is of.
+        The points that were analysed.
     edges : (m, 3) float64
     finest, limit : float
     most : int, optional

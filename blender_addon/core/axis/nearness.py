@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which points lie near others, or in one place. NumPy has no search tree, and Blender's Python need not have SciPy."""
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def near(
     home = _cells(points[left], lowest, reach, size)
     for step in product((-1, 0, 1), repeat=3):
         cell = home + np.dot(step, _strides(size))
-        first, last = (np.searchsorted(cells, cell, side) for side in ("left", "right"))
+        first, last = np.searchsorted(cells, cell, "left"), np.searchsorted(cells, cell, "right")
         while len(some := np.flatnonzero(first < last)):
             away = np.linalg.norm(points[left[some]] - others[first[some]], axis=1)
             found[left[some[away <= reach]]] = True

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """From points to the watertight surface through them: `_medial.TightCocone`, ready for Blender."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How densely an object is sampled, sample by sample: the theorem's condition as a diagnosis."""
 
 from __future__ import annotations
@@ -10,9 +11,11 @@ import numpy as np
 
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
+from .analysis import AnalysedSamples
+from .choose_samples import ChosenSamples, choose_samples
 from .density import Density, estimate
 from .nearness import same_place
-from .sampling import Sampled, Samples, sample, sampling_warnings
+from .sampling_warnings import sampling_warnings
 from .triangle_faces import TriangleFaces
 
 if TYPE_CHECKING:
@@ -38,7 +41,7 @@ class SamplingReport(TriangleFaces):
         Of all samples.
     shape : Shape
         What was sampled.
-    sampled : Sampled
+    chosen : ChosenSamples
     warnings : tuple of str
     seconds : float
     """
@@ -50,18 +53,18 @@ class SamplingReport(TriangleFaces):
     feature_size: NDArray[np.float64]
     density: Density
     shape: Shape
-    sampled: Sampled
+    chosen: ChosenSamples
     warnings: tuple[str, ...]
     seconds: float
 
 
-def report(
+def report_sampling(
     shape: Shape,
     settings: Settings,
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> SamplingReport:
-    """Sample an object as `analysis.compute` does, and estimate how dense that is.
+    """Sample an object as `compute_axis` does, and estimate how dense that is.
 
     Parameters
     ----------
@@ -75,8 +78,8 @@ def report(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     start = time.perf_counter()
-    sampled = sample(shape, settings.with_side(), progress or Progress(), limit)
-    samples, density = sampled.samples, _of_all(sampled.samples)
+    chosen = choose_samples(shape, settings.with_side(), progress or Progress(), limit)
+    samples, density = chosen.samples, _of_all(chosen.samples)
     rows = _sample_of_row(samples.points, samples.analysis.samples)
     return SamplingReport(
         vertices=samples.points,
@@ -86,13 +89,13 @@ def report(
         feature_size=density.feature_size[rows],
         density=density,
         shape=shape,
-        sampled=sampled,
-        warnings=tuple(sampling_warnings(shape, sampled)),
+        chosen=chosen,
+        warnings=tuple(sampling_warnings(shape, chosen)),
         seconds=time.perf_counter() - start,
     )
 
 
-def _of_all(samples: Samples) -> Density:
+def _of_all(samples: AnalysedSamples) -> Density:
     """The density at every sample, also where a glance at some was enough to choose them."""
     found, analysis = samples.density, samples.analysis
     if len(found.points) == len(analysis.samples):

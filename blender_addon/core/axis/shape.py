@@ -1,4 +1,5 @@
-"""What a file or an object is to the method."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The input of the method, whatever it was read from."""
 
 from __future__ import annotations
 
@@ -46,12 +47,12 @@ class Shape:
 
     @property
     def volume(self) -> float:
-        """Of closed faces; negative when they point inward."""
+        """The volume that closed faces enclose; negative when they point inward."""
         a, b, c = (self.points[self.triangles[:, corner]] - self.points[0] for corner in range(3))
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
 
     @property
     def area(self) -> float:
-        """Of the faces."""
+        """The area of all faces."""
         a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
         return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2

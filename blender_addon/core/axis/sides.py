@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What tells inside from outside: which of faces, normals and Tight Cocone, why, and how well."""
 
 from __future__ import annotations
@@ -15,11 +16,11 @@ from .nearness import same_place
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# Share of samples that are not flat; clean scans stay below 0.06, sharp edges included.
+# A larger share of samples that are not flat is worth a warning; clean scans stay below 0.06, sharp edges included.
 _UNEVEN = 0.1
 # A triangle so many times as wide as the median one spans an opening.
 _WIDE = 10.0
-# A larger share of edges between faces that are turned against each other: their normals mean nothing.
+# Where a larger share of the edges lies between faces that are turned against each other, their normals mean nothing.
 _TURNED = 0.01
 
 
@@ -118,7 +119,7 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
     ----------
     found : _medial.TightCocone
     points : (n, 3) float64
-        What it was made of.
+        The points that it was made of.
     """
     if not found.encloses:
         yield "the points enclose nothing, so inner and outer facets mean little; more points may help"

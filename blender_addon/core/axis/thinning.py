@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Fewer points for less memory: fewer samples of the faces, or some of the points of a cloud."""
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import numpy as np
 
 from ..errors import InvalidInputError, MemoryLimitError
 from ..machine.memory_limit import MemoryLimit, megabytes, memory_needed
-from ..settings import OPTIONS, AboveLimit, Sampling
+from ..settings import OPTIONS, AboveLimit, SamplingMode
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,9 +19,10 @@ if TYPE_CHECKING:
     from ..settings import Settings
     from .shape import Shape
 
-_KEPT = 0.95  # of what fits, for a number of samples is met within some percent
-_PER_OCTAVE = 8  # grids that are tried
-_OCTAVES = 20
+# The share of what fits that is asked for, because a number of samples is met within some percent only.
+_KEPT = 0.95
+_PER_OCTAVE = 8  # grids that are tried for each doubling of the resolution
+_OCTAVES = 20  # doublings of the resolution
 
 
 def thinned_rows(
@@ -71,8 +73,8 @@ def fewer_samples(
         f"{error.points:,} points need about {_needed(error)}, more than {limit}: at most {most:,} "
         "samples of the surface were taken"
     )
-    if settings.sampling is Sampling.VERTICES or error.points == vertices > most:
-        settings, first = replace(settings, sampling=Sampling.SURFACE), vertices
+    if settings.sampling is SamplingMode.VERTICES or error.points == vertices > most:
+        settings, first = replace(settings, sampling=SamplingMode.SURFACE), vertices
     if first > most:
         settings = replace(settings, samples=most, spacing=0.0)
     keep_vertices = settings.keep_vertices and vertices < most
@@ -102,7 +104,7 @@ def spread_rows(points: NDArray[np.float64], most: int) -> NDArray[np.int32]:
 
 
 def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
-    """Points that are left; the error again when these are none, or nothing may be thinned."""
+    """How many points may be kept; raises the error again where nothing may be thinned, or too few would be left."""
     most = int(_KEPT * limit.points)
     if limit.above_limit is not AboveLimit.THIN or most < OPTIONS["samples"].minimum:
         raise error

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Triangles as the faces that Blender and the file formats take."""
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class TriangleFaces:
-    """What has `triangles`, (f, 3) int32, has faces as a `MedialAxis` has them."""
+    """Gives a class that has `triangles`, (f, 3) int32, the arrays of faces that a `MedialAxis` has."""
 
     triangles: NDArray[np.int32]
 

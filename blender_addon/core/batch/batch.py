@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Medial axes as files, one after the other; what is finished is recognised and left.
 
 Beside every output lies its report, `<output>.json`: figures, warnings, and a stamp of all that the output
@@ -40,7 +41,7 @@ class Item:
     frame : int or None
     output : Path
     read : callable
-        The shape, and warnings.
+        Returns the shape, and warnings.
     """
 
     input: str
@@ -51,7 +52,7 @@ class Item:
 
     @property
     def name(self) -> str:
-        """For messages."""
+        """What messages call this item."""
         name = Path(self.input).name if self.object is None else self.object
         return name if self.frame is None else f"{name}, frame {self.frame}"
 
@@ -85,7 +86,7 @@ class Begun:
         return Task(self.item.name, work)
 
     def stamp(self, thinned: bool) -> str:
-        """Names all that the output depends on; of what was thinned the limit, too."""
+        """A hash of all that the output depends on; where samples were thinned, of the memory limit, too."""
         limit = self.limit if thinned else None
         return stamp_of(self.shape, self.settings, self.item.output.suffix.lower(), limit)
 
@@ -115,7 +116,7 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
     MedialAxisError
         Also where no facet is left; no output was written.
     """
-    CACHE.clear()  # nobody comes back to it
+    CACHE.clear()  # no other output uses this analysis
     if outcome.error is not None:
         raise outcome.error
     computation, output = outcome.value, begun.item.output
@@ -131,7 +132,7 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
         "warnings": [*begun.warnings, *computation.warnings],
         "seconds": round(computation.seconds, 3),
         "version": __version__,
-        "stamp": begun.stamp(thinned=bool(computation.sampled.thinned)),
+        "stamp": begun.stamp(thinned=bool(computation.chosen.thinned)),
         "digest": _digest(output),
     }
     text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
@@ -147,7 +148,7 @@ def failure(item: Item, error: BaseException) -> dict[str, Any]:
 def stamp_of(
     shape: Shape, settings: Settings, suffix: str, limit: MemoryLimit | None = None
 ) -> str:
-    """Names all that an output depends on: the whole shape, every setting, format, version."""
+    """A hash of all that an output depends on: the whole shape, every setting, format, version."""
     parts = (getattr(shape, part.name) for part in fields(shape))
     return key_of(*parts, repr(settings), repr(limit), suffix, __version__)
 
@@ -182,7 +183,7 @@ def _figures(computation: Computation) -> dict[str, Any]:
         "unbounded": axis.unbounded,
         "zero_area": axis.zero_area,
         "radius": [float(axis.radius.min()), float(axis.radius.max())],
-        "sampled": computation.sampled.reason,
+        "sampled": computation.chosen.reason,
         "density": str(computation.density),
         "inside": str(computation.sides),
     }

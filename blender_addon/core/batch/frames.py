@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ranges of frames, and names of files with a number in them."""
 
 from __future__ import annotations
@@ -5,10 +6,14 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from ..errors import InvalidInputError
+
 _RANGE = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?::(\d{1,9}))?)?")
 _MOST = 1_000_000  # frames of one command
 _FORBIDDEN = re.compile(r'[\\/:*?"<>|\x00-\x1f]')  # by some file system
 _NUMBER = re.compile(r"#+")
+# Names that mean a device on Windows, whatever extension follows.
+_DEVICE = re.compile(r"(?:CON|PRN|AUX|NUL|CONIN\$|CONOUT\$|(?:COM|LPT)[0-9¹²³])", re.IGNORECASE)
 
 
 def parse_frames(text: str) -> list[int]:
@@ -48,8 +53,34 @@ def at_frame(pattern: str, frame: int) -> str:
 
 
 def output_path(pattern: str, name: str, file: str, frame: int | None) -> Path:
-    """The pattern with `{name}`, `{file}` and `####` replaced; _ stands for what a file system may refuse."""
-    filled = pattern if frame is None else at_frame(pattern, frame)
+    """The pattern with `{name}`, `{file}` and `####` replaced; _ stands for what a file system may refuse.
+
+    Raises
+    ------
+    InvalidInputError
+        A folder or file would get a name that some system does not have, or that leads elsewhere. Folders that
+        are written out in the pattern are not looked at: these are the user's own.
+    """
+    given = Path(pattern).parts
+    parts = [_filled(part, name, file, frame) for part in given]
+    for i, part in enumerate(parts):
+        if (part != given[i] or i + 1 == len(parts)) and not _is_file_name(part):
+            raise InvalidInputError(
+                "Expected a name that files can have on every system, found "
+                f"'{part}' for '{given[i]}' in OUTPUT; rename the object or the file, or change OUTPUT"
+            )
+    return Path(*parts)
+
+
+def _filled(part: str, name: str, file: str, frame: int | None) -> str:
+    filled = part if frame is None else at_frame(part, frame)
     for key, text in (("{name}", name), ("{file}", file)):
         filled = filled.replace(key, _FORBIDDEN.sub("_", text))
-    return Path(filled)
+    return filled
+
+
+def _is_file_name(part: str) -> bool:
+    """Whether every system takes a name as it is: no dots or blanks at the end, so neither . nor .., and no device."""
+    return part == part.rstrip(". ") != "" and not _DEVICE.fullmatch(
+        part.partition(".")[0].rstrip()
+    )

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The options of core.settings as words of a command line, and back."""
 
 from __future__ import annotations
@@ -13,20 +14,20 @@ from ..settings import LIMITS, OPTIONS, Choice, Settings, Switch
 _UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB"}
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
+def add_options(parser: argparse._ArgumentGroup) -> None:
     """An argument `--name` for every option of the method; what is not given is left to Settings."""
     _add(parser, OPTIONS)
 
 
-def add_limits(parser: argparse.ArgumentParser) -> None:
+def add_limits(parser: argparse._ArgumentGroup) -> None:
     """As `add_options`, for MemoryLimit."""
     _add(parser, LIMITS)
 
 
-def _add(parser: argparse.ArgumentParser, options: Mapping[str, Any]) -> None:
+def _add(parser: argparse._ArgumentGroup, options: Mapping[str, Any]) -> None:
     for name, option in options.items():
         flag = "--" + name.replace("_", "-")
-        words = {"dest": name, "default": argparse.SUPPRESS}
+        words: dict[str, Any] = {"dest": name, "default": argparse.SUPPRESS}
         if isinstance(option, Switch):
             words["action"] = argparse.BooleanOptionalAction
             shown = "on" if option.default else "off"
@@ -74,7 +75,7 @@ def _given(words: argparse.Namespace, options: Mapping[str, Any]) -> dict[str, A
 
 
 def _help(option: Any, shown: str) -> str:
-    """argparse replaces % itself."""
+    """The help of an option; % is doubled, for argparse replaces what follows a single one."""
     return f"{option.description} (default: {shown})".replace("%", "%%")
 
 

@@ -1,15 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.npz` files that the export wrote -> medial axes."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from ..axis.compute import MedialAxis
+from ..axis.medial_axis import MedialAxis
 from ..errors import ReadError
-from .arrays import read_arrays
+from .numpy_arrays import read_arrays
 
 _FIELDS = tuple(MedialAxis.__dataclass_fields__)
 
@@ -29,8 +31,9 @@ def load_axis(path: str | os.PathLike) -> MedialAxis:
             f"{'no ' + missing[0] if missing else 'arrays that contradict each other'}; "
             "export it again"
         )
-    counts = {name: int(arrays.pop(name)) for name in ("unbounded", "zero_area")}
-    return MedialAxis(**arrays, **counts)
+    fields: dict[str, Any] = {**arrays}
+    fields |= {name: int(arrays[name]) for name in ("unbounded", "zero_area")}
+    return MedialAxis(**fields)
 
 
 def _fit(arrays: dict[str, np.ndarray]) -> bool:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.obj`: points and polygons as text (docs/formats.md)."""
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import ReadError
-from .imported import ImportedPoints, checked
+from .imported_points import ImportedPoints, checked
 from .text import open_file
 
 

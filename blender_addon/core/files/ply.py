@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.ply`: points and polygons, as text or binary (docs/formats.md)."""
 
 from __future__ import annotations
@@ -6,12 +7,12 @@ import io
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
 from ..errors import ReadError
-from .imported import ImportedPoints, checked
+from .imported_points import ImportedPoints, checked
 from .text import Lines, Rows, open_file
 
 if TYPE_CHECKING:
@@ -65,8 +66,10 @@ def read_ply(path: str | os.PathLike) -> ImportedPoints:
     name = Path(path).name
     with open_file(path) as stream:
         order, elements, lines = _read_header(stream, name)
-        body = _Binary(stream.read(), order, name) if order else _Text(stream, lines, name)
-        tables = {}
+        body: _Binary | _Text = (
+            _Binary(stream.read(), order, name) if order else _Text(stream, lines, name)
+        )
+        tables: dict[str, _Table] = {}
         for element in elements:
             tables[element.name] = body.read(element)
             if {"vertex", "face"} <= tables.keys():
@@ -81,14 +84,14 @@ def _found(tables: dict[str, _Table], name: str) -> ImportedPoints:
             f"Expected an element 'vertex' with x, y and z in '{name}', found none; "
             "choose another file"
         )
-    points, normals = (
-        np.column_stack([vertex.columns[axis] for axis in axes]).astype(np.float64)
-        if set(axes) <= vertex.columns.keys()
-        else None
-        for axes in (_POSITION, _NORMAL)
-    )
+    points = _columns(vertex, _POSITION)
+    normals = _columns(vertex, _NORMAL) if set(_NORMAL) <= vertex.columns.keys() else None
     sizes, corners = (None, None) if face is None else (face.sizes, face.corners)
     return checked(name, points, normals, sizes, corners)
+
+
+def _columns(table: _Table, names: tuple[str, ...]) -> NDArray[np.float64]:
+    return np.column_stack([table.columns[name] for name in names]).astype(np.float64)
 
 
 # --- header
@@ -98,7 +101,9 @@ def _read_header(stream: BinaryIO, name: str) -> tuple[str, list[_Element], int]
     """Byte order ("" for text), the elements, and how many lines that were."""
     if stream.readline(_LONGEST).strip() != b"ply":
         raise ReadError(f"Expected 'ply' as the first line of '{name}', found none; check the file")
-    order, elements, lines = None, [], 1
+    order: str | None = None
+    elements: list[_Element] = []
+    lines = 1
     while True:
         line = stream.readline(_LONGEST)
         words = line.decode("latin-1").split()
@@ -121,7 +126,7 @@ def _read_header(stream: BinaryIO, name: str) -> tuple[str, list[_Element], int]
 
 
 def _take(words: list[str], order: str | None, elements: list[_Element]) -> str | None:
-    """Take one line of the header; the byte order as far as it is known."""
+    """Read one line of the header into `elements`; returns the byte order as far as it is known."""
     if words[0] == "format":
         return _ORDERS[words[1]]
     if words[0] == "element":
@@ -231,7 +236,8 @@ class _Binary:
 
     def _row_type(self, element: _Element, lengths: tuple[int, ...]) -> np.dtype:
         """The layout of a row whose lists have these lengths; fields are '0', 'n0' for counts."""
-        left, fields = list(lengths), []
+        left = list(lengths)
+        fields: list[tuple[Any, ...]] = []
         for i, entry in enumerate(element.properties):
             kind = self._order + entry.type
             if entry.count:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Points from files, with normals and polygons where a file has them (docs/formats.md)."""
 
 from __future__ import annotations
@@ -7,8 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import OutOfMemoryError, ReadError
-from .arrays import read_npy, read_npz
-from .imported import ImportedPoints
+from .imported_points import ImportedPoints
+from .numpy_arrays import read_npy, read_npz
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply

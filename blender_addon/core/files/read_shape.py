@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A file as the shape that the method takes: points, triangles, normals."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What points lose when Blender keeps them in 32 bits, as scans with coordinates of a country do."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.stl`: triangles, as text or binary (docs/formats.md)."""
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import ReadError
-from .imported import ImportedPoints, checked
+from .imported_points import ImportedPoints, checked
 from .text import open_file
 
 if TYPE_CHECKING:

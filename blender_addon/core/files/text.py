@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Text files of numbers, one row per line: what `.xyz` and `.off` have in common.
 
 From `#` or `//` to the end of a line is comment. Comments and blank lines are passed over. Any byte
@@ -13,7 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 
@@ -105,7 +106,7 @@ class Lines:
             self.advance()
 
     def advance(self) -> None:
-        """Take the line."""
+        """Go on to the next line that holds something."""
         while raw := self._stream.readline():
             self.number += 1
             self.line = _COMMENT.sub("", raw)
@@ -120,7 +121,8 @@ class Lines:
     def rows(self, delimiter: str = "") -> Rows:
         """Take all lines that are left: numbers with `delimiter`, or else blanks, between them."""
         parts = [self._parse(text, first, delimiter) for first, text in self._chunks()]
-        values, widths, lines = map(np.concatenate, zip(*parts, strict=True))
+        found: Any = map(np.concatenate, zip(*parts, strict=True))
+        values, widths, lines = found
         return Rows(values, np.concatenate([[0], np.cumsum(widths)]), lines, self.name)
 
     def _chunks(self) -> Iterator[tuple[int, str]]:
@@ -176,7 +178,7 @@ class Lines:
 
 
 @contextmanager
-def open_file(path: str | os.PathLike, mode: str = "rb", **options: str) -> Iterator[IO]:
+def open_file(path: str | os.PathLike, mode: str = "rb", **options: Any) -> Iterator[Any]:
     """A file to read; what the system refuses becomes a ReadError."""
     if not os.path.isfile(path):
         raise ReadError(f"Expected a file, found none at '{path}'; choose another one")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Planar polygons as triangles, without new vertices and, where they are convex, without triangles of no area.
 
 A fan from a fixed corner degenerates where that corner lies on a straight side (Voronoi facets of nearly
@@ -73,7 +74,8 @@ def _cut_ears(
         tip = _best_ear(x, y, convex)
         ears.append(np.stack([corners[rows, (tip + step) % size] for step in (-1, 0, 1)], axis=1))
         kept = np.arange(size) != tip[:, None]
-        x, y, corners = (values[kept].reshape(len(rows), size - 1) for values in (x, y, corners))
+        x, y = (values[kept].reshape(len(rows), size - 1) for values in (x, y))
+        corners = corners[kept].reshape(len(rows), size - 1)
     return np.stack([*ears, corners], axis=1)
 
 

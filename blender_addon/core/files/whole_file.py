@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files that appear whole or not at all: written beside their target, then renamed onto it."""
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from typing import BinaryIO
 from ..errors import ExportError
 
 
-def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], None]) -> Path:
+def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) -> Path:
     """Write a file.
 
     Parameters

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Medial axes as files: `.ma`, `.ply`, `.obj`, `.off` and `.npz` (docs/formats.md).
 
 A file appears whole or not at all: it is written beside its target and renamed. Numbers in text have 17
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from ..axis.compute import MedialAxis
+from ..axis.medial_axis import MedialAxis
 from ..errors import ExportError
 from .triangulate import triangulate
 from .whole_file import write_whole
@@ -226,7 +227,12 @@ end_header
 
 def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> Iterator[bytes]:
     """The face element in pieces: rows of one length are packed together and scattered to their places."""
-    fixed = [("theta", "<f8"), ("rho", "<f8"), ("side", "<i4"), ("generators", "<i4", (2,))]
+    fixed: list[tuple[Any, ...]] = [
+        ("theta", "<f8"),
+        ("rho", "<f8"),
+        ("side", "<i4"),
+        ("generators", "<i4", (2,)),
+    ]
     for start in range(0, len(counts), _CHUNK):
         chunk = counts[start : start + _CHUNK]
         row_sizes = np.dtype([("count", count_type), *fixed]).itemsize + 4 * chunk.astype(np.int64)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`.xyz` and `.xyzn`: a point per line, x y z, then nx ny nz (docs/formats.md)."""
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import ReadError
-from .imported import ImportedPoints, are_normals, left_out
+from .imported_points import ImportedPoints, are_normals, left_out
 from .text import Lines, is_number
 
 if TYPE_CHECKING:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A memory of the last analyses, so that other thresholds for the same points cost milliseconds."""
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ def key_of(*parts: NDArray | str | bool | None) -> str:
 class AnalysisCache:
     """The most recent analyses, as many as there is room for; the oldest go first.
 
-    One that is larger than all the room is not kept: whoever computes with it holds it.
+    An analysis that is larger than all the room is not kept; it lives as long as the computation that uses it.
 
     Parameters
     ----------

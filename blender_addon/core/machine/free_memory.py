@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How much memory can be had on this machine now without swapping."""
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 _GROUPS = Path("/sys/fs/cgroup")
-# Of a control group, version 2 and 1: limit, use, and the part of the use that can be dropped.
+# The files of a control group, in version 2 and 1: its limit, its use, and the part of the use that can be dropped.
 _FILES = (
     ("", "memory.max", "memory.current", "inactive_file"),
     ("memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
@@ -18,7 +19,7 @@ _FILES = (
 
 
 def free_memory() -> int | None:
-    """Bytes; None where the system does not say.
+    """The bytes that can be had now; None where the system does not say.
 
     Linux: what is available, also in the containers round this process. Windows: the physical memory
     that is available. Elsewhere: all memory of the machine.
@@ -34,7 +35,7 @@ def free_memory() -> int | None:
 
 
 def _available(text: str) -> int:
-    """Of /proc/meminfo."""
+    """The available bytes that the text of /proc/meminfo states."""
     found = re.search(r"^MemAvailable:\s+(\d+) kB$", text, re.MULTILINE)
     if found is None:
         raise ValueError("no MemAvailable")
@@ -61,7 +62,7 @@ def _left(folder: Path, limit: str, use: str, droppable: str) -> int | None:
         most = int((folder / limit).read_text(encoding="ascii"))
         used = int((folder / use).read_text(encoding="ascii"))
         stat = (folder / "memory.stat").read_text(encoding="ascii")
-    except (OSError, ValueError):  # 'max'
+    except (OSError, ValueError):  # a group without a limit says 'max'
         return None
     cached = re.search(rf"^{droppable} (\d+)$", stat, re.MULTILINE)
     return max(0, most - used + (int(cached[1]) if cached else 0))
@@ -88,5 +89,7 @@ class _MemoryStatus(ctypes.Structure):
 
 def _of_windows() -> int | None:
     status = _MemoryStatus(length=ctypes.sizeof(_MemoryStatus))
-    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(  # type: ignore[attr-defined]
+        ctypes.byref(status)
+    )
     return status.available if done else None

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Work on several shapes: at once, or in a thread that can be watched and cancelled."""
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ class Task:
 class Outcome:
     """What became of a task: what its work returned, or an error."""
 
-    value: Any | None
+    value: Any
     error: MedialAxisError | None
 
 
@@ -71,7 +72,7 @@ class Job:
 
     @property
     def name(self) -> str:
-        """Of the task that runs."""
+        """The name of the task that runs."""
         return self.names[self._current]
 
     @property
@@ -87,7 +88,7 @@ class Job:
         return f"{self.name}, {self.stage}, {100 * self.fraction:.0f} %"
 
     def wait(self, seconds: float) -> bool:
-        """Wait so long at most; whether it is done.
+        """Wait so many seconds at most; returns whether the job is done.
 
         Not by joining the thread: a Ctrl-C in `Thread.join` makes Python 3.11 believe that it ended.
         """
@@ -106,7 +107,7 @@ class Job:
         atexit.unregister(self.stop)
 
     def outcomes(self) -> list[Outcome]:
-        """One for each task, in order; waits for the thread.
+        """The outcome of each task, in order; it waits for the thread.
 
         Raises
         ------

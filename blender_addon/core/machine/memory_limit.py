@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How much memory an analysis needs, how much it may have, and that it does not begin when it needs more."""
 
 from __future__ import annotations
@@ -12,7 +13,9 @@ from .cache import CACHE
 from .free_memory import free_memory
 
 _MOST = 1 << 28  # points that one analysis can have
-_DIGITS = 4  # binary ones of a number of points that follows from what happens to be free
+# Binary digits that are kept of a number of points that follows from the free memory, so that a little more or less
+# free memory gives the same points.
+_DIGITS = 4
 
 
 @dataclass(frozen=True)
@@ -22,7 +25,7 @@ class MemoryLimit:
     Parameters
     ----------
     memory_limit : int
-        Megabytes; 0: what is free on this machine, for which analyses that are only kept are dropped.
+        Megabytes. 0 means what is free on this machine; analyses that the cache keeps are dropped to make room.
     above_limit : AboveLimit
 
     Raises
@@ -38,7 +41,7 @@ class MemoryLimit:
         check_ranges(self, LIMITS)
 
     def check(self, points: int) -> None:
-        """Before so many points are analysed.
+        """Check that so many points can be analysed; to be called before they are.
 
         Raises
         ------
@@ -57,11 +60,11 @@ class MemoryLimit:
 
     @property
     def points(self) -> int:
-        """The most that can be analysed."""
+        """The largest number of points that can be analysed."""
         most = max(0, bisect_right(range(_MOST), self._room(), key=memory_needed) - 1)
         if self.memory_limit:
             return most
-        spare = max(0, most.bit_length() - _DIGITS)  # the same again when a little less is free
+        spare = max(0, most.bit_length() - _DIGITS)
         return most >> spare << spare
 
     def __str__(self) -> str:

@@ -1,4 +1,5 @@
-"""The compiled module `_medial`: found late and once; `lib/` has one file per Python ABI."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The compiled module `_medial`: it is loaded when it is first needed; `lib/` has one file per Python ABI."""
 
 from __future__ import annotations
 
@@ -23,9 +24,14 @@ from ..errors import (
 LIB = Path(__file__).resolve().parents[2] / "lib"
 NAME = "_medial"
 
+# Whether the module is loaded from a copy in memory. The user interface asks for it where the add-on is no extension:
+# there Blender updates it by writing over its files, and to write over a file that is mapped ends Blender.
+load_a_copy = False
+
 _package = __package__.removesuffix(".core.machine")
 _module: ModuleType | None = None
-_failure: str = ""  # why the file that is there does not load; trying again would not help
+# Why the file that is there does not load; it is kept because trying again would not help.
+_failure: str = ""
 
 
 def load() -> ModuleType:
@@ -52,22 +58,31 @@ def load() -> ModuleType:
 
 
 def _imported(name: str) -> ModuleType:
-    """The module, from a copy in memory where the system has such files.
+    """The module of the file, or of a copy in memory where `load_a_copy` says so and the system lets it.
 
-    Blender before 4.2 updates an add-on by writing over its files: over a mapped one, that is the end of Blender.
+    Some systems refuse files in memory, or libraries in them. The module is then loaded from its file, which
+    computes the same.
     """
-    if name in sys.modules or not hasattr(os, "memfd_create"):
-        return importlib.import_module(name)
+    original = file()
+    if load_a_copy and original and name not in sys.modules and hasattr(os, "memfd_create"):
+        try:
+            return _imported_from_memory(name, original)
+        except (OSError, ImportError):
+            pass  # what is wrong with the file itself is said below
+    return importlib.import_module(name)
+
+
+def _imported_from_memory(name: str, original: Path) -> ModuleType:
     copy = os.memfd_create(NAME)
     try:
         with open(copy, "wb", closefd=False) as stream:
-            stream.write(file().read_bytes())
+            stream.write(original.read_bytes())
         path = f"/proc/self/fd/{copy}"
-        spec = spec_from_file_location(name, path, loader=ExtensionFileLoader(name, path))
+        loader = ExtensionFileLoader(name, path)
+        spec = spec_from_file_location(name, path, loader=loader)
+        assert spec is not None  # there is one for every loader
         module = module_from_spec(spec)
-        spec.loader.exec_module(module)
-    except ImportError as error:
-        raise ImportError(str(error).replace(path, str(file()))) from error
+        loader.exec_module(module)
     finally:
         os.close(copy)
     sys.modules[name] = module

@@ -1,4 +1,5 @@
-"""One bar over several calls of the compiled module, and one word that cancels them all."""
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The progress of several calls of the compiled module as one fraction, and one `cancel` for all of them."""
 
 from __future__ import annotations
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "axis/feature_size.h"
 
 #include <array>
-#include <atomic>
 #include <bit>
 
+#include "base/atomic.h"
 #include "base/nearest.h"
 
 namespace medial {
@@ -12,7 +13,7 @@ namespace {
 // A cell of the grid whose width goes with the radius of the balls at the vertices in it.
 using GridCell = std::array<double, 4>;
 
-// Per cell: its Voronoi vertex is one of a facet.
+// Per Delaunay cell: whether its Voronoi vertex is one of a facet's.
 std::vector<uint8_t> cells_round(std::span<const int32_t> edge_ids, const Triangulation& t,
                                  const Edges& edges, const Run& run) {
   std::vector<uint8_t> marked(t.cells.size(), 0);
@@ -20,9 +21,7 @@ std::vector<uint8_t> cells_round(std::span<const int32_t> edge_ids, const Triang
     std::vector<int32_t> ring;
     for (int64_t i = begin; i < end; ++i) {
       ring_of_cells(t, edges.ends[edge_ids[i]], edges.cell[edge_ids[i]], ring);
-      for (const int32_t cell : ring) {
-        std::atomic_ref(marked[cell]).store(1, std::memory_order_relaxed);
-      }
+      for (const int32_t cell : ring) shared_store(marked[cell], uint8_t{1});
     }
   });
   return marked;
@@ -54,8 +53,9 @@ class RecentCells {
   std::vector<GridCell> slots_{1 << 12, GridCell{HUGE_VAL}};
 };
 
-// Hardly more than one vertex per cell of the grid: what shares one lies close together along the
-// surface, and so mostly in one chunk.
+// The Voronoi vertices of facets, thinned to hardly more than one per cell of the grid: vertices
+// that share a grid cell lie close together along the surface, so mostly in one chunk, which
+// remembers them.
 std::vector<Vec3> sites(std::span<const Vec3> points, const Triangulation& t,
                         const Voronoi& voronoi, std::span<const uint8_t> marked, const Run& run) {
   constexpr int64_t kChunk = 1 << 15;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The local feature size at the samples: their distance to the medial axis (Dey & Zhao, sect. 2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "axis/medial_mesh.h"
 
 #include <climits>
@@ -65,7 +66,7 @@ bool is_on_a_line(const std::vector<int32_t>& polygon, std::span<const Vec3> poi
   }
   const Vec3 along = normalized(voronoi.centre[far] - start);
   const double radius = distance(start, points[t.cells[polygon[0]][0]]);
-  // Beyond all rounding of the largest of their balls.
+  // Farther from the line than this is beyond all rounding, even in the largest of the balls.
   const double clear = 4 * kCoarsestError * (radius + std::sqrt(farthest));
   const auto squared_beside = [&](int32_t v) {
     return squared_length(cross(voronoi.centre[v] - start, along));
@@ -218,7 +219,7 @@ MedialMesh in_order(Found found, std::span<const int32_t> row, const Edges& edge
 
 // Numbers the Voronoi vertices in order of first use and replaces cells by these numbers. Returns
 // the number of each cell, and how many there are.
-std::pair<Array<int32_t>, int32_t> number_vertices(Array<int32_t>& corners, int32_t cells,
+std::pair<Array<int32_t>, int32_t> number_vertices(std::span<int32_t> corners, int32_t cells,
                                                    const Run& run) {
   auto number = array<int32_t>(static_cast<size_t>(cells), -1, run);
   int32_t count = 0;

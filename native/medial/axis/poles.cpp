@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "axis/poles.h"
 
 namespace medial {
 namespace {
 
-// Of equally far vertices the one of the lowest cell.
+// The vector to the farthest Voronoi vertex; of equally far ones to that of the lowest cell.
 Vec3 to_farthest_vertex(const Vec3& p, std::span<const int32_t> finite_cells,
                         const Voronoi& voronoi) {
   Vec3 farthest;
@@ -39,7 +40,7 @@ Vec3 pole(const Vec3& p, std::span<const int32_t> cells, const Triangulation& t,
   const size_t finite = finite_count(cells, t);
   Vec3 found;
   if (finite < cells.size()) found = mean_direction(cells.subspan(finite), voronoi, room);
-  // Directions that cancel out leave no mean: then the farthest vertex speaks, as in a bounded
+  // Directions that cancel out have no mean; then the farthest vertex is taken, as in a bounded
   // cell.
   if (found == Vec3{}) found = to_farthest_vertex(p, cells.first(finite), voronoi);
   return found;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Poles (Dey & Zhao, Definition 1).
 #pragma once
 
@@ -7,8 +8,8 @@
 namespace medial {
 
 struct Poles {
-  Array<Vec3>
-      vector;  // v_p = p+ - p; for an unbounded cell the mean direction of its infinite edges
+  // v_p = p+ - p; for an unbounded cell the mean direction of its infinite edges.
+  Array<Vec3> vector;
   Array<uint8_t> unbounded;  // the pole is at infinity
 };
 

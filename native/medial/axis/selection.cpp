@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "axis/selection.h"
 
 namespace medial {
@@ -18,7 +19,8 @@ void check(const Extraction& x) {
   }
 }
 
-// A value over the ends that are tried, given that over both; nothing is above 0 where none is.
+// The value of an edge by a rule, from its values at the two ends, of which only those count that
+// are tried. It is 0, which no condition finds large enough, where the rule lacks an end.
 double tried(double larger, double smaller, bool try_larger, bool try_smaller, Rule rule) {
   if (rule == Rule::both) return try_larger && try_smaller ? smaller : 0;
   return try_larger ? larger : try_smaller ? smaller : 0;
@@ -26,14 +28,14 @@ double tried(double larger, double smaller, bool try_larger, bool try_smaller, R
 
 double tried_sine(const Significance& s, int64_t edge, Rule rule) {
   const uint8_t untried = s.untried[edge];
-  return tried(s.sine[edge], s.sine_both[edge], !(untried & larger_theta),
-               !(untried & smaller_theta), rule);
+  return tried(s.sine[edge], s.sine_both[edge], !(untried & Untried::larger_theta),
+               !(untried & Untried::smaller_theta), rule);
 }
 
 double tried_rho(const Significance& s, int64_t edge, Rule rule) {
   const uint8_t untried = s.untried[edge];
-  return tried(s.rho[edge], s.rho_both[edge], !(untried & larger_rho), !(untried & smaller_rho),
-               rule);
+  return tried(s.rho[edge], s.rho_both[edge], !(untried & Untried::larger_rho),
+               !(untried & Untried::smaller_rho), rule);
 }
 
 }  // namespace

@@ -1,29 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which Delaunay edges MEDIAL selects (Dey & Zhao, sect. 3), and of them those of one side and of
 // the limit set (Definition 4).
 #pragma once
 
-#include <numbers>
+#include <medial/options.h>
 
 #include "axis/significance.h"
 #include "delaunay/edges.h"
 #include "inside/sides.h"
 
 namespace medial {
-
-enum class Criteria : int32_t { angle_or_ratio = 0, angle = 1, ratio = 2 };
-
-struct Thresholds {
-  double theta = std::numbers::pi / 8;
-  double rho = 8;
-  Rule rule = Rule::either;
-  Criteria criteria = Criteria::angle_or_ratio;
-};
-
-struct Extraction {
-  Thresholds thresholds = {};
-  Side side = Side::both;  // both, inner or outer
-  bool limit_set = false;  // Definition 4 for facets selected by the Ratio condition alone
-};
 
 // What a selection reads: the Delaunay edges with their dual Voronoi facets, and what is known of
 // them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "axis/significance.h"
 
 #include "delaunay/circumcentre.h"
@@ -10,12 +11,6 @@ struct Shapes {
   Array<Vec3> normal;
   Array<double> radius;  // infinite for an empty umbrella
 };
-
-double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a;
-  const double twice_area = length(cross(u, v));
-  return length(u) * length(v) * distance(b, c) / (2 * twice_area);
-}
 
 Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Run& run) {
   Shapes result{array<Vec3>(umbrellas.items.size(), run),
@@ -33,8 +28,8 @@ Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Ru
 
 // One end of an edge.
 struct End {
-  double sine =
-      0;  // sin(theta_p): the smallest |n_t . direction| over the umbrella of p; 0 for an empty one
+  // sin(theta_p): the smallest |n_t . direction| over the umbrella of p; 0 for an empty one.
+  double sine = 0;
   double ratio = 0;       // rho_p
   bool umbrella = false;  // pq is in U_p
 };
@@ -54,13 +49,17 @@ End end_at(int32_t p, int32_t q, const Vec3& direction, double size, const Umbre
   return end;
 }
 
+// Of an end from which the edge is not tried.
+int untried_bits(bool has_larger_theta, bool has_larger_rho) {
+  return (has_larger_theta ? Untried::larger_theta : Untried::smaller_theta) |
+         (has_larger_rho ? Untried::larger_rho : Untried::smaller_rho);
+}
+
 uint8_t untried(const End& p, const End& q) {
   const bool p_theta = p.sine >= q.sine, p_rho = p.ratio >= q.ratio;
   int bits = 0;
-  if (p.umbrella)
-    bits |= (p_theta ? larger_theta : smaller_theta) | (p_rho ? larger_rho : smaller_rho);
-  if (q.umbrella)
-    bits |= (p_theta ? smaller_theta : larger_theta) | (p_rho ? smaller_rho : larger_rho);
+  if (p.umbrella) bits |= untried_bits(p_theta, p_rho);
+  if (q.umbrella) bits |= untried_bits(!p_theta, !p_rho);
   return static_cast<uint8_t>(bits);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How strongly each Delaunay edge pq satisfies the two conditions (Dey & Zhao, sect. 3.1 and 3.2),
 // for all thresholds at once: the Angle condition [theta0] holds at p exactly when theta_p >
 // theta0, the Ratio condition [rho0] exactly when rho_p > rho0, where
@@ -5,17 +6,17 @@
 //   rho_p   = |pq| / max over t in U_p of R_t
 #pragma once
 
+#include <medial/options.h>
+
 #include "axis/umbrellas.h"
 
 namespace medial {
-
-enum class Rule : int32_t { either = 0, both = 1 };
 
 // Per edge, the larger value of the two ends (rule EITHER) and the smaller one (rule BOTH).
 struct Significance {
   Array<double> sine, rho;  // of theta: an arcsine takes longer than all else about an edge
   Array<double> sine_both, rho_both;
-  Array<uint8_t> untried;  // bits of Untried
+  Array<uint8_t> untried;  // Untried::... bits
   // Per sample: the largest circumradius in its umbrella, infinite for an empty one.
   Array<double> spacing;
 
@@ -23,10 +24,12 @@ struct Significance {
   const Array<double>& ratios(Rule rule) const { return rule == Rule::either ? rho : rho_both; }
 };
 
-// Step 5 of MEDIAL tries pq from p only when pq is not in U_p: which end that rules out, as seen
-// from the values. It matters below rho0 = 2 and, by rounding, at theta0 = 0; elsewhere such an end
-// fails anyway.
-enum Untried : uint8_t { larger_theta = 1, smaller_theta = 2, larger_rho = 4, smaller_rho = 8 };
+// Step 5 of MEDIAL tries pq from p only when pq is not in U_p. These bits say which values come
+// from an end that is not tried for this reason. It matters below rho0 = 2 and, by rounding, at
+// theta0 = 0; elsewhere such an end fails anyway.
+struct Untried {
+  static constexpr uint8_t larger_theta = 1, smaller_theta = 2, larger_rho = 4, smaller_rho = 8;
+};
 
 inline double theta_of(double sine) { return std::asin(sine); }
 

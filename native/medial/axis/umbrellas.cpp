@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "axis/umbrellas.h"
 
 #include <optional>
@@ -7,9 +8,9 @@ namespace {
 
 enum class Height : uint8_t { below, above, level };
 
-// On which side of the tangent plane a Voronoi vertex lies; a vertex in the plane counts as above,
-// so that of the edges that meet there those from below cross it, and the umbrella stays a disc.
-// For an infinite cell: where its ray leads.
+// On which side of the tangent plane the Voronoi vertex of a cell lies, or to which side the ray of
+// an infinite cell leads. A vertex in the plane counts as above: of the Voronoi edges that meet in
+// it those from below then cross the plane, and the umbrella stays a disc.
 Height height(const Vec3& p, const Vec3& pole, int32_t cell, const Triangulation& t,
               const Voronoi& voronoi) {
   if (t.is_infinite(cell)) {
@@ -46,7 +47,8 @@ class Collector {
   }
 
  private:
-  // The triangles at p through which a cell has a neighbour above. All neighbours there have p.
+  // The triangles at p through which a cell below has a neighbour above. They lie opposite to the
+  // other corners of the cell, so that p is a corner of all these neighbours.
   void append_above(int32_t p, int32_t cell, std::vector<std::array<int32_t, 2>>& out) const {
     const Cell& ids = t_.cells[cell];
     const int own = slot_of(ids, p);

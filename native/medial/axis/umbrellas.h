@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Umbrellas (Dey & Zhao, Definition 3).
 #pragma once
 

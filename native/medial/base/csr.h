@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of different lengths in one array: list i is items[offsets[i] .. offsets[i + 1]).
 #pragma once
 

@@ -1,20 +1,35 @@
-// The distance to the nearest of many fixed points. The only unit that knows Boost.Geometry.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The nearest of many fixed points. The only unit that knows Boost.Geometry.
 #pragma once
 
+#include <compare>
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "base/vec3.h"
 
 namespace medial {
 
+struct Neighbour {
+  double distance;
+  int32_t id;
+
+  friend auto operator<=>(const Neighbour&, const Neighbour&) = default;
+};
+
+// Safe to use from several threads.
 class Nearest {
  public:
   explicit Nearest(std::span<const Vec3> sites);
   ~Nearest();
 
-  // Infinite when there are no sites. Safe to use from several threads.
+  // Infinite when there are no sites.
   double distance(const Vec3& query) const;
+  // The `count` nearest sites, nearest first, of equally near ones those of lowest ids; fewer when
+  // there are fewer.
+  void find(const Vec3& query, size_t count, std::vector<Neighbour>& found) const;
 
  private:
   struct Tree;

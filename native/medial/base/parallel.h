@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loops over ids on all cores. A loop body writes only slots of its own ids, so results never
 // depend on the threads.
 #pragma once
@@ -8,10 +9,10 @@
 #include <exception>
 #include <functional>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "base/run.h"
+#include "base/thread.h"
 
 namespace medial {
 
@@ -23,8 +24,8 @@ inline int thread_count(int wanted) {
 inline constexpr int64_t kGrain = 2048;
 
 // Calls body(begin, end, worker) for chunks of at most `grain` ids that cover [0, count); worker <
-// run.threads. Chunks start at multiples of `grain`, whatever the number of threads. The first
-// exception is rethrown.
+// run.threads. Chunks start at multiples of `grain`, whatever the number of threads, and do not
+// depend on how many of these the system has to give. The first exception is rethrown.
 inline void parallel_chunks(int64_t count, const Run& run,
                             const std::function<void(int64_t, int64_t, int)>& body,
                             int64_t grain = kGrain) {
@@ -52,8 +53,11 @@ inline void parallel_chunks(int64_t count, const Run& run,
   const int64_t chunks = (count + grain - 1) / grain;
   const int extra = static_cast<int>(std::min<int64_t>(run.threads, chunks)) - 1;
   {
-    std::vector<std::jthread> team;
-    for (int i = 0; i < extra; ++i) team.emplace_back(work, i + 1);
+    std::vector<Thread> team;
+    for (int i = 0; i < extra; ++i) {
+      team.emplace_back([&work, worker = i + 1] { work(worker); });
+      if (!team.back().started()) break;
+    }
     work(0);
   }
   if (failure) std::rethrow_exception(failure);

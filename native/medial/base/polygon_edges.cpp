@@ -1,12 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/polygon_edges.h"
 
+#include <medial/errors.h>
+
 #include <algorithm>
-#include <atomic>
 #include <compare>
 #include <string>
 
+#include "base/atomic.h"
 #include "base/csr.h"
-#include "base/errors.h"
 
 namespace medial {
 namespace {
@@ -45,8 +47,9 @@ bool starts_edge(std::span<const PolygonSide> sorted, size_t i) {
 PolygonEdges polygon_edges(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
                            int32_t vertices, const Run& run) {
   check(face_offsets, corners, vertices);
-  // A bucket for each vertex: the corners whose edges have it as the lower end. After the counting
-  // next[v] is where bucket v begins, after the filling where it ends.
+  // A bucket for each vertex: the corners whose edges have it as the lower end, with the other ends
+  // beside them. (bucket_sort knows ids alone; looking up the ends took 1.7 times as long.) After
+  // the counting next[v] is where bucket v begins, after the filling where it ends.
   std::vector<int64_t> next(static_cast<size_t>(vertices) + 1, 0);
   std::vector<PolygonSide> sides(corners.size());
   const auto for_sides = [&](const auto& body) {
@@ -55,14 +58,14 @@ PolygonEdges polygon_edges(std::span<const int32_t> face_offsets, std::span<cons
       for (int32_t corner = begin; corner < end; ++corner) {
         const int32_t other = corners[corner + 1 < end ? corner + 1 : begin];
         const auto [low, high] = std::minmax(corners[corner], other);
-        body(corner, std::atomic_ref(next[low]), high);
+        body(corner, next[low], high);
       }
     });
   };
-  for_sides([](int32_t, auto count, int32_t) { count.fetch_add(1, std::memory_order_relaxed); });
+  for_sides([](int32_t, int64_t& count, int32_t) { shared_add<int64_t>(count, 1); });
   counts_to_offsets(next);
-  for_sides([&](int32_t corner, auto place, int32_t high) {
-    sides[place.fetch_add(1, std::memory_order_relaxed)] = {high, corner};
+  for_sides([&](int32_t corner, int64_t& place, int32_t high) {
+    sides[shared_add<int64_t>(place, 1)] = {high, corner};
   });
   const auto bucket = [&](int64_t v) {
     const auto begin = static_cast<size_t>(v == 0 ? 0 : next[v - 1]);

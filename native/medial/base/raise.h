@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A maximum that several threads find together.
 #pragma once
 

@@ -1,22 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/rows.h"
 
 #include <array>
 #include <bit>
-#include <sstream>
 #include <string>
 #include <tuple>
 
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "base/text.h"
 
 namespace medial {
 namespace {
-
-std::string text(const Vec3& p) {
-  std::ostringstream out;
-  out << "(" << p.x << ", " << p.y << ", " << p.z << ")";
-  return out.str();
-}
 
 bool in_range(double x) { return std::abs(x) <= kLargestCoordinate; }  // false for NaN
 

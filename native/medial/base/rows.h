@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of coordinates made fit to compute with: finite, distinct, and in an order with spatial
 // coherence.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a stage is given beside its data, and the arrays it returns.
 #pragma once
 

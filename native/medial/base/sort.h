@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sorting ids: a counting sort into buckets by all threads, then small sorts within the buckets.
 #pragma once
 
 #include <algorithm>
 
+#include "base/atomic.h"
 #include "base/csr.h"
 #include "base/parallel.h"
 
@@ -14,9 +16,7 @@ template <typename BucketOf, typename KeyOf, typename Placed>
 void bucket_sort(int64_t count, size_t buckets, const Run& run, const BucketOf& bucket_of,
                  const KeyOf& key_of, const Placed& placed) {
   auto next = array<int32_t>(buckets + 1, 0, run);
-  const auto place = [&](int64_t id) {
-    return std::atomic_ref(next[bucket_of(id)]).fetch_add(1, std::memory_order_relaxed);
-  };
+  const auto place = [&](int64_t id) { return shared_add(next[bucket_of(id)], 1); };
   parallel_for(count, run, place);
   counts_to_offsets(next);
   auto ids = array<int32_t>(static_cast<size_t>(count), run);

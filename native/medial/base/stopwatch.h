@@ -1,14 +1,12 @@
-// Seconds of the stages of a computation, in order.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Takes the seconds of the stages of a computation, in order.
 #pragma once
 
+#include <medial/types.h>
+
 #include <chrono>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace medial {
-
-using Timings = std::vector<std::pair<std::string, double>>;
 
 class Stopwatch {
  public:

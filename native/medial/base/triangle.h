@@ -1,13 +1,10 @@
-// Triangles and edges as ids of their corners.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Triangles as ids of their corners.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <medial/types.h>
 
 namespace medial {
-
-using Triangle = std::array<int32_t, 3>;
-using Edge = std::array<int32_t, 2>;
 
 // Next and previous corner of a triangle seen from corner `id`.
 inline Edge link_of(const Triangle& t, int32_t id) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Disjoint sets of ids 0..n-1 as parent pointers; a set is represented by its lowest id.
 #pragma once
 
@@ -35,7 +36,7 @@ class UnionFind {
 
  private:
   Array<int32_t> parent_;
-  std::vector<int32_t> joined_;  // whoever is no representative
+  std::vector<int32_t> joined_;  // ids that no longer represent their set
 };
 
 // The same for several threads at once; the sets do not depend on who comes first.

@@ -1,16 +1,13 @@
-// A point or vector of R^3: three contiguous doubles, so that an (n, 3) array is a span of Vec3.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The arithmetic of points and vectors of R^3, and boxes.
 #pragma once
+
+#include <medial/types.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace medial {
-
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-
-  friend bool operator==(const Vec3&, const Vec3&) = default;
-};
 
 inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }

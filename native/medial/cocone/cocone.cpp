@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cocone/cocone.h"
 
 #include <string>
@@ -80,7 +81,7 @@ double crossing(int32_t p, int32_t cell, int32_t across, const CoconeInput& s) {
   if ((ha >= 0) == (hb >= 0)) return 0;
   if (s.t.is_infinite(cell) || (s.t.is_infinite(across) && hb == 0)) return HUGE_VAL;
   if (s.t.is_infinite(across)) return squared_length(a - (ha / hb) * b);
-  // From the nearer end, which has more digits where it counts.
+  // Computed from the nearer end of the edge, where less is lost to rounding.
   const bool a_is_nearer = squared_length(a) <= squared_length(b);
   return squared_length(a_is_nearer ? a + (ha / (ha - hb)) * (b - a)
                                     : b + (hb / (hb - ha)) * (a - b));

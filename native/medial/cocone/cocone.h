@@ -1,21 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cocone: which samples are flat, and the candidate triangles of the surface through them (Amenta,
 // Choi, Dey & Leekha 2002; flatness: Dey & Giesen 2001).
 #pragma once
 
-#include <numbers>
+#include <medial/options.h>
 
 #include "axis/poles.h"
 #include "delaunay/face_set.h"
 
 namespace medial {
-
-// Angles in radians.
-struct CoconeOptions {
-  double cocone_angle = std::numbers::pi / 8;     // half-angle about the tangent plane
-  double flatness_ratio = 1.2;                    // of a thin cell's width, at most its heights
-  double flatness_angle = std::numbers::pi / 3;   // between the normal lines of cocone neighbours
-  double sharp_angle = 2 * std::numbers::pi / 3;  // between the normals of triangles at an edge
-};
 
 // Throws InvalidInputError.
 void require_valid(const CoconeOptions& options);

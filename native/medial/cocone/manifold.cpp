@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cocone/manifold.h"
 
 namespace medial {
@@ -118,7 +119,7 @@ bool is_sharp(const ManifoldInput& s, const FaceSet& set, const CellFace& f, int
   return true;
 }
 
-// Edges between samples that are not flat may bound the surface: one triangle is enough there.
+// At an edge between samples that are not flat one triangle is enough: the surface may end there.
 bool has_sharp_edge(const ManifoldInput& s, const FaceSet& set, const CellFace& f,
                     std::span<const uint8_t> flat) {
   for (int i = 0; i < 3; ++i) {
@@ -222,7 +223,7 @@ class Walk {
     return ids[0] != p && ids[0] != q ? 0 : ids[1] != p && ids[1] != q ? 1 : 2;
   }
 
-  // Into the surface, unless an edge would have a third triangle.
+  // Adds a triangle to the surface, unless one of its edges would have a third triangle then.
   bool take(const CellFace& f) {
     if (!candidates_.has(f) || surface_.has(f)) return false;
     insert_both(s_.t, surface_, f);
@@ -279,8 +280,8 @@ FaceSet manifold(std::span<const Vec3> points, const Triangulation& t, const Csr
   search_umbrellas(s, candidates, umbrellas, run,
                    [](UmbrellaSearch& search, int32_t p) { search.find_all(p); });
   Walk walk(s, std::move(umbrellas), run.progress);
-  // From outside, where the hull tells it: the front of a stack of triangles is another surface
-  // than its back.
+  // The walk starts outside, which the hull tells, for where triangles lie in a stack the surface
+  // seen from the front is another than that from the back.
   const auto samples = static_cast<int32_t>(incident.size());
   walk.start([&](const CellFace& f) {
     const int32_t beyond = t.cells[f.cell][f.slot];

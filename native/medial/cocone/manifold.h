@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cocone's manifold extraction: candidate triangles -> an oriented surface with at most two
 // triangles at every edge.
 #pragma once

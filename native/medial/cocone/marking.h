@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Marking: what every sample knows of its cells, the two sides of the surface there, and which
 // samples know the same side (Dey & Goswami 2003).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cocone/peeling.h"
 
 #include <queue>
@@ -23,7 +24,7 @@ uint8_t smallest_faces(std::span<const Vec3> points, const Triangulation& t, int
   return smallest;
 }
 
-// Per cell that no corner can tell on which side it lies: its smallest faces.
+// Per cell: its smallest faces where none of its corners can tell on which side it lies, else none.
 std::vector<uint8_t> opaque_faces(std::span<const Vec3> points, const Triangulation& t,
                                   const Marks& marks, const Run& run) {
   std::vector<uint8_t> result(t.cells.size(), 0);
@@ -90,7 +91,7 @@ class Peeling {
     }
   };
 
-  // Its good corners learn from it where outside is.
+  // Moves a cell outside. Its corners that see it on one of their sides learn which side is out.
   void take(int32_t cell) {
     outside_[cell] = 1;
     taken_.push_back(cell);
@@ -121,8 +122,8 @@ class Peeling {
     if (!outside_[next] && vote_of(next) >= 0) take(next);
   }
 
-  // Of the corners that know: positive when most see the cell outside, negative otherwise; 0: none
-  // knows.
+  // The vote of the corners that know which of their sides is out: 1 when most see the cell there,
+  // -1 otherwise, 0 when no corner knows.
   int vote_of(int32_t cell) const {
     int votes = 0, voters = 0;
     for (int i = 0; i < 4; ++i) {

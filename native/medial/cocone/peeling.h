@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tight Cocone: inside and outside of the samples of a closed surface, and the watertight surface
 // between them (Dey & Goswami 2003).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cocone/solid.h"
 
 namespace medial {
@@ -37,7 +38,7 @@ std::vector<uint8_t> nonmanifold(const Triangulation& t, const Csr<int32_t>& inc
   return result;
 }
 
-// Both ends of such an edge are not manifold either.
+// Counts among the edges whose two ends are not manifold: the ends of such an edge never are.
 int64_t count_nonmanifold_edges(std::span<const Triangle> triangles,
                                 std::span<const uint8_t> nonmanifold) {
   std::vector<Edge> edges;
@@ -50,7 +51,7 @@ int64_t count_nonmanifold_edges(std::span<const Triangle> triangles,
   std::sort(edges.begin(), edges.end());
   int64_t count = 0;
   for (size_t i = 2; i < edges.size(); ++i) {
-    // The third of its kind: then there is a fourth, and so on.
+    // An edge counts once, at the third of its copies.
     const bool third = edges[i] == edges[i - 2] && (i == 2 || edges[i] != edges[i - 3]);
     count += third;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The boundary of the inner cells: a subcomplex of the Delaunay triangulation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "cocone/watertight_surface.h"
 
 #include "base/sort.h"
@@ -46,12 +47,13 @@ WatertightSurface describe(TightCocone found, SolidBoundary boundary, const Samp
   return result;
 }
 
-WatertightSurface watertight_surface(std::span<const Vec3> rows, const CoconeOptions& options,
-                                     const Run& run) {
+WatertightSurface watertight_surface(std::span<const Vec3> points, const CoconeOptions& options,
+                                     int threads, Progress* progress) {
+  const Run run{thread_count(threads), progress};
   Timings timings;
   Stopwatch watch(timings);
   begin_stage(run.progress, "Samples", 0, 0.02);
-  const Samples samples = make_samples(rows, {run.threads, nullptr});
+  const Samples samples = make_samples(points, {run.threads, nullptr});
   require_volume(samples.points);
   watch.lap("samples");
   const Triangulation t = triangulate(samples.points, run);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Circumcentres and triangle normals that stay right for nearly flat simplices: doubles with an
 // error bound, and exact integer arithmetic where the bound is too large.
 #pragma once
@@ -27,7 +28,13 @@ struct UnitNormal {
 // (b - a) x (c - a), normalized; zero for collinear points.
 UnitNormal unit_normal(const Vec3& a, const Vec3& b, const Vec3& c);
 
-// Of a triangle.
+// Of a triangle. Not to be mixed in one comparison: a radius squared is rounded differently from
+// the squared radius, which takes no roots and is for where many are compared.
+inline double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  const double twice_area = length(cross(u, v));
+  return length(u) * length(v) * distance(b, c) / (2 * twice_area);
+}
 inline double squared_circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
   return squared_length(u) * squared_length(v) * squared_length(c - b) /

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/edges.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ struct Way {
   int32_t to, cell;
 };
 
-// Tells the edges from a sample to those of higher rows.
+// Finds the edges from a sample to those of higher rows.
 class Ways {
  public:
   Ways(const Triangulation& triangulation, const Csr<int32_t>& incident,
@@ -31,8 +32,8 @@ class Ways {
   }
 
  private:
-  // Fills the front of `ways_`; returns their number. Each corner is written, and counts if it is
-  // new and of a higher row: a branch would be taken wrong too often.
+  // Fills the front of `ways_`; returns how many there are. Every corner is written there, and then
+  // counted only if it is new and of a higher row: the processor would often guess a branch wrong.
   size_t find(int32_t p) {
     const auto cells = incident_[p];
     if (ways_.size() < 4 * cells.size()) ways_.resize(4 * cells.size());
@@ -43,7 +44,7 @@ class Ways {
       for (const int32_t q : t_.cells[*cell]) {
         if (static_cast<uint32_t>(q) >= seen_.size()) continue;
         ways_[count] = {q, *cell};
-        count += static_cast<size_t>((seen_[q] != call_) & (row_[q] > row_[p]));
+        count += static_cast<size_t>(int{seen_[q] != call_} & int{row_[q] > row_[p]});
         seen_[q] = call_;
       }
     }

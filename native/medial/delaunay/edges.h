@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The Delaunay edges and their dual Voronoi facets, as rings of cells.
 #pragma once
 

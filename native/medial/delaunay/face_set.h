@@ -1,8 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sets of Delaunay triangles, and the walk from triangle to triangle round an edge.
 #pragma once
 
-#include <atomic>
-
+#include "base/atomic.h"
 #include "base/csr.h"
 #include "base/triangle.h"
 #include "delaunay/triangulation.h"
@@ -50,8 +50,7 @@ class FaceSet {
   void erase(const CellFace& f) { bits_[f.cell] &= static_cast<uint8_t>(~(1 << f.slot)); }
   // Insertion by several threads: the order does not matter.
   void insert_shared(const CellFace& f) {
-    std::atomic_ref(bits_[f.cell])
-        .fetch_or(static_cast<uint8_t>(1 << f.slot), std::memory_order_relaxed);
+    shared_or(bits_[f.cell], static_cast<uint8_t>(1 << f.slot));
   }
 
  private:

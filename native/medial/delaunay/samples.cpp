@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/samples.h"
+
+#include <medial/errors.h>
 
 #include <numbers>
 #include <string>
-
-#include "base/errors.h"
 
 namespace medial {
 

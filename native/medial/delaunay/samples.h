@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The samples of a surface made fit for a Delaunay triangulation.
 #pragma once
 

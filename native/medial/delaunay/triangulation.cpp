@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/triangulation.h"
 
 // CGAL's containers, too, take their memory from the arena of the run.
@@ -6,17 +7,17 @@
 
 namespace medial {
 
-inline thread_local Arena* run_heap = nullptr;
+inline thread_local Arena* run_arena = nullptr;
 
-struct InHeap {
-  explicit InHeap(Arena* arena) { run_heap = arena; }
-  ~InHeap() { run_heap = nullptr; }
-  InHeap(const InHeap&) = delete;
+struct InArena {
+  explicit InArena(Arena* arena) { run_arena = arena; }
+  ~InArena() { run_arena = nullptr; }
+  InArena(const InArena&) = delete;
 };
 
 template <typename T>
 struct RunAllocator : ArenaAllocator<T> {
-  RunAllocator() : ArenaAllocator<T>(run_heap) {}
+  RunAllocator() : ArenaAllocator<T>(run_arena) {}
   template <typename U>
   RunAllocator(const RunAllocator<U>& other) : ArenaAllocator<T>(other.arena) {}
   template <typename U>
@@ -26,8 +27,8 @@ struct RunAllocator : ArenaAllocator<T> {
 };
 
 // A module that is loaded late finds its thread-local variables by a call, and the compiler makes
-// one at each use: in CGAL's innermost loop they took a tenth of its time. This address is found
-// once.
+// one at each use: in CGAL's innermost loop these calls took a tenth of its time. Here the address
+// is found once.
 template <typename T>
 T& found_once(T& variable) {
   T* address = &variable;
@@ -40,6 +41,15 @@ T& found_once(T& variable) {
 }  // namespace medial
 
 #include <CGAL/tss.h>
+#include <CGAL/version.h>
+#if CGAL_VERSION_NR < 1050200000 || CGAL_VERSION_NR >= 1070000000
+#error \
+    "Expected CGAL 5.2 to 6.x; look whether CGAL_ALLOCATOR and CGAL_STATIC_THREAD_LOCAL_VARIABLE_0 are what they were."
+#endif
+#ifndef CGAL_STATIC_THREAD_LOCAL_VARIABLE_0
+#error \
+    "Expected CGAL to declare its thread-local variables by CGAL_STATIC_THREAD_LOCAL_VARIABLE_0; look for what it uses instead."
+#endif
 #undef CGAL_STATIC_THREAD_LOCAL_VARIABLE_0
 #define CGAL_STATIC_THREAD_LOCAL_VARIABLE_0(TYPE, VARIABLE) \
   static thread_local TYPE VARIABLE##_of_thread;            \
@@ -50,6 +60,7 @@ T& found_once(T& variable) {
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
+#include "base/random.h"
 #include "base/sort.h"
 
 namespace medial {
@@ -64,13 +75,9 @@ using Delaunay =
     CGAL::Delaunay_triangulation_3<Kernel,
                                    CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 using CellHandle = Delaunay::Cell_handle;
-
-uint64_t scrambled(uint64_t x) {  // SplitMix64 (Steele, Lea, Flood 2014)
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
+using CellRange = Delaunay::Triangulation_data_structure::Cell_range;
+static_assert(std::is_same_v<CellRange::allocator_type, RunAllocator<CellRange::value_type>>,
+              "CGAL no longer takes its memory by CGAL_ALLOCATOR");
 
 // Biased randomized insertion order (Amenta, Choi, Rote 2003): each round is an eighth of the next,
 // and keeps the spatial order of the ids.
@@ -114,14 +121,15 @@ struct CanonicalCell {
 
   // The lowest finite id, infinite cells after the finite ones.
   int32_t bucket(int32_t points) const { return ids[0] == kInfinite ? points + ids[1] : ids[0]; }
-  // In the order of the sorted ids but for the first.
+  // Cells of one bucket, which share their lowest id, are ordered by the others, ascending.
   std::pair<uint64_t, int32_t> key() const {
     const auto [low, high] = std::minmax(ids[2], ids[3]);
     return {static_cast<uint64_t>(ids[1]) << 32 | static_cast<uint32_t>(low), high};
   }
 };
 
-// By ranks: cells come in any order, so that a sort by branches would guess wrong half of the time.
+// Each id goes to the slot of its rank, which is counted from comparisons. A sort would branch by
+// them, and as cells come in any order the processor would guess wrong half of the time.
 CanonicalCell canonical(const Cell& x) {
   const int a = x[0] > x[1], b = x[0] > x[2], c = x[0] > x[3];
   const int d = x[1] > x[2], e = x[1] > x[3], f = x[2] > x[3];
@@ -207,7 +215,7 @@ void require_volume(std::span<const Vec3> points) {
 Triangulation triangulate(std::span<const Vec3> points, const Run& run, Stopwatch* watch) {
   begin_stage(run.progress, "Delaunay triangulation", 0.02, 0.5);
   try {
-    const InHeap in_heap(run.arena);
+    const InArena in_arena(run.arena);
     Delaunay delaunay;
     insert_all(delaunay, points, run.progress);
     delaunay.infinite_vertex()->info() = kInfinite;

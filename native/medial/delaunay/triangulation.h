@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The Delaunay triangulation D_P as plain arrays. The only unit that knows CGAL.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/voronoi.h"
 
 #include "base/union_find.h"
@@ -66,7 +67,7 @@ std::vector<CellPair> same_ray_pairs(const Triangulation& t, const Centres& cent
     for (int i = 1; i < 4; ++i) {
       const int32_t n = t.neighbors[c][i];
       if (n > c && vertices.find(t.neighbors[n][0]) == origin && indistinguishable(centres, c, n)) {
-        pairs.push_back({c, n});
+        pairs.emplace_back(c, n);
       }
     }
   }

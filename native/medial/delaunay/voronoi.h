@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Voronoi vertices: one per Delaunay cell, or per cluster of cospherical cells.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "inside/buried.h"
 
 #include <string>
@@ -34,8 +35,8 @@ Surface closed_surface(const DistinctRows& corners, std::span<const Triangle> tr
   return surface;
 }
 
-// Tells inside from outside at one place after the other: between neighbours there is little to
-// cross.
+// Tells inside from outside at one place after the other; little surface lies between places that
+// follow each other.
 class Follower {
  public:
   explicit Follower(const WindingNumber& winding) : winding_(winding) {}

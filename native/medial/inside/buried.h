@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Where a closed surface is no boundary of its solid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How often a ray, or a segment, leaves a triangle soup minus how often it enters. For a closed
 // soup that is the winding number at the origin of the ray, or the drop of the winding number along
 // the segment.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "inside/sides.h"
 
 #include <climits>
@@ -11,7 +12,7 @@ namespace {
 
 constexpr int64_t kFlooded = 1 << 15;  // cells that one flood may reach
 
-// One Voronoi vertex, one side.
+// Gives all cells with the same Voronoi vertex the same side.
 void share_sides(const Triangulation& t, const Voronoi& voronoi, CellSides& sides, const Run& run) {
   parallel_for(t.finite_cells, {run.threads, nullptr}, [&](int64_t c) {
     if (voronoi.vertex[c] != c) sides[c] = sides[voronoi.vertex[c]];
@@ -63,8 +64,8 @@ double largest_squared_reach(std::span<const Vec3> points, std::span<const Trian
   return *std::max_element(largest.begin(), largest.end());
 }
 
-// The least distance, squared, of the Voronoi edge dual to a facet to the samples. A triangle of
-// samples that crosses the edge reaches at least as far from its corners.
+// The least distance, squared, of the Voronoi edge dual to a Delaunay triangle to the samples. A
+// triangle of samples that crosses the edge reaches at least as far from its corners.
 double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
                            const Voronoi& voronoi, const CellFace& f) {
   const auto [i, j, k] = corners(t, f);
@@ -112,7 +113,8 @@ class Flood {
     return cell >= begin_ && cell < begin_ + static_cast<int32_t>(closed_.size());
   }
 
-  // From the neighbour whose Voronoi vertex is nearest: there is little to cross; or from nothing.
+  // The winding number is told from the neighbour whose Voronoi vertex is nearest, for then the
+  // least lies in between; or by itself where no neighbour is known.
   int told(int32_t cell) {
     int32_t nearest = -1;
     double least = HUGE_VAL;
@@ -211,8 +213,8 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
                          normals[z[1]].z - normals[z[0]].z;
   const Side beyond = outward < 0 ? Side::inner : Side::outer;
   parallel_for(t.finite_cells, run, [&](int64_t c) {
-    // Through an opening far vertices see the samples from behind: beyond the samples all is one
-    // side.
+    // Far vertices may see the samples from behind, through an opening. So all that lies beyond the
+    // box of the samples is on one side.
     if (!is_between(voronoi.centre[c], low, high)) {
       sides[c] = beyond;
       return;
@@ -233,7 +235,8 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
   const double widest = widened(largest_squared_reach(points, boundary, run));
   CellSides sides(solid);
   parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
-    // A decided neighbour from whose Voronoi vertex no boundary parts that of the cell; -1: none.
+    // A neighbour whose side is decided, with no boundary between its Voronoi vertex and that of
+    // the cell; -1 where there is none.
     const auto like_neighbour = [&](int32_t c) {
       for (int i = 0; i < 4; ++i) {
         const int32_t n = t.neighbors[c][i];

@@ -1,22 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inside and outside: a side per Delaunay cell (where its Voronoi vertex lies), and from it a side
 // per facet.
 #pragma once
+
+#include <medial/options.h>
 
 #include "delaunay/voronoi.h"
 #include "inside/surface.h"
 
 namespace medial {
 
-// Which axis a facet belongs to. As an argument `both` selects every facet, as a value it means
-// "not known".
-enum class Side : uint8_t { both = 0, inner = 1, outer = 2, crossing = 3 };
-
 // Side of each cell: inner or outer. Infinite cells are outer. Empty: not known.
 using CellSides = std::vector<Side>;
-
-// What tells inside from outside. Automatic: the surface when it is closed, else normals when there
-// are any, else Tight Cocone.
-enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none };
 
 // Inner exactly where the winding number of the surface at the Voronoi vertex exceeds 1/2.
 // `vertices` are those of the surface: the points themselves, or others.

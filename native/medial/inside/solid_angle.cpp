@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "inside/solid_angle.h"
 
 #include <numbers>
@@ -88,7 +89,7 @@ void SolidAngle::describe_leaf(Node& node) const {
   }
 }
 
-void SolidAngle::describe_parent(Node& node, const Node& left, const Node& right) const {
+void SolidAngle::describe_parent(Node& node, const Node& left, const Node& right) {
   node.area = left.area + right.area;
   node.area_vector = left.area_vector + right.area_vector;
   const double share = node.area > 0 ? left.area / node.area : 0.5;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solid angle of a triangle soup seen from a point, in full turns (over 4 pi): summed exactly, or
 // hierarchically with Taylor's remainder as a rigorous bound for the expansion of distant clusters
 // (Barill et al. 2018).
@@ -50,7 +51,7 @@ class SolidAngle {
 
   int32_t build(int32_t begin, int32_t end);
   void describe_leaf(Node& node) const;
-  void describe_parent(Node& node, const Node& left, const Node& right) const;
+  static void describe_parent(Node& node, const Node& left, const Node& right);
   Term term(int32_t id, const Vec3& query) const;
 
   std::vector<Corners> corners_;

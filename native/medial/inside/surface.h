@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The triangles of the sampled surface, as ids of its distinct vertices.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Generalized winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung 2013): the solid
 // angle of all triangles, in full turns.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/creases.h"
 
 #include <numbers>
@@ -142,11 +143,11 @@ struct Use {
 };
 
 Crease crease_of(const TriangleMesh& mesh, const MeshEdge& edge, size_t uses, double cosine) {
-  if (uses == 1) return Crease::kBoundary;
-  if (!edge.manifold) return Crease::kSharp;
+  if (uses == 1) return Crease::boundary;
+  if (!edge.manifold) return Crease::sharp;
   const auto& [a, b] = edge.triangles;
-  if (mesh.normal[a] == Vec3{} || mesh.normal[b] == Vec3{}) return Crease::kNone;
-  return dot(mesh.normal[a], mesh.normal[b]) <= cosine ? Crease::kSharp : Crease::kNone;
+  if (mesh.normal[a] == Vec3{} || mesh.normal[b] == Vec3{}) return Crease::none;
+  return dot(mesh.normal[a], mesh.normal[b]) <= cosine ? Crease::sharp : Crease::none;
 }
 
 void add_edges(const TriangleMesh& mesh, double sharp_angle, Creases& creases, const Run& run) {
@@ -182,7 +183,7 @@ void add_edges(const TriangleMesh& mesh, double sharp_angle, Creases& creases, c
 std::vector<int32_t> crease_edges(const Creases& creases) {
   std::vector<int32_t> ids;
   for (size_t i = 0; i < creases.edges.size(); ++i) {
-    if (creases.edges[i].crease != Crease::kNone) ids.push_back(static_cast<int32_t>(i));
+    if (creases.edges[i].crease != Crease::none) ids.push_back(static_cast<int32_t>(i));
   }
   return ids;
 }
@@ -207,14 +208,14 @@ bool is_tip(const TriangleMesh& mesh, int32_t p, double angle) {
 
 void find_corners(const TriangleMesh& mesh, double angle, const Csr<int32_t>& at,
                   std::span<const int32_t> ids, Creases& creases, const Run& run) {
-  creases.at.assign(mesh.points.size(), Crease::kNone);
+  creases.at.assign(mesh.points.size(), Crease::none);
   creases.corner.assign(mesh.points.size(), 0);
   parallel_for(static_cast<int64_t>(mesh.points.size()), run, [&](int64_t i) {
     const auto p = static_cast<int32_t>(i);
     const auto here = at[p];
     for (const int32_t id : here) {
       const Crease crease = creases.edges[ids[id]].crease;
-      if (creases.at[i] != Crease::kSharp) creases.at[i] = crease;
+      if (creases.at[i] != Crease::sharp) creases.at[i] = crease;
     }
     if (here.empty()) {
       creases.corner[i] = is_tip(mesh, p, angle);
@@ -307,8 +308,8 @@ Creases find_creases(const TriangleMesh& mesh, double sharp_angle, std::span<con
   add_edges(mesh, sharp_angle, creases, run);
   for (const auto& [p, q] : marked) {
     const int32_t edge = creases.find(p, q);
-    if (edge >= 0 && creases.edges[edge].crease == Crease::kNone) {
-      creases.edges[edge].crease = Crease::kSharp;
+    if (edge >= 0 && creases.edges[edge].crease == Crease::none) {
+      creases.edges[edge].crease = Crease::sharp;
     }
   }
   const auto ids = crease_edges(creases);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The triangles of a mesh made fit for sampling, and where its surface is not smooth: edges,
 // corners, and the chains of edges between them.
 #pragma once
@@ -23,12 +24,12 @@ struct TriangleMesh {
   Vec3 normal_sum(int32_t point) const;
 };
 
-enum class Crease : uint8_t { kNone, kSharp, kBoundary };
+enum class Crease : uint8_t { none, sharp, boundary };
 
 struct MeshEdge {
   Edge ends;               // p < q
   Edge triangles{-1, -1};  // the first two
-  Crease crease = Crease::kNone;
+  Crease crease = Crease::none;
   bool manifold = false;  // two triangles that pass it in opposite directions
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/mirrored_rows.h"
 
 namespace medial {
@@ -40,16 +41,16 @@ bool alike(const Disk& a, const Disk& b) {
   return a.normal == Vec3{} || b.normal == Vec3{} || dot(a.normal, b.normal) > 0;
 }
 
-bool has_room(std::span<const Disk> disks, size_t i, const KdTree& tree) {
+bool has_room(std::span<const Disk> disks, size_t i, const Nearest& centres) {
   const Disk& disk = disks[i];
-  std::vector<std::pair<double, int32_t>> near;
+  std::vector<Neighbour> near;
   for (size_t count = 16;; count *= 4) {
-    tree.nearest(disk.centre, count, near);
+    centres.find(disk.centre, count, near);
     for (const auto& [away, j] : near) {
       if (static_cast<size_t>(j) == i || !(away < std::min(disk.radius, disks[j].radius))) continue;
       if (alike(disk, disks[j])) return false;
     }
-    if (near.size() < count || near.back().first >= disk.radius) return true;
+    if (near.size() < count || near.back().distance >= disk.radius) return true;
   }
 }
 
@@ -61,11 +62,11 @@ std::vector<int32_t> free_pairs(std::span<const Disk> fixed,
   for (const auto& pair : pairs) disks.insert(disks.end(), pair.begin(), pair.end());
   std::vector<Vec3> centres;
   for (const Disk& disk : disks) centres.push_back(disk.centre);
-  const KdTree tree(centres);
+  const Nearest nearest(centres);
   return parallel_append<int32_t>(
       static_cast<int64_t>(pairs.size()), run, [&](int64_t i, std::vector<int32_t>& kept, int) {
         const size_t left = fixed.size() + 2 * static_cast<size_t>(i);
-        if (has_room(disks, left, tree) && has_room(disks, left + 1, tree)) {
+        if (has_room(disks, left, nearest) && has_room(disks, left + 1, nearest)) {
           kept.push_back(static_cast<int32_t>(i));
         }
       });
@@ -90,7 +91,7 @@ std::optional<SurfacePlace> walk_from_edge(const TriangleMesh& mesh, const Creas
       return SurfacePlace{triangle, barycentric(mesh.triangles[triangle], base, at_end, at_third)};
     }
     const int32_t next = creases.find(base[out], flat.third);
-    if (creases.edges[next].crease != Crease::kNone) return {};
+    if (creases.edges[next].crease != Crease::none) return {};
     const Edge& sides = creases.edges[next].triangles;
     const double size = std::sqrt(slope * slope + flat.y * flat.y);
     triangle = sides[sides[0] == triangle];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pairs of places that mirror each other in a sharp edge, so that the medial axis runs into the
 // edge as straight as the edge itself: what is equally far from both is the bisector of the sides.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/pieces.h"
 
 #include <bit>
@@ -25,7 +26,7 @@ Barycentric centre(const std::array<Barycentric, 3>& c) {
           (c[0].c + c[1].c + c[2].c) / 3};
 }
 
-// Of a curved part that of its chord triangle.
+// The area of a piece; of a curved one that of the flat triangle of its corners.
 double area_of(const std::array<Vec3, 3>& p) {
   return 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
 }

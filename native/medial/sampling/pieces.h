@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The surface cut into pieces so small that curvature and spacing hardly change within one, and
 // area-uniform places on them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/pn_triangles.h"
 
 #include <numbers>
@@ -65,7 +66,7 @@ CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, b
 void CurvedSurface::add_normals(const Creases& creases) {
   UnionFind corners(3 * mesh_.triangles.size());
   for (const MeshEdge& edge : creases.edges) {
-    if (edge.crease != Crease::kNone) continue;
+    if (edge.crease != Crease::none) continue;
     const auto& [s, t] = edge.triangles;
     for (const int32_t end : edge.ends) {
       corners.unite(3 * s + corner_of(mesh_.triangles[s], end),
@@ -88,8 +89,9 @@ void CurvedSurface::add_normals(const Creases& creases) {
   split_steep_fans(creases.sharp_angle);
 }
 
-// Round the tip of a cone no mean stands for its sides, and patches bent towards it would leave the
-// cone: there each triangle keeps its own normal, and edges leave the tip straight.
+// At the tip of a cone the mean normal is far from those of the sides, and patches bent towards it
+// would leave the cone. So there each triangle keeps its own normal, and edges leave the tip
+// straight.
 void CurvedSurface::split_steep_fans(double sharp_angle) {
   const double least = std::cos(std::min(sharp_angle, std::numbers::pi / 2));
   std::vector<uint8_t> steep(fan_normals_.size(), 0);
@@ -114,7 +116,7 @@ const Vec3& CurvedSurface::fan_normal(int32_t triangle, int32_t vertex) const {
 // Where it is not clear which sides an edge joins, it stays straight.
 CurvedSurface::Handles CurvedSurface::handles_of(const MeshEdge& edge) const {
   Handles handles;
-  const bool open = edge.crease == Crease::kBoundary;
+  const bool open = edge.crease == Crease::boundary;
   for (const int i : {0, 1}) {
     const Vec3& here = mesh_.points[edge.ends[i]];
     const Vec3 chord = mesh_.points[edge.ends[1 - i]] - here;

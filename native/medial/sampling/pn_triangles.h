@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The surface that is sampled: the flat triangles, or PN triangles (Vlachos, Peters, Boyd &
 // Mitchell 2001), which are cubic patches with the vertices and their normals.
 #pragma once

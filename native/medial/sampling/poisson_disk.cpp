@@ -1,6 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/poisson_disk.h"
 
 #include <optional>
+
+#include "base/random.h"
 
 namespace medial {
 namespace {
@@ -10,15 +13,6 @@ constexpr int kLocal = kSide + 2;  // and with a margin
 constexpr int kColours = 8;        // blocks of one colour are farther apart than any disc reaches
 
 using BlockKey = uint64_t;  // 21 bits per axis
-
-uint64_t mixed(uint64_t x) {  // splitmix64
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return x ^ x >> 31;
-}
-
-double unit(uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1p-53; }
 
 // Space in cells twice as wide as the largest disc, and blocks of them.
 struct Grid {
@@ -86,8 +80,9 @@ class DartReader {
   void enter() {
     corners_ = piece().corners();
     patch_ = darts_.surface.patch(piece().triangle);
-    const uint64_t hash = mixed(darts_.seed ^ mixed(static_cast<uint64_t>(darts_.of[slot_])));
-    shift_ = {unit(hash), unit(mixed(hash))};
+    const uint64_t hash =
+        scrambled(darts_.seed ^ scrambled(static_cast<uint64_t>(darts_.of[slot_])));
+    shift_ = {unit(hash), unit(scrambled(hash))};
   }
 
   const Darts& darts_;
@@ -237,7 +232,8 @@ class Neighbourhood {
   };
 
   static size_t cell(int x, int y, int z) {
-    return static_cast<size_t>((x * kLocal + y) * kLocal + z);
+    const auto plane = static_cast<size_t>(x) * kLocal + static_cast<size_t>(y);
+    return plane * kLocal + static_cast<size_t>(z);
   }
   std::array<double, 3> local(const Vec3& p) const {
     auto x = grid_->cells(p);
@@ -247,7 +243,7 @@ class Neighbourhood {
 
   const Grid* grid_ = nullptr;
   std::array<double, 3> low_{};
-  std::array<int32_t, kLocal * kLocal * kLocal> heads_{};
+  std::array<int32_t, size_t{kLocal} * kLocal * kLocal> heads_{};
   std::vector<Linked> disks_;
 };
 
@@ -294,9 +290,9 @@ void throw_darts(const Darts& darts, const Grid& grid, double scale, std::span<c
   scratch.near.begin(grid, key);
   gather(blocks, fixed, key, scratch.near);
   read_darts(darts, ids, scale, scratch.darts);
-  uint64_t random = mixed(darts.seed ^ mixed(key));
+  uint64_t random = scrambled(darts.seed ^ scrambled(key));
   for (size_t left = scratch.darts.size(); left > 0; --left) {
-    random = mixed(random);
+    random = scrambled(random);
     std::swap(scratch.darts[left - 1],
               scratch.darts[static_cast<size_t>(unit(random) * static_cast<double>(left))]);
     const Dart& dart = scratch.darts[left - 1];
@@ -345,11 +341,12 @@ std::vector<std::vector<int32_t>> by_size(std::span<const Piece> pieces, double 
   return sizes;
 }
 
-// As many darts as its area wants, to within one: the rest is carried over to the next piece.
+// The number of each piece's first dart. A piece gets as many darts as its area asks for, rounded
+// down; what is lost by this is carried over to the next piece.
 std::vector<int64_t> numbered(std::span<const Piece> pieces, std::span<const int32_t> of,
                               double per_disk_area, uint64_t seed) {
   std::vector<int64_t> first(of.size() + 1);
-  double sum = unit(mixed(seed));
+  double sum = unit(scrambled(seed));
   for (size_t i = 0; i < of.size(); ++i) {
     const Piece& piece = pieces[of[i]];
     sum += per_disk_area * piece.area / (piece.spacing * piece.spacing);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Blue noise: discs on a surface, none with its centre inside another, and no room for one more.
 #pragma once
 

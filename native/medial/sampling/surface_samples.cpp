@@ -1,10 +1,11 @@
-#include "sampling/surface_samples.h"
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <medial/sampling.h>
 
 #include <climits>
 #include <numbers>
-#include <sstream>
 
 #include "base/rows.h"
+#include "base/text.h"
 #include "sampling/mirrored_rows.h"
 #include "sampling/poisson_disk.h"
 
@@ -29,16 +30,13 @@ struct FixedSample {
   double radius;
 };
 
-std::string text(double x) {
-  std::ostringstream out;
-  out << x;
-  return out.str();
-}
-
 // The surface and what does not depend on the spacing.
 struct Model {
   Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
         const SamplingOptions& options, const Run& run);
+  // The curved surface refers to the mesh beside it.
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
 
   TriangleMesh mesh;
   Creases creases;
@@ -110,10 +108,10 @@ Vec3 edge_normal(const Model& model, const MeshEdge& edge, double share) {
 FixedSample at_vertex(const Model& model, int32_t p, const Spacing& spacing) {
   const int32_t t = model.mesh.fans[p].front();
   const auto& creases = model.creases;
-  const SampleKind kind = creases.corner[p]                 ? SampleKind::kCorner
-                          : creases.at[p] == Crease::kNone  ? SampleKind::kVertex
-                          : creases.at[p] == Crease::kSharp ? SampleKind::kSharp
-                                                            : SampleKind::kBoundary;
+  const SampleKind kind = creases.corner[p]                ? SampleKind::corner
+                          : creases.at[p] == Crease::none  ? SampleKind::vertex
+                          : creases.at[p] == Crease::sharp ? SampleKind::sharp
+                                                           : SampleKind::boundary;
   return {kind,
           t,
           along(model.mesh.triangles[t], p, -1, 0),
@@ -127,7 +125,7 @@ FixedSample on_edge(const Model& model, const MeshEdge& edge, double share,
   const int32_t t = edge.triangles[0];
   const Barycentric at = along(model.mesh.triangles[t], edge.ends[0], edge.ends[1], share);
   const Vec3 point = model.surface->point(t, at);
-  const auto kind = edge.crease == Crease::kSharp ? SampleKind::kSharp : SampleKind::kBoundary;
+  const auto kind = edge.crease == Crease::sharp ? SampleKind::sharp : SampleKind::boundary;
   return {kind, t, at, point, edge_normal(model, edge, share), kDisk * spacing(point)};
 }
 
@@ -222,11 +220,11 @@ struct Pair {
   FixedSample left, right;
 };
 
-// One place on either side of an edge, as far from it.
+// Two places, one on either side of an edge, at the same distance from it.
 std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, double spacings,
                                 const Spacing& spacing) {
   const MeshEdge& edge = model.creases.edges[place.edge];
-  if (edge.crease != Crease::kSharp || !edge.manifold) return {};
+  if (edge.crease != Crease::sharp || !edge.manifold) return {};
   const Barycentric middle =
       along(model.mesh.triangles[edge.triangles[0]], edge.ends[0], edge.ends[1], place.share);
   const double away = spacings * spacing(model.surface->point(edge.triangles[0], middle));
@@ -234,7 +232,7 @@ std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, do
     const auto found = walk_from_edge(model.mesh, model.creases, edge, triangle, place.share, away);
     if (!found) return {};
     const Vec3 point = model.surface->point(found->triangle, found->at);
-    return FixedSample{SampleKind::kSurface,
+    return FixedSample{SampleKind::surface,
                        found->triangle,
                        found->at,
                        point,
@@ -290,7 +288,7 @@ std::vector<Pair> mirrored_row(const Model& model, int row, bool keep_vertices,
 }
 
 Disk disk_of(const FixedSample& s) {
-  return {s.point, s.radius, s.kind >= SampleKind::kVertex ? s.normal : Vec3{}};
+  return {s.point, s.radius, s.kind >= SampleKind::vertex ? s.normal : Vec3{}};
 }
 
 std::vector<Disk> disks_of(std::span<const FixedSample> samples) {
@@ -384,7 +382,8 @@ Turn sample_count(const Model& model, const SamplingOptions& options, const Run&
   return best;
 }
 
-// By the sites' spacings, made larger alike until no more than the allowed count is needed.
+// Samples by the spacings of the sites, all of which are made larger by one factor until no more
+// samples than allowed are needed.
 Turn sample_sized(const Model& model, const SamplingOptions& options, const Run& run) {
   constexpr int kTurns = 8;
   const SizingField field(*options.sites, options.site_spacings, run);
@@ -463,7 +462,7 @@ void append(const Model& model, const Turn& turn, SurfaceSamples& samples) {
     add(s.point, s.normal, s.triangle, s.at, s.kind, s.radius);
   }
   for (const auto& [disk, place] : turn.placed) {
-    add(disk.centre, disk.normal, place.triangle, place.barycentric(), SampleKind::kSurface,
+    add(disk.centre, disk.normal, place.triangle, place.barycentric(), SampleKind::surface,
         disk.radius);
   }
 }
@@ -471,7 +470,8 @@ void append(const Model& model, const Turn& turn, SurfaceSamples& samples) {
 }  // namespace
 
 SurfaceSamples sample_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                              const SamplingOptions& options, const Run& run) {
+                              const SamplingOptions& options, int threads, Progress* progress) {
+  const Run run{thread_count(threads), progress};
   require_valid(options, vertices.size());
   begin_stage(run.progress, "Sharp edges", 0, 0.2);
   const Model model(vertices, triangles, options, run);
@@ -482,7 +482,7 @@ SurfaceSamples sample_surface(std::span<const Vec3> vertices, std::span<const Tr
   SurfaceSamples samples;
   append(model, turn, samples);
   for (const MeshEdge& edge : model.creases.edges) {
-    if (edge.crease != Crease::kSharp) continue;
+    if (edge.crease != Crease::sharp) continue;
     samples.sharp_edges.push_back({model.mesh.row[edge.ends[0]], model.mesh.row[edge.ends[1]]});
   }
   samples.area = model.area;

@@ -1,12 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Betti numbers, counted on what is there: components by union-find, cavities by Alexander duality
 // as components of the samples outside, tunnels from the Euler characteristic.
 #pragma once
 
+#include <medial/hierarchy.h>
+
 #include "skeleton/complex.h"
 
 namespace medial {
-
-using Betti = std::array<int64_t, 3>;  // components, tunnels, cavities
 
 // Per sample, and one more for infinity: the lowest of those it is joined with by Delaunay edges
 // whose facets are not in the complex. The points of a bounding sphere count as infinity.

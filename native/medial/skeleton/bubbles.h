@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stage 0 of the collapse: samples inside the solid have a 3-cell each, and every 3-cell is opened
 // through a facet.
 #pragma once

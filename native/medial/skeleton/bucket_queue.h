@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A queue of ids in ascending order of their keys, equal ones by id. Keys lie in buckets of equal
 // width, of which only the one in use is sorted: that costs less than one large heap.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The ordered collapse of the inner complex. An elementary collapse takes away a cell together with
 // one of its faces, if no other cell has that face: it changes no homotopy type. So whatever is
 // left over at any time has the topology of the solid. Stages, of which each ends when it can do no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The inner Voronoi complex D: what of the Voronoi diagram lies inside, with all that it consists
 // of. Its dual are the simplices in the interior of the solid, so it has the solid's topology.
 //   vertices  the inner finite cells              edges    the triangles between two of them

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stage 2 of the collapse: a fire that starts at the rims of K1, each point of which burns first
 // after a time that is the radius of its ball, and spreads with unit speed. Where three sheets meet
 // it waits for the second (Yan, Sykes, Chambers, Letscher & Ju 2016). The erosion thickness of a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stage 1 of the collapse: what MEDIAL does not select, as far as the topology lets it go.
 #pragma once
 

@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/hierarchy.h"
 
+#include "skeleton/betti.h"
 #include "skeleton/bubbles.h"
 #include "skeleton/fringe.h"
+#include "skeleton/level.h"
 #include "skeleton/limbs.h"
 #include "skeleton/sheets.h"
 
@@ -35,71 +38,97 @@ Array<T> kept(const Array<T>& values) {
   return {values.begin(), values.end()};
 }
 
-}  // namespace
+// What the collapse leaves behind for the values.
+struct Burnt {
+  Collapse collapse;
+  Sheets sheets;
+  Burning burning;  // without times
+  Wires wires;
+};
 
-Hierarchy::Hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                     const Run& run)
-    : threads_(run.threads) {
-  Stopwatch watch(timings_);
+Burnt burn_down(const InnerComplex& complex, const FacetWeights& weight,
+                std::span<const Vec3> points, Stopwatch& watch, const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena};
-  begin_stage(run.progress, "Inner complex", 0, 0.2);
-  InnerComplex complex =
-      inner_complex(samples, facets.triangulation, facets.voronoi, facets.edges, facets.sides, run);
-  watch.lap("complex");
   begin_stage(run.progress, "Fringe", 0.2, 0.4);
-  const FacetWeights weight(facets, thresholds);
   Collapse collapse = whole(complex, weight, quiet);
   open_bubbles(complex, weight, collapse, run);
   peel_facets(complex, weight, collapse, run);
   peel_wires(complex, collapse, run);
   watch.lap("fringe");
   begin_stage(run.progress, "Fire", 0.4, 0.7);
-  const Sheets sheets = find_sheets(complex, collapse, quiet);
+  Sheets sheets = find_sheets(complex, collapse, quiet);
   watch.lap("sheets");
-  Burning burning = burn(complex, facets.points, collapse, run);
+  Burning burning = burn(complex, points, collapse, run);
   watch.lap("fire");
   begin_stage(run.progress, "Wires", 0.7, 0.8);
-  const Wires wires = burn_wires(complex, burning.times, collapse, run);
+  Wires wires = burn_wires(complex, burning.times, collapse, run);
   burning.times = {};
   watch.lap("wires");
-  begin_stage(run.progress, "Values", 0.8, 1);
-  find_values(complex, collapse, sheets, burning, wires, facets.significance.spacing, run);
-  watch.lap("values");
-  parts_.outside =
-      outside_components(complex, samples.count(), facets.triangulation, facets.edges, quiet);
-  betti_ = betti_of(complex, parts_.outside, quiet);
-  watch.lap("betti");
-  parts_.partner = std::move(collapse.partner);
-  parts_.row = samples.row;
-  complex.dual = {};  // it means nothing without the analysis
-  parts_.complex = std::move(complex);
-  advance(run.progress, 1);
+  return {std::move(collapse), std::move(sheets), std::move(burning), std::move(wires)};
 }
 
-void Hierarchy::find_values(const InnerComplex& complex, const Collapse& collapse,
-                            const Sheets& sheets, const Burning& burning, const Wires& wires,
-                            std::span<const double> spacing, const Run& run) {
+void find_values(Hierarchy::Parts& made, const Burnt& burnt, std::span<const double> spacing,
+                 const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena}, alone{1, nullptr, run.arena};
+  const auto& [collapse, sheets, burning, wires] = burnt;
+  const InnerComplex& complex = made.complex;
   const auto shares = in_units(burning.thickness, quiet, [&](int64_t) { return complex.diagonal; });
   const auto spacings = in_units(burning.thickness, quiet, [&](int64_t f) {
     const auto& [p, q] = complex.generators[f];
     return 0.5 * (spacing[p] + spacing[q]);
   });
-  Array<float> sheet_values, spacing_values;
+  Array<float> by_share, by_spacing;
   // Each of these works by itself.
   const std::array<std::function<void()>, 3> work{
-      [&] { parts_.limb = kept(limb_values(complex, collapse, wires, alone)); },
-      [&] { sheet_values = drop_values(complex, collapse, sheets, shares, alone); },
-      [&] { spacing_values = drop_values(complex, collapse, sheets, spacings, alone); }};
-  parallel_for(
-      3, run, [&](int64_t i) { work[i](); }, 1);
-  parts_.values =
-      with_vertices(complex, collapse, wires,
-                    joined(sheet_values, spacing_values, burning.erosion, quiet), quiet);
+      [&] { made.limb = kept(limb_values(complex, burnt.collapse, burnt.wires, alone)); },
+      [&] { by_share = drop_values(complex, burnt.collapse, burnt.sheets, shares, alone); },
+      [&] { by_spacing = drop_values(complex, burnt.collapse, burnt.sheets, spacings, alone); }};
+  const auto run_one = [&](int64_t i) { work[i](); };
+  parallel_for(3, run, run_one, 1);
+  made.values = with_vertices(complex, collapse, wires,
+                              joined(by_share, by_spacing, burning.erosion, quiet), quiet);
 }
 
+}  // namespace
+
+Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
+                         const Run& run) {
+  const Run quiet{run.threads, nullptr, run.arena};
+  auto parts = std::make_unique<Hierarchy::Parts>();
+  Hierarchy::Parts& made = *parts;
+  made.threads = run.threads;
+  made.row = samples.row;
+  Stopwatch watch(made.timings);
+  const FacetWeights weight(facets, thresholds);
+  begin_stage(run.progress, "Inner complex", 0, 0.2);
+  made.complex =
+      inner_complex(samples, facets.triangulation, facets.voronoi, facets.edges, facets.sides, run);
+  watch.lap("complex");
+  Burnt burnt = burn_down(made.complex, weight, facets.points, watch, run);
+  begin_stage(run.progress, "Values", 0.8, 1);
+  find_values(made, burnt, facets.significance.spacing, run);
+  made.partner = std::move(burnt.collapse.partner);
+  watch.lap("values");
+  made.outside =
+      outside_components(made.complex, samples.count(), facets.triangulation, facets.edges, quiet);
+  made.betti = betti_of(made.complex, made.outside, quiet);
+  made.complex.dual = {};  // it means nothing without the analysis
+  watch.lap("betti");
+  advance(run.progress, 1);
+  return Hierarchy(std::move(parts));
+}
+
+Hierarchy::Hierarchy(std::unique_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+Hierarchy::~Hierarchy() = default;
+Hierarchy::Hierarchy(Hierarchy&&) noexcept = default;
+Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;
+
+const Betti& Hierarchy::betti() const { return parts_->betti; }
+double Hierarchy::diagonal() const { return parts_->complex.diagonal; }
+const Timings& Hierarchy::timings() const { return parts_->timings; }
+
 Level Hierarchy::extract(const LevelThresholds& thresholds, Progress* progress) const {
-  return level(parts_, thresholds, {threads_, progress});
+  return level(*parts_, thresholds, {parts_->threads, progress});
 }
 
 }  // namespace medial

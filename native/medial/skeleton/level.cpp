@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/level.h"
 
 #include "base/sort.h"
+#include "skeleton/betti.h"
 
 namespace medial {
 namespace {
@@ -19,7 +21,7 @@ bool exceeds(const Thickness& value, const LevelThresholds& t) {
          exceeds(value.erosion, t.erosion);
 }
 
-Alive alive_at(const Hierarchical& h, const LevelThresholds& t, const Run& run) {
+Alive alive_at(const Hierarchy::Parts& h, const LevelThresholds& t, const Run& run) {
   const InnerComplex& complex = h.complex;
   Alive alive{array<uint8_t>(complex.generators.size(), run),
               array<uint8_t>(complex.ends.size(), run), array<uint8_t>(complex.cell.size(), run)};
@@ -39,7 +41,7 @@ Alive alive_at(const Hierarchical& h, const LevelThresholds& t, const Run& run) 
 // Puts what is there into a mesh.
 class Drawer {
  public:
-  Drawer(const Hierarchical& h, const Alive& alive, const Run& run)
+  Drawer(const Hierarchy::Parts& h, const Alive& alive, const Run& run)
       : h_(h),
         complex_(h.complex),
         alive_(alive),
@@ -150,7 +152,7 @@ class Drawer {
     });
   }
 
-  const Hierarchical& h_;
+  const Hierarchy::Parts& h_;
   const InnerComplex& complex_;
   const Alive& alive_;
   Run run_;
@@ -162,7 +164,7 @@ class Drawer {
 
 }  // namespace
 
-Level level(const Hierarchical& h, const LevelThresholds& thresholds, const Run& run) {
+Level level(const Hierarchy::Parts& h, const LevelThresholds& thresholds, const Run& run) {
   check(thresholds.sheet, "sheet");
   check(thresholds.spacings, "spacings");
   check(thresholds.erosion, "erosion");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Limbs: branches of the wires, each with one value from its tip to where it ends at a longer one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sheets: the parts of K1 that hang together over edges with exactly two facets. A sheet is dropped
 // whole, when its thickest facet is.
 #pragma once

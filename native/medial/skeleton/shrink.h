@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells without extent, as of cospherical samples, shrunk to what they are, by steps that each keep
 // the topology: an edge without length shrinks to a point, unless it closes a loop; a facet that is
 // left with one edge shrinks to a point with it; a facet that is left with two edges shrinks to one

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values per cell of the complex such that no cell has a larger one than any that goes after it and
 // had to wait for it. Then what is above any threshold has the topology of the whole.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How far a facet is from being selected by MEDIAL: the order of the first two stages.
 #pragma once
 

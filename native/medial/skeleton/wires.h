@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stage 3 of the collapse: the fire on the edges that have no facet any more.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender's window: plays one scene with mouse and keyboard, and asserts on the data.
 
 A scene is a generator; what it yields is how many seconds Blender's own loop runs before it goes
@@ -153,7 +154,7 @@ def cloud(count=1_200_000):
 
 
 def job():
-    return addon("ui.running").job()
+    return addon("ui.current_job").job()
 
 
 def job_runs():
@@ -173,7 +174,7 @@ def no_result():
 
 
 def surfaces():
-    return [thing for thing in bpy.data.objects if addon("bridge.surfaces").is_surface(thing)]
+    return [thing for thing in bpy.data.objects if addon("bridge.surface_object").is_surface(thing)]
 
 
 def surface_exists():
@@ -246,9 +247,9 @@ def start_long_run():
 
 
 def scan_file():
-    """A raw scan: that of a cap where the shared data are, or else a bare ellipsoid."""
-    path = Path(__file__).resolve().parents[4] / "shared" / "data" / "distcap.xyz"
-    if not path.exists():
+    """A raw scan: that of a cap where the optional data folder is named, or else a bare ellipsoid."""
+    path = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", ""), "distcap.xyz")
+    if not path.is_file():
         path = Path(FOLDER) / "scan.xyz"
         np.savetxt(path, on_ellipsoid(3000)[0])
     return path
@@ -313,7 +314,7 @@ def scene_sampling():
 
 
 def reports():
-    is_report = addon("bridge.sampling_report").is_report
+    is_report = addon("bridge.report_object").is_report
     return [thing for thing in bpy.data.objects if is_report(thing)]
 
 

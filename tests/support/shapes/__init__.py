@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solids whose medial axes are known exactly, with seeded blue-noise samplers of their surfaces.
 
 Every shape has `sample(n, seed)`, `field(x)`, `inside(x)`, `normals(x)`, `axis_distance(x)` (exact distance to the

@@ -1,8 +1,8 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What every shape with a known medial axis gives, and throwing random points."""
 
 import numpy as np
 from numpy.typing import NDArray
-
 from support.sampling import poisson_disc
 
 Array = NDArray[np.float64]

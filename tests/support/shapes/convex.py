@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Solids with sharp edges: a box, and what a convex profile turned round the z axis encloses."""
 
 from dataclasses import dataclass
@@ -5,7 +6,6 @@ from functools import cached_property
 from itertools import combinations
 
 import numpy as np
-
 from support import distance
 
 from .base import Array, Rng, Shape, shares

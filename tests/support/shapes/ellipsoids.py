@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Ellipsoids, whose axes are elliptical discs or segments, and shells, whose axes are the middle surfaces."""
 
 from collections.abc import Callable
@@ -6,7 +7,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-
 from support import distance
 
 from .base import Array, Rng, Shape, directions, reject, shares

@@ -1,10 +1,10 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A ball swept along a rectangle, a segment or a curve: the swept set is the axis and the radius is constant."""
 
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-
 from support import distance
 
 from .base import Array, Rng, Shape, directions, reject, shares

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects that are made of a source, and updated in place when the source is computed again.
+
+They remember their source in a custom property; nothing is written to the source.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import bpy
+from mathutils import Matrix
+
+from .. import __version__
+from ..core.errors import InvalidInputError
+
+if TYPE_CHECKING:
+    import numpy as np
+
+SOURCE = "ma_source"  # a pointer: it follows when either of the two is renamed
+VERSION = "ma_version"
+POINTS = "ma_points"
+DUPLICATES = "ma_duplicates"
+WARNINGS = "ma_warnings"
+SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
+DENSITY = "ma_density"  # how densely that lies: a sentence
+
+
+def source_of(output: bpy.types.Object) -> bpy.types.Object | None:
+    """The object that this was made of; None when it was not made of one, or its source is gone."""
+    source = output.get(SOURCE)
+    return source if isinstance(source, bpy.types.Object) else None
+
+
+def is_gone(thing: bpy.types.Object | None) -> bool:
+    """Deleted: Blender keeps objects that a custom property points to, but in no collection."""
+    return thing is None or not thing.users_collection
+
+
+def output_of(
+    source: bpy.types.Object, is_kind: Callable[[bpy.types.Object], bool]
+) -> bpy.types.Object | None:
+    """The object of a kind that the next computation of this source updates."""
+    found = [
+        thing
+        for thing in bpy.data.objects
+        if thing.library is None
+        and is_kind(thing)
+        and not is_gone(thing)
+        and source_of(thing) == source
+    ]
+    return min(found, key=lambda thing: thing.name, default=None)
+
+
+def check_mode(output: bpy.types.Object | None) -> None:
+    """Raise InvalidInputError when an object that was made before cannot be updated now."""
+    if output is not None and output.mode != "OBJECT":
+        raise InvalidInputError(
+            f"Expected '{output.name}' in object mode, found it in {output.mode.lower()} mode; "
+            "leave that mode and compute again"
+        )
+
+
+def new_object(source: bpy.types.Object, suffix: str, mesh: bpy.types.Mesh) -> bpy.types.Object:
+    """An object named after its source, in the collections of that."""
+    output = bpy.data.objects.new(source.name + suffix, mesh)
+    editable = [collection for collection in source.users_collection if collection.library is None]
+    for collection in editable or [bpy.context.scene.collection]:
+        collection.objects.link(output)
+    return output
+
+
+def replace_mesh(output: bpy.types.Object, build: Callable[[str], bpy.types.Mesh]) -> None:
+    """Swap in a new mesh, also for linked duplicates; materials and the name stay."""
+    check_mode(output)
+    old = output.data
+    mesh = build(old.name)
+    for material in old.materials:
+        mesh.materials.append(material)
+    old.user_remap(mesh)
+    name = old.name
+    bpy.data.meshes.remove(old)
+    mesh.name = name
+
+
+def place(output: bpy.types.Object, frame: np.ndarray) -> None:
+    """Put an object where `frame`, (4, 4) rotation and translation, says."""
+    output.matrix_world = Matrix(frame.tolist())
+    if output.parent is None:
+        output.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
+
+
+def remember(
+    output: bpy.types.Object,
+    source: bpy.types.Object,
+    points: int,
+    duplicates: int,
+    warnings: tuple[str, ...],
+) -> None:
+    """Store what every kind of output keeps: its source, and what was computed of it."""
+    output[SOURCE] = source
+    output[VERSION] = __version__
+    output[POINTS] = points
+    output[DUPLICATES] = duplicates
+    output[WARNINGS] = "\n".join(warnings)

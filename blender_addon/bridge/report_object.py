@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reports of samples: objects of their own, or an attribute of the source; how they are found and updated."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils.kdtree import KDTree
+
+from ..core.errors import InvalidInputError
+from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32
+from .material import LIMIT, epsilon_material
+from .output_object import (
+    DENSITY,
+    SAMPLED,
+    check_mode,
+    new_object,
+    output_of,
+    place,
+    remember,
+    replace_mesh,
+)
+from .write_mesh import new_mesh
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..core.axis.sampling_report import SamplingReport
+
+SUFFIX = " Sampling"
+MEDIAN = "ma_epsilon_median"
+P95 = "ma_epsilon_p95"
+SHARE = "ma_epsilon_share"
+SHARE_OF_ALL = "ma_epsilon_share_of_all"
+WORST = "ma_epsilon_worst"
+WORST_PLACES = "ma_epsilon_worst_places"
+
+
+def is_report(thing: bpy.types.Object) -> bool:
+    return thing.type == "MESH" and SHARE in thing
+
+
+def report_of(source: bpy.types.Object) -> bpy.types.Object | None:
+    """The report that the next one of this source updates."""
+    return output_of(source, is_report)
+
+
+def check_report_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when the report of a source cannot be updated now."""
+    check_mode(report_of(source))
+
+
+def write_report(
+    source: bpy.types.Object, found: SamplingReport, frame: np.ndarray
+) -> bpy.types.Object:
+    """Make the report of a source, or update the one there is; all or nothing.
+
+    Parameters
+    ----------
+    source : Object
+        It is not changed.
+    found : SamplingReport
+    frame : (4, 4) float64
+        Where the samples lie in the world; rotation and translation only.
+
+    Raises
+    ------
+    InvalidInputError
+        The report cannot be changed now, or Blender cannot hold it.
+    """
+    report = report_of(source)
+    build = partial(new_mesh, found, table=SAMPLE_ATTRIBUTES)
+    if report is None:
+        mesh = build(source.name + SUFFIX)
+        mesh.materials.append(epsilon_material())
+        report = new_object(source, SUFFIX, mesh)
+    else:
+        replace_mesh(report, build)
+    place(report, frame)
+    analysis = found.chosen.samples.analysis
+    remember(report, source, len(found.vertices), analysis.duplicates, found.warnings)
+    _remember_density(report, found)
+    return report
+
+
+def _remember_density(report: bpy.types.Object, found: SamplingReport) -> None:
+    density, worst = found.density, found.density.worst
+    report[SAMPLED] = found.chosen.reason
+    report[DENSITY] = str(density)
+    report[LIMIT] = density.limit
+    report[MEDIAN] = density.median
+    report[P95] = density.p95
+    report[SHARE] = density.share
+    report[SHARE_OF_ALL] = density.share_of_all
+    report[WORST] = [epsilon for _, epsilon in worst]
+    report[WORST_PLACES] = [number for where, _ in worst for number in where]
+    report.update_tag()
+
+
+# --- on the source itself
+
+
+def check_source_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when a source cannot take an attribute for its vertices now."""
+    if source.type != "MESH" or source.data.library is not None:
+        kind = "of another file" if source.type == "MESH" else f"of type {source.type.capitalize()}"
+        raise InvalidInputError(
+            f"Expected a mesh of this file for Write To Source, found an object {kind}; "
+            "choose Write To Copy"
+        )
+    if source.mode != "OBJECT":
+        raise InvalidInputError(
+            f"Expected '{source.name}' in object mode, found it in {source.mode.lower()} mode; "
+            "leave that mode, or choose Write To Copy"
+        )
+
+
+def write_on_source(source: bpy.types.Object, found: SamplingReport) -> bpy.types.Object:
+    """Give the vertices of a source `ma_epsilon`: the largest of the samples to which each is nearest.
+
+    Raises
+    ------
+    InvalidInputError
+        The source cannot take it, or its modifiers make other vertices.
+    """
+    check_source_writable(source)
+    vertices, original = len(found.shape.points), len(source.data.vertices)
+    if vertices != original:
+        raise InvalidInputError(
+            f"Expected as many vertices with modifiers as without for Write To Source, found "
+            f"{vertices:,} and {original:,}; apply the modifiers, or choose Write To Copy"
+        )
+    values = _on_vertices(found)
+    attributes = source.data.attributes
+    old = attributes.get(EPSILON.name)
+    if old is not None and (old.domain, old.data_type) != (EPSILON.domain, EPSILON.type):
+        attributes.remove(old)
+        old = None
+    target = old or attributes.new(EPSILON.name, EPSILON.type, EPSILON.domain)
+    target.data.foreach_set("value", values)
+    source.data.update()
+    return source
+
+
+def _on_vertices(found: SamplingReport) -> NDArray[np.float32]:
+    """(v,) the largest epsilon of the samples nearest to each vertex; where there is none, that of the sample
+    nearest to the vertex."""
+    vertices = found.shape.points
+    to_vertex = _nearest(found.vertices, vertices)
+    values = np.full(len(vertices), -1.0)
+    np.maximum.at(values, to_vertex, found.epsilon)
+    bare = np.flatnonzero(values < 0.0)
+    values[bare] = found.epsilon[_nearest(vertices[bare], found.vertices)]
+    return as_float32(values)
+
+
+def _nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.intp]:
+    """(n,) row of the nearest of the others to each point."""
+    tree = KDTree(len(others))
+    for row, other in enumerate(others.tolist()):
+        tree.insert(other, row)
+    tree.balance()
+    return np.fromiter((tree.find(point)[1] for point in points.tolist()), np.intp, len(points))

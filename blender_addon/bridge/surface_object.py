@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surface objects that Tight Cocone made: how they are found, made, updated, and what they remember."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+
+from .output_object import check_mode, new_object, output_of, place, remember, replace_mesh
+from .write_mesh import new_mesh
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..core.axis.reconstruction import Reconstruction
+
+SUFFIX = " Surface"
+OFF_SURFACE = "ma_off_surface"
+NONMANIFOLD_EDGES = "ma_nonmanifold_edges"
+NONMANIFOLD_VERTICES = "ma_nonmanifold_vertices"
+CAVITIES = "ma_cavities"
+
+
+def is_surface(thing: bpy.types.Object) -> bool:
+    return thing.type == "MESH" and OFF_SURFACE in thing
+
+
+def surface_of(source: bpy.types.Object) -> bpy.types.Object | None:
+    """The surface that the next reconstruction of this source updates."""
+    return output_of(source, is_surface)
+
+
+def check_surface_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when the surface of a source cannot be updated now."""
+    check_mode(surface_of(source))
+
+
+def write_surface(
+    source: bpy.types.Object, found: Reconstruction, frame: np.ndarray
+) -> bpy.types.Object:
+    """Make the surface of a source, or update the one there is; all or nothing.
+
+    Parameters
+    ----------
+    source : Object
+        It is not changed.
+    found : Reconstruction
+    frame : (4, 4) float64
+        Where the surface lies in the world; rotation and translation only.
+
+    Raises
+    ------
+    InvalidInputError
+        The surface cannot be changed now, or Blender cannot hold it.
+    """
+    surface = surface_of(source)
+    if surface is None:
+        surface = new_object(source, SUFFIX, new_mesh(found, source.name + SUFFIX))
+    else:
+        replace_mesh(surface, partial(new_mesh, found))
+    place(surface, frame)
+    remember(surface, source, found.points, found.duplicates, found.warnings)
+    surface[OFF_SURFACE] = found.off_surface
+    surface[NONMANIFOLD_EDGES] = found.nonmanifold_edges
+    surface[NONMANIFOLD_VERTICES] = found.nonmanifold_vertices
+    surface[CAVITIES] = found.cavities
+    return surface

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons -> a Blender mesh with attributes. Here alone float64 becomes float32."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Protocol
+
+import bpy
+import numpy as np
+
+from ..core.errors import InvalidInputError
+from ..core.machine.native import own_errors
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .attributes import Attribute
+
+
+class Polygons(Protocol):
+    """What a mesh is made of, as in `MedialAxis`."""
+
+    vertices: NDArray[np.float64]
+    face_offsets: NDArray[np.int32]
+    face_vertices: NDArray[np.int32]
+
+
+def new_mesh(polygons: Polygons, name: str, table: Iterable[Attribute] = ()) -> bpy.types.Mesh:
+    """A mesh of n-gons, flat shaded, with the attributes of a table, or no mesh at all.
+
+    Raises
+    ------
+    InvalidInputError
+        Coordinates too large for Blender.
+    """
+    positions = _positions(polygons)
+    _check_faces(polygons)
+    mesh = bpy.data.meshes.new(name)
+    try:
+        _set_faces(mesh, polygons, positions)
+        for attribute in table:
+            data = mesh.attributes.new(attribute.name, attribute.type, attribute.domain).data
+            data.foreach_set("value", attribute.values(polygons))
+    except BaseException:
+        bpy.data.meshes.remove(mesh)
+        raise
+    return mesh
+
+
+def _positions(polygons: Polygons) -> np.ndarray:
+    with np.errstate(over="ignore"):
+        positions = np.ascontiguousarray(polygons.vertices, np.float32).ravel()
+    if not np.isfinite(positions).all():
+        raise InvalidInputError(
+            f"Expected coordinates below {np.finfo(np.float32).max:.3g}, which Blender can hold, "
+            "found larger ones in the result; scale the object down, or choose side Inner"
+        )
+    return positions
+
+
+def _check_faces(polygons: Polygons) -> None:
+    """Blender trusts these arrays; a wrong index would end it.
+
+    (`mesh.validate` takes longer than all the rest.)
+    """
+    corners = np.diff(polygons.face_offsets)
+    inside = (polygons.face_vertices >= 0) & (polygons.face_vertices < len(polygons.vertices))
+    whole = polygons.face_offsets[0] == 0 and polygons.face_offsets[-1] == len(
+        polygons.face_vertices
+    )
+    if not (whole and inside.all() and corners.min(initial=3) >= 3):
+        raise AssertionError("the arrays of a mesh contradict each other")
+
+
+def _set_faces(mesh: bpy.types.Mesh, polygons: Polygons, positions: np.ndarray) -> None:
+    """Set vertices, edges, corners and polygons.
+
+    The edges are made here, because Blender takes several times as long for them, longer than for all the rest.
+
+    Numbers that Blender keeps unsigned it copies in one go from unsigned arrays; others it reads one by one, which
+    takes 20 times as long.
+    """
+    offsets = np.ascontiguousarray(polygons.face_offsets, np.uint32)
+    with own_errors() as module:
+        edges, corner_edges = module.polygon_edges(
+            polygons.face_offsets, polygons.face_vertices, len(polygons.vertices)
+        )
+    mesh.vertices.add(len(polygons.vertices))
+    mesh.edges.add(len(edges))
+    mesh.loops.add(len(polygons.face_vertices))
+    mesh.polygons.add(len(offsets) - 1)
+    mesh.polygons.foreach_set("loop_start", offsets[:-1])
+    if bpy.app.version < (4, 1, 0):  # afterwards it follows from loop_start and cannot be written
+        mesh.polygons.foreach_set("loop_total", np.diff(offsets))
+    mesh.edges.foreach_set("vertices", edges.view(np.uint32).ravel())
+    if ".corner_vert" in mesh.attributes:  # from 3.6 or so; then these alone are copied in one go
+        attributes = mesh.attributes
+        attributes["position"].data.foreach_set("vector", positions)
+        attributes[".corner_vert"].data.foreach_set("value", polygons.face_vertices)
+        attributes[".corner_edge"].data.foreach_set("value", corner_edges)
+    else:
+        mesh.vertices.foreach_set("co", positions)
+        mesh.loops.foreach_set("vertex_index", polygons.face_vertices.view(np.uint32))
+        mesh.loops.foreach_set("edge_index", corner_edges.view(np.uint32))
+    mesh.update()
+    if hasattr(mesh, "shade_flat"):  # from 4.1, where smooth is the default
+        mesh.shade_flat()

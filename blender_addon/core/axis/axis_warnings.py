@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What was assumed of a shape or looks wrong with its medial axis, a sentence each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..settings import SamplingMode, Settings, Side, SidesFrom
+from .choose_samples import ChosenSamples
+from .medial_axis import MedialAxis
+from .sampling_warnings import sampling_warnings
+from .shape import Shape
+from .sides import cocone_warnings, look_inward
+
+
+def axis_warnings(
+    shape: Shape, settings: Settings, chosen: ChosenSamples, axis: MedialAxis
+) -> Iterator[str]:
+    yield from sampling_warnings(shape, chosen)
+    samples, sides = chosen.samples, settings.sides
+    if sides is SidesFrom.SURFACE and chosen.gaps and settings.side is not Side.BOTH:
+        yield (
+            f"the surface is open at {chosen.gaps:,} edges: inside was taken to be where the "
+            "winding number of the open surface is above one half"
+        )
+    if sides is SidesFrom.NORMALS and chosen.sampling is not SamplingMode.VERTICES and chosen.gaps:
+        yield (
+            f"the surface is open at {chosen.gaps:,} edges: inside was taken to be behind its "
+            "faces; do not trust the axis near the openings"
+        )
+    if sides is SidesFrom.TIGHT_COCONE:
+        yield from cocone_warnings(samples.analysis.tight_cocone, samples.points)
+    normals = samples.normals if sides is SidesFrom.NORMALS else None
+    if normals is not None and look_inward(samples.points, normals):
+        yield (
+            "the normals point inward, so inside and outside are exchanged; turn them round, "
+            "or choose Inside From Tight Cocone, and compute again"
+        )
+    elif axis.facets == 0:
+        yield _why_empty(shape, settings, chosen, axis)
+
+
+def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: MedialAxis) -> str:
+    closed = settings.sides is SidesFrom.SURFACE and chosen.gaps == 0
+    if axis.zero_area:
+        return (
+            f"all {axis.zero_area:,} facets that pass the conditions are points or lines, as in an "
+            "exact ball; choose Sampling Surface to see where they are"
+        )
+    if closed and settings.side is Side.INNER and shape.volume < 0:
+        return (
+            "no facet lies inside because the faces point inward; recalculate their normals "
+            "(Mesh > Normals > Recalculate Outside) and compute again"
+        )
+    if settings.sides is SidesFrom.TIGHT_COCONE and settings.side is Side.INNER:
+        return (
+            "no facet lies inside the surface that Tight Cocone closed; the axis of an open scan "
+            "may lie beyond the opening: choose side Both, or lower theta or rho"
+        )
+    spacing = chosen.samples.spacing
+    if closed and spacing > (thickness := 2.0 * shape.volume / shape.area):
+        return (
+            f"the shape is about {thickness:.2g} thick, less than its samples are apart ({spacing:.2g}); "
+            "use more samples, or a smaller Spacing"
+        )
+    return "no facet passes the conditions; lower theta or rho, or choose another side"

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many samples of the faces a pass takes, and how far apart they lie."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..settings import SamplingMode, Settings
+
+if TYPE_CHECKING:
+    from .analysis import AnalysedSamples
+    from .shape import Shape
+
+
+def mean_spacing(area: float, count: int) -> float:
+    """The distance of neighbours when `count` points form a hexagonal lattice on a surface of this area."""
+    return math.sqrt(2.0 * area / (math.sqrt(3.0) * count))
+
+
+def first_amount(shape: Shape, settings: Settings) -> dict[str, Any]:
+    """How many samples the first pass takes, as arguments of `_medial.sample_surface`: a count, or a spacing.
+
+    Automatic takes no fewer samples than the faces have vertices, within the budget.
+    """
+    corners = shape.points[np.unique(shape.triangles)]
+    if settings.spacing == 0.0:
+        count = settings.samples
+        if settings.sampling is SamplingMode.AUTOMATIC:
+            count = max(count, min(len(corners), settings.budget))
+        return {"count": count}
+    diagonal = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    return {"spacing": settings.spacing / 100.0 * diagonal}
+
+
+def first_spacing(shape: Shape, settings: Settings) -> float:
+    """The distance of neighbours in the first pass."""
+    amount = first_amount(shape, settings)
+    return amount.get("spacing") or mean_spacing(shape.area, amount["count"])
+
+
+def first_count(shape: Shape, settings: Settings) -> int:
+    """About how many samples the first pass takes; vertices that Keep Vertices adds are not counted."""
+    amount = first_amount(shape, settings)
+    if "count" in amount:
+        return amount["count"]
+    return round(2.0 * shape.area / (math.sqrt(3.0) * amount["spacing"] ** 2))
+
+
+def next_amount(samples: AnalysedSamples, finest: float, budget: int) -> dict[str, Any]:
+    """Arguments of `_medial.sample_surface` for the next pass: spacings that the density of this one asks for.
+
+    Parameters
+    ----------
+    samples : AnalysedSamples
+    finest : float
+        The smallest spacing away from sharp edges, as a share of the first one, which is the largest anywhere.
+    budget : int
+    """
+    density = samples.density
+    least = np.where(density.at_edge, density.finest, finest * samples.spacing)
+    spacings = np.clip(density.limit * density.feature_size, least, samples.spacing)
+    return {"sizing": (density.points, spacings), "count": budget}

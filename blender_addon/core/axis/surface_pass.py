@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One pass: the faces of a shape are sampled, and the samples are analysed and judged."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from ..errors import DegenerateInputError
+from ..machine import native
+from .analysis import AnalysedSamples, Request, analyse, kept_or_made
+from .buried_samples import find_bare
+from .density import estimate
+from .sample_spacing import first_count, mean_spacing
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .shape import Shape
+    from .sides import Sides
+
+# How far from the surface one looks for its two sides, as a share of the spacing.
+_OFF = 1e-3
+# Edges are sharp from so much above the angle: tubes of twelve sides are round, and bent ones have 30.1 degrees.
+_CLEARLY = 1.01
+
+
+def surface_pass(
+    request: Request, sides: Sides, amount: dict[str, Any], share: float, first: float = 0.0
+) -> AnalysedSamples:
+    """Samples of the faces and their analysis, from the cache where they are there.
+
+    Parameters
+    ----------
+    request : Request
+    sides : Sides
+    amount : dict
+        Arguments of `_medial.sample_surface` that say how many samples, and how far apart.
+    share : float
+        The share of the work that is left which this pass is.
+    first : float
+        The spacing of the first pass; 0.0 in the first pass itself.
+
+    Raises
+    ------
+    InvalidInputError, OutOfMemoryError, Cancelled
+    DegenerateInputError
+        The surface bounds nothing, or the samples span no volume.
+    """
+    shape, options = request.shape, _options(request)
+    parts = (shape.points, shape.triangles, shape.sharp_edges, *options.values())
+    amounts = (word for pair in amount.items() for word in pair)
+    return kept_or_made(
+        request,
+        (sides.source.name, *parts, *amounts, first),
+        lambda: _sampled(request, sides, {**options, **amount}, share, first),
+    )
+
+
+def _options(request: Request) -> dict[str, Any]:
+    """Arguments of `_medial.sample_surface` that are the same in every pass."""
+    names = ("sharp_angle", "smooth", "keep_vertices", "seed")
+    options = {name: getattr(request.settings, name) for name in names}
+    wider = 2.0 if request.shape.shaded_smooth else _CLEARLY
+    options["sharp_angle"] = min(wider * request.settings.sharp_angle, math.pi)
+    return options
+
+
+def _sampled(
+    request: Request, sides: Sides, options: dict[str, Any], share: float, first: float
+) -> AnalysedSamples:
+    shape, settings = request.shape, request.settings
+    if not first:
+        request.limit.check(first_count(shape, settings))
+    found = _sample_surface(shape, options, request.progress.part(0.2 * share))
+    spacing = mean_spacing(found.area, len(found.points))
+    bare = find_bare(shape, found, request.gaps, _OFF * spacing)
+    _check_some(bare)
+    points, normals, kinds = (x[bare] for x in (found.points, found.normals, found.kind))
+    analysis = analyse(request, points, normals, sides, request.progress.part(share))
+    first = first or spacing
+    on_edges = points[_are_on_edges(kinds, request.gaps)]
+    density = estimate(analysis, points, on_edges, first, settings.epsilon)
+    buried = len(bare) - len(points)
+    return AnalysedSamples(points, kinds, normals, analysis, density, first, buried)
+
+
+def _sample_surface(shape: Shape, options: dict[str, Any], progress: Any) -> Any:
+    with native.own_errors() as module:
+        return module.sample_surface(
+            shape.points,
+            shape.triangles,
+            sharp_edges=shape.sharp_edges,
+            progress=progress,
+            **options,
+        )
+
+
+def _check_some(bare: NDArray[np.bool_]) -> None:
+    if not bare.any():
+        raise DegenerateInputError(
+            f"Expected a surface that bounds a solid, found that all {len(bare):,} samples of it "
+            "bound nothing; remove doubled faces, or choose Sampling Vertices"
+        )
+
+
+def _are_on_edges(kinds: NDArray[np.int32], gaps: int) -> NDArray[np.bool_]:
+    """(n,) True for samples of sharp edges and corners, where the feature size is 0.
+
+    Corners of an open mesh are not counted: they may be those of an opening, where the shape may be thick.
+    """
+    kind_of = native.load().SampleKind
+    edge = kinds == int(kind_of.SHARP)
+    return edge if gaps else edge | (kinds == int(kind_of.CORNER))

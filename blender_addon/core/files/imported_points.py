@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a file of points holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import ReadError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def _no_offsets() -> NDArray[np.int32]:
+    return np.zeros(1, np.int32)
+
+
+def _no_vertices() -> NDArray[np.int32]:
+    return np.zeros(0, np.int32)
+
+
+@dataclass(frozen=True, eq=False)
+class ImportedPoints:
+    """Points, and what else a file says of them.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Finite; in the order of the file, nothing merged.
+    normals : (n, 3) float64 or None
+        Of any length; zero where a point has none.
+    face_offsets : (f + 1,) int32
+        Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`, three at least.
+    face_vertices : (c,) int32
+        Rows of `vertices`.
+    warnings : tuple of str
+        What was left in the file, a sentence each.
+    """
+
+    vertices: NDArray[np.float64]
+    normals: NDArray[np.float64] | None = None
+    face_offsets: NDArray[np.int32] = field(default_factory=_no_offsets)
+    face_vertices: NDArray[np.int32] = field(default_factory=_no_vertices)
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def faces(self) -> int:
+        return len(self.face_offsets) - 1
+
+
+def checked(
+    name: str,
+    vertices: NDArray,
+    normals: NDArray | None = None,
+    sizes: NDArray | None = None,
+    corners: NDArray | None = None,
+) -> ImportedPoints:
+    """The points of a file, when everything that the file may have got wrong was looked at.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for messages.
+    vertices, normals : (n, 3)
+    sizes : (f,)
+        Corners of each face; faces of fewer than three are left out.
+    corners : (sum of sizes,)
+        Face after face.
+    """
+    if len(vertices) == 0:
+        raise ReadError(f"Expected points, found none in '{name}'; choose another file")
+    _check_finite(name, "point", vertices)
+    _check_finite(name, "normal", vertices[:0] if normals is None else normals)
+    sizes = np.zeros(0, np.int64) if sizes is None else sizes.astype(np.int64)
+    corners = np.zeros(0, np.int64) if corners is None else corners.astype(np.int64)
+    kept = sizes >= 3
+    corners = corners[np.repeat(kept, sizes)]
+    bad = np.flatnonzero((corners < 0) | (corners >= len(vertices)))
+    if len(bad):
+        raise ReadError(
+            f"Expected corners from 0 to {len(vertices) - 1} in '{name}', found "
+            f"{corners[bad[0]]}; take the file from its source again"
+        )
+    left = int(np.count_nonzero(~kept))
+    return ImportedPoints(
+        np.ascontiguousarray(vertices, np.float64),
+        None if normals is None else np.ascontiguousarray(normals, np.float64),
+        np.concatenate([[0], np.cumsum(sizes[kept])]).astype(np.int32),
+        corners.astype(np.int32),
+        (f"Left out faces of fewer than three corners: {left:,}",) if left else (),
+    )
+
+
+def _check_finite(name: str, what: str, rows: NDArray) -> None:
+    bad = np.flatnonzero(~np.isfinite(rows).all(axis=1))
+    if len(bad):
+        raise ReadError(
+            f"Expected finite numbers in '{name}', found {rows[bad[0]].tolist()} as {what} "
+            f"{bad[0]}, counted from 0; mend or remove it"
+        )
+
+
+def are_normals(vectors: NDArray[np.float64]) -> bool:
+    """Whether all vectors have length 1, up to two digits of text, or 0: no normal.
+
+    And one component is negative at least, as in every closed surface and in no colour.
+    """
+    lengths = np.linalg.norm(vectors, axis=1)
+    unit = np.abs(lengths - 1.0) <= 0.01
+    return bool((unit | (lengths == 0.0)).all() and (vectors < 0.0).any())
+
+
+def left_out(
+    columns: int,
+    normals: NDArray[np.float64] | None,
+    why: str = "only positions and normals are read",
+) -> list[str]:
+    """The warning when a file has more columns of points than are read; none otherwise."""
+    left = columns - (3 if normals is None else 6)
+    return [f"Left out {left} of {columns} columns: {why}"] if left else []

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`.npy` and `.npz`: arrays of NumPy (docs/formats.md)."""
+
+from __future__ import annotations
+
+import os
+import tokenize
+import zipfile
+import zlib
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import ReadError
+from .imported_points import ImportedPoints, checked
+from .text import open_file
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_BROKEN = (
+    ValueError,
+    ArithmeticError,
+    EOFError,
+    LookupError,
+    RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+
+
+def read_npy(path: str | os.PathLike) -> ImportedPoints:
+    """(n, 3) points, or (n, 6) points and normals."""
+    name = Path(path).name
+    with open_file(path) as stream, _refusing(name):
+        table = np.lib.format.read_array(stream, allow_pickle=False)
+    if table.ndim != 2 or table.shape[1] not in (3, 6) or table.dtype.kind not in "fiu":
+        raise ReadError(
+            f"Expected an array of numbers (n, 3) or (n, 6) in '{name}', found {table.shape} "
+            f"of {table.dtype}; save points, or points and normals"
+        )
+    return checked(name, table[:, :3], table[:, 3:] if table.shape[1] == 6 else None)
+
+
+def read_npz(path: str | os.PathLike) -> ImportedPoints:
+    """Arrays `points`, and if they are there `triangles` and `normals`."""
+    name = Path(path).name
+    arrays = read_arrays(path, ("points", "triangles", "normals"))
+    if "points" not in arrays:
+        raise ReadError(f"Expected an array 'points' in '{name}', found none; save one, (n, 3)")
+    for key, array in arrays.items():
+        kinds = "iu" if key == "triangles" else "fiu"
+        if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in kinds:
+            raise ReadError(
+                f"Expected {key} (n, 3) in '{name}', found {array.shape} of {array.dtype}; "
+                "save it in that shape"
+            )
+    points, triangles, normals = arrays["points"], arrays.get("triangles"), arrays.get("normals")
+    if normals is not None and normals.shape != points.shape:
+        raise ReadError(
+            f"Expected as many normals as points in '{name}', found {len(normals)} and "
+            f"{len(points)}; save one for each"
+        )
+    triangles = np.zeros((0, 3), np.int64) if triangles is None else triangles
+    return checked(name, points, normals, np.full(len(triangles), 3), triangles.ravel())
+
+
+def read_arrays(path: str | os.PathLike, names: Iterable[str]) -> dict[str, NDArray]:
+    """Those of the named arrays of an archive that are there."""
+    with open_file(path) as stream, _refusing(Path(path).name):
+        archive = np.load(stream, allow_pickle=False)
+        if not isinstance(archive, np.lib.npyio.NpzFile):
+            raise ValueError("this is a single array")
+        with archive:
+            return {name: archive[name] for name in names if name in archive}
+
+
+@contextmanager
+def _refusing(name: str) -> Iterator[None]:
+    """What NumPy says of a broken file, as a ReadError."""
+    try:
+        yield
+    except _BROKEN as error:
+        said = (str(error) or type(error).__name__).splitlines()[0]
+        raise ReadError(
+            f"Expected arrays of NumPy in '{name}', but it says '{said}'; save it again"
+        ) from error

@@ -1,0 +1,275 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The front door for Python programs: arrays in, a medial axis out (docs/libraries.md).
+
+    import medial_axis
+    found = medial_axis.compute(points, triangles, side="inner")
+    medial_axis.write(found.axis, "shape.ply")
+
+No Blender is needed. What a click in Blender computes, this computes, byte for byte.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .core.axis import compute as axis
+from .core.axis import reconstruction
+from .core.axis.compute import Computation
+from .core.axis.medial_axis import MedialAxis
+from .core.axis.reconstruction import Reconstruction
+from .core.axis.shape import Shape
+from .core.errors import (
+    Cancelled,
+    DegenerateInputError,
+    ExportError,
+    InvalidInputError,
+    MedialAxisError,
+    NativeModuleError,
+    OutOfMemoryError,
+    ReadError,
+)
+from .core.files.load_axis import load_axis
+from .core.files.read_shape import read_shape
+from .core.files.write import export_axis
+from .core.machine.progress import Progress
+from .core.settings import (
+    ANALYSED,
+    OPTIONS,
+    SAMPLING_OPTIONS,
+    Choice,
+    Criteria,
+    Rule,
+    SamplingMode,
+    Settings,
+    Side,
+    SidesFrom,
+    Switch,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "Cancelled",
+    "Computation",
+    "Criteria",
+    "DegenerateInputError",
+    "ExportError",
+    "InvalidInputError",
+    "MedialAxis",
+    "MedialAxisError",
+    "NativeModuleError",
+    "OutOfMemoryError",
+    "Progress",
+    "ReadError",
+    "Reconstruction",
+    "Rule",
+    "SamplingMode",
+    "Settings",
+    "Shape",
+    "Side",
+    "SidesFrom",
+    "compute",
+    "extract",
+    "read",
+    "read_axis",
+    "reconstruct",
+    "write",
+]
+
+# What selects facets of an analysis that is there.
+_THRESHOLDS = [name for name in OPTIONS if name not in (*ANALYSED, *SAMPLING_OPTIONS)]
+
+
+def compute(
+    points: ArrayLike,
+    triangles: ArrayLike | None = None,
+    normals: ArrayLike | None = None,
+    *,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> Computation:
+    """The medial axis of a surface or of a cloud of points.
+
+    Parameters
+    ----------
+    points : (n, 3) floats
+        Vertices of the surface, or points on it. In any unit.
+    triangles : (m, 3) integers, optional
+        Faces, rows of `points`, counter-clockwise as seen from outside.
+    normals : (n, 3) floats, optional
+        Outward normals of the points, of any length; a zero normal says nothing.
+    progress : Progress, optional
+        To watch the computation from another thread, or to cancel it from there.
+    **settings
+        Fields of `Settings`, where their defaults and units stand. A choice is a member, such as
+        `Side.OUTER`, or its name, "outer".
+
+    Returns
+    -------
+    computation : Computation
+        `axis` is the medial axis; `warnings` are sentences that a person should read.
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
+    """
+    wanted = Settings(**_checked(settings, list(OPTIONS)))
+    return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
+
+
+def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
+    """The axis for other thresholds, of the analysis that was computed: milliseconds.
+
+    Parameters
+    ----------
+    computation : Computation
+    **thresholds
+        `theta`, `rho`, `rule`, `criteria` and `limit_set` of `Settings`; what is not given stays as it was.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+    settings = replace(computation.settings, **_checked(thresholds, _THRESHOLDS))
+    return axis.extract_axis(computation, settings)
+
+
+def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:
+    """The watertight surface through points that lie densely on a closed one (Tight Cocone).
+
+    Parameters
+    ----------
+    points : (n, 3) floats
+    progress : Progress, optional
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
+    """
+    return reconstruction.reconstruct(_numbers(points, "points"), progress)
+
+
+def read(path: str | os.PathLike[str]) -> Shape:
+    """Points, triangles and normals of a file: .xyz .xyzn .off .ply .obj .stl .npy .npz.
+
+    Polygons are cut into triangles. Without faces `triangles` is empty, without normals `normals` is None.
+
+    Raises
+    ------
+    ReadError, OutOfMemoryError
+    """
+    shape, _ = read_shape(path)
+    return shape
+
+
+def write(found: MedialAxis | Computation, path: str | os.PathLike[str]) -> Path:
+    """Write a medial axis; the extension says how: .ma .ply .obj .off .npz (docs/formats.md).
+
+    Returns
+    -------
+    path : Path
+        The file that was written. It is whole, or the old one is unchanged.
+
+    Raises
+    ------
+    ExportError
+    """
+    return export_axis(found.axis if isinstance(found, Computation) else found, path)
+
+
+def read_axis(path: str | os.PathLike[str]) -> MedialAxis:
+    """A medial axis that `write` wrote as .npz, bit for bit.
+
+    Raises
+    ------
+    ReadError
+    """
+    return load_axis(path)
+
+
+# --- what callers give
+
+
+def _shape(points: ArrayLike, triangles: ArrayLike | None, normals: ArrayLike | None) -> Shape:
+    found = _numbers(points, "points")
+    faces = _corners(np.empty((0, 3), np.int32) if triangles is None else triangles)
+    if normals is None:
+        return Shape(found, faces)
+    directions = _numbers(normals, "normals")
+    if len(directions) != len(found):
+        raise InvalidInputError(
+            f"Expected a normal for each of {len(found):,} points, found {len(directions):,}; "
+            "give a zero normal where there is none"
+        )
+    return Shape(found, faces, directions)
+
+
+def _numbers(rows: ArrayLike, name: str) -> NDArray[np.float64]:
+    """(n, 3) float64, a copy only where it has to be one."""
+    return np.ascontiguousarray(_rows(rows, name, "fiu", "numbers"), np.float64)
+
+
+def _corners(rows: ArrayLike) -> NDArray[np.int32]:
+    """(m, 3) int32, a copy only where it has to be one."""
+    found = _rows(rows, "triangles", "iu", "integers")
+    limits = np.iinfo(np.int32)
+    if found.size and not (limits.min <= found.min() and found.max() <= limits.max):
+        raise InvalidInputError(
+            f"Expected rows of points in triangles, found {found.min()} to {found.max()}; "
+            "rebuild the faces"
+        )
+    return np.ascontiguousarray(found, np.int32)
+
+
+def _rows(rows: ArrayLike, name: str, kinds: str, what: str) -> NDArray[Any]:
+    try:
+        found = np.asarray(rows)
+    except ValueError:  # rows of different lengths
+        found = np.empty(0, object)
+    if found.ndim != 2 or found.shape[1] != 3 or found.dtype.kind not in kinds:
+        raise InvalidInputError(
+            f"Expected {name} as rows of three {what}, found shape {found.shape} of "
+            f"{found.dtype}; convert them"
+        )
+    return found
+
+
+def _checked(given: dict[str, Any], names: list[str]) -> dict[str, Any]:
+    """What `Settings` takes, of what a caller gave."""
+    unknown = next((name for name in given if name not in names), None)
+    if unknown is not None:
+        what = "; compute again for others" if unknown in OPTIONS else ""
+        raise InvalidInputError(
+            f"Expected settings among {', '.join(names)}, found '{unknown}'{what}"
+        )
+    return {name: _value(name, value) for name, value in given.items()}
+
+
+def _value(name: str, value: Any) -> Any:
+    option = OPTIONS[name]
+    if isinstance(option, Choice):
+        return _member(name, option, value)
+    wanted: Any = bool if isinstance(option, Switch) else type(option.default)
+    try:
+        if isinstance(value, str) or wanted(value) != value:
+            raise ValueError
+    except (TypeError, ValueError):
+        raise InvalidInputError(
+            f"Expected {name} as {wanted.__name__}, found {value!r}; the default is {option.default}"
+        ) from None
+    return wanted(value)
+
+
+def _member(name: str, option: Choice, value: Any) -> Any:
+    words = {member.name: member for member in option.items}
+    word = value.upper().replace("-", "_") if isinstance(value, str) else getattr(value, "name", "")
+    if word not in words or not isinstance(value, (str, type(option.default))):
+        choices = ", ".join(f"'{word.lower()}'" for word in words)
+        raise InvalidInputError(f"Expected {name} as one of {choices}, found {value!r}; choose one")
+    return words[word]

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The base of the operators that compute: modal in the user interface, where a timer watches a thread; from scripts
+they run in one go."""
+
+import time
+
+import bpy
+
+from ..bridge.read_object import read_object
+from ..core.errors import Cancelled, MedialAxisError
+from ..core.machine.job import Task, run_task
+from . import current_job
+from .selected_sources import Source, obstacle, sources
+from .translation import say
+
+
+class FromSelection:
+    """An operator that computes from what is selected: it says why it cannot."""
+
+    @classmethod
+    def poll(cls, context):
+        reason = obstacle(context)
+        if reason:
+            cls.poll_message_set(say(reason))
+        return not reason
+
+
+class ComputeOperator(FromSelection):
+    """An operator that computes one object of each source; the base of those that are registered.
+
+    A subclass names its `product` and has three steps: `check_writable(thing)` raises MedialAxisError when the
+    product of a source cannot be written now; `work(shape)` gives the function that a task calls with
+    its progress; `write(thing, value, frame)` makes an object of what that returned, or None when
+    there is nothing to make. `summary(value)` and `value.warnings` are for people.
+    """
+
+    product = ""
+
+    def execute(self, context):
+        found, tasks = self._read(context)
+        return self._write(context, found, [run_task(task) for task in tasks])
+
+    def invoke(self, context, _event):
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        self._sources, tasks = self._read(context)
+        if not tasks:
+            return {"CANCELLED"}
+        self._gone = ""
+        self._job = current_job.start(tasks, self.product)
+        self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        current_job.show(context)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self._job.cancel()
+            return {"RUNNING_MODAL"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        if not self._job.done:
+            self._watch_sources()
+            current_job.show(context)
+            return {"PASS_THROUGH"}
+        self._stop_watching(context)
+        try:
+            return self._write(context, self._sources, self._job.outcomes())
+        except Cancelled as error:
+            self._tell(context, "WARNING", self._gone or str(error))
+            return {"CANCELLED"}
+
+    def cancel(self, context):
+        """Blender ends the operator: its window closes, a file is loaded, Blender quits."""
+        self._job.stop()
+        self._stop_watching(context)
+
+    def sources(self, context):
+        """The objects to compute from."""
+        return sources(context)
+
+    def _stop_watching(self, context):
+        context.window_manager.event_timer_remove(self._timer)
+        current_job.finish(self._job)
+
+    def _watch_sources(self):
+        for source in self._sources:
+            if source.find() is None and not self._gone:
+                self._gone = (
+                    f"'{source.name}' was deleted while its {self.product} was computed; "
+                    "nothing was changed"
+                )
+                self._job.cancel()
+
+    def _tell(self, context, kind, text):
+        """Report, and keep what went wrong in the panel: Blender's message fades in seconds."""
+        self.report({kind}, say(text))
+        if kind != "INFO":
+            panel = context.scene.medial_axis
+            panel.note = f"{panel.note}\n{text}".strip()
+
+    def _read(self, context):
+        """The sources that can be read, and what to compute of them; the others are reported."""
+        context.scene.medial_axis.note = ""
+        found, tasks = [], []
+        depsgraph = context.evaluated_depsgraph_get()
+        for thing in self.sources(context):
+            try:
+                self.check_writable(thing)
+                shape = read_object(thing, depsgraph)
+                tasks.append(Task(thing.name, self.work(shape)))
+            except MedialAxisError as error:
+                self._tell(context, "ERROR", f"'{thing.name}': {error}")
+                continue
+            found.append(Source(thing.name, getattr(thing, "session_uid", None), shape.frame))
+        return found, tasks
+
+    def _write(self, context, found, outcomes):
+        made = []
+        for source, outcome in zip(found, outcomes, strict=True):
+            try:
+                made.append(self._write_one(context, source, outcome))
+            except MedialAxisError as error:
+                self._tell(context, "ERROR", f"'{source.name}': {error}")
+        made = [thing for thing in made if thing is not None]
+        _select(context, made)
+        return {"FINISHED"} if made else {"CANCELLED"}
+
+    def _write_one(self, context, source, outcome):
+        if outcome.error is not None:
+            raise outcome.error
+        thing = source.find()
+        if thing is None:
+            self._tell(
+                context, "WARNING", f"'{source.name}' is gone; its {self.product} was dropped"
+            )
+            return None
+        start = time.perf_counter()
+        made = self.write(thing, outcome.value, source.frame)
+        seconds = outcome.value.seconds + time.perf_counter() - start
+        for warning in outcome.value.warnings:
+            text = f"'{source.name}': {warning}"
+            if made is None:
+                self._tell(context, "WARNING", text)
+            else:  # the panel shows them with the result
+                self.report({"WARNING"}, say(text))
+        if made is not None:
+            text = f"'{source.name}': {self.summary(outcome.value)}; {seconds:.2f} s"
+            self._tell(context, "INFO", text)
+        return made
+
+
+def _select(context, made):
+    """Select what was made and nothing else, as Blender does with new objects; not in edit mode."""
+    if not made or context.mode != "OBJECT":
+        return
+    context.view_layer.update()
+    for thing in context.selected_objects:
+        thing.select_set(False)
+    shown = [thing for thing in made if thing.name in context.view_layer.objects]
+    for thing in shown:
+        thing.select_set(True)
+    if shown:
+        context.view_layer.objects.active = shown[0]

@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The medial axis of an animated object over a range of frames, and its playback."""
+
+import time
+from functools import partial
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..bridge import read_scene
+from ..bridge.sequence_objects import by_frame, write_sequence
+from ..core.batch.batch import Item, begin, finish
+from ..core.batch.frames import output_path, parse_frames
+from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
+from ..core.machine.job import run_task
+from . import current_job
+from .compute_operator import FromSelection
+from .paths import chosen_files
+from .preferences import memory_limit
+from .properties import settings_from
+from .selected_sources import sources
+from .translation import say
+
+_PRODUCT = "medial axis"
+_AT_ONCE = 0.1  # seconds for which finished frames are passed over before Blender may draw again
+
+
+class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
+    bl_idname = "object.medial_axis_sequence"
+    bl_label = "Compute Sequence"
+    bl_description = (
+        "Compute the medial axis of the selected objects at every frame, with the settings above, into "
+        "a file each; files that are finished are kept"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    directory: StringProperty(
+        name="Folder", description="Where the files are written", subtype="DIR_PATH"
+    )
+    frames: StringProperty(
+        name="Frames", description="Such as 1-250, 1-250:10 or 1,5,9-12; empty: those of the scene"
+    )
+    playback: BoolProperty(
+        name="Playback",
+        description="Also make objects of the files, of which each frame shows its own",
+        default=True,
+    )
+
+    def execute(self, context):
+        if not self._start(context):
+            return {"CANCELLED"}
+        while self._items:
+            if begun := self._begin():
+                self._finish(begun, run_task(begun.task))
+        return self._end(context)
+
+    def invoke(self, context, _event):
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        if not self._start(context):
+            return {"CANCELLED"}
+        self._begun = self._job = None
+        self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self._stop(context)
+            self.report({"WARNING"}, say("The sequence was cancelled; finished frames are kept"))
+            return self._end(context)
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        if self._job is not None:
+            if not self._job.done:
+                current_job.show(context)
+                return {"PASS_THROUGH"}
+            self._take()
+        self._next(context)
+        if self._job is not None or self._items:
+            return {"PASS_THROUGH"}
+        self._stop(context)
+        return self._end(context)
+
+    def cancel(self, context):
+        """Blender ends the operator: its window closes, a file is loaded, Blender quits."""
+        self._stop(context)
+
+    def _start(self, context):
+        """What there is to do, frame by frame; False when it cannot be done, which was reported."""
+        try:
+            self._settings = settings_from(context.scene.medial_axis)
+            self._limit = memory_limit()
+            pattern = _folder(self.directory) / "{name}_####.npz"
+            self._items = list(_items(sources(context), self._frames(context.scene), str(pattern)))
+        except (MedialAxisError, ValueError) as error:
+            self.report({"ERROR"}, say(error))
+            return False
+        self._count, self._shown = len(self._items), context.scene.frame_current
+        self._done, self._failed, self._kept = {}, 0, 0
+        return True
+
+    def _frames(self, scene):
+        whole = f"{scene.frame_start}-{scene.frame_end}:{scene.frame_step}"
+        return parse_frames(self.frames or whole)
+
+    def _begin(self):
+        """The next item, read; None when there is nothing to compute of it."""
+        item = self._items.pop(0)
+        try:
+            begun = begin(item, self._settings, limit=self._limit)
+        except MedialAxisError as error:
+            self._fail(item, error)
+            return None
+        if begun.kept is None:
+            return begun
+        self._kept += 1
+        self._remember(item)
+        return None
+
+    def _finish(self, begun, outcome):
+        try:
+            finish(begun, outcome)
+        except MedialAxisError as error:
+            self._fail(begun.item, error)
+        else:
+            self._remember(begun.item)
+
+    def _fail(self, item, error):
+        self._failed += 1
+        self.report({"WARNING"}, say(f"'{item.name}': {error}"))
+
+    def _remember(self, item):
+        self._done.setdefault(item.object, {})[item.frame] = item.output
+
+    def _next(self, context):
+        """Start to compute the next frame that is not finished, if one is found in a moment."""
+        until = time.perf_counter() + _AT_ONCE
+        self._begun = self._job = None
+        while self._items:
+            if begun := self._begin():
+                self._begun = begun
+                self._job = current_job.start([begun.task], _PRODUCT)
+                current_job.show(context)
+                return
+            if time.perf_counter() > until:
+                return
+
+    def _take(self):
+        """What the thread computed; Cancel in the sidebar cancels all frames."""
+        current_job.finish(self._job)
+        try:
+            self._finish(self._begun, self._job.outcomes()[0])
+        except Cancelled:
+            self._items.clear()
+            self.report({"WARNING"}, say("The sequence was cancelled; finished frames are kept"))
+
+    def _stop(self, context):
+        if self._job is not None:
+            self._job.stop()
+            current_job.finish(self._job)
+        self._items.clear()
+        self._job = None
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+
+    def _end(self, context):
+        """Playback, and the frame that was shown before."""
+        context.scene.frame_set(self._shown)
+        written = sum(map(len, self._done.values()))
+        for name, files in self._done.items() if self.playback else ():
+            try:
+                write_sequence(name, dict(sorted(files.items())))
+            except MedialAxisError as error:
+                self.report({"ERROR"}, say(error))
+                return {"CANCELLED"}
+        if not written:
+            self.report({"ERROR"}, say(f"Expected medial axes of {self._count} frames, found none"))
+            return {"CANCELLED"}
+        text = f"{written} of {self._count} frames are there, {self._kept} were before"
+        self.report({"WARNING"} if self._failed else {"INFO"}, say(text))
+        return {"FINISHED"}
+
+
+def _items(things, frames, pattern):
+    for frame in frames:
+        for thing in things:
+            output = output_path(pattern, thing.name, "", frame)
+            read = partial(read_scene.read, thing.name, frame)
+            yield Item(read_scene.open_file(), thing.name, frame, output, read)
+
+
+def _folder(directory):
+    if directory.startswith("//") and not bpy.data.filepath:
+        raise InvalidInputError(
+            "Expected a saved file for a folder that begins with //, found one that was never "
+            "saved; save it or choose another folder"
+        )
+    return Path(bpy.path.abspath(directory or "//medial_axis"))
+
+
+class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
+    bl_idname = "import_scene.medial_axis_sequence"
+    bl_label = "Import Medial Axis Sequence"
+    bl_description = "Make objects of .npz files, one per frame, of which each frame shows its own"
+    bl_options = {"UNDO"}
+
+    filename_ext = ".npz"
+    filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
+    files: CollectionProperty(
+        type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"}
+    )
+    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})
+
+    def execute(self, context):
+        try:
+            for name, files in by_frame(map(Path, chosen_files(self))).items():
+                collection = write_sequence(name, files)
+                self.report({"INFO"}, say(f"'{collection.name}': {len(files)} frames"))
+        except MedialAxisError as error:
+            self.report({"ERROR"}, say(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class VIEW3D_PT_medial_axis_sequence(bpy.types.Panel):
+    """Frames of an animation"""
+
+    bl_label = "Sequence"
+    bl_idname = "VIEW3D_PT_medial_axis_sequence"
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        scene = context.scene
+        column = self.layout.column()
+        column.prop(scene, "medial_axis_folder")
+        row = column.row(align=True)
+        for name in ("frame_start", "frame_end", "frame_step"):
+            row.prop(scene, name, text=name.partition("_")[2].title())
+        button = column.operator("object.medial_axis_sequence", icon="RENDER_ANIMATION")
+        button.directory = scene.medial_axis_folder
+        column.operator("import_scene.medial_axis_sequence", text="Load Files", icon="IMPORT")
+
+
+def menu_func_import(self, _context):
+    self.layout.operator(
+        IMPORT_SCENE_OT_medial_axis_sequence.bl_idname, text="Medial Axis Sequence (.npz)"
+    )
+
+
+CLASSES = (
+    OBJECT_OT_medial_axis_sequence,
+    IMPORT_SCENE_OT_medial_axis_sequence,
+    VIEW3D_PT_medial_axis_sequence,
+)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.TOPBAR_MT_file_import.append(menu_func_import)
+    bpy.types.Scene.medial_axis_folder = StringProperty(
+        name="Folder",
+        description="Where the files of a sequence are written; // is the folder of the open file",
+        subtype="DIR_PATH",
+        default="//medial_axis/",
+    )
+
+
+def unregister():
+    del bpy.types.Scene.medial_axis_folder
+    bpy.types.TOPBAR_MT_file_import.remove(menu_func_import)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

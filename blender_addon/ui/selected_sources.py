@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an operator computes from: the selection, and why there may be nothing to compute."""
+
+from dataclasses import dataclass
+
+import bpy
+
+from ..bridge.axis_object import is_result
+from ..bridge.output_object import is_gone, source_of
+from ..bridge.read_object import SOURCE_TYPES
+from ..bridge.report_object import is_report
+from . import current_job
+
+_KINDS = "a mesh, point cloud, curve, surface, text or metaball"
+
+
+@dataclass(frozen=True)
+class Source:
+    """A source that is found again later; `uid` is Blender's number for it, from 4.1 or so."""
+
+    name: str
+    uid: int | None
+    frame: object  # (4, 4) float64
+
+    def find(self):
+        """The object, or None when it is gone."""
+        if self.uid is None:
+            found = bpy.data.objects.get(self.name)
+        else:
+            found = next((o for o in bpy.data.objects if o.session_uid == self.uid), None)
+        return None if is_gone(found) else found
+
+
+def sources(context) -> list:
+    """The selected objects that have a surface or points, and those in edit mode; instead of a medial axis or a
+    report of samples, what it was made of."""
+    found = []
+    for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
+        source = source_of(thing) if is_result(thing) or is_report(thing) else thing
+        if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
+            found.append(source)
+    return list(dict.fromkeys(found))
+
+
+def obstacle(context) -> str:
+    """Why an operator cannot run now, in one sentence, or an empty string."""
+    if reason := current_job.obstacle():
+        return reason
+    if sources(context):
+        return ""
+    chosen = _of(context, "selected_objects")
+    if not chosen:
+        return f"Select {_KINDS}; nothing is selected"
+    thing = chosen[0]
+    if is_result(thing) or is_report(thing):
+        kind = "a medial axis" if is_result(thing) else "a report"
+        return f"Select {_KINDS}; '{thing.name}' is {kind} whose source is gone"
+    return f"Select {_KINDS}; '{thing.name}' is of type {thing.type.capitalize()}"
+
+
+def _of(context, name) -> list:
+    """A list of the context that not every editor has."""
+    return getattr(context, name, None) or []

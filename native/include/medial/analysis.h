@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// MEDIAL(P): everything that does not depend on the thresholds, computed once; the axis, extracted
+// as often as one likes.
+#pragma once
+
+#include <medial/hierarchy.h>
+#include <medial/medial_mesh.h>
+#include <medial/options.h>
+#include <medial/progress.h>
+#include <medial/watertight_surface.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace medial {
+
+struct AnalysisInput {
+  std::span<const Vec3> points;                        // samples of the surface
+  std::span<const Triangle> triangles = {};            // its outward faces, as rows of `vertices`
+  std::optional<std::span<const Vec3>> normals = {};   // outward, one per point
+  std::optional<std::span<const Vec3>> vertices = {};  // none: `points`
+};
+
+struct AnalysisOptions {
+  SidesFrom sides = SidesFrom::automatic;
+  CoconeOptions cocone = {};
+  bool bounding_sphere = false;  // sect. 4.2
+  int threads = 0;               // 0: all cores
+};
+
+// Bytes at the peak of an analysis of so many samples of a surface and an extraction, as measured.
+// Facets that are long and thin take up to four times as many.
+inline int64_t memory_needed(int64_t points) { return 1400 * points; }
+
+// Keeps nothing of the input. Its const members may be called from several threads.
+class MedialAnalysis {
+ public:
+  // Throws InvalidInputError, DegenerateInputError, Cancelled.
+  explicit MedialAnalysis(const AnalysisInput& input, const AnalysisOptions& options = {},
+                          Progress* progress = nullptr);
+  ~MedialAnalysis();
+  MedialAnalysis(MedialAnalysis&&) noexcept;
+  MedialAnalysis& operator=(MedialAnalysis&&) noexcept;
+
+  // The closure of F. Throws InvalidInputError, DegenerateInputError, Cancelled.
+  MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
+  // Ids of the selected edges: the set F of the paper, facets without area or end included.
+  std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
+
+  // All levels of the inner axis; it does not need the analysis any more. Throws InvalidInputError
+  // for other sides, DegenerateInputError for samples that enclose nothing.
+  Hierarchy hierarchy(const Thresholds& thresholds = {}, Side side = Side::inner,
+                      Progress* progress = nullptr) const;
+
+  // Per sample, ascending by row: the largest circumradius in its umbrella, infinite for an empty
+  // one.
+  std::vector<double> spacing() const;
+  // At the samples of `rows`, of all in ascending order when there are none: the distance to the
+  // nearest Voronoi vertex of the facets of either side that the thresholds select, too large by at
+  // most 1/32 of itself.
+  std::vector<double> feature_size(const Thresholds& thresholds,
+                                   std::optional<std::span<const int32_t>> rows = {},
+                                   Progress* progress = nullptr) const;
+  // The boundary between inner cells and others, as rows. Throws InvalidInputError for sides none.
+  std::vector<Triangle> solid_triangles() const;
+
+  // All Delaunay edges as input rows p < q in lexicographic order; significance and side in the
+  // same order.
+  std::vector<Edge> edge_rows() const;
+  std::vector<double> theta(Rule rule) const;
+  std::vector<double> rho(Rule rule) const;
+  std::vector<Side> edge_sides() const;
+  std::vector<uint8_t> edges_bounded() const;
+
+  std::vector<int32_t> sample_rows() const;  // ascending
+  int64_t duplicates() const;                // rows merged into an earlier one
+  size_t bytes() const;                      // of memory that it holds
+  int64_t finite_cells() const;
+  bool closed() const;
+  int64_t boundary_edges() const;
+  SidesFrom sides_from() const;
+  // Null unless the sides are from Tight Cocone; its own sides are moved away.
+  const std::shared_ptr<const WatertightSurface>& tight_cocone() const;
+  const Timings& timings() const;
+
+  // What the stages made, for the library itself.
+  struct Parts;
+  const Parts& parts() const { return *parts_; }
+
+ private:
+  std::unique_ptr<const Parts> parts_;
+};
+
+}  // namespace medial

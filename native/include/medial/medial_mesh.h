@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The medial axis as a polygon mesh: the closure of the selected Voronoi facets.
+#pragma once
+
+#include <medial/types.h>
+
+namespace medial {
+
+struct MedialMesh {
+  Column<Vec3> vertices;          // (v) Voronoi vertices in order of first use; no two coincide
+  Column<double> radius;          // (v) of the empty ball
+  Column<int32_t> face_offsets;   // (f + 1) facet i has the corners from the i-th of these on
+  Column<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
+  Column<double> theta, rho;      // (f) as the rule takes them
+  Column<Side> side;              // (f)
+  Column<Edge> generators;        // (f) input rows p < q; the facets are in their order
+  int64_t unbounded = 0;          // facets that reach infinity: counted, not emitted
+  int64_t zero_area = 0;          // facets that are a point or a segment: not emitted
+  int64_t rings = 0;              // of cells, walked to find all this
+};
+
+}  // namespace medial

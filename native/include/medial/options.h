@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one may ask for, and the defaults of those who published the methods.
+#pragma once
+
+#include <medial/types.h>
+
+#include <numbers>
+
+namespace medial {
+
+// What tells inside from outside. Automatic: the surface when it is closed, else normals when there
+// are any, else Tight Cocone.
+enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none };
+
+// Which ends of a Delaunay edge must pass a condition (Dey & Zhao, sect. 3).
+enum class Rule : int32_t { either = 0, both = 1 };
+
+// Which conditions select (Dey & Zhao, sect. 3.1 and 3.2).
+enum class Criteria : int32_t { angle_or_ratio = 0, angle = 1, ratio = 2 };
+
+// Of the conditions: an edge passes Angle when its theta is above this one, Ratio likewise.
+struct Thresholds {
+  double theta = std::numbers::pi / 8;  // radians, 0 to pi/2
+  double rho = 8;                       // at least 0
+  Rule rule = Rule::either;
+  Criteria criteria = Criteria::angle_or_ratio;
+};
+
+// Which facets are wanted.
+struct Extraction {
+  Thresholds thresholds = {};
+  Side side = Side::both;  // both, inner or outer
+  bool limit_set = false;  // Definition 4 for facets selected by the Ratio condition alone
+};
+
+// The constants of Cocone and Tight Cocone. Angles in radians.
+struct CoconeOptions {
+  double cocone_angle = std::numbers::pi / 8;     // half-angle about the tangent plane
+  double flatness_ratio = 1.2;                    // of a thin cell's width, at most its heights
+  double flatness_angle = std::numbers::pi / 3;   // between the normal lines of cocone neighbours
+  double sharp_angle = 2 * std::numbers::pi / 3;  // between the normals of triangles at an edge
+};
+
+}  // namespace medial

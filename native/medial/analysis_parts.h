@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an analysis keeps: the results of the stages that extractions read.
+#pragma once
+
+#include <medial/analysis.h>
+
+#include "axis/selection.h"
+#include "delaunay/samples.h"
+
+namespace medial {
+
+struct MedialAnalysis::Parts {
+  Parts() = default;
+  // The arrays lie in the arena, and a move would free that before them.
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
+  int threads = 1;
+  std::unique_ptr<Arena> arena;  // goes after all that lies in it
+  Samples samples;
+  Triangulation triangulation;
+  Voronoi voronoi;
+  Edges edges;
+  Significance significance;
+  CellSides sides;
+  SidesFrom sides_from = SidesFrom::none;
+  std::shared_ptr<const WatertightSurface> tight_cocone;
+  int64_t duplicates = 0, boundary_edges = 0;
+  bool closed = false;
+  Timings timings;
+
+  // Of a stage that reads these parts.
+  Run run(Progress* progress = nullptr) const { return {threads, progress, arena.get()}; }
+};
+
+}  // namespace medial

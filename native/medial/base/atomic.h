@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Changes of plain memory that several threads make at the same time, without an order among them.
+// As by std::atomic_ref, which libc++ before 19 lacks.
+#pragma once
+
+#ifndef __GNUC__
+#include <atomic>
+#endif
+
+namespace medial {
+
+// Returns the value before.
+template <typename T>
+T shared_add(T& memory, T value) {
+#ifdef __GNUC__
+  return __atomic_fetch_add(&memory, value, __ATOMIC_RELAXED);
+#else
+  return std::atomic_ref(memory).fetch_add(value, std::memory_order_relaxed);
+#endif
+}
+
+template <typename T>
+void shared_or(T& memory, T bits) {
+#ifdef __GNUC__
+  __atomic_fetch_or(&memory, bits, __ATOMIC_RELAXED);
+#else
+  std::atomic_ref(memory).fetch_or(bits, std::memory_order_relaxed);
+#endif
+}
+
+template <typename T>
+void shared_store(T& memory, T value) {
+#ifdef __GNUC__
+  __atomic_store_n(&memory, value, __ATOMIC_RELAXED);
+#else
+  std::atomic_ref(memory).store(value, std::memory_order_relaxed);
+#endif
+}
+
+}  // namespace medial

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Refuses a compiled module that would not live well inside Blender, and prints what it needs.
+
+    python3 native/packaging/check_module.py _medial.cpython-311-x86_64-linux-gnu.so ... [--local]
+
+A module must not need libraries that Blender brings too, must export its entry point alone, and must
+run on systems as old as RHEL 9 and Ubuntu 22.04. --local allows newer ones: it is for this machine.
+One for Windows must need nothing but Python and what every Windows has.
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+FORBIDDEN = re.compile(r"lib(tbb|gmp|mpfr|python)")
+OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}
+ENTRY = "PyInit__medial"
+# The newest symbol versions that those systems have (manylinux_2_34).
+NEWEST = {"GLIBC": "2.34", "GLIBCXX": "3.4.29", "CXXABI": "1.3.13"}
+
+
+def check(module, local=False):
+    """Lines to print about a module; raises SystemExit with one sentence."""
+    return check_windows(module) if module.suffix == ".pyd" else check_linux(module, local)
+
+
+def check_windows(module):
+    text = output("x86_64-w64-mingw32-objdump", "-p", module)
+    libraries = re.findall(r"DLL Name: (\S+)", text)
+    python = re.sub(r".*\.cp(\d+)-.*", r"python\1.dll", module.name)
+    unwanted = set(libraries) - {python, *OF_WINDOWS}
+    if unwanted or python not in libraries:
+        refuse(module, f"must need {python} and what every Windows has, found {libraries}")
+    names = re.search(r"^\[Ordinal/Name Pointer\] Table.*\n((?:\t.*\n)*)", text, re.MULTILINE)
+    only_entry(module, [line.split()[-1] for line in names[1].splitlines()] if names else [])
+    size = module.stat().st_size / 1e6
+    return [
+        f"{module.name}: {size:.1f} MB, needs {', '.join(libraries)}",
+        f"  exports {ENTRY} only",
+    ]
+
+
+def only_entry(module, exported):
+    if exported != [ENTRY]:
+        refuse(module, f"must export {ENTRY} only, found {len(exported)}: {exported[:5]}")
+
+
+def check_linux(module, local):
+    libraries = re.findall(r"\(NEEDED\).*\[(.+)\]", output("readelf", "-d", module))
+    unwanted = [library for library in libraries if FORBIDDEN.match(library)]
+    if unwanted:
+        refuse(module, f"must not need {', '.join(unwanted)}; link it statically or leave it out")
+    exported = [
+        line.split()[-1] for line in output("nm", "-D", "--defined-only", module).splitlines()
+    ]
+    only_entry(module, exported)
+    symbols = output("objdump", "-T", module)
+    found = {name: newest(name, symbols) for name in NEWEST}
+    for name, version in found.items():
+        if not local and numbers(version) > numbers(NEWEST[name]):
+            refuse(
+                module,
+                f"needs {name}_{version}, newer than {NEWEST[name]}; build what others shall use on "
+                "Debian 12 or older, or with --local for this machine alone",
+            )
+    needed = ", ".join(f"{name} {version or 'none'}" for name, version in found.items())
+    return [
+        f"{module.name}: {module.stat().st_size / 1e6:.1f} MB, needs {', '.join(libraries)}",
+        f"  exports {ENTRY} only; newest versions needed: {needed}",
+    ]
+
+
+def refuse(module, reason):
+    raise SystemExit(f"{module.name} {reason}")
+
+
+def output(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def numbers(version):
+    return [int(part) for part in version.split(".") if part]
+
+
+def newest(name, symbols):
+    """The highest version of a library's symbols, such as '2.34'; '' when there is none."""
+    return max(re.findall(rf"\b{name}_([0-9.]+)", symbols), key=numbers, default="")
+
+
+if __name__ == "__main__":
+    for word in sys.argv[1:]:
+        if word != "--local":
+            print("\n".join(check(Path(word), "--local" in sys.argv)))

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The zip that people install, and one per system for the extensions platform."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import zipfile
+from collections.abc import Iterable
+from pathlib import Path
+
+from . import licences, paths
+from .terminal import python_that, run, say
+
+MODULES = "lib/_medial."  # how the names of compiled modules begin
+# How they end, on each system, named as extensions.blender.org does.
+PLATFORMS = {"linux-x64": ".so", "windows-x64": ".pyd"}
+_SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".js", ".yaml"}
+
+
+def pack() -> Path:
+    """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension), and those for the extensions
+    platform, which wants one per system and the files at its top. Same files, same bytes. Returns the first."""
+    say("Packing the add-on")
+    paths.DIST.mkdir(exist_ok=True)
+    files = contents()
+    archive = archive_for()
+    write_zip(archive, inside_folder(files))
+    print(f"{paths.shown(archive)}: {archive.stat().st_size / 1e6:.1f} MB")
+    for platform in PLATFORMS:
+        archive_for(platform).unlink(missing_ok=True)
+        if own := for_platform(files, platform):
+            write_zip(archive_for(platform), own)
+    abis = sorted(name.split(".")[1] for name in files if name.startswith(MODULES))
+    print(f"{len(files)} files; compiled for {', '.join(abis) or 'no Python'}")
+    return archive
+
+
+def archive_for(platform: str = "") -> Path:
+    """The zip for people, or one for the extensions platform, named as Blender names such."""
+    return paths.DIST / f"{paths.PACKAGE}-{paths.version()}{'-' * bool(platform)}{platform}.zip"
+
+
+def contents() -> dict[str, bytes]:
+    """All that the add-on is made of: name below its top folder -> bytes."""
+    files = _read(paths.ADDON, _sources())
+    files["LICENSE"] = (paths.ROOT / "LICENSE").read_bytes()
+    with tempfile.TemporaryDirectory() as name:
+        made = Path(name)
+        _make_manual(made / "manual")
+        _make_presets(made / "presets" / paths.PACKAGE)
+        files.update(_read(made, made.rglob("*")))
+    modules = [name for name in files if name.startswith(MODULES)]
+    files["THIRD_PARTY_LICENSES"] = licences.text(modules).encode()
+    return files
+
+
+def _read(folder: Path, found: Iterable[Path]) -> dict[str, bytes]:
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes() for path in found if path.is_file()
+    }
+
+
+def _sources() -> list[Path]:
+    """The add-on's files without caches, hidden files and leftovers."""
+    return [
+        path
+        for path in paths.ADDON.rglob("*")
+        if path.suffix in _SUFFIXES
+        and not any(
+            part.startswith((".", "__pycache__")) for part in path.relative_to(paths.ADDON).parts
+        )
+    ]
+
+
+def _make_manual(folder: Path) -> None:
+    python = python_that("import markdown", "install python3-markdown")
+    run(python, Path(__file__).with_name("manual.py"), paths.ROOT / "docs", folder)
+
+
+def _make_presets(folder: Path) -> None:
+    python = python_that("import sys; assert sys.version_info >= (3, 10)", "install python3")
+    run(python, Path(__file__).with_name("presets.py"), folder)
+
+
+def inside_folder(files: dict[str, bytes]) -> dict[str, bytes]:
+    """The files as the zip for people has them: in one folder."""
+    return {f"{paths.PACKAGE}/{name}": content for name, content in files.items()}
+
+
+def for_platform(files: dict[str, bytes], platform: str) -> dict[str, bytes]:
+    """The files for one system, if there is a module for it; the manifest says for which, before its first table."""
+    own = {
+        name: content
+        for name, content in files.items()
+        if not name.startswith(MODULES) or name.endswith(PLATFORMS[platform])
+    }
+    if not any(name.startswith(MODULES) for name in own):
+        return {}
+    line = f'platforms = ["{platform}"]\n\n['.encode()
+    manifest = files["blender_manifest.toml"].replace(b"\n[", b"\n" + line, 1)
+    return {**own, "blender_manifest.toml": manifest}
+
+
+def write_zip(target: Path, files: dict[str, bytes]) -> None:
+    """A zip with the same bytes for the same files; renamed at the end, so it is whole or not there."""
+    fresh = target.with_suffix(".new")
+    with zipfile.ZipFile(fresh, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, content in sorted(files.items()):
+            entry = zipfile.ZipInfo(name)  # with the same date always
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, content)
+    os.replace(fresh, target)

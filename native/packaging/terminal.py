@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Commands that are run for the person at the terminal, and how their failures are told."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+class Failure(Exception):
+    """A step did not succeed; the message is for the person at the terminal."""
+
+    def __init__(self, message: str, exit_code: int = 1) -> None:
+        super().__init__(message)
+        self.exit_code = exit_code
+
+
+def say(text: str) -> None:
+    bold, plain = ("\033[1m", "\033[0m") if sys.stdout.isatty() else ("", "")
+    print(f"\n{bold}== {text}{plain}", flush=True)
+
+
+def run(*command: object, **options) -> None:
+    """Run a command with its output shown; raise Failure when it fails."""
+    words = [str(word) for word in command]
+    print("$ " + " ".join(map(shlex.quote, words)), flush=True)
+    code = subprocess.run(words, cwd=options.pop("cwd", ROOT), **options).returncode
+    if code != 0:
+        raise Failure(
+            f"'{' '.join(words[:3])} ...' ended with exit code {code}; its output is above"
+        )
+
+
+def output_of(*command: object, **options) -> str:
+    """The standard output of a command; raise Failure when it fails."""
+    words = [str(word) for word in command]
+    done = subprocess.run(words, capture_output=True, text=True, cwd=ROOT, **options)
+    if done.returncode != 0:
+        raise Failure(
+            f"'{' '.join(words[:3])} ...' ended with exit code {done.returncode}: {done.stderr.strip()}"
+        )
+    return done.stdout
+
+
+def succeeds(*command: object) -> bool:
+    """Whether a command can be run and ends with exit code 0; its output is not shown."""
+    words = [str(word) for word in command]
+    try:
+        return subprocess.run(words, capture_output=True, cwd=ROOT).returncode == 0
+    except OSError:
+        return False
+
+
+def python_that(statement: str, advice: str) -> str:
+    """The first Python, out of this one and the system's, that runs a statement such as `import markdown`."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        if succeeds(python, "-c", statement):
+            return python
+    raise Failure(
+        f"Expected a Python that runs '{statement}', found none: neither {sys.executable} nor "
+        f"/usr/bin/python3 does; {advice}",
+        2,
+    )
+
+
+def parallel_jobs() -> int:
+    """Compilers to run at once: one unit that includes CGAL takes up to 2 GB."""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return max(1, min(len(os.sched_getaffinity(0)), memory // (2 << 30)))
+
+
+def build_preset(preset: str, *definitions: str) -> None:
+    """Configure and compile a preset of CMakePresets.json."""
+    run("cmake", "--preset", preset, *definitions)
+    run("cmake", "--build", "--preset", preset, "--parallel", parallel_jobs())
+
+
+def use_system_python() -> None:
+    """Debian's Blender takes its Python library from the first python3 on PATH: let that be the system's, also
+    when a pyenv or virtual environment runs this."""
+    os.environ["PATH"] = "/usr/bin:" + os.environ.get("PATH", "/bin")
+    for name in ("PYTHONHOME", "PYTHONPATH", "VIRTUAL_ENV"):
+        os.environ.pop(name, None)

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Layout, lint and types of the sources. A tool that is not installed is skipped by name."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from typing import Callable
+
+from native.packaging import paths
+from native.packaging.terminal import Failure, output_of, parallel_jobs, run
+
+
+class Skip(Exception):
+    """A part of the tests cannot run here, for lack of a tool."""
+
+
+def lint(blender: Path) -> str | None:
+    return run_tools({**QUICK_TOOLS, **LONG_TOOLS})
+
+
+def quick_lint(blender: Path) -> str | None:
+    return run_tools(QUICK_TOOLS)
+
+
+def run_tools(tools: dict[str, Callable[[], None]]) -> str | None:
+    """Run each tool that is installed, also after a failure; returns which are missing."""
+    missing = [tool for tool in tools if shutil.which(tool) is None]
+    if len(missing) == len(tools):
+        raise Skip(f"none of {', '.join(tools)} is installed")
+    failures = []
+    for tool in tools:
+        if tool not in missing:
+            try:
+                tools[tool]()
+            except Failure as failure:
+                failures.append(f"{tool} ({failure})")
+    if failures:
+        raise Failure("; ".join(failures))
+    return f"without {', '.join(missing)}, not installed" if missing else None
+
+
+def ruff() -> None:
+    run("ruff", "check", ".")
+    run("ruff", "format", "--check", ".")
+
+
+def clang_format() -> None:
+    run("clang-format", "--dry-run", "--Werror", *cpp_files())
+
+
+def clang_tidy() -> None:
+    """Each unit of the core and of the bindings, with the flags that the preset `release` compiles it with."""
+    database = paths.BUILD / "release" / "compile_commands.json"
+    if not database.is_file():
+        raise Failure(f"expected {paths.shown(database)}; run the part build first")
+    units = sorted({entry["file"] for entry in json.loads(database.read_text(encoding="utf-8"))})
+    own = [unit for unit in units if "/native/" in unit and "/tests/" not in unit]
+    run(
+        "run-clang-tidy", "-quiet", "-p", database.parent, "-j", parallel_jobs(), *map(exactly, own)
+    )
+
+
+def exactly(path: str) -> str:
+    """The pattern that finds this path alone."""
+    return f"^{path}$"
+
+
+def mypy() -> None:
+    run("mypy")  # what and how is said in pyproject.toml
+
+
+def cpp_files() -> list[str]:
+    """All C++ sources that are part of the checkout."""
+    patterns = ("*.cpp", "*.h")
+    listed = output_of("git", "ls-files", "--cached", "--others", "--exclude-standard", *patterns)
+    return [name for name in listed.splitlines() if (paths.ROOT / name).is_file()]
+
+
+QUICK_TOOLS = {"ruff": ruff, "clang-format": clang_format}
+LONG_TOOLS = {"mypy": mypy, "run-clang-tidy": clang_tidy}

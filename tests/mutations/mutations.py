@@ -1,0 +1,545 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One-line faults, one for each thing that a stage has to get right: what the tests are measured by.
+
+A mutation replaces `old`, which occurs exactly once in its file, by `new`. `sweep.py` builds each and runs the tests.
+`python` names the test files that are asked when the native tests notice nothing. `equivalent` says why no test can
+notice a mutation: it changes no result.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+SOURCES = Path("native/medial")
+
+
+@dataclass(frozen=True)
+class Mutation:
+    file: str  # below native/medial
+    old: str
+    new: str
+    breaks: str
+    python: tuple[str, ...] = ()
+    equivalent: str = ""
+
+    @property
+    def path(self) -> Path:
+        return SOURCES / self.file
+
+    def applied(self, text: str) -> str:
+        """The source with the fault. Raises ValueError where the sources have moved on."""
+        count = text.count(self.old)
+        if count != 1:
+            raise ValueError(
+                f"Expected one occurrence of {self.old!r} in {self.path}, found {count}; "
+                "bring the mutation up to date."
+            )
+        return text.replace(self.old, self.new)
+
+
+MUTATIONS = (
+    # ---- base
+    Mutation("base/rows.cpp", "  x[2] ^= x[1];", "  x[2] ^= x[0];", "the Hilbert curve jumps"),
+    Mutation(
+        "base/rows.cpp",
+        "if (distinct.points.empty() || distinct.points.back() != p) {",
+        "if (distinct.points.size() < rows.size()) {",
+        "repeated rows are samples of their own",
+    ),
+    Mutation(
+        "base/union_find.h",
+        "if (a < b) std::swap(a, b);",
+        "if (a > b) std::swap(a, b);",
+        "the highest id stands for a set",
+    ),
+    Mutation(
+        "base/polygon_edges.cpp",
+        "corner + 1 < end ? corner + 1 : begin",
+        "corner + 1 < end ? corner + 1 : corner",
+        "polygons are not closed",
+    ),
+    # ---- delaunay
+    Mutation(
+        "delaunay/samples.cpp",
+        "centre + 2 * radius * direction",
+        "centre + 1.5 * radius * direction",
+        "the bounding sphere is too narrow",
+    ),
+    Mutation(
+        "delaunay/samples.cpp",
+        "(3 - std::sqrt(5.0))",
+        "(3 - std::sqrt(4.0))",
+        "the bounding sphere is uneven",
+    ),
+    Mutation(
+        "delaunay/triangulation.cpp",
+        "const int slot = rank[j] ^ (odd & (rank[j] >> 1));",
+        "const int slot = rank[j] ^ (odd & (rank[j] >> 2));",
+        "cells lose their orientation",
+    ),
+    Mutation(
+        "delaunay/circumcentre.cpp",
+        "constexpr double kOperations = 16;",
+        "constexpr double kOperations = 1;",
+        "the error bound is 16 times too small",
+        equivalent="The bound is generous: of 17 million random cells, fat ones, flat ones and needles, none had an "
+        "error of more than 0.058 of it, less than a sixteenth. Only how many cells are computed in integers changes.",
+    ),
+    Mutation(
+        "delaunay/circumcentre.cpp",
+        "constexpr double kOperations = 16;",
+        "constexpr double kOperations = 0.0625;",
+        "the error bound is 256 times too small",
+    ),
+    Mutation(
+        "delaunay/circumcentre.cpp",
+        "vv * cross(w, u) + ww",
+        "vv * cross(u, w) + ww",
+        "circumcentres are wrong",
+    ),
+    Mutation(
+        "delaunay/circumcentre.cpp",
+        "const Integer denominator = 2 * dot(u, vw);",
+        "const Integer denominator = dot(u, vw);",
+        "circumcentres of flat cells are wrong",
+    ),
+    Mutation(
+        "delaunay/circumcentre.cpp",
+        "return {exact_normal(a, b, c), 4 * DBL_EPSILON};",
+        "return {exact_normal(a, c, b), 4 * DBL_EPSILON};",
+        "normals of needles look the other way",
+    ),
+    Mutation(
+        "delaunay/voronoi.cpp",
+        "return squared_length(d) <= error * error;",
+        "return squared_length(d) < 0 * error;",
+        "cospherical cells keep Voronoi vertices of their own",
+    ),
+    Mutation(
+        "delaunay/voronoi.cpp",
+        "  unite(vertices, same_ray_pairs(t, found, vertices));\n",
+        "",
+        "cocircular triangles of the hull keep rays of their own",
+    ),
+    Mutation(
+        "delaunay/voronoi.cpp",
+        "unit_normal(points[j], points[l], points[k])",
+        "unit_normal(points[j], points[k], points[l])",
+        "Voronoi rays lead inwards",
+    ),
+    Mutation(
+        "delaunay/edges.cpp",
+        "{{-1, 2, 3, 1}, {3, -1, 0, 2}",
+        "{{-1, 3, 1, 2}, {3, -1, 0, 2}",
+        "facets turn the other way round",
+    ),
+    Mutation(
+        "delaunay/edges.cpp",
+        "int{row_[q] > row_[p]}",
+        "int{row_[q] < row_[p]}",
+        "edges begin at their higher row",
+    ),
+    Mutation(
+        "delaunay/edges.cpp",
+        "for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {",
+        "for (auto cell = cells.begin(); cell != cells.end(); ++cell) {",
+        "unbounded facets are not known as such",
+    ),
+    # ---- axis
+    Mutation(
+        "axis/poles.cpp",
+        "if (squared_length(v) > squared_length(farthest)) farthest = v;",
+        "if (squared_length(v) >= squared_length(farthest)) farthest = v;",
+        "of equally far Voronoi vertices the last one is the pole",
+    ),
+    Mutation(
+        "axis/poles.cpp",
+        "if (squared_length(v) > squared_length(farthest)) farthest = v;",
+        "if (squared_length(v) < squared_length(farthest) || farthest == Vec3{}) farthest = v;",
+        "poles are the nearest Voronoi vertices",
+    ),
+    Mutation(
+        "axis/poles.cpp",
+        "  rays.erase(std::unique(rays.begin(), rays.end()), rays.end());\n",
+        "",
+        "an infinite edge counts as often as triangles share it",
+    ),
+    Mutation(
+        "axis/poles.cpp",
+        "if (found == Vec3{}) found = to_farthest_vertex",
+        "if (finite == cells.size()) found = to_farthest_vertex",
+        "no farthest vertex where the infinite directions cancel out",
+        equivalent="The directions at a sample are normals of the hull there. The hull of samples that span a volume "
+        "has an inside, into which none of these points, so their sum is not zero.",
+    ),
+    Mutation(
+        "axis/umbrellas.cpp",
+        "pole) >= 0 ? Height::above : Height::below",
+        "pole) > 0 ? Height::above : Height::below",
+        "a Voronoi vertex in the tangent plane counts as below",
+    ),
+    Mutation(
+        "axis/umbrellas.cpp",
+        "      if (i == own || height_[next] != Height::above) continue;",
+        "      if (i == own || height_[next] == Height::above) continue;",
+        "umbrellas are of the edges that do not cross the plane",
+    ),
+    Mutation(
+        "axis/significance.cpp",
+        "end.sine = std::min(end.sine, std::abs(",
+        "end.sine = std::max(end.sine * (i > begin), std::abs(",
+        "theta is the maximum over the umbrella, not the minimum",
+    ),
+    Mutation(
+        "axis/significance.cpp",
+        "std::max(result.radius[p], circumradius(",
+        "std::min(result.radius[p] == 0 ? HUGE_VAL : result.radius[p], circumradius(",
+        "rho compares with the smallest circumradius",
+    ),
+    Mutation(
+        "axis/significance.cpp",
+        "result.sine_both[e] = std::min(at_p.sine, at_q.sine);",
+        "result.sine_both[e] = std::max(at_p.sine, at_q.sine);",
+        "the rule Both is content with one end",
+    ),
+    Mutation(
+        "axis/significance.cpp",
+        "  if (q.umbrella) bits",
+        "  if (false && q.umbrella) bits",
+        "edges of the umbrella of q are tried from there",
+    ),
+    Mutation(
+        "axis/significance.cpp",
+        "p_rho = p.ratio >= q.ratio;",
+        "p_rho = p.sine >= q.sine;",
+        "the wrong end is left out of the Ratio condition",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "sine_ = largest_sine(wanted.thresholds.theta);",
+        "sine_ = largest_sine(1.05 * wanted.thresholds.theta);",
+        "theta0 is stricter than was asked for",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "t.rule) > sine_;",
+        "t.rule) >= sine_;",
+        "theta0 is met, not exceeded",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "t.rule) > t.rho;",
+        "t.rule) >= t.rho;",
+        "rho0 is met, not exceeded",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "return try_larger && try_smaller ? smaller : 0;",
+        "return try_larger || try_smaller ? smaller : 0;",
+        "the rule Both holds where one end is not tried",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "std::pow(epsilon, 0.25)",
+        "std::pow(epsilon, 0.5)",
+        "the exponent of Definition 4",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "wanted_.limit_set && !satisfies_angle(edge);",
+        "wanted_.limit_set;",
+        "Definition 4 is asked of the Angle condition, too",
+    ),
+    Mutation(
+        "axis/medial_mesh.cpp",
+        "polygon_.size() < 3 || (!is_wide(",
+        "polygon_.size() < 3 || (false && !is_wide(",
+        "facets on a line are emitted",
+        python=("test_on_a_line.py",),
+    ),
+    Mutation(
+        "axis/medial_mesh.cpp",
+        "polygon_.size() < 3 || (!is_wide(",
+        "polygon_.size() < 4 || (!is_wide(",
+        "triangular facets are left out",
+    ),
+    Mutation(
+        "axis/medial_mesh.cpp",
+        "std::rotate(begin, std::min_element(begin, end), end);",
+        "std::rotate(begin, std::max_element(begin, end), end);",
+        "polygons begin at their highest vertex",
+    ),
+    Mutation(
+        "axis/feature_size.cpp",
+        "std::ldexp(std::sqrt(3.0) / kThinning, -level)",
+        "std::ldexp(std::sqrt(3.0) / (16 * kThinning), -level)",
+        "too many vertices are left out of the feature size",
+        python=("test_feature_size.py",),
+    ),
+    # ---- inside
+    Mutation(
+        "inside/boundary.cpp",
+        "out.push_back({other, id});",
+        "out.push_back({id, other});",
+        "edges of the border run the wrong way",
+    ),
+    Mutation(
+        "inside/solid_angle.cpp",
+        "const double error = 3 * node.spread",
+        "const double error = 0.003 * node.spread",
+        "the remainder of the expansion is underrated",
+        python=("test_sides.py",),
+    ),
+    Mutation(
+        "inside/ray_crossings.cpp",
+        "if ((volume > 0) != leaves) return 0;",
+        "if (std::abs(volume) > 0 && false) return 0;",
+        "what lies behind the origin of a ray counts",
+    ),
+    Mutation(
+        "inside/ray_crossings.cpp",
+        "if ((end > 0) == leaves) return 0;",
+        "if ((end > 0) != leaves) return 0;",
+        "segments end at the wrong place",
+    ),
+    Mutation(
+        "inside/winding_number.cpp",
+        "return drop ? closed_there - *drop : closed(query);",
+        "return drop ? closed_there + *drop : closed(query);",
+        "a winding number is told from another by the wrong sign",
+    ),
+    Mutation(
+        "inside/winding_number.cpp",
+        "return caps_.is_below(closed_here - 0.5, query);",
+        "return caps_.is_below(closed_here - 0.6, query);",
+        "inside begins at a winding number of 0.6",
+    ),
+    Mutation(
+        "inside/sides.cpp",
+        "return ball > widest && distance_to_samples(points, t, voronoi, f) > widest;",
+        "return distance_to_samples(points, t, voronoi, f) > widest;",
+        "the flood goes on without the test of the ball",
+        equivalent="The other distance is never larger: it is that of a nearer place of the Voronoi edge that begins "
+        "in the middle of the ball. The test of the ball only saves time.",
+    ),
+    Mutation(
+        "inside/sides.cpp",
+        "return ball > widest && distance_to_samples(points, t, voronoi, f) > widest;",
+        "return ball > 0 * widest;",
+        "the flood passes through the surface",
+    ),
+    Mutation(
+        "inside/sides.cpp",
+        "return circumradius < longest / 3 ? circumradius : longest / 3;",
+        "return circumradius < longest / 12 ? circumradius : longest / 12;",
+        "triangles are taken for narrower than they are",
+        python=("test_sides.py", "test_sides_from.py"),
+    ),
+    Mutation(
+        "inside/sides.cpp",
+        "if (vote < 0) sides[c]",
+        "if (vote > 0) sides[c]",
+        "normals vote the wrong way",
+    ),
+    Mutation(
+        "inside/sides.cpp",
+        "outward < 0 ? Side::inner : Side::outer",
+        "outward < 0 ? Side::outer : Side::outer",
+        "far away is outside though the normals look inwards",
+    ),
+    Mutation(
+        "inside/sides.cpp",
+        "sides[c] = like < 0 ? solid[last] : sides[like];",
+        "sides[c] = like < 0 ? solid[c] : sides[like];",
+        "a Voronoi vertex has the side of its cell, wherever it lies",
+    ),
+    Mutation(
+        "inside/sides.cpp",
+        "return inner == ring.size() ? Side::inner",
+        "return 2 * inner > ring.size() ? Side::inner",
+        "a facet is inner when most of its vertices are",
+    ),
+    Mutation(
+        "inside/buried.cpp",
+        "above.is_inside(points[row] + step) == below",
+        "above.is_inside(points[row] + step) != below",
+        "what bounds something is taken for buried",
+        python=("test_sampling.py",),
+    ),
+    # ---- cocone
+    Mutation(
+        "cocone/cocone.cpp",
+        "const bool meet = here != there || here == Zone::in_cocone;",
+        "const bool meet = here == Zone::in_cocone || there == Zone::in_cocone;",
+        "Voronoi edges that cross the whole cocone do not meet it",
+    ),
+    Mutation(
+        "cocone/cocone.cpp",
+        "return width < HUGE_VAL && reaches(p, ratio * ratio * width, s);",
+        "return width < HUGE_VAL && reaches(p, ratio * width, s);",
+        "flatness asks for a thinner ratio",
+    ),
+    Mutation(
+        "cocone/cocone.cpp",
+        "all = all && agree;",
+        "all = all || agree;",
+        "samples are flat though neighbours disagree",
+    ),
+    Mutation(
+        "cocone/cocone.cpp",
+        "if (flat[p] && !(meetings[f.cell][f.slot] >> i & 1)) return false;",
+        "if (!(meetings[f.cell][f.slot] >> i & 1)) return false;",
+        "candidates have to please corners that are not flat",
+    ),
+    Mutation(
+        "cocone/manifold.cpp",
+        "  prune(s, candidates, umbrellas.triangles, cocone.flat, run);\n",
+        "",
+        "nothing is pruned",
+        python=("test_tight_cocone.py",),
+    ),
+    Mutation(
+        "cocone/manifold.cpp",
+        "return dot(n, m) >= least_cosine * length(n) * length(m);",
+        "return dot(n, m) >= -least_cosine * length(n) * length(m);",
+        "triangles continue each other only at small angles",
+        python=("test_tight_cocone.py",),
+    ),
+    Mutation(
+        "cocone/marking.cpp",
+        "(cosine < 0) != (facing[p] != facing[q])",
+        "cosine < 0",
+        "patches are joined by their poles, whichever way they face",
+        python=("test_tight_cocone.py",),
+    ),
+    Mutation(
+        "cocone/marking.cpp",
+        "return std::tuple(-std::abs(a.cosine), a.p, a.q) < std::tuple(-std::abs(b.cosine), b.p, b.q);",
+        "return std::tuple(std::abs(a.cosine), a.p, a.q) < std::tuple(std::abs(b.cosine), b.p, b.q);",
+        "patches are joined where they agree least",
+        python=("test_tight_cocone.py",),
+    ),
+    Mutation(
+        "cocone/peeling.cpp",
+        "return std::tie(size, face.cell, face.slot) <",
+        "return std::tie(size, face.cell, face.slot) >",
+        "the smallest openings are passed first",
+        python=("test_tight_cocone.py",),
+    ),
+    Mutation(
+        "cocone/peeling.cpp",
+        "return voters == 0 ? 0 : votes > 0 ? 1 : -1;",
+        "return voters == 0 ? 0 : votes >= 0 ? 1 : -1;",
+        "a tie of the votes is outside",
+        python=("test_tight_cocone.py",),
+    ),
+    Mutation(
+        "cocone/solid.cpp",
+        "const bool third = edges[i] == edges[i - 2] &&",
+        "const bool third = edges[i] == edges[i - 1] &&",
+        "edges of two triangles count as not manifold",
+    ),
+    # ---- sampling
+    Mutation(
+        "sampling/creases.cpp",
+        "<= cosine ? Crease::sharp : Crease::none",
+        ">= cosine ? Crease::sharp : Crease::none",
+        "flat edges are sharp",
+    ),
+    Mutation(
+        "sampling/creases.cpp",
+        "here.size() != 2 || !straight(",
+        "here.size() < 2 || !straight(",
+        "where more than two creases meet is no corner",
+        python=("test_sampling.py",),
+    ),
+    Mutation(
+        "sampling/pn_triangles.cpp",
+        "return third - dot(third, normal) * normal;",
+        "return third + 0 * dot(third, normal) * normal;",
+        "smooth edges stay straight",
+    ),
+    Mutation(
+        "sampling/pn_triangles.cpp",
+        "centre_((-1.0 / 6) * (p + q + r))",
+        "centre_((1.0 / 6) * (p + q + r))",
+        "patches bulge in the middle",
+    ),
+    Mutation(
+        "sampling/pieces.cpp",
+        "0.7548776662466927",
+        "0.7500000000000000",
+        "places in a piece lie in rows",
+        python=("test_blue_noise.py",),
+    ),
+    Mutation(
+        "sampling/pieces.cpp",
+        "if (v > u) {",
+        "if (v < u) {",
+        "places lie outside of their piece",
+    ),
+    Mutation(
+        "sampling/sizing.cpp",
+        "const double limit = spacing + kGrading * away;",
+        "const double limit = spacing + 3 * kGrading * away;",
+        "the spacing grows too fast",
+    ),
+    Mutation(
+        "sampling/poisson_disk.cpp",
+        "std::min(radius, disk.radius)",
+        "std::max(radius, disk.radius)",
+        "of two radii the larger counts",
+        python=("test_blue_noise.py", "test_sampling.py"),
+    ),
+    Mutation(
+        "sampling/poisson_disk.cpp",
+        "out.push_back({place, scale * read.piece().spacing, read.point(place)});",
+        "out.push_back({place, 0.9 * scale * read.piece().spacing, read.point(place)});",
+        "discs are smaller than asked for",
+    ),
+    Mutation(
+        "sampling/poisson_disk.cpp",
+        "dot(disk.normal, normal()) > 0) return false;",
+        "dot(disk.normal, normal()) > -2) return false;",
+        "opposite walls repel each other",
+    ),
+    Mutation(
+        "sampling/poisson_disk.cpp",
+        "darts * kPacking / (scale * scale)",
+        "0.2 * darts * kPacking / (scale * scale)",
+        "too few darts leave holes",
+        python=("test_blue_noise.py",),
+    ),
+    Mutation(
+        "sampling/mirrored_rows.cpp",
+        "    along = turned;\n",
+        "    along = -turned;\n",
+        "walks turn back at edges",
+    ),
+    Mutation(
+        "sampling/mirrored_rows.cpp",
+        "!(away < std::min(disk.radius, disks[j].radius))",
+        "!(away < 0.5 * std::min(disk.radius, disks[j].radius))",
+        "mirrored pairs stay though they have no room",
+        python=("test_sampling.py",),
+    ),
+    Mutation(
+        "sampling/surface_samples.cpp",
+        "constexpr double kFirstRow = 0.75, kNextRow = 0.85;",
+        "constexpr double kFirstRow = 0.75, kNextRow = 0.65;",
+        "the second row is too near to the first",
+    ),
+    Mutation(
+        "sampling/surface_samples.cpp",
+        "    spacing.scale *= std::sqrt(last.count() / wanted);",
+        "    spacing.scale *= std::sqrt(wanted / last.count());",
+        "the count is not met",
+    ),
+    # ---- all
+    Mutation(
+        "analysis.cpp",
+        "  if (surface.closed()) return SidesFrom::surface;",
+        "  if (!surface.triangles.empty()) return SidesFrom::surface;",
+        "open faces tell inside from outside unasked",
+        python=("test_sides_from.py",),
+    ),
+)

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The examples of docs/libraries.md are those that are compiled and run elsewhere, and print what the page says."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import medial_axis
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs" / "libraries.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
+CONSUMER = ROOT / "tests" / "consumer"
+
+
+def block(kind, number=0):
+    return [text for name, text in BLOCKS if name == kind][number]
+
+
+def test_example_for_python_prints_what_the_page_says(tmp_path):
+    (tmp_path / "example.py").write_text(block("python"))
+    package = Path(medial_axis.__file__).parent
+    (tmp_path / "medial_axis").symlink_to(package, target_is_directory=True)
+    environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+    done = subprocess.run(
+        [sys.executable, "example.py"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        env=environment,
+    )
+    assert done.stdout == block("text"), done.stderr
+    assert (tmp_path / "ellipsoid.ply").stat().st_size > 10_000
+
+
+def test_example_for_cpp_is_the_one_that_is_compiled():
+    """tests/python/test_consumer.py compares its output with the page."""
+    assert block("cpp") == (CONSUMER / "main.cpp").read_text()
+    lists = (CONSUMER / "CMakeLists.txt").read_text()
+    assert all(line in lists for line in block("cmake").splitlines())
+
+
+def test_page_names_everything_that_is_public():
+    headers = {path.name for path in (ROOT / "native" / "include" / "medial").iterdir()}
+    assert set(re.findall(r"<medial/(\w+\.h)>", PAGE)) == headers
+    functions = {name for name in medial_axis.__all__ if name.islower()}
+    assert functions <= set(re.findall(r"^\| `(\w+)\(", PAGE, re.MULTILINE))

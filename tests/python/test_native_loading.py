@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the compiled module is loaded from: its file, or a copy in memory, each in a Python of its own."""
+
+import os
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+from conftest import PACKAGE
+
+needs_memory_files = pytest.mark.skipif(
+    not hasattr(os, "memfd_create"), reason="the system has no files in memory"
+)
+
+START = f"""
+import importlib.util, os, sys
+spec = importlib.util.spec_from_file_location(
+    "medial_axis", {str(PACKAGE / "__init__.py")!r}, submodule_search_locations=[{str(PACKAGE)!r}]
+)
+sys.modules["medial_axis"] = package = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(package)
+from medial_axis.core.errors import NativeModuleError
+from medial_axis.core.machine import native
+
+def where():
+    maps = open("/proc/self/maps").read()
+    return [word for word in ("memfd:_medial", str(native.file())) if word in maps]
+
+def refused(*_):
+    raise PermissionError(1, "Operation not permitted")
+"""
+
+
+def play(text):
+    """What a script says in a new Python that has the add-on's package."""
+    script = START + textwrap.dedent(text)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+@pytest.fixture
+def file(medial):
+    """The compiled module that this Python loads."""
+    from medial_axis.core.machine import native
+
+    return str(native.file())
+
+
+@needs_memory_files
+def test_plain_python_loads_the_file(file):
+    assert play("native.load(); print(*where())") == [file]
+
+
+@needs_memory_files
+def test_a_copy_is_loaded_where_it_is_asked_for(file):
+    said = play("native.load_a_copy = True; native.load(); print(*where())")
+    assert said == ["memfd:_medial"]
+
+
+@needs_memory_files
+def test_file_is_loaded_where_the_system_refuses_files_in_memory(file):
+    said = play(
+        """
+        os.memfd_create, native.load_a_copy = refused, True
+        native.load()
+        print(*where())
+        """
+    )
+    assert said == [file]
+
+
+@needs_memory_files
+def test_file_is_loaded_where_the_system_refuses_libraries_in_memory(file):
+    """As where such files may not be executed; here the loader finds nothing in the file that it is given."""
+    said = play(
+        """
+        os.memfd_create = lambda name: os.open(os.devnull, os.O_RDWR)
+        native.load_a_copy = True
+        native.load()
+        print(*where())
+        """
+    )
+    assert said == [file]
+
+
+def test_system_without_files_in_memory_loads_the_file(file):
+    said = play(
+        """
+        if hasattr(os, "memfd_create"):
+            del os.memfd_create
+        native.load_a_copy = True
+        print(native.load().__file__)
+        """
+    )
+    assert said == [file]
+
+
+@pytest.mark.parametrize("copy", [False, True])
+def test_message_of_a_broken_file_names_the_file(file, tmp_path, copy):
+    (tmp_path / Path(file).name).write_bytes(b"no library")
+    said = play(
+        f"""
+        import medial_axis.lib
+        from pathlib import Path
+        medial_axis.lib.__path__ = [{str(tmp_path)!r}]
+        native.LIB, native.load_a_copy = Path({str(tmp_path)!r}), {copy}
+        try:
+            native.load()
+        except NativeModuleError as error:
+            print(error)
+        """
+    )
+    assert " ".join(said).startswith("Expected a compiled module for")
+    assert str(tmp_path / Path(file).name) in " ".join(said) and "/proc/self" not in said

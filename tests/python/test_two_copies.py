@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Two copies of the compiled module in one process, as of an installed package and of an add-on: each for itself."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import medial_axis
+from medial_axis.core.machine import native
+
+TWO_MODULES = """
+import importlib.util, shutil, sys
+from pathlib import Path
+import numpy as np
+
+def load(number):
+    path = Path(sys.argv[2], f"copy{number}.so")
+    shutil.copy(sys.argv[1], path)
+    spec = importlib.util.spec_from_file_location(f"copy{number}._medial", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+points = np.random.default_rng(0).normal(size=(2000, 3))
+points *= np.array([1.0, 0.7, 0.4]) / np.linalg.norm(points, axis=1)[:, None]
+a, b = load(1), load(2)
+axes = [m.MedialAnalysis(points).extract(side=m.Side.INNER) for m in (a, b, a)]
+assert len(axes[0].theta) > 100
+assert len({x.vertices.tobytes() for x in axes}) == 1
+assert a.Side is not b.Side and type(axes[0]) is a.MedialMesh and type(axes[1]) is b.MedialMesh
+
+def error_of(module, wrong, progress=None):
+    try:
+        module.MedialAnalysis(wrong, progress=progress)
+    except Exception as error:
+        return type(error)
+
+for module in (a, b, a):
+    assert error_of(module, points[:3]) is module.DegenerateInputError
+    assert error_of(module, points[:, :2]) is module.InvalidInputError
+    progress = module.Progress()
+    progress.cancel()
+    assert error_of(module, points, progress) is module.Cancelled
+print("both work")
+"""
+
+# Two packages, each with errors of its own.
+TWO_PACKAGES = """
+import importlib.util, sys
+import numpy as np
+
+def load(name, folder):
+    spec = importlib.util.spec_from_file_location(
+        name, folder + "/__init__.py", submodule_search_locations=[folder])
+    package = sys.modules[name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(package)
+    return package
+
+points = np.random.default_rng(0).normal(size=(2000, 3))
+points *= np.array([1.0, 0.7, 0.4]) / np.linalg.norm(points, axis=1)[:, None]
+one, other = load("medial_axis", sys.argv[1]), load("another_name", sys.argv[2])
+axes = [package.compute(points).axis for package in (one, other)]
+assert axes[0].facets > 100 and axes[0].vertices.tobytes() == axes[1].vertices.tobytes()
+for package in (one, other, one):
+    try:
+        package.compute(points * (1, 1, 0))
+    except package.DegenerateInputError:
+        continue
+    raise SystemExit("an error of another package")
+print("both work")
+"""
+
+
+def run(code, *words):
+    command = [sys.executable, "-c", code, *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "both work\n"
+
+
+def test_two_files_of_the_module_live_side_by_side(tmp_path):
+    run(TWO_MODULES, native.file(), tmp_path)
+
+
+def test_two_packages_live_side_by_side(tmp_path):
+    """As Blender has an extension beside what pip installed: two folders, two names."""
+    folder = Path(medial_axis.__file__).parent
+    copy = shutil.copytree(folder, tmp_path / "copy", ignore=shutil.ignore_patterns("__pycache__"))
+    run(TWO_PACKAGES, folder, copy)
