@@ -48,7 +48,7 @@ def row(name: str) -> list[str]:
 
     mesh = messy.load(name, lambda file: _module.DATA / file)
     try:
-        sampled = resampled.by_the_addon(mesh).sampled.samples
+        sampled = resampled.by_the_addon(mesh).chosen.samples
         start = time.perf_counter()
         hierarchy = sampled.analysis.hierarchy()
     except (DegenerateInputError, InvalidInputError) as refusal:
