@@ -41,7 +41,7 @@ double tried_rho(const Significance& s, int64_t edge, Rule rule) {
 }  // namespace
 
 Selection::Selection(const Extraction& wanted, const Facets& facets)
-    : wanted_(wanted), facets_(facets), sine_(0) {
+    : wanted_(wanted), facets_(facets) {
   check(wanted);
   sine_ = largest_sine(wanted.thresholds.theta);
 }

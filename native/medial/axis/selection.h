@@ -48,7 +48,7 @@ class Selection {
 
   Extraction wanted_;
   Facets facets_;
-  double sine_;  // the largest that does not satisfy the Angle condition
+  double sine_ = 0;  // the largest that does not satisfy the Angle condition
 };
 
 // Positions in `edges` of those whose facets are selected, ascending.

@@ -45,8 +45,9 @@ struct Appending {
 
   Appending& operator*() { return *this; }
   Appending& operator++() { return *this; }
-  void operator=(const Site& site) {
+  Appending& operator=(const Site& site) {
     found->push_back({squared_length(site.place - query), site.id});
+    return *this;
   }
 };
 

@@ -35,7 +35,7 @@ uint64_t hilbert_key(std::array<uint32_t, 3> x) {
       const uint32_t set = 0u - static_cast<uint32_t>((xi & q) != 0);  // all bits, or none
       const uint32_t t = (x[0] ^ xi) & mask & ~set;
       x[0] ^= t | (mask & set);
-      if (&xi != &x[0]) xi ^= t;
+      if (&xi != x.data()) xi ^= t;
     }
   }
   x[1] ^= x[0];
