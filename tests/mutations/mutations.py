@@ -47,8 +47,8 @@ MUTATIONS = (
     ),
     Mutation(
         "base/union_find.h",
-        "if (a < b) std::swap(a, b);",
-        "if (a > b) std::swap(a, b);",
+        "if (a < b) std::swap(a, b);\n    parent_[a]",
+        "if (a > b) std::swap(a, b);\n    parent_[a]",
         "the highest id stands for a set",
     ),
     Mutation(
@@ -127,7 +127,7 @@ MUTATIONS = (
         "Voronoi rays lead inwards",
     ),
     Mutation(
-        "delaunay/edges.cpp",
+        "delaunay/edges.h",
         "{{-1, 2, 3, 1}, {3, -1, 0, 2}",
         "{{-1, 3, 1, 2}, {3, -1, 0, 2}",
         "facets turn the other way round",
