@@ -49,7 +49,7 @@ class Opener {
       collapse_.facets_at[c.edge].remove(facet);
     }
     const auto& [p, q] = complex_.generators[facet];
-    const auto bubble = closed_.find(closed_.count(p) > 0 ? p : q);
+    const auto bubble = closed_.find(closed_.contains(p) ? p : q);
     const std::vector<int32_t> walls = std::move(bubble->second);
     closed_.erase(bubble);
     push_walls(walls);
