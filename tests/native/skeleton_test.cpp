@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "base/thread.h"
 #include "base/union_find.h"
 #include "shapes.h"
 #include "skeleton/bucket_queue.h"
@@ -66,8 +67,9 @@ TEST(Hierarchy, CancelsFromAnotherThreadInEveryStage) {
   int met = 0;
   for (const double share : {0.0, 0.1, 0.3, 0.45, 0.55, 0.72}) {
     Progress progress;
-    std::jthread watcher([&](const std::stop_token& stop) {
-      while (progress.fraction() < share && !stop.stop_requested()) std::this_thread::yield();
+    std::atomic<bool> ended{false};
+    const Thread watcher([&] {
+      while (progress.fraction() < share && !ended) std::this_thread::yield();
       progress.cancel();
     });
     try {
@@ -75,6 +77,7 @@ TEST(Hierarchy, CancelsFromAnotherThreadInEveryStage) {
     } catch (const Cancelled&) {
       ++met;
     }
+    ended = true;
   }
   EXPECT_GT(met, 0);
 }

@@ -29,6 +29,30 @@ void shared_or(T& memory, T bits) {
 }
 
 template <typename T>
+T shared_load(const T& memory) {
+#ifdef __GNUC__
+  T value;
+  __atomic_load(&memory, &value, __ATOMIC_RELAXED);
+  return value;
+#else
+  return std::atomic_ref(const_cast<T&>(memory)).load(std::memory_order_relaxed);
+#endif
+}
+
+// Puts `wanted` in the place of `expected`; whether that was there. If not, `expected` becomes what
+// is.
+template <typename T>
+bool shared_exchange(T& memory, T& expected, T wanted) {
+#ifdef __GNUC__
+  return __atomic_compare_exchange(&memory, &expected, &wanted, false, __ATOMIC_RELAXED,
+                                   __ATOMIC_RELAXED);
+#else
+  return std::atomic_ref(memory).compare_exchange_strong(expected, wanted,
+                                                         std::memory_order_relaxed);
+#endif
+}
+
+template <typename T>
 void shared_store(T& memory, T value) {
 #ifdef __GNUC__
   __atomic_store_n(&memory, value, __ATOMIC_RELAXED);

@@ -2,14 +2,13 @@
 // A maximum that several threads find together.
 #pragma once
 
-#include <atomic>
+#include "base/atomic.h"
 
 namespace medial {
 
 inline void raise(float& value, float to) {
-  const std::atomic_ref shared(value);
-  float now = shared.load(std::memory_order_relaxed);
-  while (now < to && !shared.compare_exchange_weak(now, to, std::memory_order_relaxed)) {
+  float now = shared_load(value);
+  while (now < to && !shared_exchange(value, now, to)) {
   }
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/atomic.h"
 #include "base/parallel.h"
 
 namespace medial {
@@ -54,25 +55,23 @@ class SharedUnionFind {
       if (a == b) return;
       if (a < b) std::swap(a, b);
       int32_t self = a;
-      if (at(a).compare_exchange_strong(self, b, std::memory_order_relaxed)) return;
+      if (shared_exchange(parent_[a], self, b)) return;
     }
   }
   // Representative of every id; when all threads are done.
   Array<int32_t> representatives(const Run& run) && {
-    parallel_for(static_cast<int64_t>(parent_.size()), run, [&](int64_t id) {
-      at(static_cast<int32_t>(id)).store(find(static_cast<int32_t>(id)), std::memory_order_relaxed);
-    });
+    parallel_for(static_cast<int64_t>(parent_.size()), run,
+                 [&](int64_t id) { shared_store(parent_[id], find(static_cast<int32_t>(id))); });
     return std::move(parent_);
   }
 
  private:
-  std::atomic_ref<int32_t> at(int32_t id) { return std::atomic_ref(parent_[id]); }
   int32_t find(int32_t id) {
     for (;;) {
-      int32_t above = at(id).load(std::memory_order_relaxed);
+      int32_t above = shared_load(parent_[id]);
       if (above == id) return id;
-      const int32_t two = at(above).load(std::memory_order_relaxed);
-      if (two != above) at(id).compare_exchange_weak(above, two, std::memory_order_relaxed);
+      const int32_t two = shared_load(parent_[above]);
+      if (two != above) shared_exchange(parent_[id], above, two);
       id = two;
     }
   }

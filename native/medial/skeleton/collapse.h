@@ -11,6 +11,7 @@
 //   3 wires    edges through their loose ends, likewise
 #pragma once
 
+#include "base/atomic.h"
 #include "skeleton/weight.h"
 
 namespace medial {
@@ -31,15 +32,14 @@ class Incident {
 
   void add(int32_t id) { bits_ += with(id); }
   void remove(int32_t id) { bits_ -= with(id); }
-  void add_shared(int32_t id) { shared().fetch_add(with(id), std::memory_order_relaxed); }
-  void remove_shared(int32_t id) { shared().fetch_sub(with(id), std::memory_order_relaxed); }
+  void add_shared(int32_t id) { shared_add(bits_, with(id)); }
+  void remove_shared(int32_t id) { shared_add(bits_, ~with(id) + 1); }
 
  private:
   static constexpr int kShift = 24;
   static constexpr uint64_t kCount = (1u << kShift) - 1;
 
   static uint64_t with(int32_t id) { return (static_cast<uint64_t>(id) << kShift) + 1; }
-  std::atomic_ref<uint64_t> shared() { return std::atomic_ref(bits_); }
 
   uint64_t bits_ = 0;  // the sum wraps round, which does not matter
 };

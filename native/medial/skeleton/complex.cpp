@@ -3,6 +3,7 @@
 
 #include <climits>
 
+#include "base/atomic.h"
 #include "skeleton/shrink.h"
 
 namespace medial {
@@ -169,7 +170,7 @@ void find_bubbles(InnerComplex& complex, int32_t samples, const Triangulation& t
   parallel_for(t.cell_count(), run, [&](int64_t c) {
     if (number[c] >= 0) return;
     for (const int32_t p : t.cells[c]) {
-      if (p >= 0 && p < samples) std::atomic_ref(touched[p]).store(1, std::memory_order_relaxed);
+      if (p >= 0 && p < samples) shared_store(touched[p], uint8_t{1});
     }
   });
   for (int32_t p = 0; p < samples; ++p) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/fringe.h"
 
+#include "base/atomic.h"
+
 namespace medial {
 namespace {
 
@@ -36,7 +38,7 @@ void for_all(std::span<const int32_t> ids, const Run& run, const Body& body) {
 // Whether this call is the first to claim something.
 template <typename T>
 bool claim(T& state, T free, T taken) {
-  return std::atomic_ref(state).compare_exchange_strong(free, taken, std::memory_order_relaxed);
+  return shared_exchange(state, free, taken);
 }
 
 class FacetPeeler {
