@@ -77,7 +77,8 @@ constexpr const char* kMemoryDoc =
     "times as many.";
 
 constexpr const char* kHierarchyMethodDoc =
-    "The levels of the inner axis, as a Hierarchy; computed once, extracted often. It does not need "
+    "The levels of the inner axis, as a Hierarchy; computed once, extracted often. It does not "
+    "need "
     "the analysis any more.\n\n"
     "Parameters\n----------\n"
     "theta, rho, rule, criteria\n    As in `extract`: what they select is in the level with the "
