@@ -6,8 +6,6 @@
 #define NOMINMAX
 #endif
 #include <windows.h>
-// After windows.h, which it needs.
-#include <psapi.h>
 #elif defined(__APPLE__)
 #include <mach/mach.h>
 #else
@@ -21,9 +19,13 @@ namespace medial::test {
 #ifdef _WIN32
 
 size_t process_memory() {
-  PROCESS_MEMORY_COUNTERS counters{};
-  GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters);
-  return counters.PagefileUsage;
+  size_t committed = 0;
+  MEMORY_BASIC_INFORMATION range{};
+  for (const char* at = nullptr; VirtualQuery(at, &range, sizeof range) != 0;
+       at = static_cast<const char*>(range.BaseAddress) + range.RegionSize) {
+    if (range.State == MEM_COMMIT && range.Type == MEM_PRIVATE) committed += range.RegionSize;
+  }
+  return committed;
 }
 
 #elif defined(__APPLE__)
