@@ -177,6 +177,8 @@ void bind_hierarchy(py::module_& m) {
        "betti", [](const Hierarchy& h) { return betti_tuple(h.betti()); },
        "Components, tunnels and cavities of the complex, and so of every level.")
       .def_property_readonly(
+          "bytes", [](const Hierarchy& h) { return h.bytes(); }, "Memory that it holds.")
+      .def_property_readonly(
           "diagonal", [](const Hierarchy& h) { return h.diagonal(); },
           "Of the box of the samples: the unit of `sheet`, `erosion` and `limb`.")
       .def_property_readonly(

@@ -44,6 +44,8 @@ class AnalysedSamples:
         The rows of the whole cloud that were analysed; None where all of them were, and for samples of faces.
     key : str
         The name of these samples in the cache.
+    by_faces : tuple of int or None
+        Pieces, loops and cavities of the solid, as its closed faces tell; None where they cannot.
     levels : Levels
         The hierarchy, once a form asked for it.
     """
@@ -57,6 +59,7 @@ class AnalysedSamples:
     buried: int = 0
     rows: NDArray[np.int32] | None = None
     key: str = ""
+    by_faces: tuple[int, int, int] | None = None
     levels: Levels = field(default_factory=Levels)
 
     @property
@@ -137,6 +140,14 @@ def used_by_sides(
         triangles if sides.source is SidesFrom.SURFACE else None,
         normals if sides.source is SidesFrom.NORMALS else None,
     )
+
+
+def betti_by_faces(request: Request, sides: Sides) -> tuple[int, int, int] | None:
+    """`AnalysedSamples.by_faces`, where the faces are what tells inside from outside."""
+    if sides.source is not SidesFrom.SURFACE or request.gaps:
+        return None
+    with native.own_errors() as module:
+        return module.solid_betti(request.shape.points, request.shape.triangles)
 
 
 def kept_or_made(

@@ -45,8 +45,8 @@ class Computation:
     warnings : tuple of str
         What was assumed or looks wrong, a sentence each.
     topology : str
-        Of how many pieces, loops and cavities the axis is, and whether the faces say the same: a sentence. Of an axis as
-        published, empty, or why it has no other form.
+        Of how many pieces, loops and cavities the axis is, and whether the faces say the same: a sentence. Of an
+        axis as published, empty, or why it has no other form.
     seconds : float
     """
 
@@ -126,7 +126,7 @@ def compute_axis(
         settings=settings,
         chosen=chosen,
         warnings=tuple(axis_warnings(shape, settings, chosen, axis)),
-        topology=topology_sentence(axis, wanted, shape, chosen),
+        topology=topology_sentence(axis, wanted, chosen.samples),
         seconds=time.perf_counter() - start,
     )
 
@@ -134,6 +134,12 @@ def compute_axis(
 def extract_axis(computation: Computation, settings: Settings) -> MedialAxis:
     """The axis for other thresholds of a computation; the rest of the settings must be its own."""
     return extract(computation.chosen.samples, settings)
+
+
+def refiltered_topology(key: str, axis: MedialAxis, wanted: Form) -> str:
+    """`Computation.topology` of an axis that `refilter` gave; `wanted` is the form that was asked for."""
+    samples = CACHE.get(key)
+    return "" if samples is None else topology_sentence(axis, wanted, samples)
 
 
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
