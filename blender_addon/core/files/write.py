@@ -222,12 +222,9 @@ def _write_off(axis: MedialAxis, stream: BinaryIO) -> None:
 def _write_ply(axis: MedialAxis, stream: BinaryIO) -> None:
     counts = np.diff(axis.face_offsets)
     count_type = "uchar" if counts.max(initial=0) < 256 else "int"
-    of_faces, of_edges = "", ""
-    if axis.level is not None:
-        of_faces, of_edges = (
-            "property float sheet\nproperty float erosion\n",
-            "property float limb\n",
-        )
+    known = axis.level is not None
+    of_faces = _ply_floats("sheet", "erosion") if known else ""
+    of_edges = _ply_floats("limb") if known else ""
     header = f"""ply
 format binary_little_endian 1.0
 comment medial axis: radius of the empty ball per vertex, angles in radians
@@ -253,6 +250,10 @@ property int vertex2
     for faces in _ply_faces(axis, counts, "u1" if count_type == "uchar" else "<i4"):
         stream.write(faces)
     stream.write(_ply_edges(axis).tobytes())
+
+
+def _ply_floats(*names: str) -> str:
+    return "".join(f"property float {name}\n" for name in names)
 
 
 def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> Iterator[bytes]:

@@ -131,9 +131,8 @@ size_t Hierarchy::bytes() const {
   };
   const Parts& p = *parts_;
   const InnerComplex& c = p.complex;
-  return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners,
-                 c.shrunk, c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row,
-                 p.outside);
+  return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
+                 c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row, p.outside);
 }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 
