@@ -286,8 +286,8 @@ class Level:
         """Components, tunnels and cavities, counted on the level; those of the hierarchy."""
     @property
     def hidden(self) -> int:
-        """Edges from a vertex to itself, and facets with fewer than three other edges: they count but cannot be
-        drawn. Only where very many samples are cospherical."""
+        """Edges from a vertex to itself, facets with fewer than three other edges, and facets with the corners of
+        another one: they count but cannot be drawn. Only where very many samples are cospherical."""
 
 @final
 class Hierarchy:

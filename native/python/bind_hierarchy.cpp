@@ -162,10 +162,10 @@ void bind_level(py::module_& m) {
       .def_property_readonly(
           "betti", [](const Level& l) { return betti_tuple(l.betti); },
           "Components, tunnels and cavities, counted on the level.")
-      .def_readonly(
-          "hidden", &Level::hidden,
-          "Edges from a vertex to itself, and facets with fewer than three other edges: they count "
-          "but cannot be drawn.");
+      .def_readonly("hidden", &Level::hidden,
+                    "Edges from a vertex to itself, facets with fewer than three other edges, and "
+                    "facets with "
+                    "the corners of another one: they count but cannot be drawn.");
 }
 
 }  // namespace
