@@ -202,7 +202,7 @@ def imported(path):
     before = set(bpy.data.objects)
     if path.suffix == ".obj":
         bpy.ops.wm.obj_import(filepath=str(path), forward_axis="Y", up_axis="Z")
-    elif hasattr(bpy.ops.wm, "ply_import"):
+    elif "ply_import" in dir(bpy.ops.wm):
         bpy.ops.wm.ply_import(filepath=str(path))
     else:
         bpy.ops.import_mesh.ply(filepath=str(path))
