@@ -107,6 +107,7 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
   made.row = samples.row;
+  made.samples = PointTree({samples.points.data(), samples.row.size()});
   Stopwatch watch(made.timings);
   const FacetWeights weight(facets, thresholds);
   begin_stage(run.progress, "Inner complex", 0, 0.2);
@@ -137,8 +138,8 @@ const Betti& Hierarchy::betti() const { return parts_->betti; }
 double Hierarchy::diagonal() const { return parts_->complex.diagonal; }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 
-Level Hierarchy::extract(const LevelThresholds& thresholds, Progress* progress) const {
-  return level(*parts_, thresholds, {parts_->threads, progress});
+Level Hierarchy::extract(const LevelOptions& options, Progress* progress) const {
+  return level(*parts_, options, {parts_->threads, progress});
 }
 
 }  // namespace medial

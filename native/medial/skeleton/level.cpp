@@ -3,6 +3,7 @@
 
 #include "base/sort.h"
 #include "skeleton/betti.h"
+#include "skeleton/relax.h"
 
 namespace medial {
 namespace {
@@ -16,12 +17,12 @@ void check(double threshold, const char* name) {
 
 bool exceeds(float value, double threshold) { return value > threshold || value == HUGE_VALF; }
 
-bool exceeds(const Thickness& value, const LevelThresholds& t) {
+bool exceeds(const Thickness& value, const LevelOptions& t) {
   return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
          exceeds(value.erosion, t.erosion);
 }
 
-Alive alive_at(const Hierarchy::Parts& h, const LevelThresholds& t, const Run& run) {
+Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run) {
   const InnerComplex& complex = h.complex;
   Alive alive{array<uint8_t>(complex.generators.size(), run),
               array<uint8_t>(complex.ends.size(), run), array<uint8_t>(complex.cell.size(), run)};
@@ -50,12 +51,21 @@ class Drawer {
         touched_(array<uint8_t>(h.complex.cell.size(), 0, run)),
         number_(array<int32_t>(h.complex.cell.size(), -1, run)) {}
 
-  Level draw() && {
+  Level draw() {
     draw_facets();
     draw_wires();
     draw_points();
     place_vertices();
+    read_values();
     return std::move(level_);
+  }
+
+  // Edges with exactly one facet, after it.
+  std::vector<Edge> rims() const {
+    return parallel_append<Edge>(complex_.edges(), run_, [&](int64_t e, auto& out, int) {
+      const auto& [a, b] = complex_.ends[e];
+      if (used_[e] == 1) out.push_back({number_[a], number_[b]});
+    });
   }
 
  private:
@@ -111,7 +121,7 @@ class Drawer {
         ++level_.hidden;
         continue;
       }
-      for (const int32_t edge : edges) used_[edge] = 1;
+      for (const int32_t edge : edges) used_[edge] += used_[edge] < 2;
       for (int32_t& vertex : polygon) vertex = number(vertex);
       std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
       const auto& [p, q] = complex_.generators[f];
@@ -150,13 +160,28 @@ class Drawer {
       level_.vertices[v] = complex_.position[level_.vertex_of[v]];
       level_.radius[v] = complex_.radius[level_.vertex_of[v]];
     });
+    level_.exact = level_.vertices;
+    level_.exact_radius = level_.radius;
+  }
+
+  void read_values() {
+    const size_t facets = level_.facet_of.size(), wires = level_.edge_of.size();
+    level_.sheet.resize(facets);
+    level_.erosion.resize(facets);
+    level_.limb.resize(wires);
+    for (size_t f = 0; f < facets; ++f) {
+      const Thickness& value = h_.values.facet[level_.facet_of[f]];
+      level_.sheet[f] = value.sheet;
+      level_.erosion[f] = value.erosion;
+    }
+    for (size_t w = 0; w < wires; ++w) level_.limb[w] = h_.limb_of_edge(level_.edge_of[w]);
   }
 
   const Hierarchy::Parts& h_;
   const InnerComplex& complex_;
   const Alive& alive_;
   Run run_;
-  Array<uint8_t> used_;     // per edge: by a facet
+  Array<uint8_t> used_;     // per edge: by no facet, one, or more
   Array<uint8_t> touched_;  // per vertex: by an edge
   Array<int32_t> number_;   // per vertex: in the level
   Level level_;
@@ -164,18 +189,20 @@ class Drawer {
 
 }  // namespace
 
-Level level(const Hierarchy::Parts& h, const LevelThresholds& thresholds, const Run& run) {
-  check(thresholds.sheet, "sheet");
-  check(thresholds.spacings, "spacings");
-  check(thresholds.erosion, "erosion");
-  check(thresholds.limb, "limb");
-  begin_stage(run.progress, "Level", 0, 1);
+Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& run) {
+  check(options.sheet, "sheet");
+  check(options.spacings, "spacings");
+  check(options.erosion, "erosion");
+  check(options.limb, "limb");
+  begin_stage(run.progress, "Level", 0, options.relaxed ? 0.5 : 1);
   const Run quiet{run.threads, nullptr, run.arena};
-  const Alive alive = alive_at(h, thresholds, quiet);
+  const Alive alive = alive_at(h, options, quiet);
   throw_if_cancelled(run.progress);
-  Level level = Drawer(h, alive, quiet).draw();
+  Drawer drawer(h, alive, quiet);
+  Level level = drawer.draw();
   throw_if_cancelled(run.progress);
   level.betti = betti_of(h.complex, h.outside, alive, quiet);
+  if (options.relaxed) relax(level, drawer.rims(), h, run);
   advance(run.progress, 1);
   return level;
 }
