@@ -19,7 +19,7 @@ import numpy as np
 
 from ..axis.medial_axis import MedialAxis
 from ..errors import ExportError
-from .triangulate import triangulate
+from .facet_triangles import triangulate_facets
 from .whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -163,7 +163,7 @@ def _write_polygons(
 
 def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
     """Q-MAT's plain variant: `nv ne nf`, then `v x y z r`, every edge once, and triangles."""
-    triangles = triangulate(axis.vertices, axis.face_offsets, axis.face_vertices)
+    triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
     edges = _edges(triangles, len(axis.vertices))
     stream.write(b"%d %d %d\n" % (len(axis.vertices), len(edges), len(triangles)))
     _write_rows(stream, "v %.17g %.17g %.17g %.17g\n", axis.vertices, axis.radius)
