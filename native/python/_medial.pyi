@@ -829,6 +829,29 @@ def polygon_edges(
     InvalidInputError
     """
 
+def polygon_triangles(
+    points: NDArray[np.float64], face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """Polygons as triangles, without new vertices.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+        Rows of `points`, three at least for each polygon.
+
+    Returns
+    -------
+    triangles : (c - 2 f, 3) int32
+        Polygon after polygon, each with its boundary and turning as it does. Quads are cut from the first corner to the
+        third, where they are convex there; larger ones by their constrained Delaunay triangulation.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
 def winding_number(
     queries: NDArray[np.float64], vertices: NDArray[np.float64], triangles: NDArray[np.int32]
 ) -> NDArray[np.float64]:
