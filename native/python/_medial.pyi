@@ -413,6 +413,29 @@ class Hierarchy:
         InvalidInputError, Cancelled
         """
 
+class ThicknessMode:
+    """What `MedialAnalysis.thickness` measures."""
+
+    WALL: ThicknessMode
+    """Balls between walls: where their two normals differ by 120 degrees or more. Elsewhere, as next to an edge, what
+    the nearest wall along the surface has, but never less than the ball at the sample itself."""
+    BALL: ThicknessMode
+    """All balls; zero at every convex edge."""
+    SCAN: ThicknessMode
+    """The ball that comes nearest, of those at facets with a theta above 50 degrees, for noise; no normals are used."""
+
+@final
+class WallThickness:
+    """How thick a solid is at its samples, or how wide the gap; made by `MedialAnalysis.thickness`."""
+
+    @property
+    def values(self) -> NDArray[np.float64]:
+        """(k,) float64: at each of `MedialAnalysis.samples`, in the unit of the input; infinite where there is no
+        wall, or no ball."""
+    @property
+    def measured(self) -> NDArray[np.bool_]:
+        """(k,) bool: measured at the sample itself; else filled from the nearest along the surface, or infinite."""
+
 @final
 class MedialAnalysis:
     """Everything about a point set that does not depend on the thresholds; computed once, extracted often.
@@ -539,6 +562,44 @@ class MedialAnalysis:
         Raises
         ------
         InvalidInputError, Cancelled
+        """
+    def thickness(
+        self,
+        normals: NDArray[np.float64] | None = None,
+        *,
+        edges: NDArray[np.bool_] | None = None,
+        mode: ThicknessMode = ...,
+        side: Side = ...,
+        theta: float = ...,
+        rho: float = ...,
+        rule: Rule = ...,
+        criteria: Criteria = ...,
+        progress: Progress | None = None,
+    ) -> WallThickness:
+        """How thick the solid is at each of `samples`, or how wide the gap. The ball that is tangent at p and touches
+        q has the diameter |pq|^2 / (n_p . (p - q)); the least over the selected facets (p, q) counts. Between walls
+        the ball is tangent to the plane at q, too.
+
+        Parameters
+        ----------
+        normals : (n, 3) float64, optional
+            Outward normals of the points, of any length; what has a zero one is filled. Only SCAN does without.
+        edges : (n,) bool, optional
+            Points on sharp edges, where a normal is the mean of sides: they are filled. Default: none.
+        mode : ThicknessMode
+            WALL (default), BALL or SCAN.
+        side : Side
+            INNER (default) or OUTER, the gap; it needs a bounding sphere where gaps are open. What faces nothing has
+            an infinite one.
+        theta, rho, rule, criteria
+            As in `extract`; SCAN has its own.
+        progress : Progress, optional
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        DegenerateInputError
+            `TightCocone.encloses` is false.
         """
     def solid_triangles(self) -> NDArray[np.int32]:
         """(f, 3) int32: rows of the facets between inner and outer cells, outward, lowest row first, in lexicographic
@@ -728,6 +789,24 @@ def sample_surface(
         Besides wrong shapes and types: not exactly one of count, spacing and sizing (a count may go with sizing), a
         value out of range, a corner that is no row, no triangle with an area, or more than 268 million samples.
     Cancelled
+    """
+
+def patches(
+    triangles: NDArray[np.int32], wanted: NDArray[np.bool_], vertices: int
+) -> NDArray[np.int32]:
+    """(m,) int32: number of the patch of each triangle: those of `wanted` that share a corner are in one. Patches are
+    numbered in the order of their first triangles; -1: not wanted.
+
+    Parameters
+    ----------
+    triangles : (m, 3) int32
+    wanted : (m,) bool
+    vertices : int
+        The number of rows that the triangles count.
+
+    Raises
+    ------
+    InvalidInputError
     """
 
 def memory_needed(points: int) -> int:
