@@ -6,6 +6,7 @@
 #include "base/polygon_edges.h"
 #include "bindings.h"
 #include "cocone/cocone.h"
+#include "delaunay/polygon_triangles.h"
 #include "delaunay/samples.h"
 #include "inside/buried.h"
 #include "inside/solid_betti.h"
@@ -93,6 +94,16 @@ constexpr const char* kPolygonEdgesDoc =
     "Returns\n-------\nedges : (e, 2) int32\n    Lower vertex first, in lexicographic order.\n"
     "corner_edges : (c,) int32\n    The row of the edge from each corner to the next one of its "
     "polygon.\n\n"
+    "Raises\n------\nInvalidInputError";
+
+constexpr const char* kPolygonTrianglesDoc =
+    "Polygons as triangles, without new vertices.\n\n"
+    "Parameters\n----------\npoints : (n, 3) float64\nface_offsets : (f + 1,) int32\n"
+    "face_vertices : (c,) int32\n    Rows of `points`, three at least for each polygon.\n\n"
+    "Returns\n-------\ntriangles : (c - 2 f, 3) int32\n"
+    "    Polygon after polygon, each with its boundary and turning as it does. Quads are cut from "
+    "the first corner to the\n    third, where they are convex there; larger ones by their "
+    "constrained Delaunay triangulation.\n\n"
     "Raises\n------\nInvalidInputError";
 
 Run all_cores() { return {thread_count(0), nullptr}; }
@@ -257,6 +268,18 @@ py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& fa
                         array_of<int32_t>(std::move(edges.of_corner)));
 }
 
+py::array triangles_of_polygons(const py::object& points, const py::object& face_offsets,
+                                const py::object& face_vertices) {
+  const Points rows(points, "points");
+  const auto offsets = ids_of(face_offsets, "face_offsets");
+  const auto corners = ids_of(face_vertices, "face_vertices");
+  auto triangles = [&, span = rows.span()] {
+    const py::gil_scoped_release release;
+    return polygon_triangles(span, offsets, corners, all_cores());
+  }();
+  return array_of<int32_t>(std::move(triangles));
+}
+
 py::array winding_numbers(const py::object& queries, const py::object& vertices,
                           const py::object& triangles) {
   const Points query_rows(queries, "queries"), vertex_rows(vertices, "vertices");
@@ -308,6 +331,8 @@ void bind_stages(py::module_& m) {
   m.def("solid_betti", &betti_of_solid, kSolidBettiDoc, py::arg("points"), py::arg("triangles"));
   m.def("polygon_edges", &edges_of_polygons, kPolygonEdgesDoc, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));
+  m.def("polygon_triangles", &triangles_of_polygons, kPolygonTrianglesDoc, py::arg("points"),
+        py::arg("face_offsets"), py::arg("face_vertices"));
   m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"),
         py::arg("triangles"));
   m.def("buried", &buried_points, kBuriedDoc, py::arg("points"), py::arg("normals"),
