@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.settings import OPTIONS, Choice, Integer, Settings, Switch
-from .attributes import attributes
+from ..core.settings import OPTIONS, Choice, Form, Integer, Settings, Switch
 from .material import RADIUS_MAX, RADIUS_MIN, radius_material
 from .output_object import (
     DENSITY,
@@ -21,7 +20,7 @@ from .output_object import (
     remember,
     replace_mesh,
 )
-from .write_mesh import new_mesh
+from .write_mesh import new_axis_mesh
 
 if TYPE_CHECKING:
     import numpy as np
@@ -34,6 +33,8 @@ ANALYSIS = "ma_analysis"
 INSIDE = "ma_inside"  # what told inside from outside, and why: a sentence
 UNBOUNDED = "ma_unbounded"
 ZERO_AREA = "ma_zero_area"
+BETTI = "ma_betti"  # pieces, loops and cavities; only of clean forms and curves
+TOPOLOGY = "ma_topology"  # the same in a sentence
 
 
 def is_result(thing: bpy.types.Object) -> bool:
@@ -72,15 +73,18 @@ def write_result(
     if result is None:
         result = _new_result(source, computation.axis)
     else:
-        replace_mesh(result, partial(_axis_mesh, computation.axis))
+        replace_mesh(result, partial(new_axis_mesh, computation.axis))
     place(result, frame)
     _remember(result, source, computation)
     return result
 
 
-def update_result(result: bpy.types.Object, axis: MedialAxis, settings: Settings) -> None:
-    """Give a result other facets of the same analysis; it stays where it is."""
-    replace_mesh(result, partial(_axis_mesh, axis))
+def update_result(
+    result: bpy.types.Object, axis: MedialAxis, settings: Settings, topology: str
+) -> None:
+    """Give a result another axis of the same analysis, and a sentence about it; it stays where it is."""
+    replace_mesh(result, partial(new_axis_mesh, axis))
+    result[TOPOLOGY] = topology
     _remember_settings(result, settings)
     _remember_axis(result, axis)
 
@@ -91,10 +95,11 @@ def radius_range(result: bpy.types.Object) -> tuple[float, float]:
 
 
 def settings_of(result: bpy.types.Object) -> Settings:
-    """The settings that a result was made with."""
+    """The settings that a result was made with; those of earlier versions, which had no forms, are as published."""
     values = {}
     for name, option in OPTIONS.items():
-        value = result.get(f"ma_{name}", option.default)
+        earlier = Form.PUBLISHED if name == "form" else option.default
+        value = result.get(f"ma_{name}", earlier)
         if isinstance(option, Choice) and isinstance(value, str):
             value = type(option.default)[value]
         exact = isinstance(option, (Switch, Integer))
@@ -103,21 +108,18 @@ def settings_of(result: bpy.types.Object) -> Settings:
 
 
 def _new_result(source: bpy.types.Object, axis: MedialAxis) -> bpy.types.Object:
-    mesh = _axis_mesh(axis, source.name + SUFFIX)
+    mesh = new_axis_mesh(axis, source.name + SUFFIX)
     mesh.materials.append(radius_material())
     result = new_object(source, SUFFIX, mesh)
     result.show_in_front = True  # an inner axis lies inside the surface
     return result
 
 
-def _axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
-    return new_mesh(axis, name, attributes())
-
-
 def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: Computation) -> None:
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
     result[ANALYSIS] = computation.key
     result[INSIDE] = str(computation.sides)
+    result[TOPOLOGY] = computation.topology
     result[SAMPLED] = computation.chosen.reason
     result[DENSITY] = str(computation.density)
     _remember_settings(result, computation.settings)
@@ -133,6 +135,10 @@ def _remember_settings(result: bpy.types.Object, settings: Settings) -> None:
 def _remember_axis(result: bpy.types.Object, axis: MedialAxis) -> None:
     result[UNBOUNDED] = axis.unbounded
     result[ZERO_AREA] = axis.zero_area
+    if axis.level is not None:
+        result[BETTI] = axis.level.betti
+    elif BETTI in result:
+        del result[BETTI]
     result[RADIUS_MIN] = float(axis.radius.min())
     result[RADIUS_MAX] = float(axis.radius.max())
     result.update_tag()

@@ -17,7 +17,7 @@ from ..bridge.surface_object import check_surface_writable, is_surface, write_su
 from ..core.axis.compute import compute_axis
 from ..core.axis.reconstruction import reconstruct
 from ..core.axis.sampling_report import report_sampling
-from ..core.settings import OPTIONS, SAMPLING_OPTIONS
+from ..core.settings import OPTIONS, SAMPLING_OPTIONS, Form, applies_to_form
 from . import current_job
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
@@ -35,6 +35,10 @@ class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Opera
     product = "medial axis"
     check_writable = staticmethod(check_writable)
 
+    form: choice("form")
+    simplify: number("simplify")
+    erode: number("erode")
+    limb: number("limb")
     theta: number("theta")
     rho: number("rho")
     side: choice("side")
@@ -45,24 +49,27 @@ class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Opera
 
     def draw(self, _context):
         self.layout.use_property_split = True
+        form = Form[self.form]
         for name in OPTIONS:
             if name not in SAMPLING_OPTIONS:
-                self.layout.prop(self, name)
+                row = self.layout.row()
+                row.active = applies_to_form(name, form)
+                row.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
     def work(self, shape):
         return partial(compute_axis, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, computation, frame):
-        return write_result(thing, computation, frame) if computation.axis.facets else None
+        return None if computation.axis.is_empty else write_result(thing, computation, frame)
 
     def summary(self, computation):
-        axis = computation.axis
+        axis, chosen = computation.axis, computation.chosen
+        known = (computation.topology, computation.sides, chosen.reason, computation.density)
         return (
-            f"{computation.points:,} points, {axis.facets:,} facets, duplicates merged "
-            f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}, facets "
-            f"without area {axis.zero_area:,}; {computation.sides}; {computation.chosen.reason}; "
-            f"{computation.density}"
+            f"{computation.points:,} points, {axis.facets:,} facets, edges alone {len(axis.edges):,}, "
+            f"duplicates merged {computation.duplicates:,}, unbounded facets {axis.unbounded:,}, "
+            f"facets without area {axis.zero_area:,}; {'; '.join(str(x) for x in known if str(x))}"
         )
 
 

@@ -13,7 +13,7 @@ from ..bridge.output_object import is_gone
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import is_report, report_of
 from ..bridge.surface_object import is_surface, surface_of
-from ..core.axis.compute import refilter
+from ..core.axis.compute import refilter, refiltered_topology
 from ..core.errors import MedialAxisError
 from ..core.settings import (
     ANALYSED,
@@ -196,15 +196,20 @@ def _refilter_result(result, panel) -> str:
     axis = refilter(result[ANALYSIS], wanted)
     if axis is None:
         return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
-    if axis.facets == 0:
+    if axis.is_empty:
         return "No facet passes these conditions; the medial axis was left as it was"
-    update_result(result, axis, wanted)
+    topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
+    update_result(result, axis, replace(wanted, form=wanted.form_of_side), topology)
     return ""
 
 
 class MedialAxisPanelSettings(SamplingProperties, bpy.types.PropertyGroup):
-    """What the sidebar panel shows; theta, rho, rule and criteria act on the result at once."""
+    """What the sidebar panel shows; the form, its sliders, theta, rho, rule and criteria act on the result at once."""
 
+    form: choice("form", _refilter)
+    simplify: number("simplify", _refilter)
+    erode: number("erode", _refilter)
+    limb: number("limb", _refilter)
     theta: number("theta", _refilter)
     rho: number("rho", _refilter)
     side: choice("side")

@@ -304,6 +304,9 @@ class Hierarchy:
     def betti(self) -> tuple[int, int, int]:
         """Components, tunnels and cavities of the complex, and so of every level."""
     @property
+    def bytes(self) -> int:
+        """Memory that the hierarchy holds."""
+    @property
     def diagonal(self) -> float:
         """Of the box of the samples: the unit of `sheet`, `erosion` and `limb`."""
     @property
@@ -877,6 +880,19 @@ def cocone(
 def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
     """`MedialAnalysis.boundary_edges` without the analysis: edges of the triangles that are not used equally often in
     both directions, rows with the same coordinates being one. 0: the surface is closed, or there is none.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+    """
+
+def solid_betti(
+    points: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> tuple[int, int, int] | None:
+    """Pieces, loops and cavities of the solid whose boundary the triangles are, if they pass nowhere through
+    themselves; None where they are no closed manifold, or a shell of them has no volume. Rows with the same
+    coordinates are one. Shells that point outward are pieces, those that point inward cavities, every handle is a loop.
 
     Parameters
     ----------

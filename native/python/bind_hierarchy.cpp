@@ -177,6 +177,8 @@ void bind_hierarchy(py::module_& m) {
        "betti", [](const Hierarchy& h) { return betti_tuple(h.betti()); },
        "Components, tunnels and cavities of the complex, and so of every level.")
       .def_property_readonly(
+          "bytes", [](const Hierarchy& h) { return h.bytes(); }, "Memory that the hierarchy holds.")
+      .def_property_readonly(
           "diagonal", [](const Hierarchy& h) { return h.diagonal(); },
           "Of the box of the samples: the unit of `sheet`, `erosion` and `limb`.")
       .def_property_readonly(
@@ -234,8 +236,7 @@ void bind_hierarchy(py::module_& m) {
   c.def_property_readonly(
        "edge_limb",
        [](const Hierarchy& h) {
-         return edge_values(
-             h, [](const auto& parts, int32_t e) { return parts.limb_of_edge(e); });
+         return edge_values(h, [](const auto& parts, int32_t e) { return parts.limb_of_edge(e); });
        },
        "(e,) float32: length of the branch of each edge, as a share of the diagonal: how long it "
        "is, or how far its tip sticks out,\nwhichever is less; 0 where the edge goes with a facet.")

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DegenerateInputError
 from ..machine import native
 from ..settings import SidesFrom
-from .analysis import AnalysedSamples, Request, analyse, kept_or_made
+from .analysis import AnalysedSamples, Request, analyse, betti_by_faces, kept_or_made
 from .buried_samples import find_bare
 from .closing_samples import closed_by_samples
 from .density import estimate
@@ -92,7 +92,10 @@ def _sampled(
     on_edges = points[_are_on_edges(kinds, request.gaps, closing)]
     density = estimate(analysis, points, on_edges, first, settings.epsilon)
     buried = int(np.count_nonzero(~bare))
-    return AnalysedSamples(points, kinds, normals, analysis, density, first, buried)
+    by_faces = betti_by_faces(request, sides)
+    return AnalysedSamples(
+        points, kinds, normals, analysis, density, first, buried, by_faces=by_faces
+    )
 
 
 def _sample_surface(shape: Shape, options: dict[str, Any], progress: Any) -> Any:

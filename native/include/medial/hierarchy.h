@@ -59,6 +59,7 @@ class Hierarchy {
 
   const Betti& betti() const;  // of the whole complex
   double diagonal() const;     // of the box of the samples
+  size_t bytes() const;        // memory that it holds
   // Throws InvalidInputError for thresholds below 0, Cancelled.
   Level extract(const LevelOptions& options, Progress* progress = nullptr) const;
   const Timings& timings() const;
