@@ -234,8 +234,7 @@ void bind_hierarchy(py::module_& m) {
   c.def_property_readonly(
        "edge_limb",
        [](const Hierarchy& h) {
-         return edge_values(
-             h, [](const auto& parts, int32_t e) { return parts.limb_of_edge(e); });
+         return edge_values(h, [](const auto& parts, int32_t e) { return parts.limb_of_edge(e); });
        },
        "(e,) float32: length of the branch of each edge, as a share of the diagonal: how long it "
        "is, or how far its tip sticks out,\nwhichever is less; 0 where the edge goes with a facet.")
