@@ -4,6 +4,7 @@
 #include "base/sort.h"
 #include "skeleton/betti.h"
 #include "skeleton/relax.h"
+#include "skeleton/round_limbs.h"
 
 namespace medial {
 namespace {
@@ -16,11 +17,6 @@ void check(double threshold, const char* name) {
 }
 
 bool exceeds(float value, double threshold) { return value > threshold || value == HUGE_VALF; }
-
-bool exceeds(const Thickness& value, const LevelOptions& t) {
-  return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
-         exceeds(value.erosion, t.erosion);
-}
 
 Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run) {
   const InnerComplex& complex = h.complex;
@@ -189,14 +185,21 @@ class Drawer {
 
 }  // namespace
 
+bool exceeds(const Thickness& value, const LevelOptions& t) {
+  return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
+         exceeds(value.erosion, t.erosion);
+}
+
 Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& run) {
   check(options.sheet, "sheet");
   check(options.spacings, "spacings");
   check(options.erosion, "erosion");
   check(options.limb, "limb");
-  begin_stage(run.progress, "Level", 0, options.relaxed ? 0.5 : 1);
+  begin_stage(run.progress, "Limbs", 0, 0.3);
   const Run quiet{run.threads, nullptr, run.arena};
-  const Alive alive = alive_at(h, options, quiet);
+  Alive alive = alive_at(h, options, quiet);
+  if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
+  begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);
   Drawer drawer(h, alive, quiet);
   Level level = drawer.draw();

@@ -30,6 +30,9 @@ struct Hierarchy::Parts {
   }
 };
 
+// Whether thresholds leave a cell with this value.
+bool exceeds(const Thickness& value, const LevelOptions& options);
+
 // Throws InvalidInputError for thresholds below 0.
 Level level(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);
 
