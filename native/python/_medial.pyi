@@ -264,6 +264,12 @@ class Level:
     def facet_of(self) -> NDArray[np.int32]:
         """(f,) int32: facet of the hierarchy, for its values."""
     @property
+    def theta(self) -> NDArray[np.float64]:
+        """(f,) float64, radians: as in `MedialMesh`, by the rule of the hierarchy."""
+    @property
+    def rho(self) -> NDArray[np.float64]:
+        """(f,) float64: as in `MedialMesh`, by the rule of the hierarchy."""
+    @property
     def sheet(self) -> NDArray[np.float32]:
         """(f,) float32: `facet_sheet` of each facet."""
     @property
@@ -286,8 +292,8 @@ class Level:
         """Components, tunnels and cavities, counted on the level; those of the hierarchy."""
     @property
     def hidden(self) -> int:
-        """Edges from a vertex to itself, and facets with fewer than three other edges: they count but cannot be
-        drawn. Only where very many samples are cospherical."""
+        """Edges from a vertex to itself, facets with fewer than three other edges, and facets with the corners of
+        another one: they count but cannot be drawn. Only where very many samples are cospherical."""
 
 @final
 class Hierarchy:
