@@ -20,8 +20,10 @@ END = "ma_color_end"
 OF = "ma_color_of"
 
 
-def colour_mesh(mesh: bpy.types.Mesh, values: NDArray, start: float, end: float) -> None:
-    """Give a mesh `ma_color`, active in viewport and render.
+def colour_mesh(
+    mesh: bpy.types.Mesh, values: NDArray, start: float, end: float, render: bool = True
+) -> None:
+    """Give a mesh `ma_color`, active in the viewport and, where `render` says so, in renders.
 
     Parameters
     ----------
@@ -35,17 +37,19 @@ def colour_mesh(mesh: bpy.types.Mesh, values: NDArray, start: float, end: float)
     attribute = _attribute(mesh)
     attribute.data.foreach_set("color", colours(values, start, end).ravel())
     mesh.color_attributes.active_color = attribute
-    mesh.color_attributes.render_color_index = mesh.color_attributes.find(COLOUR)
+    if render:
+        mesh.color_attributes.render_color_index = mesh.color_attributes.find(COLOUR)
 
 
 def remember_colours(thing: bpy.types.Object, of: str, start: float, end: float) -> None:
-    """Keep on an object which attribute `ma_color` shows, and its range, for the legend and the materials."""
+    """Keep on an object which attribute `ma_color` shows, "" where there is none, and its range, for the legend and the
+    materials."""
     thing[OF], thing[START], thing[END] = of, float(start), float(end)
 
 
 def colour_range(thing: bpy.types.Object) -> tuple[str, float, float] | None:
     """(name of the attribute, start, end) of what an object is coloured by; None when it is not coloured."""
-    if OF not in thing:
+    if not thing.get(OF):
         return None
     return thing[OF], thing[START], thing[END]
 
