@@ -96,7 +96,7 @@ def place(output: bpy.types.Object, frame: np.ndarray) -> None:
 def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wanted: bool) -> None:
     """Make an object that has just been placed a child of its source, or its own master again.
 
-    What an artist made it a child of stays its parent. Where the source is flat, there is no way to hang anything on it.
+    What an artist made it a child of stays its parent. On a source that is flat, nothing can hang.
 
     Parameters
     ----------
