@@ -13,8 +13,19 @@ import numpy as np
 from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.axis.cut import pieces, within_box, without_small_pieces
 from ..core.axis.verdict import verdict
-from ..core.settings import LOOKS, OPTIONS, Choice, Criteria, Integer, Look, Settings, Side, Switch
-from .attributes import RADIUS, attributes
+from ..core.settings import (
+    LOOKS,
+    OPTIONS,
+    Choice,
+    Criteria,
+    Form,
+    Integer,
+    Look,
+    Settings,
+    Side,
+    Switch,
+)
+from .attributes import RADIUS
 from .colours import colour_mesh, remember_colours
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
 from .output_object import (
@@ -28,7 +39,7 @@ from .output_object import (
     remember,
     replace_mesh,
 )
-from .write_mesh import new_mesh
+from .write_mesh import new_axis_mesh
 
 if TYPE_CHECKING:
     from ..core.axis.compute import Computation
@@ -47,6 +58,8 @@ VERDICT = "ma_verdict"  # the sentence that matters most
 # Shares of the facets that one of the two conditions keeps alone.
 ONLY_RATIO = "ma_only_ratio"
 ONLY_ANGLE = "ma_only_angle"
+BETTI = "ma_betti"  # pieces, loops and cavities; only of clean forms and curves
+TOPOLOGY = "ma_topology"  # the same in a sentence
 # The whole axis, its own master.
 ALL = Look(within=0.0)
 
@@ -104,11 +117,16 @@ def write_result(
 
 
 def update_result(
-    result: bpy.types.Object, axis: MedialAxis, settings: Settings, look: Look = ALL
+    result: bpy.types.Object,
+    axis: MedialAxis,
+    settings: Settings,
+    topology: str,
+    look: Look = ALL,
 ) -> None:
-    """Give a result other facets of the same analysis; it stays where it is."""
+    """Give a result another axis of the same analysis, and a sentence about it; it stays where it is."""
     shown = _shown(axis, result.get(BOX), look)
     replace_mesh(result, partial(_axis_mesh, shown, look))
+    result[TOPOLOGY] = topology
     _remember_shown(result, axis, shown, settings, look)
 
 
@@ -118,10 +136,11 @@ def radius_range(result: bpy.types.Object) -> tuple[float, float]:
 
 
 def settings_of(result: bpy.types.Object) -> Settings:
-    """The settings that a result was made with."""
+    """The settings that a result was made with; those of earlier versions, which had no forms, are as published."""
     values = {}
     for name, option in OPTIONS.items():
-        value = result.get(f"ma_{name}", option.default)
+        earlier = Form.PUBLISHED if name == "form" else option.default
+        value = result.get(f"ma_{name}", earlier)
         if isinstance(option, Choice) and isinstance(value, str):
             value = type(option.default)[value]
         exact = isinstance(option, (Switch, Integer))
@@ -135,7 +154,7 @@ def look_of(result: bpy.types.Object) -> Look:
 
 
 def _axis_mesh(axis: MedialAxis, look: Look, name: str) -> bpy.types.Mesh:
-    mesh = new_mesh(axis, name, attributes())
+    mesh = new_axis_mesh(axis, name)
     if look.colours:
         colour_mesh(mesh, axis.radius, *colours_of_radii(axis.radius))
     return mesh
@@ -146,7 +165,9 @@ def _box(points: np.ndarray) -> list[float]:
 
 
 def _shown(axis: MedialAxis, box: Sequence[float] | None, look: Look) -> MedialAxis:
-    """What the look leaves of an axis; everything, where that would be nothing."""
+    """What the look leaves of an axis; everything, where that would be nothing, and of a level."""
+    if axis.level is not None:
+        return axis
     if box is not None:
         low, high = np.reshape(box, (2, 3))
         near = within_box(axis, low, high, look.within)
@@ -158,6 +179,7 @@ def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: C
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
     result[ANALYSIS] = computation.key
     result[INSIDE] = str(computation.sides)
+    result[TOPOLOGY] = computation.topology
     result[SAMPLED] = computation.chosen.reason
     result[DENSITY] = str(computation.density)
     result[SECONDS] = computation.seconds
@@ -177,8 +199,12 @@ def _remember_shown(
     result[UNBOUNDED] = axis.unbounded
     result[ZERO_AREA] = axis.zero_area
     result[HIDDEN] = whole.facets - axis.facets
-    result[PIECES] = int(pieces(axis).max(initial=-1)) + 1
+    result[PIECES] = len(np.unique(pieces(axis))) if axis.level is None else axis.level.betti[0]
     result[ONLY_RATIO], result[ONLY_ANGLE] = _only(axis, settings)
+    if axis.level is not None:
+        result[BETTI] = axis.level.betti
+    elif BETTI in result:
+        del result[BETTI]
     result[RADIUS_MIN] = float(axis.radius.min())
     result[RADIUS_MAX] = float(axis.radius.max())
     start, end = colours_of_radii(axis.radius)

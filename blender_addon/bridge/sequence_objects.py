@@ -18,10 +18,10 @@ from ..core.axis.colours import radius_range
 from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from ..core.files.load_axis import load_axis
-from .attributes import RADIUS, attributes
+from .attributes import RADIUS
 from .colours import colour_mesh, remember_colours
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
-from .write_mesh import new_mesh
+from .write_mesh import new_axis_mesh
 
 SUFFIX = " Medial Axis Sequence"
 SEQUENCE = "ma_sequence"
@@ -84,7 +84,7 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
 
 
 def _new_object(name: str, axis: MedialAxis, frame: int) -> bpy.types.Object:
-    mesh = new_mesh(axis, name, attributes())
+    mesh = new_axis_mesh(axis, name)
     mesh.materials.append(radius_material())
     thing = bpy.data.objects.new(name, mesh)
     thing.color = FLAT

@@ -19,7 +19,7 @@ from ..bridge.surface_object import check_surface_writable, is_surface, write_su
 from ..core.axis.compute import compute_axis
 from ..core.axis.reconstruction import reconstruct
 from ..core.axis.sampling_report import report_sampling
-from ..core.settings import LOOKS, OPTIONS, SAMPLING_OPTIONS
+from ..core.settings import LOOKS, OPTIONS, SAMPLING_OPTIONS, Form, applies_to_form
 from . import current_job
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
@@ -48,6 +48,10 @@ class OBJECT_OT_medial_axis(
     product = "medial axis"
     check_writable = staticmethod(check_writable)
 
+    form: choice("form")
+    simplify: number("simplify")
+    erode: number("erode")
+    limb: number("limb")
     theta: number("theta")
     rho: number("rho")
     side: choice("side")
@@ -58,9 +62,12 @@ class OBJECT_OT_medial_axis(
 
     def draw(self, _context):
         self.layout.use_property_split = True
+        form = Form[self.form]
         for name in OPTIONS:
             if name not in SAMPLING_OPTIONS:
-                self.layout.prop(self, name)
+                row = self.layout.row()
+                row.active = applies_to_form(name, form)
+                row.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
         box = self.layout.box().column()
         for name in (*LOOKS, "select_result"):
@@ -70,13 +77,14 @@ class OBJECT_OT_medial_axis(
         return partial(compute_axis, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, computation, frame):
-        if not computation.axis.facets:
+        if computation.axis.is_empty:
             return None
         return write_result(thing, computation, frame, look_from(self))
 
     def summary(self, computation):
         axis = computation.axis
-        return (
+        topology = f"{computation.topology}; " if computation.topology else ""
+        return topology + (
             f"{computation.points:,} points, {axis.facets:,} facets, duplicates merged "
             f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}, facets "
             f"without area {axis.zero_area:,}; {computation.sides}; {computation.chosen.reason}; "

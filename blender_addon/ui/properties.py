@@ -19,7 +19,7 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import has_report, report_of
 from ..bridge.surface_object import is_surface, surface_of
-from ..core.axis.compute import refilter
+from ..core.axis.compute import refilter, refiltered_topology
 from ..core.errors import MedialAxisError
 from ..core.settings import (
     ANALYSED,
@@ -230,15 +230,22 @@ def _refilter_result(result, panel) -> str:
     axis = refilter(result[ANALYSIS], wanted)
     if axis is None:
         return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
-    if axis.facets == 0:
+    if axis.is_empty:
         return "No facet passes these conditions; the medial axis was left as it was"
-    update_result(result, axis, wanted, look_from(panel))
+    topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
+    settings = replace(wanted, form=wanted.form_of_side)
+    update_result(result, axis, settings, topology, look_from(panel))
     return ""
 
 
 class MedialAxisPanelSettings(SamplingProperties, bpy.types.PropertyGroup):
-    """What the sidebar panel shows; theta, rho, rule, criteria and the look act on the result at once."""
+    """What the sidebar panel shows; the form, its sliders, theta, rho, rule, criteria and the look act on the result at
+    once."""
 
+    form: choice("form", _refilter)
+    simplify: number("simplify", _refilter)
+    erode: number("erode", _refilter)
+    limb: number("limb", _refilter)
     theta: number("theta", _refilter)
     rho: number("rho", _refilter)
     side: choice("side")

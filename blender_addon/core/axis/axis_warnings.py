@@ -37,7 +37,7 @@ def axis_warnings(
             "the normals point inward, so inside and outside are exchanged; turn them round, "
             "or choose Inside From Tight Cocone, and compute again"
         )
-    elif axis.facets == 0:
+    elif axis.is_empty:
         yield _why_empty(shape, settings, chosen, axis)
 
 
@@ -46,7 +46,7 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
     if axis.zero_area:
         return (
             f"all {axis.zero_area:,} facets that pass the conditions are points or lines, as in an "
-            "exact ball; choose Sampling Surface to see where they are"
+            "exact ball; choose Form Clean to see them"
         )
     if closed and settings.side is Side.INNER and shape.volume < 0:
         return (

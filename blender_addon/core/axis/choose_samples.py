@@ -10,7 +10,14 @@ from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..settings import SamplingMode, Settings
-from .analysis import AnalysedSamples, Request, analyse, kept_or_made, used_by_sides
+from .analysis import (
+    AnalysedSamples,
+    Request,
+    analyse,
+    betti_by_faces,
+    kept_or_made,
+    used_by_sides,
+)
 from .check_faces import check_faces, check_not_flat
 from .density import LOOKED_AT, estimate, percent
 from .sample_spacing import first_amount, first_count, first_spacing, next_amount
@@ -188,7 +195,15 @@ def _analysed_vertices(request: Request, sides: Sides, share: float) -> Analysed
     analysis = analyse(request, points, normals, sides, request.progress.part(share))
     no_edges, epsilon = points[:0], request.settings.epsilon
     density = estimate(analysis, points, no_edges, 0.0, epsilon, most=LOOKED_AT)
-    return AnalysedSamples(points, None, normals, analysis, density, rows=request.shape.rows)
+    return AnalysedSamples(
+        points,
+        None,
+        normals,
+        analysis,
+        density,
+        rows=request.shape.rows,
+        by_faces=betti_by_faces(request, sides),
+    )
 
 
 # --- samples of the faces
