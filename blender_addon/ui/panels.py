@@ -20,7 +20,7 @@ from .form_panel import draw_form, draw_more_of_form
 from .guide import draw_guide
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
-from .selected_sources import obstacle, sources
+from .selected_sources import has_faces, obstacle, sources
 from .show import shows_colours
 from .translation import say
 from .wrapped_text import draw_wrapped
@@ -220,7 +220,7 @@ def _draw_compute(context, layout):
         context.scene.medial_axis,
         row.operator("object.medial_axis", icon="OUTLINER_DATA_MESH"),
     )
-    if any(map(_has_no_faces, sources(context))):
+    if not all(map(has_faces, sources(context))):
         button = layout.operator(
             "object.tight_cocone_surface", text="Reconstruct Surface", icon="MESH_ICOSPHERE"
         )
@@ -228,10 +228,6 @@ def _draw_compute(context, layout):
     reason = obstacle(context)
     if reason and reason != native.problem():
         draw_wrapped(context, layout, reason, "INFO")
-
-
-def _has_no_faces(thing):
-    return thing.type == "POINTCLOUD" or (thing.type == "MESH" and not thing.data.polygons)
 
 
 def _draw_progress(context, layout, job):

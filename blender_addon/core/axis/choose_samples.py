@@ -236,9 +236,11 @@ def _passes(request: Request, sides: Sides) -> tuple[AnalysedSamples, int]:
         and not samples.density.dense_enough
         and not _is_spent(request, samples)
     ):
+        request.progress.begin_pass(passes + 1)
         amount = next_amount(samples, effort.elsewhere, settings.budget)
         found = surface_pass(request, sides, amount, 0.6, samples.spacing)
         samples, passes = _judged(request, found), passes + 1
+    request.progress.begin_pass(1)
     return samples, passes
 
 
