@@ -114,6 +114,11 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
         help="of files in a folder OUTPUT (default: ma)",
     )
     files.add_argument(
+        "--triangles",
+        action="store_true",
+        help="write .ply, .obj and .off as triangles in text, which more programs read",
+    )
+    files.add_argument(
         "--options", metavar="TEXT", default="", help="more options in one word, as farms pass them"
     )
     files.add_argument("--force", action="store_true", help="compute also what is finished")
@@ -246,7 +251,7 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, console: _Console) -
                     f"Expected another output for each input, found '{item.output}' again; put "
                     "{file} or {name} in OUTPUT"
                 )
-            begun = begin(item, wanted.settings, wanted.force, wanted.limit)
+            begun = begin(item, wanted.settings, wanted.force, wanted.limit, wanted.triangles)
             console.tell(begun.kept or finish(begun, _watch(begun.task, console.show)))
             outputs.add(item.output)
         except (KeyboardInterrupt, Cancelled):

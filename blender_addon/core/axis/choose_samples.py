@@ -213,7 +213,8 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
     """Even samples; then, for Adaptive and Automatic, as many passes as it takes."""
     shape, settings = request.shape, request.settings
     check_not_flat(shape)
-    sides = resolve_sides_of_samples(settings.sides, shape.points, shape.triangles, request.gaps)
+    spacing = first_spacing(shape, settings)
+    sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, spacing)
     samples, passes = _passes(request, sides)
     kind = SamplingMode.SURFACE if passes == 1 else SamplingMode.ADAPTIVE
     reason = f"{len(samples.points):,} samples of the surface: {why}"

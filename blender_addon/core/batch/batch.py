@@ -70,6 +70,8 @@ class Begun:
     warnings : tuple of str
     kept : dict or None
         The report of the output that is there and finished; None: it has to be computed.
+    triangles : bool
+        Whether the output is of triangles in text.
     """
 
     item: Item
@@ -78,6 +80,7 @@ class Begun:
     shape: Shape
     warnings: tuple[str, ...]
     kept: dict[str, Any] | None
+    triangles: bool = False
 
     @property
     def task(self) -> Task:
@@ -88,11 +91,16 @@ class Begun:
     def stamp(self, thinned: bool) -> str:
         """A hash of all that the output depends on; where samples were thinned, of the memory limit, too."""
         limit = self.limit if thinned else None
-        return stamp_of(self.shape, self.settings, self.item.output.suffix.lower(), limit)
+        kind = self.item.output.suffix.lower() + (" triangles" if self.triangles else "")
+        return stamp_of(self.shape, self.settings, kind, limit)
 
 
 def begin(
-    item: Item, settings: Settings, force: bool = False, limit: MemoryLimit = WHAT_IS_FREE
+    item: Item,
+    settings: Settings,
+    force: bool = False,
+    limit: MemoryLimit = WHAT_IS_FREE,
+    triangles: bool = False,
 ) -> Begun:
     """Read an item and look whether it is finished; with `force` it never is.
 
@@ -101,7 +109,7 @@ def begin(
     MedialAxisError
     """
     shape, warnings = item.read()
-    begun = Begun(item, settings, limit, shape, warnings, None)
+    begun = Begun(item, settings, limit, shape, warnings, None, triangles)
     kept = None if force else finished(item.output, {begun.stamp(False), begun.stamp(True)})
     return (
         begun if kept is None else replace(begun, kept={**kept, **_place(item), "status": "kept"})
@@ -123,7 +131,7 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
     if computation.axis.is_empty:
         raise MedialAxisError(computation.warnings[-1])
     _make_folder(output)
-    export_axis(computation.axis, output, begun.shape.frame)
+    export_axis(computation.axis, output, begun.shape.frame, begun.triangles)
     report = {
         "status": "done",
         **_place(begun.item),
@@ -145,12 +153,10 @@ def failure(item: Item, error: BaseException) -> dict[str, Any]:
     return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": str(error)}
 
 
-def stamp_of(
-    shape: Shape, settings: Settings, suffix: str, limit: MemoryLimit | None = None
-) -> str:
+def stamp_of(shape: Shape, settings: Settings, kind: str, limit: MemoryLimit | None = None) -> str:
     """A hash of all that an output depends on: the whole shape, every setting, format, version."""
     parts = (getattr(shape, part.name) for part in fields(shape))
-    return key_of(*parts, repr(settings), repr(limit), suffix, __version__)
+    return key_of(*parts, repr(settings), repr(limit), kind, __version__)
 
 
 def finished(output: Path, stamps: set[str]) -> dict[str, Any] | None:
