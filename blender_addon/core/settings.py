@@ -385,7 +385,7 @@ LOOKS: dict[str, Any] = {
     ),
     "parent": Switch(
         label="Parent to Source",
-        description="Results move, turn and disappear with the object that they were made of",
+        description="Results move and turn with the object that they were made of",
         default=True,
     ),
     "within": Number(
