@@ -375,6 +375,40 @@ LIMITS: dict[str, Any] = {
         },
     ),
 }
+# Options of how results look in Blender; what is computed does not depend on them.
+LOOKS: dict[str, Any] = {
+    "colours": Switch(
+        label="Colours",
+        description="Results have the attribute ma_color, by radius, which Solid view shows with "
+        "Color: Attribute",
+        default=True,
+    ),
+    "parent": Switch(
+        label="Parent to Source",
+        description="Results move and turn with the object that they were made of",
+        default=True,
+    ),
+    "within": Number(
+        label="Within",
+        description="Facets of an outer axis are shown as far as they lie in the bounding box, made so "
+        "many times as large; 0: all of them",
+        default=1.5,
+        minimum=0.0,
+        maximum=1000.0,
+        soft_maximum=5.0,
+        unit="",
+    ),
+    "smallest_island": Number(
+        label="Smallest Island",
+        description="Pieces of an axis as published with fewer of its facets than this are not shown; "
+        "0: all pieces",
+        default=0.0,
+        minimum=0.0,
+        maximum=100.0,
+        soft_maximum=5.0,
+        unit="%",
+    ),
+}
 CACHE_SIZE = Integer(
     label="Cache Size",
     description="Memory that analyses may keep for other thresholds after a computation, in MB; "
@@ -489,6 +523,28 @@ class Settings:
 
     def __post_init__(self) -> None:
         check_ranges(self, OPTIONS)
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a result looks in Blender.
+
+    Parameters
+    ----------
+    colours, parent : bool
+    within : float
+        Times the bounding box of the samples.
+    smallest_island : float
+        Percent of the facets.
+    """
+
+    colours: bool = LOOKS["colours"].default
+    parent: bool = LOOKS["parent"].default
+    within: float = LOOKS["within"].default
+    smallest_island: float = LOOKS["smallest_island"].default
+
+    def __post_init__(self) -> None:
+        check_ranges(self, LOOKS)
 
 
 def check_ranges(values: Any, options: Mapping[str, Any]) -> None:

@@ -21,6 +21,7 @@ class Source:
     name: str
     uid: int | None
     frame: object  # (4, 4) float64
+    world: object  # its matrix when it was read
 
     def find(self):
         """The object, or None when it is gone."""
@@ -40,6 +41,11 @@ def sources(context) -> list:
         if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
             found.append(source)
     return list(dict.fromkeys(found))
+
+
+def has_faces(thing) -> bool:
+    """Whether a source is more than points, as far as one sees without evaluating it."""
+    return thing.type != "POINTCLOUD" and (thing.type != "MESH" or bool(thing.data.polygons))
 
 
 def obstacle(context) -> str:
