@@ -399,7 +399,8 @@ class ThicknessMode:
     BALL: ThicknessMode
     """All balls; zero at every convex edge."""
     SCAN: ThicknessMode
-    """The ball that comes nearest, of those at facets with a theta above 50 degrees, for noise; no normals are used."""
+    """The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No
+    normals are used; what tapers reads too thick."""
 
 @final
 class WallThickness:
