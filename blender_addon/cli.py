@@ -320,4 +320,5 @@ class _Console:
             self.complain(f"{name}: {report['error']}")
         elif not self._json:
             how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
-            print(f"{report['output']}: {report['facets']:,} facets, {how}", flush=True)
+            edges = f", {report['edges']:,} edges" if report.get("edges") else ""
+            print(f"{report['output']}: {report['facets']:,} facets{edges}, {how}", flush=True)

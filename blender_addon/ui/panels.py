@@ -7,6 +7,7 @@ from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.material import LIMIT
 from ..core.machine import native
 from . import current_job
+from .form_panel import draw_form
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
 from .selected_sources import obstacle
@@ -98,6 +99,7 @@ def _draw_settings(context, layout):
     column = layout.column()
     column.use_property_split = True
     column.use_property_decorate = False
+    draw_form(column, panel)
     for name in ("theta", "rho"):
         column.prop(panel, name, slider=True)
     for name in ("side", "sides", "sampling", "rule", "criteria", "limit_set"):
@@ -149,7 +151,12 @@ def _draw_figures(context, layout, result):
             "Radius": f"{smallest:.3g} to {largest:.3g}",
         },
     )
-    for name in (output_object.SAMPLED, output_object.DENSITY, axis_object.INSIDE):
+    for name in (
+        axis_object.TOPOLOGY,
+        output_object.SAMPLED,
+        output_object.DENSITY,
+        axis_object.INSIDE,
+    ):
         if sentence := result.get(name):
             draw_wrapped(context, layout, sentence, "INFO")
     _draw_warnings(context, layout, result)

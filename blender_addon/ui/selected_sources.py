@@ -21,6 +21,7 @@ class Source:
     name: str
     uid: int | None
     frame: object  # (4, 4) float64
+    world: object  # its matrix when it was read
 
     def find(self):
         """The object, or None when it is gone."""

@@ -148,8 +148,8 @@ def compute(**settings):
 
 
 def compute_or_not(**settings):
-    """What the operator answers for the selection, by its vertices if nothing else is said."""
-    return bpy.ops.object.medial_axis(**{"sampling": "VERTICES"} | settings)
+    """What the operator answers for the selection, by its vertices and the whole axis if nothing else is said."""
+    return bpy.ops.object.medial_axis(**{"sampling": "VERTICES", "within": 0.0} | settings)
 
 
 def refuse(match, operator="medial_axis", **settings):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import DegenerateInputError
 from ..machine import native
-from .analysis import AnalysedSamples, Request, analyse, kept_or_made
+from .analysis import AnalysedSamples, Request, analyse, betti_by_faces, kept_or_made
 from .buried_samples import find_bare
 from .density import estimate
 from .sample_spacing import first_count, mean_spacing
@@ -83,7 +83,10 @@ def _sampled(
     on_edges = points[_are_on_edges(kinds, request.gaps)]
     density = estimate(analysis, points, on_edges, first, settings.epsilon)
     buried = len(bare) - len(points)
-    return AnalysedSamples(points, kinds, normals, analysis, density, first, buried)
+    by_faces = betti_by_faces(request, sides)
+    return AnalysedSamples(
+        points, kinds, normals, analysis, density, first, buried, by_faces=by_faces
+    )
 
 
 def _sample_surface(shape: Shape, options: dict[str, Any], progress: Any) -> Any:

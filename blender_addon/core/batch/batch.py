@@ -120,7 +120,7 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
     if outcome.error is not None:
         raise outcome.error
     computation, output = outcome.value, begun.item.output
-    if computation.axis.facets == 0:
+    if computation.axis.is_empty:
         raise MedialAxisError(computation.warnings[-1])
     _make_folder(output)
     export_axis(computation.axis, output, begun.shape.frame)
@@ -178,7 +178,11 @@ def _figures(computation: Computation) -> dict[str, Any]:
     return {
         "points": computation.points,
         "duplicates": computation.duplicates,
+        "form": as_words(computation.settings)["form"],
+        "topology": computation.topology,
+        "betti": None if axis.level is None else list(axis.level.betti),
         "facets": axis.facets,
+        "edges": len(axis.edges),
         "vertices": len(axis.vertices),
         "unbounded": axis.unbounded,
         "zero_area": axis.zero_area,

@@ -125,10 +125,20 @@ Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;
 
 const Betti& Hierarchy::betti() const { return parts_->betti; }
 double Hierarchy::diagonal() const { return parts_->complex.diagonal; }
+size_t Hierarchy::bytes() const {
+  const auto size_of = [](const auto&... arrays) {
+    return (... + (arrays.size() * sizeof(arrays[0])));
+  };
+  const Parts& p = *parts_;
+  const InnerComplex& c = p.complex;
+  return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners,
+                 c.shrunk, c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row,
+                 p.outside);
+}
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 
-Level Hierarchy::extract(const LevelThresholds& thresholds, Progress* progress) const {
-  return level(*parts_, thresholds, {parts_->threads, progress});
+Level Hierarchy::extract(const LevelOptions& options, Progress* progress) const {
+  return level(*parts_, options, {parts_->threads, progress});
 }
 
 }  // namespace medial
