@@ -813,6 +813,15 @@ def patches(
     InvalidInputError
     """
 
+def nearest(sites: NDArray[np.float64], queries: NDArray[np.float64]) -> NDArray[np.int32]:
+    """(k,) int32: row of the site nearest to each of (k, 3) queries, of equally near ones the lowest; -1 where there
+    are no sites.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
 def memory_needed(points: int) -> int:
     """Bytes at the peak of an analysis of so many samples of a surface and an extraction, as measured. Facets that are
     long and thin, as on a torus of random points, take up to four times as many."""
