@@ -82,7 +82,7 @@ def _of_triangles(
 ) -> SurfaceNormals:
     """Means of the triangles at each point, weighted by area."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
-    faces = np.cross(b - a, c - a)
+    faces = cross(b - a, c - a)
     normals = np.empty_like(points)
     for axis in range(3):
         weights = np.repeat(faces[:, axis], 3)
@@ -93,6 +93,12 @@ def _of_triangles(
         turned = np.einsum("ij,ij->i", normals[corner], faces) < math.cos(sharp_angle)
         at_edge[corner[turned]] = True
     return SurfaceNormals(normals, at_edge, _sentence(source))
+
+
+def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 3) products of rows; NumPy's own takes several times as long."""
+    (ax, ay, az), (bx, by, bz) = a.T, b.T
+    return np.column_stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))
 
 
 def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:

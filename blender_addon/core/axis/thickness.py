@@ -15,13 +15,13 @@ from ..machine import native
 from ..machine.cache import CACHE, key_of
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Edges, Noise, Settings, ThicknessSettings
+from ..settings import Between, Edges, Noise, Settings, ThicknessSettings
 from .choose_samples import ChosenSamples, choose_samples
 from .density import percent
 from .nearness import same_place
 from .noise import noise_of
 from .sampling_warnings import sampling_warnings
-from .surface_normals import SurfaceNormals, measured_surface, surface_normals, unit
+from .surface_normals import SurfaceNormals, cross, measured_surface, surface_normals, unit
 from .thin_faces import sample_triangle_of_faces
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from .shape import Shape
 
 # From so much noise on, in spacings: Clean reads too thin; nothing reads right.
-_SOME, _TOO_MUCH = 0.05, 0.25
+_SOME, _TOO_MUCH = 0.05, 0.18
 # Of coordinates that were once float32, as all of Blender are: lengths that differ by less are equal.
 _ROUNDING = 4 * float(np.finfo(np.float32).eps)
 
@@ -91,13 +91,15 @@ class Measurement:
         mixed = on_edge.any(axis=0)
         others = np.where(on_edge[:, mixed], -np.inf, values[:, mixed]).max(axis=0)
         median[mixed] = np.maximum(median[mixed], others)
+        if self.settings.between is Between.GAP:  # the corner of a solid is in front of nothing
+            median[on_edge.all(axis=0)] = np.inf
         return median
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
         """(f,) of the triangles."""
         a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
-        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+        return np.linalg.norm(cross(b - a, c - a), axis=1) / 2
 
     @cached_property
     def minimum(self) -> float:
@@ -215,14 +217,14 @@ def _sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> A
 
 
 def _warnings(found: Measurement) -> Iterator[str]:
-    if not np.isfinite(found.lengths).any():
-        yield _nothing(found)
     if found.noise >= _TOO_MUCH:
         yield (
-            "the points scatter by a quarter of their spacing or more: no figure is honest here; smooth "
-            "them first, or scan more finely"
+            "the points scatter by a fifth of their spacing or more: no figure is honest; smooth them "
+            "first, or scan more finely"
         )
-    elif found.noise > _SOME and found.settings.noise is Noise.CLEAN:
+    elif not np.isfinite(found.lengths).any():
+        yield _nothing(found)
+    if _SOME < found.noise < _TOO_MUCH and found.settings.noise is Noise.CLEAN:
         yield (
             f"the points scatter by {percent(found.noise)} of their spacing, so that single figures are "
             "too small; choose Noise Scan"
@@ -230,6 +232,6 @@ def _warnings(found: Measurement) -> Iterator[str]:
 
 
 def _nothing(found: Measurement) -> str:
-    if found.settings.side.name == "OUTER":
+    if found.settings.between is Between.GAP:
         return "no two walls face each other across a gap"
     return "no two walls face each other, as in a pyramid; choose Edges Ball"
