@@ -139,7 +139,12 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
 def _axis_parser() -> argparse.ArgumentParser:
     parser = _parser("medial_axis", "The medial axis of meshes and point clouds, with radii.", _EXAMPLES)
     add_options(parser.add_argument_group("method"))
-    _add_files(parser, [suffix[1:] for suffix in FORMATS], "ma")
+    files = _add_files(parser, [suffix[1:] for suffix in FORMATS], "ma")
+    files.add_argument(
+        "--triangles",
+        action="store_true",
+        help="write .ply, .obj and .off as triangles in text, which more programs read",
+    )
     return parser
 
 
@@ -172,7 +177,10 @@ def _parser(name: str, description: str, epilog: str) -> argparse.ArgumentParser
     return parser
 
 
-def _add_files(parser: argparse.ArgumentParser, formats: list[str], usual: str) -> None:
+def _add_files(
+    parser: argparse.ArgumentParser, formats: list[str], usual: str
+) -> argparse._ArgumentGroup:
+    """What all have in common; the group of the files, for more."""
     add_limits(parser.add_argument_group("memory"))
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
@@ -200,6 +208,7 @@ def _add_files(parser: argparse.ArgumentParser, formats: list[str], usual: str) 
     files.add_argument("--json", action="store_true", help="one line of JSON per result")
     files.add_argument("--quiet", action="store_true", help="no progress and no warnings")
     parser.add_argument("--version", action="version", version=f"medial_axis {__version__}")
+    return files
 
 
 def _complete(wanted: argparse.Namespace) -> None:
@@ -234,7 +243,7 @@ def _work(wanted: argparse.Namespace) -> AxisWork | ThicknessWork:
     """What is computed of each input."""
     settings = settings_from(wanted)
     if not wanted.lengths:
-        return AxisWork(settings)
+        return AxisWork(settings, wanted.triangles)
     return ThicknessWork(settings, thickness_from(wanted), wanted.unit)
 
 

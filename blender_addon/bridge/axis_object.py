@@ -39,6 +39,7 @@ from .output_object import (
     remember,
     replace_mesh,
 )
+from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
 if TYPE_CHECKING:
@@ -110,6 +111,7 @@ def write_result(
     place(result, frame)
     if result.get("ma_side") != settings.side.name:
         result.show_in_front = settings.side is Side.INNER  # it lies inside the surface
+    show_wires(result, axis)
     result[BOX] = box
     _remember(result, source, computation)
     _remember_shown(result, computation.axis, axis, settings, look)
@@ -126,6 +128,7 @@ def update_result(
     """Give a result another axis of the same analysis, and a sentence about it; it stays where it is."""
     shown = _shown(axis, result.get(BOX), look)
     replace_mesh(result, partial(_axis_mesh, shown, look))
+    show_wires(result, shown)
     result[TOPOLOGY] = topology
     _remember_shown(result, axis, shown, settings, look)
 
@@ -216,7 +219,8 @@ def _only(axis: MedialAxis, settings: Settings) -> tuple[float, float]:
     """Shares of the facets that only the Ratio, and that only the Angle condition keeps, where either is enough."""
     if settings.criteria is not Criteria.ANGLE_OR_RATIO or not axis.facets:
         return 0.0, 0.0
+    angle, ratio = axis.theta >= settings.theta, axis.rho >= settings.rho
     return (
-        float(np.mean(axis.theta < settings.theta)),
-        float(np.mean(axis.rho < settings.rho)),
+        float(np.mean(ratio & ~angle)),
+        float(np.mean(angle & ~ratio)),
     )

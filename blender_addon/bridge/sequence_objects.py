@@ -21,6 +21,7 @@ from ..core.files.load_axis import load_axis
 from .attributes import RADIUS
 from .colours import colour_mesh, remember_colours
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
+from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
 SUFFIX = " Medial Axis Sequence"
@@ -89,6 +90,7 @@ def _new_object(name: str, axis: MedialAxis, frame: int) -> bpy.types.Object:
     thing = bpy.data.objects.new(name, mesh)
     thing.color = FLAT
     thing.show_in_front = True
+    show_wires(thing, axis)
     thing[FRAME] = frame
     thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
     return thing

@@ -147,7 +147,7 @@ OPTIONS: dict[str, Any] = {
         default=0.0,
         minimum=0.0,
         maximum=100.0,
-        soft_maximum=10.0,
+        soft_maximum=20.0,
         unit="%",
     ),
     "erode": Number(

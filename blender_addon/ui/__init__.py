@@ -14,7 +14,9 @@ def _modules() -> tuple[ModuleType, ...]:
         compute_sequence,
         current_job,
         export_axis,
+        guide,
         import_points,
+        legend,
         manual,
         menus,
         operators,
@@ -23,6 +25,7 @@ def _modules() -> tuple[ModuleType, ...]:
         presets,
         properties,
         self_test_operator,
+        show,
         translation,
     )
 
@@ -35,6 +38,9 @@ def _modules() -> tuple[ModuleType, ...]:
         export_axis,
         import_points,
         presets,
+        legend,
+        show,
+        guide,
         panels,
         compute_sequence,
         menus,

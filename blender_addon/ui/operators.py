@@ -82,13 +82,12 @@ class OBJECT_OT_medial_axis(
         return write_result(thing, computation, frame, look_from(self))
 
     def summary(self, computation):
-        axis = computation.axis
-        topology = f"{computation.topology}; " if computation.topology else ""
-        return topology + (
-            f"{computation.points:,} points, {axis.facets:,} facets, duplicates merged "
-            f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}, facets "
-            f"without area {axis.zero_area:,}; {computation.sides}; {computation.chosen.reason}; "
-            f"{computation.density}"
+        axis, chosen = computation.axis, computation.chosen
+        known = (computation.topology, computation.sides, chosen.reason, computation.density)
+        return (
+            f"{computation.points:,} points, {axis.facets:,} facets, edges alone {len(axis.edges):,}, "
+            f"duplicates merged {computation.duplicates:,}, unbounded facets {axis.unbounded:,}, "
+            f"facets without area {axis.zero_area:,}; {'; '.join(str(x) for x in known if str(x))}"
         )
 
 

@@ -43,6 +43,11 @@ def sources(context) -> list:
     return list(dict.fromkeys(found))
 
 
+def has_faces(thing) -> bool:
+    """Whether a source is more than points, as far as one sees without evaluating it."""
+    return thing.type != "POINTCLOUD" and (thing.type != "MESH" or bool(thing.data.polygons))
+
+
 def obstacle(context) -> str:
     """Why an operator cannot run now, in one sentence, or an empty string."""
     if reason := current_job.obstacle():

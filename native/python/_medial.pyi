@@ -286,8 +286,8 @@ class Level:
         """Components, tunnels and cavities, counted on the level; those of the hierarchy."""
     @property
     def hidden(self) -> int:
-        """Edges from a vertex to itself, and facets with fewer than three other edges: they count but cannot be
-        drawn. Only where very many samples are cospherical."""
+        """Edges from a vertex to itself, facets with fewer than three other edges, and facets with the corners of
+        another one: they count but cannot be drawn. Only where very many samples are cospherical."""
 
 @final
 class Hierarchy:
@@ -928,6 +928,29 @@ def polygon_edges(
         Lower vertex first, in lexicographic order.
     corner_edges : (c,) int32
         The row of the edge from each corner to the next one of its polygon.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
+def polygon_triangles(
+    points: NDArray[np.float64], face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """Polygons as triangles, without new vertices.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+        Rows of `points`, three at least for each polygon.
+
+    Returns
+    -------
+    triangles : (c - 2 f, 3) int32
+        Polygon after polygon, each with its boundary and turning as it does. Quads are cut from the first corner to the
+        third, where they are convex there; larger ones by their constrained Delaunay triangulation.
 
     Raises
     ------

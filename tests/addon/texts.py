@@ -27,6 +27,7 @@ DATA = {
     "{} {}",
     "'{}'",
     "of {}",
+    "property float {}\n",
     " Medial Axis",
     " Medial Axis Sequence",
     "Medial Axis Self-Test",

@@ -213,7 +213,8 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
     """Even samples; then, for Adaptive and Automatic, as many passes as it takes."""
     shape, settings = request.shape, request.settings
     check_not_flat(shape)
-    sides = resolve_sides_of_samples(settings.sides, shape.points, shape.triangles, request.gaps)
+    spacing = first_spacing(shape, settings)
+    sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, spacing)
     samples, passes = _passes(request, sides)
     kind = SamplingMode.SURFACE if passes == 1 else SamplingMode.ADAPTIVE
     reason = f"{len(samples.points):,} samples of the surface: {why}"
@@ -236,9 +237,11 @@ def _passes(request: Request, sides: Sides) -> tuple[AnalysedSamples, int]:
         and not samples.density.dense_enough
         and not _is_spent(request, samples)
     ):
+        request.progress.begin_pass(passes + 1)
         amount = next_amount(samples, effort.elsewhere, settings.budget)
         found = surface_pass(request, sides, amount, 0.6, samples.spacing)
         samples, passes = _judged(request, found), passes + 1
+    request.progress.begin_pass(1)
     return samples, passes
 
 

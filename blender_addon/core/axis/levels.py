@@ -109,6 +109,6 @@ def _wanted(settings: Settings) -> dict[str, Any]:
 
 def _rows(edges: NDArray[np.int32], pairs: NDArray[np.int32]) -> NDArray[np.intp]:
     """(k,) the rows of pairs p < q in edges, which are in lexicographic order."""
-    width = np.int64(edges.max(initial=0)) + 1
-    keys, wanted = (ends[:, 0] * width + ends[:, 1] for ends in (edges, pairs))
+    width = int(edges.max(initial=0)) + 1
+    keys, wanted = (ends[:, 0].astype(np.int64) * width + ends[:, 1] for ends in (edges, pairs))
     return np.searchsorted(keys, wanted)

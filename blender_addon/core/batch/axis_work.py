@@ -21,9 +21,10 @@ from .option_words import as_words
 
 @dataclass(frozen=True)
 class AxisWork:
-    """Medial axes of some settings, as files."""
+    """Medial axes of some settings, as files; `triangles` writes them as triangles in text."""
 
     settings: Settings
+    triangles: bool = False
 
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Computation:
         return compute_axis(shape, self.settings, progress, limit)
@@ -34,7 +35,7 @@ class AxisWork:
             raise MedialAxisError(found.warnings[-1])
 
     def write(self, found: Computation, path: Path, frame: np.ndarray) -> None:
-        export_axis(found.axis, path, frame)
+        export_axis(found.axis, path, frame, self.triangles)
 
     def words(self) -> dict[str, Any]:
         """The settings, as one would write them."""

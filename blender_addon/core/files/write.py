@@ -18,8 +18,10 @@ import numpy as np
 
 from ..axis.medial_axis import MedialAxis
 from ..errors import ExportError
+from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
-from .triangulate import triangulate
+from .facet_triangles import triangulate_facets
+from .rows_of_text import write_rows as _write_rows
 from .whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -38,14 +40,20 @@ class Format:
         For people: menus and file dialogs.
     write : callable
         Takes the axis and a binary stream.
+    write_triangles : callable or None
+        The same as triangles in text; None where the format is what it is.
     """
 
     label: str
     write: Callable[[Any, BinaryIO], None]
+    write_triangles: Callable[[Any, BinaryIO], None] | None = None
 
 
 def export_axis(
-    axis: MedialAxis, path: str | os.PathLike, transform: NDArray | None = None
+    axis: MedialAxis,
+    path: str | os.PathLike,
+    transform: NDArray | None = None,
+    triangles: bool = False,
 ) -> Path:
     """Write a medial axis; the extension of `path` chooses the format.
 
@@ -56,6 +64,8 @@ def export_axis(
     transform : (3, 4) or (4, 4) float64, optional
         Where the axis lies in the world. It may move, turn, mirror and scale evenly, for only then balls
         stay balls; the radii are scaled with it.
+    triangles : bool
+        Write .ply, .obj and .off as triangles in text, which more programs read; the others are as ever.
 
     Returns
     -------
@@ -67,7 +77,8 @@ def export_axis(
     ExportError
         Unknown extension, unfit transform, or the system refused to write; an old file is then unchanged.
     """
-    write = format_of(path).write
+    known = format_of(path)
+    write = (triangles and known.write_triangles) or known.write
     placed = axis if transform is None else _place(axis, np.asarray(transform, np.float64))
     return write_whole(path, lambda stream: write(placed, stream))
 
@@ -142,14 +153,6 @@ def _turned(face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]) -
 # --- formats
 
 
-def _write_rows(stream: BinaryIO, row: str, *columns: NDArray) -> None:
-    """Write one line per row of `columns`, (n,) or (n, k) arrays; `row` is the %-format of one line."""
-    for start in range(0, len(columns[0]), _CHUNK):
-        parts = [column[start : start + _CHUNK] for column in columns]
-        table = np.column_stack(parts)
-        stream.write(((row * len(table)) % tuple(table.ravel().tolist())).encode("ascii"))
-
-
 def _write_polygons(
     stream: BinaryIO,
     row_of: Callable[[int], str],
@@ -169,7 +172,7 @@ def _write_polygons(
 def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
     """Q-MAT's plain variant: `nv ne nf`, then `v x y z r`, every edge once, and triangles."""
     vertices, radius = exact_balls(axis)
-    triangles = triangulate(vertices, axis.face_offsets, axis.face_vertices)
+    triangles = triangulate_facets(vertices, axis.face_offsets, axis.face_vertices)
     edges = _edges(triangles, axis.edges, len(vertices))
     stream.write(b"%d %d %d\n" % (len(vertices), len(edges), len(triangles)))
     _write_rows(stream, "v %.17g %.17g %.17g %.17g\n", vertices, radius)
@@ -222,12 +225,9 @@ def _write_off(axis: MedialAxis, stream: BinaryIO) -> None:
 def _write_ply(axis: MedialAxis, stream: BinaryIO) -> None:
     counts = np.diff(axis.face_offsets)
     count_type = "uchar" if counts.max(initial=0) < 256 else "int"
-    of_faces, of_edges = "", ""
-    if axis.level is not None:
-        of_faces, of_edges = (
-            "property float sheet\nproperty float erosion\n",
-            "property float limb\n",
-        )
+    known = axis.level is not None
+    of_faces = _ply_floats("sheet", "erosion") if known else ""
+    of_edges = _ply_floats("limb") if known else ""
     header = f"""ply
 format binary_little_endian 1.0
 comment medial axis: radius of the empty ball per vertex, angles in radians
@@ -253,6 +253,10 @@ property int vertex2
     for faces in _ply_faces(axis, counts, "u1" if count_type == "uchar" else "<i4"):
         stream.write(faces)
     stream.write(_ply_edges(axis).tobytes())
+
+
+def _ply_floats(*names: str) -> str:
+    return "".join(f"property float {name}\n" for name in names)
 
 
 def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> Iterator[bytes]:
@@ -307,8 +311,12 @@ def _write_npz(axis: MedialAxis, stream: BinaryIO) -> None:
 
 FORMATS: dict[str, Format] = {
     ".ma": Format("Medial axis, triangles and radii", _write_ma),
-    ".ply": Format("PLY, polygons with radius, theta, rho, side and generators", _write_ply),
-    ".obj": Format("Wavefront OBJ, polygons and lines", _write_obj),
-    ".off": Format("OFF, polygons and lines", _write_off),
+    ".ply": Format(
+        "PLY, polygons with radius, theta, rho, side and generators",
+        _write_ply,
+        plain_triangles.write_ply,
+    ),
+    ".obj": Format("Wavefront OBJ, polygons and lines", _write_obj, plain_triangles.write_obj),
+    ".off": Format("OFF, polygons and lines", _write_off, plain_triangles.write_off),
     ".npz": Format("NumPy arrays, everything", _write_npz),
 }

@@ -42,8 +42,8 @@ struct Level {
   Column<float> limb;             // (w) value of the edge, infinite where it always stays
   Column<int32_t> points;         // (k) vertices without an edge
   Betti betti = {};               // counted on all this
-  // Edges from a vertex to itself, and facets with fewer than three other edges: they count, but
-  // cannot be drawn.
+  // Edges from a vertex to itself, facets with fewer than three other edges, and facets with the
+  // corners of another one: they count, but cannot be drawn.
   int64_t hidden = 0;
 };
 

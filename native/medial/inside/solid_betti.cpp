@@ -2,7 +2,6 @@
 #include "inside/solid_betti.h"
 
 #include "base/union_find.h"
-#include "base/vec3.h"
 
 namespace medial {
 namespace {
@@ -28,8 +27,8 @@ bool is_fan(std::span<const Triangle> triangles, std::span<const int32_t> at, in
 
 }  // namespace
 
-std::optional<Betti> solid_betti(const Surface& surface, std::span<const Vec3> points,
-                                 const Run& run) {
+std::optional<std::array<int64_t, 3>> solid_betti(const Surface& surface,
+                                                  std::span<const Vec3> points, const Run& run) {
   if (!surface.closed()) return std::nullopt;
   const std::span<const Triangle> triangles(surface.triangles);
   const auto vertices = static_cast<int32_t>(points.size());
@@ -51,7 +50,7 @@ std::optional<Betti> solid_betti(const Surface& surface, std::span<const Vec3> p
     const Vec3& o = points[shell[a]];
     volume[shell[a]] += dot(points[a] - o, cross(points[b] - o, points[c] - o));
   }
-  Betti betti = {};
+  std::array<int64_t, 3> betti = {};
   for (int32_t v = 0; v < vertices; ++v) {
     if (fans[v].empty() || shell[v] != v) continue;
     if (volume[v] == 0) return std::nullopt;

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The guided start: one line in the panel until it was used or dismissed, and an entry in the Help menu."""
+
+import bpy
+
+from . import manual
+from .preferences import ADDON
+
+PAGE = "tutorial.html"
+
+
+def draw_guide(layout):
+    """The line for those who are new here."""
+    if not _wanted():
+        return
+    row = layout.row(align=True)
+    row.operator("wm.medial_axis_tutorial", text="New here? Ten pictures", icon="HELP")
+    row.operator("wm.medial_axis_tutorial", text="", icon="X").dismiss = True
+
+
+def _wanted():
+    addon = bpy.context.preferences.addons.get(ADDON)
+    return addon is not None and not addon.preferences.guided and manual.has(PAGE)
+
+
+class WM_OT_medial_axis_tutorial(bpy.types.Operator):
+    bl_idname = "wm.medial_axis_tutorial"
+    bl_label = "Medial Axis Tutorial"
+    bl_options = {"INTERNAL"}
+
+    dismiss: bpy.props.BoolProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    @classmethod
+    def description(cls, _context, properties):
+        if properties.dismiss:
+            return bpy.app.translations.pgettext_tip("Hide this line")
+        return bpy.app.translations.pgettext_tip(
+            "Open the first steps in ten pictures, in the manual that comes with the add-on"
+        )
+
+    @classmethod
+    def poll(cls, _context):
+        return manual.has(PAGE)
+
+    def execute(self, context):
+        if addon := context.preferences.addons.get(ADDON):
+            addon.preferences.guided = True
+        if not self.dismiss:
+            bpy.ops.wm.url_open(url=manual.address(PAGE))
+        return {"FINISHED"}
+
+
+def _help(self, _context):
+    self.layout.separator()
+    self.layout.operator("wm.medial_axis_tutorial", icon="HELP")
+
+
+def register():
+    bpy.utils.register_class(WM_OT_medial_axis_tutorial)
+    bpy.types.TOPBAR_MT_help.append(_help)
+
+
+def unregister():
+    bpy.types.TOPBAR_MT_help.remove(_help)
+    bpy.utils.unregister_class(WM_OT_medial_axis_tutorial)
