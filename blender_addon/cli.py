@@ -137,7 +137,9 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 def _axis_parser() -> argparse.ArgumentParser:
-    parser = _parser("medial_axis", "The medial axis of meshes and point clouds, with radii.", _EXAMPLES)
+    parser = _parser(
+        "medial_axis", "The medial axis of meshes and point clouds, with radii.", _EXAMPLES
+    )
     add_options(parser.add_argument_group("method"))
     files = _add_files(parser, [suffix[1:] for suffix in FORMATS], "ma")
     files.add_argument(

@@ -598,7 +598,7 @@ THICKNESS_OPTIONS: dict[str, Any] = {
         default=0.0,
         minimum=0.0,
         maximum=math.inf,
-        soft_maximum=math.inf,
+        soft_maximum=1000.0,
         unit="length",
     ),
     "between": Choice(

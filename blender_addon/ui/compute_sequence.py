@@ -291,7 +291,8 @@ def register():
         default="//medial_axis/",
     )
     bpy.types.Scene.medial_axis_fast = BoolProperty(
-        name="Fast", description="Sample faces once at every frame: quicker, and coarser at thin parts"
+        name="Fast",
+        description="Sample faces once at every frame: quicker, and coarser at thin parts",
     )
 
 

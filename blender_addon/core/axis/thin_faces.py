@@ -32,7 +32,10 @@ def sample_triangle_of_faces(found: Measurement) -> NDArray[np.int32]:
     order = np.argsort(-found.of_triangles, kind="stable").astype(np.int32)  # the thinnest last
     inside = _face_of_triangles(found)[order]
     by_edge = found.at_edge[found.triangles[order]].any(axis=1)
-    for some in (by_edge & (inside >= 0), ~by_edge & (inside >= 0)):  # the better ones overwrite the others
+    for some in (
+        by_edge & (inside >= 0),
+        ~by_edge & (inside >= 0),
+    ):  # the better ones overwrite the others
         thinnest[inside[some]] = order[some]
     bare = np.flatnonzero(thinnest < 0)
     at_sample = np.full(len(found.points), -1, np.int32)

@@ -106,9 +106,7 @@ class Begun:
         return stamp_of(self.shape, self.work, self.item.output.suffix.lower(), limit)
 
 
-def begin(
-    item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT_IS_FREE
-) -> Begun:
+def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT_IS_FREE) -> Begun:
     """Read an item and look whether it is finished; with `force` it never is.
 
     Raises
@@ -159,9 +157,7 @@ def failure(item: Item, error: BaseException) -> dict[str, Any]:
     return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": str(error)}
 
 
-def stamp_of(
-    shape: Shape, settings: object, suffix: str, limit: MemoryLimit | None = None
-) -> str:
+def stamp_of(shape: Shape, settings: object, suffix: str, limit: MemoryLimit | None = None) -> str:
     """A hash of all that an output depends on: the whole shape, every setting, format, version."""
     parts = (getattr(shape, part.name) for part in fields(shape))
     return key_of(*parts, repr(settings), repr(limit), suffix, __version__)

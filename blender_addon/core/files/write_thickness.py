@@ -120,7 +120,8 @@ def _write_csv(found: Measurement, _parts: ThinParts, _unit: str, stream: Binary
         end = min(start + _CHUNK, len(points))
         rows = np.column_stack([points[start:end], lengths[start:end]]).tolist()
         text = "".join(
-            "%d,%.17g,%.17g,%.17g,%.17g\n" % (start + i, *row) for i, row in enumerate(rows)
+            f"{start + i},{x:.17g},{y:.17g},{z:.17g},{length:.17g}\n"
+            for i, (x, y, z, length) in enumerate(rows)
         )
         stream.write(text.encode("ascii"))
 
