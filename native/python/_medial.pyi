@@ -237,13 +237,20 @@ class Level:
     @property
     def vertices(self) -> NDArray[np.float64]:
         """(v, 3) float64: Voronoi vertices, the centres of empty balls, in order of first use by facets, wires and
-        points."""
+        points. Relaxed: what is shown; vertices of wires but their ends are new ones, the last of all."""
     @property
     def radius(self) -> NDArray[np.float64]:
-        """(v,) float64: radius of each vertex' empty ball."""
+        """(v,) float64: radius of each vertex' ball: the empty one, or, relaxed, that of what is shown."""
+    @property
+    def exact(self) -> NDArray[np.float64]:
+        """(v, 3) float64: the place on the Voronoi diagram that each vertex stands for; equal to `vertices` unless
+        relaxed."""
+    @property
+    def exact_radius(self) -> NDArray[np.float64]:
+        """(v,) float64: radius of the empty ball there."""
     @property
     def vertex_of(self) -> NDArray[np.int32]:
-        """(v,) int32: vertex of the hierarchy, for its values."""
+        """(v,) int32: vertex of the hierarchy, for its values; of new vertices the nearest along the wire."""
     @property
     def face_offsets(self) -> NDArray[np.int32]:
         """(f + 1,) int32: facet i has the corners `face_vertices[face_offsets[i] : face_offsets[i + 1]]`."""
@@ -257,11 +264,20 @@ class Level:
     def facet_of(self) -> NDArray[np.int32]:
         """(f,) int32: facet of the hierarchy, for its values."""
     @property
+    def sheet(self) -> NDArray[np.float32]:
+        """(f,) float32: `facet_sheet` of each facet."""
+    @property
+    def erosion(self) -> NDArray[np.float32]:
+        """(f,) float32: `facet_erosion` of each facet."""
+    @property
     def wires(self) -> NDArray[np.int32]:
         """(w, 2) int32: ends of the edges without a facet."""
     @property
     def edge_of(self) -> NDArray[np.int32]:
-        """(w,) int32: edge of the hierarchy, for its values."""
+        """(w,) int32: edge of the hierarchy, for its values; of new wires that at the middle."""
+    @property
+    def limb(self) -> NDArray[np.float32]:
+        """(w,) float32: `edge_limb` of each wire."""
     @property
     def points(self) -> NDArray[np.int32]:
         """(k,) int32: vertices without an edge: the axis of a ball is one."""
@@ -366,6 +382,8 @@ class Hierarchy:
         spacings: float = 0.0,
         erosion: float = 0.0,
         limb: float = 0.04,
+        relaxed: bool = False,
+        round_limbs: bool = False,
         progress: Progress | None = None,
     ) -> Level:
         """The level at some thresholds. A facet stays if it exceeds the first three. A vertex or an edge stays if it
@@ -381,6 +399,11 @@ class Hierarchy:
             Thickness of the facet itself, as a share of the diagonal; default 0. Rims recede.
         limb : float
             Length of the branch of a wire, as a share of the diagonal; default 0.04.
+        relaxed : bool
+            For the eye: wires are smoothed, divided anew and fitted to the samples round them, rims are smoothed. The
+            topology and the facets are the same, and `exact` says where all that is on the Voronoi diagram.
+        round_limbs : bool
+            Of wires with a loose end only those that run in round limbs.
         progress : Progress, optional
 
         Infinity takes all away that can go: `sheet=inf` leaves a curve skeleton.

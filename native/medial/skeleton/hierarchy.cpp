@@ -137,8 +137,8 @@ const Betti& Hierarchy::betti() const { return parts_->betti; }
 double Hierarchy::diagonal() const { return parts_->complex.diagonal; }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 
-Level Hierarchy::extract(const LevelThresholds& thresholds, Progress* progress) const {
-  return level(*parts_, thresholds, {parts_->threads, progress});
+Level Hierarchy::extract(const LevelOptions& options, Progress* progress) const {
+  return level(*parts_, options, {parts_->threads, progress});
 }
 
 }  // namespace medial

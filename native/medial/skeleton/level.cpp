@@ -16,12 +16,12 @@ void check(double threshold, const char* name) {
 
 bool exceeds(float value, double threshold) { return value > threshold || value == HUGE_VALF; }
 
-bool exceeds(const Thickness& value, const LevelThresholds& t) {
+bool exceeds(const Thickness& value, const LevelOptions& t) {
   return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
          exceeds(value.erosion, t.erosion);
 }
 
-Alive alive_at(const Hierarchy::Parts& h, const LevelThresholds& t, const Run& run) {
+Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run) {
   const InnerComplex& complex = h.complex;
   Alive alive{array<uint8_t>(complex.generators.size(), run),
               array<uint8_t>(complex.ends.size(), run), array<uint8_t>(complex.cell.size(), run)};
@@ -55,6 +55,7 @@ class Drawer {
     draw_wires();
     draw_points();
     place_vertices();
+    read_values();
     return std::move(level_);
   }
 
@@ -150,6 +151,21 @@ class Drawer {
       level_.vertices[v] = complex_.position[level_.vertex_of[v]];
       level_.radius[v] = complex_.radius[level_.vertex_of[v]];
     });
+    level_.exact = level_.vertices;
+    level_.exact_radius = level_.radius;
+  }
+
+  void read_values() {
+    const size_t facets = level_.facet_of.size(), wires = level_.edge_of.size();
+    level_.sheet.resize(facets);
+    level_.erosion.resize(facets);
+    level_.limb.resize(wires);
+    for (size_t f = 0; f < facets; ++f) {
+      const Thickness& value = h_.values.facet[level_.facet_of[f]];
+      level_.sheet[f] = value.sheet;
+      level_.erosion[f] = value.erosion;
+    }
+    for (size_t w = 0; w < wires; ++w) level_.limb[w] = h_.limb_of_edge(level_.edge_of[w]);
   }
 
   const Hierarchy::Parts& h_;
@@ -164,14 +180,14 @@ class Drawer {
 
 }  // namespace
 
-Level level(const Hierarchy::Parts& h, const LevelThresholds& thresholds, const Run& run) {
-  check(thresholds.sheet, "sheet");
-  check(thresholds.spacings, "spacings");
-  check(thresholds.erosion, "erosion");
-  check(thresholds.limb, "limb");
+Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& run) {
+  check(options.sheet, "sheet");
+  check(options.spacings, "spacings");
+  check(options.erosion, "erosion");
+  check(options.limb, "limb");
   begin_stage(run.progress, "Level", 0, 1);
   const Run quiet{run.threads, nullptr, run.arena};
-  const Alive alive = alive_at(h, thresholds, quiet);
+  const Alive alive = alive_at(h, options, quiet);
   throw_if_cancelled(run.progress);
   Level level = Drawer(h, alive, quiet).draw();
   throw_if_cancelled(run.progress);

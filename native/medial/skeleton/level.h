@@ -20,9 +20,15 @@ struct Hierarchy::Parts {
   Betti betti = {};          // of the complex
   int threads = 1;
   Timings timings;
+
+  // That of what it went with.
+  float limb_of_edge(int32_t edge) const {
+    if (partner[edge] == kAlone) return HUGE_VALF;
+    return partner[edge] >= 0 ? 0 : limb[with_vertex(partner[edge])];
+  }
 };
 
 // Throws InvalidInputError for thresholds below 0.
-Level level(const Hierarchy::Parts& hierarchy, const LevelThresholds& thresholds, const Run& run);
+Level level(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);
 
 }  // namespace medial
