@@ -107,6 +107,7 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
   made.row = samples.row;
+  made.samples = PointTree({samples.points.data(), samples.row.size()});
   Stopwatch watch(made.timings);
   const FacetWeights weight(facets, thresholds);
   begin_stage(run.progress, "Inner complex", 0, 0.2);

@@ -3,6 +3,7 @@
 
 #include "base/sort.h"
 #include "skeleton/betti.h"
+#include "skeleton/relax.h"
 
 namespace medial {
 namespace {
@@ -50,13 +51,21 @@ class Drawer {
         touched_(array<uint8_t>(h.complex.cell.size(), 0, run)),
         number_(array<int32_t>(h.complex.cell.size(), -1, run)) {}
 
-  Level draw() && {
+  Level draw() {
     draw_facets();
     draw_wires();
     draw_points();
     place_vertices();
     read_values();
     return std::move(level_);
+  }
+
+  // Edges with exactly one facet, after it.
+  std::vector<Edge> rims() const {
+    return parallel_append<Edge>(complex_.edges(), run_, [&](int64_t e, auto& out, int) {
+      const auto& [a, b] = complex_.ends[e];
+      if (used_[e] == 1) out.push_back({number_[a], number_[b]});
+    });
   }
 
  private:
@@ -112,7 +121,7 @@ class Drawer {
         ++level_.hidden;
         continue;
       }
-      for (const int32_t edge : edges) used_[edge] = 1;
+      for (const int32_t edge : edges) used_[edge] += used_[edge] < 2;
       for (int32_t& vertex : polygon) vertex = number(vertex);
       std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
       const auto& [p, q] = complex_.generators[f];
@@ -172,7 +181,7 @@ class Drawer {
   const InnerComplex& complex_;
   const Alive& alive_;
   Run run_;
-  Array<uint8_t> used_;     // per edge: by a facet
+  Array<uint8_t> used_;     // per edge: by no facet, one, or more
   Array<uint8_t> touched_;  // per vertex: by an edge
   Array<int32_t> number_;   // per vertex: in the level
   Level level_;
@@ -185,13 +194,15 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
   check(options.spacings, "spacings");
   check(options.erosion, "erosion");
   check(options.limb, "limb");
-  begin_stage(run.progress, "Level", 0, 1);
+  begin_stage(run.progress, "Level", 0, options.relaxed ? 0.5 : 1);
   const Run quiet{run.threads, nullptr, run.arena};
   const Alive alive = alive_at(h, options, quiet);
   throw_if_cancelled(run.progress);
-  Level level = Drawer(h, alive, quiet).draw();
+  Drawer drawer(h, alive, quiet);
+  Level level = drawer.draw();
   throw_if_cancelled(run.progress);
   level.betti = betti_of(h.complex, h.outside, alive, quiet);
+  if (options.relaxed) relax(level, drawer.rims(), h, run);
   advance(run.progress, 1);
   return level;
 }

@@ -4,6 +4,7 @@
 
 #include <medial/hierarchy.h>
 
+#include "base/point_tree.h"
 #include "base/stopwatch.h"
 #include "skeleton/values.h"
 
@@ -14,7 +15,8 @@ struct Hierarchy::Parts {
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
   Values values;
-  Array<float> limb;         // per vertex
+  Array<float> limb;  // per vertex
+  PointTree samples;
   std::vector<int32_t> row;  // of the samples
   Array<int32_t> outside;    // as from outside_components
   Betti betti = {};          // of the complex
