@@ -47,7 +47,7 @@ class Net:
         singles: NDArray[np.int32],
         load: NDArray[np.float64],
     ) -> None:
-        self.points, self.radius, self.load = points, radius, load.copy()
+        self.points, self.radius, self.load = points.copy(), radius.copy(), load.copy()
         self.branches: dict[int, list[int]] = {}
         self.at: dict[int, list[int]] = {int(row): [] for row in singles}
         self.moved = np.arange(len(points))
@@ -136,7 +136,7 @@ class Net:
         """Let a branch that ends at a node end at another one."""
         chain = self.branches[name]
         chain = chain[::-1] if chain[0] == node else chain
-        self.branches[name] = [*chain, centre] if chain[-1] != centre else chain
+        self.branches[name] = [*chain[:-1], centre]
         self.at[centre].append(name)
 
     def _take(self, name: int) -> None:

@@ -90,8 +90,8 @@ def join_forks(net: Net) -> None:
 def _shortest_between_forks(net: Net) -> int | None:
     found = []
     for name, chain in net.branches.items():
-        inner = chain[0] != chain[-1] and not net.ends_free(name)
-        if inner and net.length(name) < min(net.radius[chain[0]], net.radius[chain[-1]]) / 2:
+        between = [other for other in net.at[chain[0]] if other in net.at[chain[-1]]]
+        if between == [name] and not net.ends_free(name) and net.length(name) < min(net.radius[chain[0]], net.radius[chain[-1]]) / 2:
             found.append((net.length(name), name))
     return min(found)[1] if found else None
 
