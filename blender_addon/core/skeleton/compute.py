@@ -17,8 +17,9 @@ from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, Side, SkeletonSettings
+from .centre import centre_of_mass
 from .forks import draw_forks
-from .mirror import symmetric
+from .mirror import make_symmetric
 from .net import Net
 from .owners import owners, shares
 from .parts import Parts, parts_of, places
@@ -101,8 +102,9 @@ def compute_skeleton(
     progress = progress or Progress()
     chosen = choose_samples(shape, replace(settings, side=Side.INNER), progress, limit)
     net, owner, sheets, loops = _net(chosen, settings, wanted, progress)
-    mirrored = wanted.mirror and symmetric(net, chosen.samples.points)
     names = sorted(net.branches)
+    plane = float(centre_of_mass(_thinned(net, names, 0.0))[0])
+    mirrored = wanted.mirror and make_symmetric(net, plane)
     place = places(net, names).of(net.stands_for()[owner])
     sample = _samples_of_vertices(shape, chosen)
     return Skeletonization(
