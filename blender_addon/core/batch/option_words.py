@@ -9,9 +9,21 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..machine.memory_limit import MemoryLimit
-from ..settings import LIMITS, OPTIONS, Choice, Settings, Switch
+from ..settings import (
+    LIMITS,
+    OPTIONS,
+    SAMPLING_OPTIONS,
+    SKELETON_OPTIONS,
+    Choice,
+    Settings,
+    SkeletonSettings,
+    Switch,
+)
 
 _UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB"}
+
+# The options of the method that matter to a skeleton.
+_SAMPLED = {name: OPTIONS[name] for name in ("sides", *"sampling", *SAMPLING_OPTIONS)}
 
 
 def add_options(parser: argparse._ArgumentGroup) -> None:
@@ -22,6 +34,11 @@ def add_options(parser: argparse._ArgumentGroup) -> None:
 def add_limits(parser: argparse._ArgumentGroup) -> None:
     """As `add_options`, for MemoryLimit."""
     _add(parser, LIMITS)
+
+
+def add_skeleton_options(parser: argparse._ArgumentGroup) -> None:
+    """As `add_options`, for SkeletonSettings and what says which points a skeleton is of."""
+    _add(parser, {**SKELETON_OPTIONS, **_SAMPLED})
 
 
 def _add(parser: argparse._ArgumentGroup, options: Mapping[str, Any]) -> None:
@@ -62,6 +79,22 @@ def limit_from(words: argparse.Namespace) -> MemoryLimit:
         A number out of its range.
     """
     return MemoryLimit(**_given(words, LIMITS))
+
+
+def skeleton_settings_from(words: argparse.Namespace) -> SkeletonSettings:
+    """The settings of a skeleton that a parsed command line means.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+    return SkeletonSettings(**_given(words, SKELETON_OPTIONS))
+
+
+def sampled_settings_from(words: argparse.Namespace) -> Settings:
+    """As `settings_from`, of what `add_skeleton_options` adds."""
+    return Settings(**_given(words, _SAMPLED))
 
 
 def as_words(settings: Settings) -> dict[str, str | float | bool]:
