@@ -74,7 +74,7 @@ def bind_by_axis(source: bpy.types.Object, armature: bpy.types.Object, rig: Rig)
     """Weights of the axis, as vertex groups; a modifier; and the armature as parent."""
     _forget_groups(source, rig)
     groups = [source.vertex_groups.new(name=name) for name in rig.names]
-    rows = rows_of_vertices(source, rig.shape)
+    rows = rows_of_vertices(source, rig.made_of.shape)
     bone, weight = rig.bone[rows], rig.weight[rows]
     order = np.argsort(bone, axis=None, kind="stable")
     for vertex, group, value in zip(

@@ -131,10 +131,10 @@ def check_parts_writable(source: bpy.types.Object) -> None:
         )
 
 
-def write_parts(source: bpy.types.Object, found: Skeletonization, shape: Shape) -> None:
+def write_parts(source: bpy.types.Object, found: Skeletonization) -> None:
     """Give the faces of a source `ma_part`: the branch of most of their corners, -1 for those of single points."""
     mesh = source.data
-    part = found.parts.vertices.branch[rows_of_vertices(source, shape)]
+    part = found.parts.vertices.branch[rows_of_vertices(source, found.shape)]
     corners = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     sizes = np.empty(len(mesh.polygons), np.int32)

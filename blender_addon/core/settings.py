@@ -57,6 +57,14 @@ class Criteria(Enum):
     RATIO = "RATIO"
 
 
+class Bind(Enum):
+    """How an object follows an armature."""
+
+    NONE = "NONE"
+    AUTOMATIC = "AUTOMATIC"
+    AXIS = "AXIS"
+
+
 class AboveLimit(Enum):
     """What becomes of an analysis that needs more memory than it may have."""
 
@@ -344,6 +352,19 @@ SKELETON_OPTIONS: dict[str, Any] = {
         default=True,
     ),
 }
+BIND = Choice(
+    label="Bind",
+    description="How the object follows the armature",
+    default=Bind.AXIS,
+    items={
+        Bind.NONE: ("None", "It does not: bones alone"),
+        Bind.AUTOMATIC: (
+            "Automatic",
+            "Blender's automatic weights; where these fail, those of Axis",
+        ),
+        Bind.AXIS: ("Axis", "Each vertex follows the branch of the skeleton that its ball belongs to"),
+    },
+)
 CACHE_SIZE = Integer(
     label="Cache Size",
     description="Memory that analyses may keep for other thresholds after a computation, in MB; "

@@ -23,6 +23,8 @@ def _modules() -> tuple[ModuleType, ...]:
         presets,
         properties,
         self_test_operator,
+        skeleton_operators,
+        skeleton_panel,
         translation,
     )
 
@@ -32,10 +34,12 @@ def _modules() -> tuple[ModuleType, ...]:
         self_test_operator,
         preferences,
         operators,
+        skeleton_operators,
         export_axis,
         import_points,
         presets,
         panels,
+        skeleton_panel,
         compute_sequence,
         menus,
         manual,

@@ -23,7 +23,7 @@ from ..settings import (
 _UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB"}
 
 # The options of the method that matter to a skeleton.
-_SAMPLED = {name: OPTIONS[name] for name in ("sides", *"sampling", *SAMPLING_OPTIONS)}
+_SAMPLED = {name: OPTIONS[name] for name in ("sides", "sampling", *SAMPLING_OPTIONS)}
 
 
 def add_options(parser: argparse._ArgumentGroup) -> None:

@@ -40,6 +40,7 @@ class Skeletonization:
 
     Parameters
     ----------
+    shape : Shape
     skeleton : Skeleton
         With as few points as the settings allow.
     parts : Parts
@@ -55,6 +56,7 @@ class Skeletonization:
     seconds : float
     """
 
+    shape: Shape
     skeleton: Skeleton
     parts: Parts
     loops: Loops
@@ -108,6 +110,7 @@ def compute_skeleton(
     place = places(net, names).of(net.stands_for()[owner])
     sample = _samples_of_vertices(shape, chosen)
     return Skeletonization(
+        shape=shape,
         skeleton=_thinned(net, names, wanted.simplify),
         parts=parts_of(place.of(sample), shape.triangles),
         loops=loops,

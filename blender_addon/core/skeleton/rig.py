@@ -31,7 +31,6 @@ class Rig:
     Parameters
     ----------
     made_of : Skeletonization
-    shape : Shape
     bones : Bones
     names : list of str
         Of the bones.
@@ -44,7 +43,6 @@ class Rig:
     """
 
     made_of: Skeletonization
-    shape: Shape
     bones: Bones
     names: list[str]
     bone: NDArray[np.int32]
@@ -80,7 +78,6 @@ def compute_rig(
     bone, weight = axis_weights(bones, made_of.parts.vertices, shape.points, edges)
     return Rig(
         made_of=made_of,
-        shape=shape,
         bones=bones,
         names=names_of(bones, centre),
         bone=bone,
