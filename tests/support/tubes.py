@@ -98,12 +98,12 @@ def y_of_tubes() -> Tubes:
 
 
 def helix() -> Tubes:
-    t = np.linspace(0.0, 4 * np.pi, 200)
+    t = np.linspace(0.0, 3 * np.pi, 60)
     return Tubes((np.column_stack((np.cos(t), np.sin(t), 0.14 * t)),), (0.15,))
 
 
 def trefoil() -> Tubes:
-    t = np.linspace(0.0, 2 * np.pi, 300)
+    t = np.linspace(0.0, 2 * np.pi, 80)
     curve = np.stack((np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)))
     return Tubes((0.5 * curve.T,), (0.2,))
 

@@ -127,7 +127,7 @@ def _net(
     """The branches that are limbs, the point that owns each sample, facets that have no curve, and what was cleared."""
     samples = chosen.samples
     level, hierarchy = _curve(samples.analysis, settings, wanted, progress)
-    owner = owners(samples, hierarchy, level.vertex_of)
+    owner = owners(samples, hierarchy, level)
     spacing, share = shares(samples)
     count = len(level.vertices)
     net = Net(
@@ -178,12 +178,13 @@ def _mean_of_owned(
 
 
 def _thinned(net: Net, names: list[int], simplify: float) -> Skeleton:
-    """The branches with fewer points."""
+    """The branches with fewer points; neither they nor their radii are farther off than the settings allow."""
     branches = []
     for name in names:
         chain = np.array(net.branches[name])
         if simplify > 0.0:
-            chain = chain[kept_points(net.points[chain], simplify * net.radius[chain])]
+            balls = np.column_stack((net.points[chain], net.radius[chain]))
+            chain = chain[kept_points(balls, simplify * net.radius[chain])]
         branches.append(chain)
     singles = np.array([node for node, found in net.at.items() if not found], np.int64)
     return skeleton_of(net.points, net.radius, branches, singles)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..axis.nearness import nearest
 from .spread import graph_of, spread
 
 if TYPE_CHECKING:
@@ -15,29 +16,32 @@ if TYPE_CHECKING:
     from ..axis.analysis import AnalysedSamples
 
 
-def owners(
-    samples: AnalysedSamples, hierarchy: Any, vertex_of: NDArray[np.int32]
-) -> NDArray[np.int64]:
+def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> NDArray[np.int64]:
     """The point that owns each sample.
 
     Parameters
     ----------
     samples : AnalysedSamples
     hierarchy : _medial.Hierarchy
-    vertex_of : (p,) int32
-        The vertex of the hierarchy of each point.
+    level : _medial.Level
+        Whose vertices are the points.
 
     Returns
     -------
     owner : (n,) int64
-        A row of the points. Samples whose ball the skeleton does not reach have that of the nearest one that has.
+        A row of the points. Samples whose ball the skeleton does not reach have that of the nearest one that has, and
+        where there is none, as on a ball, the nearest point.
     """
     graph = graph_of(hierarchy.vertices, hierarchy.edges)
-    rows = np.arange(len(vertex_of))
-    label, _ = spread(graph, vertex_of.astype(np.int64), rows)
+    rows = np.arange(len(level.vertices))
+    label, _ = spread(graph, level.vertex_of.astype(np.int64), rows)
     ball = largest_balls(hierarchy, len(samples.points))
     owner = np.where(ball >= 0, label[ball], -1)
-    return _of_the_nearest(owner, samples)
+    owner = _of_the_nearest(owner, samples)
+    left = np.flatnonzero(owner < 0)
+    if len(left):
+        owner[left] = nearest(samples.points[left], level.vertices)
+    return owner
 
 
 def _of_the_nearest(owner: NDArray[np.int64], samples: AnalysedSamples) -> NDArray[np.int64]:

@@ -17,8 +17,8 @@ def kept_points(points: NDArray[np.float64], tolerance: NDArray[np.float64]) -> 
 
     Parameters
     ----------
-    points : (n, 3) float64
-        Of a closed chain the first and the last are the same.
+    points : (n, k) float64
+        In any dimension. Of a closed chain the first and the last are the same.
     tolerance : (n,) float64
     """
     last = len(points) - 1
