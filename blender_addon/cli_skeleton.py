@@ -9,9 +9,10 @@ from collections.abc import Sequence
 
 from .core.batch.option_words import (
     add_limits,
+    add_sampling,
     add_skeleton_options,
     limit_from,
-    sampled_settings_from,
+    sampling_from,
     skeleton_settings_from,
 )
 from .core.errors import (
@@ -57,11 +58,12 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("input", metavar="INPUT", help="a mesh or a point cloud")
     parser.add_argument("output", metavar="OUTPUT", help="a file that ends in .swc, .obj or .json")
     add_skeleton_options(parser.add_argument_group("skeleton"))
+    add_sampling(parser.add_argument_group("sampling"))
     add_limits(parser.add_argument_group("memory"))
     parser.add_argument("--quiet", action="store_true", help="no warnings")
     wanted = parser.parse_args(words)
     try:
-        wanted.settings, wanted.limit = sampled_settings_from(wanted), limit_from(wanted)
+        wanted.settings, wanted.limit = sampling_from(wanted), limit_from(wanted)
         wanted.skeleton = skeleton_settings_from(wanted)
         skeleton_format(wanted.output)
     except MedialAxisError as error:

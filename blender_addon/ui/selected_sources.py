@@ -11,6 +11,7 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import is_report
 from ..bridge.skeleton_object import is_skeleton
+from ..bridge.thickness_object import is_copy
 from . import current_job
 
 _KINDS = "a mesh, point cloud, curve, surface, text or metaball"
@@ -20,6 +21,7 @@ _KINDS = "a mesh, point cloud, curve, surface, text or metaball"
 _MADE = {
     is_result: "a medial axis",
     is_report: "a report",
+    is_copy: "a report",
     is_skeleton: "a skeleton",
     is_armature: "an armature",
 }
@@ -36,6 +38,7 @@ class Source:
     name: str
     uid: int | None
     frame: object  # (4, 4) float64
+    world: object  # its matrix when it was read
 
     def find(self):
         """The object, or None when it is gone."""
@@ -55,6 +58,11 @@ def sources(context) -> list:
         if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
             found.append(source)
     return list(dict.fromkeys(found))
+
+
+def has_faces(thing) -> bool:
+    """Whether a source is more than points, as far as one sees without evaluating it."""
+    return thing.type != "POINTCLOUD" and (thing.type != "MESH" or bool(thing.data.polygons))
 
 
 def obstacle(context) -> str:

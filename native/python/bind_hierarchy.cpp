@@ -147,6 +147,11 @@ void bind_level(py::module_& m) {
                              "facet, in lexicographic order.")
       .def_property_readonly("facet_of", view_property<int32_t>(&Level::facet_of),
                              "(f,) int32: facet of the hierarchy.")
+      .def_property_readonly("theta", view_property<double>(&Level::theta),
+                             "(f,) float64, radians: as in `MedialMesh`, by the rule of the "
+                             "hierarchy.")
+      .def_property_readonly("rho", view_property<double>(&Level::rho),
+                             "(f,) float64: as in `MedialMesh`, by the rule of the hierarchy.")
       .def_property_readonly("sheet", view_property<float>(&Level::sheet),
                              "(f,) float32: `facet_sheet` of each.")
       .def_property_readonly("erosion", view_property<float>(&Level::erosion),
@@ -162,10 +167,10 @@ void bind_level(py::module_& m) {
       .def_property_readonly(
           "betti", [](const Level& l) { return betti_tuple(l.betti); },
           "Components, tunnels and cavities, counted on the level.")
-      .def_readonly(
-          "hidden", &Level::hidden,
-          "Edges from a vertex to itself, and facets with fewer than three other edges: they count "
-          "but cannot be drawn.");
+      .def_readonly("hidden", &Level::hidden,
+                    "Edges from a vertex to itself, facets with fewer than three other edges, and "
+                    "facets with "
+                    "the corners of another one: they count but cannot be drawn.");
 }
 
 }  // namespace
@@ -176,6 +181,8 @@ void bind_hierarchy(py::module_& m) {
   c.def_property_readonly(
        "betti", [](const Hierarchy& h) { return betti_tuple(h.betti()); },
        "Components, tunnels and cavities of the complex, and so of every level.")
+      .def_property_readonly(
+          "bytes", [](const Hierarchy& h) { return h.bytes(); }, "Memory that the hierarchy holds.")
       .def_property_readonly(
           "diagonal", [](const Hierarchy& h) { return h.diagonal(); },
           "Of the box of the samples: the unit of `sheet`, `erosion` and `limb`.")
@@ -234,8 +241,7 @@ void bind_hierarchy(py::module_& m) {
   c.def_property_readonly(
        "edge_limb",
        [](const Hierarchy& h) {
-         return edge_values(
-             h, [](const auto& parts, int32_t e) { return parts.limb_of_edge(e); });
+         return edge_values(h, [](const auto& parts, int32_t e) { return parts.limb_of_edge(e); });
        },
        "(e,) float32: length of the branch of each edge, as a share of the diagonal: how long it "
        "is, or how far its tip sticks out,\nwhichever is less; 0 where the edge goes with a facet.")

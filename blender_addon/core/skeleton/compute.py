@@ -14,6 +14,7 @@ from ..axis.choose_samples import ChosenSamples, choose_samples
 from ..axis.nearness import nearest
 from ..errors import DegenerateInputError
 from ..machine import native
+from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, Side, SkeletonSettings
@@ -31,7 +32,11 @@ from .warnings import skeleton_warnings
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..axis.analysis import AnalysedSamples
     from ..axis.shape import Shape
+
+# The share of the work before the hierarchy begins.
+_ANALYSIS = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +107,9 @@ def compute_skeleton(
     """
     start = time.perf_counter()
     progress = progress or Progress()
+    progress.until(_ANALYSIS)
     chosen = choose_samples(shape, replace(settings, side=Side.INNER), progress, limit)
+    progress.until(1.0)
     net, owner, sheets, loops = _net(chosen, settings, wanted, progress)
     names = sorted(net.branches)
     plane = float(centre_of_mass(_thinned(net, names, 0.0))[0])
@@ -126,7 +133,7 @@ def _net(
 ) -> tuple[Net, NDArray[np.int64], int, Loops]:
     """The branches that are limbs, the point that owns each sample, facets that have no curve, and what was cleared."""
     samples = chosen.samples
-    level, hierarchy = _curve(samples.analysis, settings, wanted, progress)
+    level, hierarchy = _curve(samples, settings, wanted, progress)
     owner = owners(samples, hierarchy, level)
     spacing, share = shares(samples)
     count = len(level.vertices)
@@ -145,18 +152,12 @@ def _net(
 
 
 def _curve(
-    analysis: Any, settings: Settings, wanted: SkeletonSettings, progress: Progress
+    samples: AnalysedSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
 ) -> tuple[Any, Any]:
     """The level without sheets, and the hierarchy that it is of."""
-    with native.own_errors() as module:
-        hierarchy = analysis.hierarchy(
-            settings.theta,
-            settings.rho,
-            getattr(module.Rule, settings.rule.name),
-            getattr(module.Criteria, settings.criteria.name),
-            module.Side.INNER,
-            progress=progress.part(0.9),
-        )
+    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress.part(0.9))
+    CACHE.resize(samples.key, samples.bytes)
+    with native.own_errors():
         level = hierarchy.extract(
             sheet=math.inf, limb=wanted.limb, relaxed=True, progress=progress.part()
         )

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kBand = 0.1;  // of the radius: samples nearer to it or farther are other walls
 constexpr double kFarthest = 0.05;  // of the radius: more it does not move at once
+constexpr double kTooFar = 0.15;    // of the radius: who wants to move so far sees something else
 constexpr int kFewest = 12;         // samples
 constexpr double kPivot = 1e-9;     // of a column: below, the samples do not tell all unknowns
 
@@ -78,9 +79,9 @@ class Fit {
 
   Canal fitted() && {
     Canal canal = from_;
-    canal.trust = canal.round = 0;
+    canal.trust = 0;
     if (met_ < kFewest) return canal;
-    judge(canal);
+    canal.trust = all_round();
     if (canal.trust == 0) return canal;
     const auto found = std::move(normals_).solve();
     if (!found) {
@@ -88,12 +89,12 @@ class Fit {
       return canal;
     }
     const auto& f = *found;
+    const double size = std::hypot(f[3], f[6]) / from_.radius;
+    canal.trust *= 1 - smoothstep((size - kFarthest) / (kTooFar - kFarthest));
     const auto part = [&](int i) {
       return canal.trust * (f[i] * basis_[0] + f[i + 3] * basis_[1]);
     };
-    const Vec3 shift = part(3);
-    const double size = length(shift), most = kFarthest * from_.radius;
-    canal.centre = from_.centre + (size > most ? most / size : 1) * shift;
+    canal.centre = from_.centre + (size > kFarthest ? kFarthest / size : 1) * part(3);
     canal.radius = from_.radius + f[0];
     canal.tangent = normalized(from_.tangent + (1 / half_width_) * part(4));
     canal.bend = from_.bend + part(5);
@@ -122,14 +123,14 @@ class Fit {
     ++met_;
   }
 
-  // By the mean of the directions u and of u u^T, which the normal equations hold.
-  void judge(Canal& canal) const {
-    const double all = normals_.matrix[0][0], xx = normals_.matrix[3][3] / all,
-                 yy = normals_.matrix[6][6] / all, xy = normals_.matrix[6][3] / all;
-    const double least = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy);
-    const double aside = std::hypot(normals_.matrix[3][0], normals_.matrix[6][0]) / all;
-    canal.trust = smoothstep((2 * least - 0.3) / 0.4);
-    canal.round = canal.trust * (1 - smoothstep(aside));
+  // Whether samples lie all round, by the directions u: 0 where they lie on two opposite walls, by
+  // the lesser principal moment (1/2 on a circle), or all on one side, by their mean.
+  double all_round() const {
+    const auto& m = normals_.matrix;
+    const double all = m[0][0], xx = m[3][3] / all, yy = m[6][6] / all, xy = m[6][3] / all,
+                 least = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy),
+                 aside = std::hypot(m[3][0], m[6][0]) / all;
+    return smoothstep((2 * least - 0.3) / 0.4) * (1 - smoothstep((aside - 0.2) / 0.4));
   }
 
   Canal from_;

@@ -13,10 +13,8 @@ struct Canal {
   double radius = 0;
   Vec3 tangent{};  // of the axis
   Vec3 bend{};     // how far the axis is away from the tangent, half a width on
-  // How much of it the samples tell: 1 where they lie all round, 0 where on two opposite walls.
+  // How much of it the samples tell: 1 where they lie all round, 0 where they do not.
   double trust = 0;
-  // 1 where samples lie in all directions, 0 where they are missing in some, as in a corner.
-  double round = 0;
 };
 
 // One step from a canal that is nearly right. Uses samples up to `half_width` before and behind it.
