@@ -17,7 +17,7 @@ from ..bridge.skeleton_object import (
     write_parts,
     write_skeleton,
 )
-from ..core.settings import BIND, SKELETON_OPTIONS, SkeletonSettings
+from ..core.settings import BIND, LOOKS, SKELETON_OPTIONS, SkeletonSettings
 from ..core.skeleton.compute import compute_skeleton
 from ..core.skeleton.rig import compute_rig
 from .compute_operator import ComputeOperator
@@ -29,6 +29,7 @@ from .properties import (
     copy_settings,
     draw_sampling,
     settings_from,
+    switch,
 )
 from .translation import IN_CONTEXT, say
 
@@ -106,6 +107,7 @@ class OBJECT_OT_medial_axis_skeleton(
     product = "skeleton"
 
     sides: choice("sides")
+    parent: switch("parent", of=LOOKS)
     parts: bpy.props.BoolProperty(
         name="Parts",
         description="Also give the faces of the object itself the attribute ma_part: the branch "
@@ -115,7 +117,7 @@ class OBJECT_OT_medial_axis_skeleton(
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in (*SKELETON_OPTIONS, "parts", "sides", "sampling"):
+        for name in (*SKELETON_OPTIONS, "parts", "parent", "sides", "sampling"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
@@ -151,6 +153,7 @@ class OBJECT_OT_medial_axis_armature(
     bl_options = {"REGISTER", "UNDO"}
 
     product = "armature"
+    parent = False  # the object follows its bones
 
     sides: choice("sides")
 
