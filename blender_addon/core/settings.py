@@ -420,7 +420,10 @@ BIND = Choice(
             "Automatic",
             "Blender's automatic weights; where these fail, those of Axis",
         ),
-        Bind.AXIS: ("Axis", "Each vertex follows the branch of the skeleton that its ball belongs to"),
+        Bind.AXIS: (
+            "Axis",
+            "Each vertex follows the branch of the skeleton that its ball belongs to",
+        ),
     },
 )
 # Options of how results look in Blender; what is computed does not depend on them.

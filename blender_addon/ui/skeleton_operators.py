@@ -149,7 +149,9 @@ class OBJECT_OT_medial_axis_armature(
 ):
     bl_idname = "object.medial_axis_armature"
     bl_label = "Make Armature"
-    bl_description = "Make few bones along the skeleton of the selected objects, and bind these to them"
+    bl_description = (
+        "Make few bones along the skeleton of the selected objects, and bind these to them"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     product = "armature"
@@ -199,7 +201,9 @@ CLASSES = (
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.Scene.medial_axis_skeleton = bpy.props.PointerProperty(type=MedialAxisSkeletonSettings)
+    bpy.types.Scene.medial_axis_skeleton = bpy.props.PointerProperty(
+        type=MedialAxisSkeletonSettings
+    )
 
 
 def unregister():

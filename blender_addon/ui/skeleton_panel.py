@@ -48,7 +48,9 @@ def _draw_figures(context, layout, thing):
     figures = {"Bones": thing.get(BONES, 0)}
     if is_skeleton(thing):
         names = {"Ends": "ENDS", "Branches": "BRANCHES", "Loops": "LOOPS"}
-        figures = {label: thing.get(getattr(skeleton_object, key), 0) for label, key in names.items()}
+        figures = {
+            label: thing.get(getattr(skeleton_object, key), 0) for label, key in names.items()
+        }
     layout.label(text=thing.name, icon="DOT", translate=False)
     for label, number in figures.items():
         row = layout.split(factor=0.45)

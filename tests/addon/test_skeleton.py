@@ -7,7 +7,17 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Euler, Matrix
-from scene import addon, attribute, contents, link, positions, refuse, select, torus, world_positions
+from scene import (
+    addon,
+    attribute,
+    contents,
+    link,
+    positions,
+    refuse,
+    select,
+    torus,
+    world_positions,
+)
 from support.data import DATA
 
 
@@ -21,14 +31,7 @@ def armature_of(source):
 
 def cross(name="Cross"):
     """A voxel cross with four arms in the plane of X and Z, smoothed: symmetric in X."""
-    bpy.ops.mesh.primitive_cube_add(size=1.0)
-    thing = bpy.context.object
-    thing.name = name
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    boxes = [((x, 0, z), 1.0) for x, z in ((0, 0), (0, 1), (0, 2), (0, -1), (0, -2), (0, -3))]
-    boxes += [((x, 0, 0), 1.0) for x in (-3, -2, -1, 1, 2, 3)]
-    cubes = {centre for centre, _ in boxes}
+    cubes = {(0, 0, z) for z in range(-3, 3)} | {(x, 0, 0) for x in range(-3, 4)}
     vertices, faces, row = [], [], {}
     corners = {
         (1, 0, 0): [(1, -1, -1), (1, 1, -1), (1, 1, 1), (1, -1, 1)],
@@ -50,7 +53,6 @@ def cross(name="Cross"):
                     vertices.append(place)
                 face.append(row[place])
             faces.append(face)
-    bpy.data.objects.remove(thing)
     made = link(name, vertices, faces)
     made.modifiers.new("Round", "SUBSURF").levels = 3
     bpy.context.view_layer.update()
@@ -85,11 +87,13 @@ def test_skeleton_is_a_curve_with_radii():
     source = cross()
     extract()
     thing = skeleton_of(source)
-    assert thing.name == "Cross Skeleton" and thing.type == "CURVE" and thing.data.dimensions == "3D"
+    assert (
+        thing.name == "Cross Skeleton" and thing.type == "CURVE" and thing.data.dimensions == "3D"
+    )
     assert {spline.type for spline in thing.data.splines} == {"POLY"}
     assert (thing["ma_ends"], thing["ma_loops"]) == (4, 0)
     radii = [point.radius for spline in thing.data.splines for point in spline.points]
-    assert 0.2 < min(radii) and max(radii) < 0.9
+    assert min(radii) > 0.2 and max(radii) < 0.9
     assert bpy.context.selected_objects == [thing]
 
 
@@ -197,7 +201,7 @@ def test_bound_source_follows_its_bones(bind):
     thing = armature_of(source)
     assert source.parent == thing and [m.type for m in source.modifiers] == ["ARMATURE"]
     np.testing.assert_allclose(world_positions(source), before, atol=1e-5)
-    name = max((b.name for b in thing.data.bones if b.name.endswith(".L")))
+    name = max(b.name for b in thing.data.bones if b.name.endswith(".L"))
     if bind == "AXIS":
         assert_weights_hold(source)
     bone = thing.pose.bones[name]
@@ -214,7 +218,10 @@ def test_binding_again_leaves_one_modifier_and_no_old_groups():
     make_armature(bind="AXIS")
     make_armature(bind="AXIS", detail=0.3)
     thing = armature_of(source)
-    assert len(source.modifiers) == 1 and len([o for o in bpy.data.objects if o.type == "ARMATURE"]) == 1
+    assert (
+        len(source.modifiers) == 1
+        and len([o for o in bpy.data.objects if o.type == "ARMATURE"]) == 1
+    )
     assert {group.name for group in source.vertex_groups} == set(thing.data.bones.keys())
     assert_weights_hold(source)
 

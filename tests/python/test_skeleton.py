@@ -41,9 +41,10 @@ def places_of(skeleton, steps=10):
     """Places along all edges, and the radii there."""
     a, b = skeleton.edges.T
     share = np.linspace(0.0, 1.0, steps + 1)
-    along = [
-        (1 - t) * skeleton.points[a] + t * skeleton.points[b] for t in share
-    ], [(1 - t) * skeleton.radius[a] + t * skeleton.radius[b] for t in share]
+    along = (
+        [(1 - t) * skeleton.points[a] + t * skeleton.points[b] for t in share],
+        [(1 - t) * skeleton.radius[a] + t * skeleton.radius[b] for t in share],
+    )
     return np.concatenate(along[0]), np.concatenate(along[1])
 
 
@@ -74,7 +75,11 @@ def test_known_centre_lines(solid, tips, loops, forks):
         thinnest = min(solid.radii)
         assert at.max() < 0.1 * thinnest
         away_from_forks = cKDTree(true).query(places)[0] > 2.5 * max(solid.radii)
-        places, radii, away = places[away_from_forks], radii[away_from_forks], away[:, away_from_forks]
+        places, radii, away = (
+            places[away_from_forks],
+            radii[away_from_forks],
+            away[:, away_from_forks],
+        )
     expected = np.array(solid.radii)[away.argmin(axis=0)]
     assert np.abs(radii / expected - 1).max() < 0.03
 
@@ -225,7 +230,7 @@ RIGGED = ["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"]
 
 @pytest.mark.parametrize("name", RIGGED)
 def test_bones_are_few_connected_and_near_the_curve(data_file, name):
-    shape, rig = rig_of(data_file, name)
+    _, rig = rig_of(data_file, name)
     bones, skeleton = rig.bones, rig.made_of.skeleton
     assert bones.count <= 3 * skeleton.tips + 20 and len(set(rig.names)) == bones.count
     child = bones.parent >= 0
@@ -337,7 +342,9 @@ def test_obj_has_a_line_for_each_branch(two_rings_and_a_y, tmp_path):
 
 def test_unknown_extension_leaves_nothing(two_rings_and_a_y, tmp_path):
     with pytest.raises(ExportError, match=r"\.swc, \.obj or \.json, found 'a\.fbx'"):
-        export_skeleton(two_rings_and_a_y[0].skeleton, two_rings_and_a_y[0].parts, tmp_path / "a.fbx")
+        export_skeleton(
+            two_rings_and_a_y[0].skeleton, two_rings_and_a_y[0].parts, tmp_path / "a.fbx"
+        )
     assert not list(tmp_path.iterdir())
 
 

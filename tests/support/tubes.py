@@ -3,6 +3,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -31,7 +32,9 @@ class Tubes(Shape):
 
     @property
     def length(self) -> float:
-        return sum(float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in self.lines)
+        return sum(
+            float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in self.lines
+        )
 
     @property
     def _areas(self) -> Array:
@@ -79,7 +82,7 @@ def _on_tube(line: Array, radius: float, count: int, rng: Rng) -> Array:
 def foot(x: Array, line: Array) -> Array:
     """(n, 3) the nearest point of a polyline to each of x."""
     best, nearest = np.full(len(x), np.inf), np.zeros_like(x)
-    for a, b in zip(line[:-1], line[1:], strict=True):
+    for a, b in pairwise(line):
         share = np.clip((x - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
         place = a + share[:, None] * (b - a)
         away = np.linalg.norm(x - place, axis=1)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which points lie near others, or in one place, and which is the nearest. NumPy has no search tree, and Blender's Python need not have SciPy."""
+"""Which points lie near others, or in one place, and which is the nearest.
+
+NumPy has no search tree, and Blender's Python need not have SciPy.
+"""
 
 from __future__ import annotations
 

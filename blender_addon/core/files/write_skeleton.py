@@ -57,7 +57,7 @@ def skeleton_format(path: str | os.PathLike) -> Callable[[Skeleton, Parts, Binar
 
 
 def _write_swc(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:
-    """`id type x y z radius parent`, parents first. SWC knows trees only: a comment names the edges that close loops."""
+    """`id type x y z radius parent`, parents first. SWC knows trees only: comments name the edges that close loops."""
     parent, order = _tree(skeleton)
     number = np.empty(len(order), np.int64)
     number[order] = np.arange(1, len(order) + 1)
@@ -74,12 +74,17 @@ def _write_swc(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:
 
 
 def _tree(skeleton: Skeleton) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The parent of each point, -1 of roots, and all points, parents first; a root is the thickest point of its part."""
+    """The parent of each point, -1 of roots, and all points, parents first; a root is the thickest of its part."""
     neighbours: list[list[int]] = [[] for _ in skeleton.points]
     for a, b in skeleton.edges.tolist():
         neighbours[a].append(b)
         neighbours[b].append(a)
-    parent, order, seen = np.full(len(neighbours), -1, np.int64), [], np.zeros(len(neighbours), bool)
+    order: list[int] = []
+    parent, seen = (
+        np.full(len(neighbours), -1, np.int64),
+        [],
+        np.zeros(len(neighbours), bool),
+    )
     for root in np.argsort(-skeleton.radius, kind="stable").tolist():
         if seen[root]:
             continue
@@ -99,7 +104,9 @@ def _write_obj(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:
     for x, y, z in skeleton.points.tolist():
         stream.write(f"v {x:.17g} {y:.17g} {z:.17g}\n".encode("ascii"))
     for branch in skeleton.branches:
-        stream.write(("l " + " ".join(str(row + 1) for row in branch.tolist()) + "\n").encode("ascii"))
+        stream.write(
+            ("l " + " ".join(str(row + 1) for row in branch.tolist()) + "\n").encode("ascii")
+        )
     for row in np.setdiff1d(skeleton.nodes, skeleton.branch_points).tolist():
         stream.write(b"p %d\n" % (row + 1))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import heapq
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -97,16 +98,14 @@ def _segments(skeleton: Skeleton) -> list[_Segment]:
         steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
         along = np.concatenate(([0.0], np.cumsum(steps))) / max(steps.sum(), np.finfo(float).tiny)
         kept = kept_points(points, ERROR * skeleton.radius[rows])
-        for a, b in zip(kept[:-1], kept[1:], strict=True):
+        for a, b in pairwise(kept.tolist()):
             length = float(np.linalg.norm(points[b] - points[a]))
             ends, shares = (int(rows[a]), int(rows[b])), (float(along[a]), float(along[b]))
             found.append(_Segment(ends, branch, shares, length))
     return found
 
 
-def _by_distance(
-    skeleton: Skeleton, joints: list[int], centre: NDArray[np.float64]
-) -> list[int]:
+def _by_distance(skeleton: Skeleton, joints: list[int], centre: NDArray[np.float64]) -> list[int]:
     """Joints, the one nearest to the centre first."""
     away = np.linalg.norm(skeleton.points[joints] - centre, axis=1)
     return [joints[i] for i in np.argsort(away, kind="stable")]
@@ -117,7 +116,9 @@ class _Maker:
 
     def __init__(self, skeleton: Skeleton) -> None:
         self._skeleton, self._degree = skeleton, skeleton.degree
-        self._rows: list[tuple[_Segment | None, int, int, int]] = []  # segment, joint, parent, chain
+        self._rows: list[
+            tuple[_Segment | None, int, int, int]
+        ] = []  # segment, joint, parent, chain
         self.bone_to: dict[int, int] = {}  # joint: the bone that ends there
         self._chains = 0
 
@@ -144,7 +145,12 @@ class _Maker:
 
     def _chain(self, segment: _Segment | None, parent: int) -> int:
         before = self._rows[parent][0] if parent >= 0 else None
-        if segment and before and before.branch == segment.branch and before.along[1] == segment.along[0]:
+        if (
+            segment
+            and before
+            and before.branch == segment.branch
+            and before.along[1] == segment.along[0]
+        ):
             return self._rows[parent][3]
         self._chains += 1
         return self._chains - 1

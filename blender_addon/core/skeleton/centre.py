@@ -20,6 +20,8 @@ def centre_of_mass(skeleton: Skeleton) -> NDArray[np.float64]:
     r, s = skeleton.radius[a], skeleton.radius[b]
     volume = np.pi * length * (r * r + r * s + s * s) / 3
     singles = np.setdiff1d(np.arange(len(skeleton.points)), skeleton.edges)
-    places = np.concatenate(((skeleton.points[a] + skeleton.points[b]) / 2, skeleton.points[singles]))
+    places = np.concatenate(
+        ((skeleton.points[a] + skeleton.points[b]) / 2, skeleton.points[singles])
+    )
     volume = np.concatenate((volume, 4 / 3 * np.pi * skeleton.radius[singles] ** 3))
     return np.average(places, axis=0, weights=volume)

@@ -142,7 +142,7 @@ def _net(
         level.radius,
         level.wires,
         level.points,
-        np.bincount(owner, weights=share, minlength=count),
+        np.bincount(owner, weights=share, minlength=count).astype(np.float64),
     )
     loops = clear_loops(net, _mean_of_owned(owner, spacing, count))
     prune(net, wanted.share)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where forks lie.
 
-The ball at a fork covers the roots of its limbs; in there the axis says little of where they come from, and its curve takes
-any way. So the fork goes to where the limbs, as they are outside, would meet, and the ways to it are straight. Where
-they do not meet well inside that ball, all stays as it is.
+The ball at a fork covers the roots of its limbs; in there the axis says little of where they come from, and its curve
+takes any way. So the fork goes to where the limbs, as they are outside, would meet, and the ways to it are straight.
+Where they do not meet well inside that ball, all stays as it is.
 """
 
 from __future__ import annotations
@@ -39,7 +39,9 @@ def draw_forks(net: Net, samples: NDArray[np.float64]) -> None:
     forks = [node for node, names in net.at.items() if len(names) > 2]
     if forks:
         _draw(net, forks, samples)
-        _draw(net, forks, samples)  # limbs near the new places are others than those near the old ones
+        _draw(
+            net, forks, samples
+        )  # limbs near the new places are others than those near the old ones
 
 
 def _draw(net: Net, forks: list[int], samples: NDArray[np.float64]) -> None:
@@ -74,7 +76,7 @@ def _meeting_point(net: Net, fork: int) -> NDArray[np.float64]:
 
 
 def _outside(net: Net, name: int, fork: int) -> list[int]:
-    """The points of a branch outside the ball of its fork but near to it, in its first half if it ends in a fork, too."""
+    """The points of a branch outside the ball of its fork but near to it; in its first half if it ends in a fork."""
     chain = _from(net, name, fork)
     if len(net.at[chain[-1]]) > 2:
         chain = chain[: len(chain) // 2 + 1]

@@ -75,7 +75,7 @@ def _images_of_nodes(net: Net, plane: float, allowed: float) -> dict[int, int] |
 def _images_of_branches(
     net: Net, nodes: dict[int, int], plane: float, allowed: float
 ) -> dict[int, tuple[int, list[int]]] | None:
-    """{branch: the branch that is its mirror image, and the points of that from the image of the start on}; or None."""
+    """{branch: the branch that is its mirror image, and the points of that from the image of its start on}, or None."""
     image = {}
     for name, chain in net.branches.items():
         start, end = nodes[chain[0]], nodes[chain[-1]]
@@ -98,7 +98,7 @@ def _images_of_branches(
 
 
 def _average(net: Net, name: int, other: int, way: list[int], plane: float) -> None:
-    """Give two branches, or the two halves of one, the same number of points, and let each be the image of the other."""
+    """Give two branches, or the two halves of one, as many points, and let each be the image of the other."""
     chain = net.branches[name]
     if name == other:
         _average_with_itself(net, chain, chain[0] != way[0], plane)
@@ -113,7 +113,11 @@ def _average(net: Net, name: int, other: int, way: list[int], plane: float) -> N
     net.points[short[inner]], net.radius[short[inner]] = mean[inner], radius[inner]
     net.points[left[inner]], net.radius[left[inner]] = _image(mean, plane)[inner], radius[inner]
     dropped = np.setdiff1d(np.arange(len(long)), kept)
-    near = kept[np.abs(dropped[:, None] - kept[None, inner]).argmin(axis=1) + 1] if len(kept) > 2 else kept[:1]
+    near = (
+        kept[np.abs(dropped[:, None] - kept[None, inner]).argmin(axis=1) + 1]
+        if len(kept) > 2
+        else kept[:1]
+    )
     net.moved[np.array(long)[dropped]] = np.array(long)[near]
     net.branches[name], net.branches[other] = (short, left) if short is chain else (left, short)
 

@@ -28,7 +28,9 @@ def names_of(bones: Bones, centre: NDArray[np.float64]) -> list[str]:
     centre : (3,) float64
         On the plane of the mirror.
     """
-    chains = [np.flatnonzero(bones.chain == chain) for chain in range(bones.chain.max(initial=-1) + 1)]
+    chains = [
+        np.flatnonzero(bones.chain == chain) for chain in range(bones.chain.max(initial=-1) + 1)
+    ]
     roots = [chain for chain in chains if bones.parent[chain[0]] < 0]
     names = [""] * bones.count
     for number, chain in enumerate(roots):

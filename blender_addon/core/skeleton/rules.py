@@ -7,7 +7,8 @@ Two rules for loops, one for branches:
 - A loop is *filled*, drawn together into its largest ball, where it lies within a spacing of that ball: it goes round a
   pinhole.
 - A leaf goes, the lightest first, where it hardly reaches out of the ball at its fork, or carries too small a share of
-  the surface for that: it is a ridge of a plate or of a terrace and no limb. The farther it reaches, the less it may carry.
+  the surface for that: it is a ridge of a plate or of a terrace and no limb. The farther it reaches, the less it may
+  carry.
 """
 
 from __future__ import annotations
@@ -91,7 +92,11 @@ def _shortest_between_forks(net: Net) -> int | None:
     found = []
     for name, chain in net.branches.items():
         between = [other for other in net.at[chain[0]] if other in net.at[chain[-1]]]
-        if between == [name] and not net.ends_free(name) and net.length(name) < min(net.radius[chain[0]], net.radius[chain[-1]]) / 2:
+        if (
+            between == [name]
+            and not net.ends_free(name)
+            and net.length(name) < min(net.radius[chain[0]], net.radius[chain[-1]]) / 2
+        ):
             found.append((net.length(name), name))
     return min(found)[1] if found else None
 

@@ -44,5 +44,7 @@ def _distance(
     """From points to a segment."""
     along = b - a
     square = float(along @ along)
-    share = np.clip((points - a) @ along / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(points))
+    share = (
+        np.clip((points - a) @ along / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(points))
+    )
     return np.linalg.norm(points - a - share[:, None] * along, axis=1)

@@ -99,7 +99,7 @@ def skeleton_of(
     row = np.full(len(points), -1, np.int64)
     row[used] = np.arange(len(used))
     ends = [end for branch in branches for end in (branch[0], branch[-1])]
-    offsets = np.concatenate(([0], np.cumsum([len(branch) for branch in branches])))
+    offsets = np.cumsum([0, *(len(branch) for branch in branches)])
     return Skeleton(
         points=points[used],
         radius=radius[used],

@@ -95,4 +95,5 @@ def _edges_of(
     """The rows of the edges of vertices, one vertex after the other, and how many each has."""
     start, count = graph.first[vertices], graph.first[vertices + 1] - graph.first[vertices]
     before = np.cumsum(count) - count
-    return np.repeat(start - before, count) + np.arange(count.sum()), count
+    rows: NDArray[np.int64] = np.repeat(start - before, count) + np.arange(count.sum())
+    return rows, count

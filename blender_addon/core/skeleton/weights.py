@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which bones move which vertex, and how much: those of the branch that owns the vertex' ball.
 
-A vertex follows the bone beside it. Round a joint within a chain its two bones share. Where a limb begins it shares with the
-bone that the limb hangs on, and where two limbs meet both share with that: so the weights are continuous, and no limb
-moves the skin of another one.
+A vertex follows the bone beside it. Round a joint within a chain its two bones share. Where a limb begins it shares
+with the bone that the limb hangs on, and where two limbs meet both share with that: so the weights are continuous, and no
+limb moves the skin of another one.
 """
 
 from __future__ import annotations
@@ -66,9 +66,7 @@ def edges_of(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
     return np.unique(pairs, axis=0)
 
 
-def _along_branches(
-    weight: NDArray[np.float64], bones: Bones, places: Places
-) -> NDArray[np.int64]:
+def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -> NDArray[np.int64]:
     """Fill in the bones beside each vertex; returns their chain, -1 where there is none."""
     chain = np.full(len(weight), -1, np.int64)
     length = np.linalg.norm(bones.tail - bones.head, axis=1)
