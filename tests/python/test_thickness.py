@@ -106,7 +106,9 @@ def test_cone():
     """A ball inside a cone with half-angle a, that touches it at radius r, has the diameter 2 r / cos(a)."""
     angle, height = np.radians(20.0), 2.0
     rings = np.linspace(0.0, height, 41)[:-1]
-    found = measure(lathe([(0, 0), *((np.tan(angle) * (height - z), z) for z in rings), (0, height)]))
+    found = measure(
+        lathe([(0, 0), *((np.tan(angle) * (height - z), z) for z in rings), (0, height)])
+    )
     radius = np.hypot(found.points[:, 0], found.points[:, 1])
     truth = 2 * radius / np.cos(angle)
     z = found.points[:, 2]
@@ -150,10 +152,11 @@ def test_stairs_against_rays():
     truth = rays(found.points[flat], down, mesh)
     assert set(np.round(truth, 6)) == {0.1, 0.2, 0.3}
     assert_bars(found.lengths[flat], truth)
-    for limit, area in ((0.15, 2.0), (0.25, 4.0)):
+    # top and bottom of the steps, and what of their sides is near
+    for limit, least, most in ((0.15, 2.0, 2.5), (0.25, 4.0, 5.2)):
         parts = find_thin_parts(found, limit)
         assert parts.patches[0].minimum == pytest.approx(0.1, rel=0.01)
-        assert parts.area == pytest.approx(area, rel=0.12)  # and the sides of the steps
+        assert least * 0.97 < parts.area < most
 
 
 def test_gap_between_two_boxes():
@@ -162,9 +165,7 @@ def test_gap_between_two_boxes():
     assert np.percentile(np.abs(found.lengths[facing] / 0.05 - 1), 99) < 0.01
     parts = find_thin_parts(found, 0.06)
     assert parts.area == pytest.approx(2 * 0.7, rel=0.01)
-    assert len(parts.patches) == 2 and {p.minimum for p in parts.patches} <= {
-        pytest.approx(0.05, rel=0.01)
-    }
+    assert [p.minimum for p in parts.patches] == pytest.approx([0.05] * 2, rel=0.01)
     assert np.isinf(found.lengths[np.abs(found.points[:, 2] - 0.65) < 1e-9]).mean() > 0.9
 
 
@@ -174,11 +175,13 @@ def test_a_solid_that_faces_nothing_has_no_gap():
     assert find_thin_parts(found, 1e9).patches == ()
 
 
-def test_a_pyramid_has_no_walls():
-    tetrahedron = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
-    found = measure((tetrahedron, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])))
-    assert np.isinf(found.lengths).all() and any("Edges Ball" in w for w in found.warnings)
-    assert measure((found.shape.points, found.shape.triangles), edges=Edges.BALL).minimum < 0.5
+def test_what_has_no_walls_is_as_thick_as_its_largest_ball():
+    """Of a tetrahedron and a cube no two places face each other, but for the middles of the cube."""
+    corners = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
+    found = measure((corners, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])))
+    assert_bars(found.lengths, 2 / np.sqrt(3))  # of its edge, sqrt(8), over sqrt(6)
+    assert_bars(measure(block(1, 1, 1)).lengths, 1.0)
+    assert measure((corners, found.shape.triangles), edges=Edges.BALL).minimum < 0.5
 
 
 def test_a_fin_does_not_make_what_it_stands_on_thin():

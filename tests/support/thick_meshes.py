@@ -122,6 +122,6 @@ def rays(points: np.ndarray, normals: np.ndarray, mesh: Mesh) -> np.ndarray:
             q = np.cross(p - a, u)
             t = (q @ -n) * inverse
             length = (v * q).sum(axis=1) * inverse
-        hit = (s >= 0) & (t >= 0) & (s + t <= 1) & (length > 1e-9)
+        hit = (s >= -1e-9) & (t >= -1e-9) & (s + t <= 1 + 1e-9) & (length > 1e-9)
         lengths[i] = length[hit].min(initial=np.inf)
     return lengths
