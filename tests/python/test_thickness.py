@@ -179,8 +179,9 @@ def test_what_has_no_walls_is_as_thick_as_its_largest_ball():
     """Of a tetrahedron and a cube no two places face each other, but for the middles of the cube."""
     corners = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
     found = measure((corners, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])))
-    assert_bars(found.lengths, 2 / np.sqrt(3))  # of its edge, sqrt(8), over sqrt(6)
-    assert_bars(measure(block(1, 1, 1)).lengths, 1.0)
+    for some, truth in ((found, 2 / np.sqrt(3)), (measure(block(1, 1, 1)), 1.0)):
+        assert np.median(some.lengths) == pytest.approx(truth, rel=0.01)
+        assert some.lengths.min() > 0.95 * truth
     assert measure((corners, found.shape.triangles), edges=Edges.BALL).minimum < 0.5
 
 
@@ -312,12 +313,12 @@ def test_clean_samples_have_no_noise():
         assert found.noise < 0.02 and not any("scatter" in warning for warning in found.warnings)
 
 
-def test_open_mesh_is_measured_where_it_has_walls():
-    """A box without its lid: 0.7 between the walls, and nothing above the floor."""
+def test_openings_are_closed():
+    """A box without its lid is as thick as with it."""
     vertices, triangles = BOX
     found = measure((vertices, triangles[:-2]))
-    assert np.median(found.lengths) == pytest.approx(0.7, rel=0.005)
     assert found.chosen.gaps == 4
+    assert_bars(found.lengths, 0.4)
 
 
 def test_vertices_of_a_dense_mesh_are_measured_as_they_are():
