@@ -108,25 +108,13 @@ def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wa
     frame = output.matrix_world.copy()
     if output.parent == source and not wanted:
         output.parent = None
-        output.driver_remove("hide_viewport")
     elif wanted and output.parent in (None, source) and world.determinant() != 0.0:
-        if output.parent is None:
-            output.parent = source
-            _hide_with(output, source)
+        output.parent = source
         output.matrix_parent_inverse = world.inverted()
     else:
         return
     output.matrix_basis = frame
     output.scale = (1.0, 1.0, 1.0)
-
-
-def _hide_with(output: bpy.types.Object, source: bpy.types.Object) -> None:
-    """Disabled in viewports when the source is; Blender passes that on to no child by itself."""
-    driver = output.driver_add("hide_viewport").driver
-    driver.type = "SUM"  # of one variable; an expression would need Python in files to be allowed
-    target = driver.variables.new().targets[0]
-    target.id = source
-    target.data_path = "hide_viewport"
 
 
 def remember(

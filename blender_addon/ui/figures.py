@@ -8,19 +8,14 @@ import bpy
 from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.colours import colour_range
 from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
-from ..core.axis.verdict import Light
 from . import manual
+from .guide import WHY
 from .legend import draw_legend, light
 from .show import shows_colours
 from .translation import say
 from .wrapped_text import draw_wrapped
 
-# Where the manual says more about a light.
-_WHY = {
-    Light.GOOD.name: "user_guide.html#sampling",
-    Light.LOOK.name: "troubleshooting.html",
-    Light.WRONG.name: "troubleshooting.html",
-}
+_BUTTON = 30  # pixels of a button with an icon
 
 
 def draw_result(context, layout, result):
@@ -39,7 +34,7 @@ def draw_result(context, layout, result):
     figures = {"Radius": f"{length_text(context, smallest)} to {length_text(context, largest)}"}
     if seconds := result.get(output_object.SECONDS):
         figures["Time"] = f"{seconds:.2f} s"
-    _draw_figures(layout, figures)
+    _draw_figures(layout, figures, 0.3)
 
 
 def draw_sequence(context, layout, frame):
@@ -126,15 +121,15 @@ def draw_surface(context, layout, surface):
 def _draw_verdict(context, layout, result):
     """The traffic light with its sentence, and where the manual says why."""
     name = result.get(axis_object.LIGHT)
-    if name not in _WHY:  # of an older version
+    if name not in WHY:  # of an older version
         return
     row = layout.row()
-    draw_wrapped(context, row, _short(say(result[axis_object.VERDICT])), icon_value=light(name))
-    page, _, _ = _WHY[name].partition("#")
-    if manual.has(page):
+    sentence = _short(say(result[axis_object.VERDICT]))
+    draw_wrapped(context, row, sentence, icon_value=light(name), beside=_BUTTON)
+    if manual.has(WHY[name].partition("#")[0]):
         why = row.row()
         why.alignment = "RIGHT"
-        why.operator("wm.url_open", text="Why?", emboss=False).url = manual.address(_WHY[name])
+        why.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
 
 
 def _short(sentence):
@@ -174,9 +169,10 @@ def _draw_table(layout, thing, figures):
     _draw_figures(layout, figures)
 
 
-def _draw_figures(layout, figures):
+def _draw_figures(layout, figures, share=0.45):
+    """Rows of a label, which has a share of the width, and a text."""
     column = layout.column(align=True)
     for label, text in figures.items():
-        row = column.split(factor=0.45)
+        row = column.split(factor=share)
         row.label(text=say(label), translate=False)
         row.label(text=say(text), translate=False)

@@ -3,10 +3,17 @@
 
 import bpy
 
+from ..core.axis.verdict import Light
 from . import manual
 from .preferences import ADDON
 
 PAGE = "tutorial.html"
+# Where the manual says more about a traffic light.
+WHY = {
+    Light.GOOD.name: "user_guide.html#sampling",
+    Light.LOOK.name: "troubleshooting.html",
+    Light.WRONG.name: "troubleshooting.html",
+}
 
 
 def draw_guide(layout):
@@ -50,16 +57,34 @@ class WM_OT_medial_axis_tutorial(bpy.types.Operator):
         return {"FINISHED"}
 
 
+class WM_OT_medial_axis_why(bpy.types.Operator):
+    bl_idname = "wm.medial_axis_why"
+    bl_label = "Why?"
+    bl_description = "What the manual says about this"
+    bl_options = {"INTERNAL"}
+
+    light: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    def execute(self, _context):
+        bpy.ops.wm.url_open(url=manual.address(WHY[self.light]))
+        return {"FINISHED"}
+
+
+CLASSES = (WM_OT_medial_axis_tutorial, WM_OT_medial_axis_why)
+
+
 def _help(self, _context):
     self.layout.separator()
     self.layout.operator("wm.medial_axis_tutorial", icon="HELP")
 
 
 def register():
-    bpy.utils.register_class(WM_OT_medial_axis_tutorial)
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
     bpy.types.TOPBAR_MT_help.append(_help)
 
 
 def unregister():
     bpy.types.TOPBAR_MT_help.remove(_help)
-    bpy.utils.unregister_class(WM_OT_medial_axis_tutorial)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -28,10 +28,11 @@ class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
     def execute(self, context):
         shading, key = context.space_data.shading, context.space_data.as_pointer()
         if shows_colours(context.space_data):
-            shading.type, shading.color_type = _before.pop(key, ("SOLID", "MATERIAL"))
+            kind, colour = _before.pop(key, ("SOLID", "MATERIAL"))
+            shading.color_type = colour  # first, for another kind may know other ones
+            shading.type = kind
         else:
-            kind = shading.type
-            shading.type = "SOLID"
+            kind, shading.type = shading.type, "SOLID"
             _before[key] = kind, shading.color_type
             shading.color_type = "VERTEX"
         return {"FINISHED"}

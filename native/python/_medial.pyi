@@ -264,6 +264,12 @@ class Level:
     def facet_of(self) -> NDArray[np.int32]:
         """(f,) int32: facet of the hierarchy, for its values."""
     @property
+    def theta(self) -> NDArray[np.float64]:
+        """(f,) float64, radians: as in `MedialMesh`, by the rule of the hierarchy."""
+    @property
+    def rho(self) -> NDArray[np.float64]:
+        """(f,) float64: as in `MedialMesh`, by the rule of the hierarchy."""
+    @property
     def sheet(self) -> NDArray[np.float32]:
         """(f,) float32: `facet_sheet` of each facet."""
     @property

@@ -294,7 +294,7 @@ def data(name):
         path = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", "")) / name
         if not path.is_file():
             return None
-        shape = addon("core.files.read_shape").read_shape(path)
+        shape, _ = addon("core.files.read_shape").read_shape(path)
         return link(path.stem, shape.points, shape.triangles)
 
     return make
