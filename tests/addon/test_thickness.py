@@ -162,7 +162,7 @@ def test_gap_between_two_objects_in_one_mesh():
     lower = positions(source.data)
     faces = [tuple(polygon.vertices) for polygon in source.data.polygons]
     both = [*faces, *(tuple(corner + 8 for corner in face) for face in faces)]
-    pair = link("Pair", np.vstack([lower, lower + (0, 0, 0.45)]), both)
+    pair = link("Pair", np.vstack([lower, np.add(lower, (0, 0, 0.45))]), both)
     carrier = measure(pair, limit=0.06, between="GAP")
     assert carrier["ma_thickness_minimum"] == pytest.approx(0.05, rel=0.01)
     assert carrier["ma_thickness_patches"] == 2
