@@ -93,7 +93,8 @@ def _sampled(
     density = estimate(analysis, points, on_edges, first, settings.epsilon)
     buried = int(np.count_nonzero(~bare))
     by_faces = betti_by_faces(request, sides)
-    faces = found.triangle[bare]
+    faces = np.full(len(points), -1, np.int32)  # of samples that close an opening
+    faces[: np.count_nonzero(bare)] = found.triangle[bare]
     return AnalysedSamples(
         points, kinds, normals, analysis, density, first, buried, by_faces=by_faces, faces=faces
     )
