@@ -89,10 +89,17 @@ void find_values(Hierarchy::Parts& made, const Burnt& burnt, std::span<const dou
                               joined(by_share, by_spacing, burning.erosion, quiet), quiet);
 }
 
+void bring_outward(InnerComplex& complex, const Frame& frame) {
+  if (frame.is_plain()) return;
+  for (Vec3& p : complex.position) p = frame.outward(p);
+  for (double& r : complex.radius) r = frame.outward(r);
+  complex.diagonal = frame.outward(complex.diagonal);
+}
+
 }  // namespace
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                         const Run& run) {
+                         const Frame& frame, const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena};
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
@@ -112,6 +119,7 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   made.outside =
       outside_components(made.complex, samples.count(), facets.triangulation, facets.edges, quiet);
   made.betti = betti_of(made.complex, made.outside, quiet);
+  bring_outward(made.complex, frame);
   made.complex.dual = {};  // it means nothing without the analysis
   watch.lap("betti");
   advance(run.progress, 1);
