@@ -209,7 +209,7 @@ def _items_of_file(pattern: str, wanted: argparse.Namespace) -> Iterator[Item]:
     for frame in wanted.frames or (None,):
         path = pattern if frame is None else at_frame(pattern, frame)
         stem = Path(pattern).stem.rstrip("#").rstrip("_.-")
-        yield _item(wanted.output, path, None, stem, frame, partial(read_shape, path))
+        yield _item(wanted.output, path, None, stem, frame, partial(read_shape, path, wanted.limit))
 
 
 def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[Item]:

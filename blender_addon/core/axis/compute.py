@@ -12,7 +12,7 @@ import numpy as np
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Settings
+from ..settings import Settings, Side
 from .axis_warnings import axis_warnings
 from .choose_samples import ChosenSamples, choose_samples
 from .medial_axis import MedialAxis, extract
@@ -105,6 +105,7 @@ def compute_axis(
     start = time.perf_counter()
     progress = progress or Progress()
     settings = settings.with_side()
+    limit = limit.used(faces=len(shape.triangles) > 0, both=settings.side is not Side.INNER)
     chosen = choose_samples(shape, settings, progress, limit)
     settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling)
     axis = extract(chosen.samples, settings, progress.part())

@@ -87,7 +87,8 @@ class Begun:
     @property
     def task(self) -> Task:
         """What is left to compute."""
-        work = partial(compute_axis, self.shape, self.settings, limit=self.limit)
+        limit = self.limit.used(output=self.item.output.suffix.lower())
+        work = partial(compute_axis, self.shape, self.settings, limit=limit)
         return Task(self.item.name, work)
 
     def stamp(self, thinned: bool) -> str:
