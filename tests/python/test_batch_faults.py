@@ -79,7 +79,7 @@ def test_a_locale_without_names(folder, program):  # noqa: F811
 def test_a_name_whose_report_does_not_fit(folder, run, length):  # noqa: F811
     name = length * "x"
     os.rename("egg.xyz", "y.xyz")
-    code, (report,), said = run("y.xyz", f"{name[:-3]}.ma")
+    code, _, said = run("y.xyz", f"{name[:-3]}.ma")
     fits = length + len(".json") <= 255
     assert code == (cli.DONE if fits else cli.INPUT)
     assert fits or (

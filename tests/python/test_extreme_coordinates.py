@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Coordinates at the ends of the documented range: the same axis, scaled or moved, and rows that are too close to tell."""
+"""Coordinates at the ends of the documented range: the same axis, scaled or moved; rows too close to be told."""
 
 import numpy as np
 import pytest
@@ -63,7 +63,7 @@ def test_a_lattice_in_the_last_bits_of_an_offset(medial):
 @pytest.mark.parametrize("offset", [2.0**30, -(2.0**40), 1e9])
 def test_an_offset_that_loses_nothing(medial, offset):
     """Rounded there first, so that both are the same points."""
-    moved = ellipsoid() + (offset, 0.0, 2 * offset)
+    moved = ellipsoid() + np.array([offset, 0.0, 2 * offset])
     points = moved - (offset, 0.0, 2 * offset)
     one, other = axis_of(medial, points)[1], axis_of(medial, moved)[1]
     np.testing.assert_array_equal(one.generators, other.generators)

@@ -93,7 +93,9 @@ def points_of_cloud(path: str | os.PathLike) -> int:
 def _rows(stream: IO[bytes]) -> int:
     """As the header of an array says."""
     major = np.lib.format.read_magic(stream)[0]
-    read = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
+    read = (
+        np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
+    )
     shape, _, _ = read(stream)
     return shape[0] if len(shape) == 2 else 0
 

@@ -21,8 +21,8 @@ _FILES = (
 def free_memory() -> int | None:
     """The bytes that can be had now; None where the system does not say.
 
-    Linux: what is available, also in the containers round this process and within its own limit. Windows: the physical memory
-    that is available. Elsewhere: all memory of the machine.
+    Linux: what is available, also in the containers round this process and within its own limit. Windows: the
+    physical memory that is available. Elsewhere: all memory of the machine.
     """
     if sys.platform == "win32":
         return _of_windows()

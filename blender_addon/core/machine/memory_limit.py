@@ -12,6 +12,7 @@ from . import native
 from .cache import CACHE
 from .free_memory import free_memory
 
+OBJECT = "object"  # the output that is no file
 _MOST = 1 << 28  # points that one analysis can have
 # Binary digits that are kept of a number of points that follows from the free memory, so that a little more or less
 # free memory gives the same points.
@@ -29,7 +30,7 @@ class Use:
     both : bool
         Facets of both sides are wanted, or of the outer one.
     output : str
-        The extension of the file that is written; "" without a file.
+        The extension of the file that is written, OBJECT in Blender, or "".
     """
 
     faces: bool = True
@@ -114,10 +115,10 @@ WHAT_IS_FREE = MemoryLimit()
 
 # Bytes per point at the peak of the process, as measured (docs/performance.md): {(faces, both): {output: bytes}}.
 _AT_PEAK = {
-    (False, False): {"": 1930, ".ma": 2600},
-    (False, True): {"": 2270, ".ma": 3230},
-    (True, False): {"": 1810, ".ply": 2050, ".ma": 2570},
-    (True, True): {"": 1960, ".ply": 2290, ".ma": 3060},
+    (False, False): {"": 1930, ".ply": 2050, ".ma": 2600, OBJECT: 2260},
+    (False, True): {"": 2030, ".ply": 2250, ".ma": 3160, OBJECT: 2740},
+    (True, False): {"": 1960, ".ply": 2050, ".ma": 2600, OBJECT: 2000},
+    (True, True): {"": 1970, ".ply": 2290, ".ma": 3060, OBJECT: 2520},
 }
 
 

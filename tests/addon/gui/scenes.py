@@ -161,7 +161,9 @@ def job_exists():
     return job() is not None
 
 
-job_exists.patience = 10.0  # a click begins a job at once; one that was refused has none to wait for
+job_exists.patience = (
+    10.0  # a click begins a job at once; one that was refused has none to wait for
+)
 
 
 def job_runs():
