@@ -13,6 +13,7 @@ import os
 import sys
 from typing import Any, TextIO
 
+from .core.axis.density import percent
 from .core.files.names import shown
 
 
@@ -67,7 +68,7 @@ class Console:
             self.complain(f"{name}: {report['error']}")
         elif not self._json:
             how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
-            self._write(f"{report['output']}: {report['facets']:,} facets, {how}\n")
+            self._write(f"{report['output']}: {_said(report)}, {how}\n")
 
     def _write(self, text: str) -> None:
         try:
@@ -90,6 +91,22 @@ class Console:
             sys.stderr.flush()
         except OSError:
             _turn_off("stderr")
+
+
+def _said(report: dict[str, Any]) -> str:
+    """What is in an output, in a few words."""
+    if "facets" in report:
+        edges = f", {report['edges']:,} edges" if report.get("edges") else ""
+        return f"{report['facets']:,} facets{edges}"
+    unit = f" {report['unit']}" if report["unit"] else ""
+    if report["minimum"] is None:
+        return "no two walls face each other"
+    minimum = f"minimum {report['minimum']:.4g}{unit}"
+    if not report["limit"]:
+        return minimum
+    patches, share = len(report["patches"]), percent(report["share_below"])
+    where = f" in {patches:,} {'patch' if patches == 1 else 'patches'}" if patches else ""
+    return f"{minimum}, {share} below {report['limit']:g}{unit}{where}"
 
 
 def open_streams() -> None:

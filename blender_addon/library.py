@@ -43,6 +43,7 @@ from .core.settings import (
     SAMPLING_OPTIONS,
     Choice,
     Criteria,
+    Form,
     Rule,
     SamplingMode,
     Settings,
@@ -60,6 +61,7 @@ __all__ = [
     "Criteria",
     "DegenerateInputError",
     "ExportError",
+    "Form",
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",
@@ -130,7 +132,9 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     ----------
     computation : Computation
     **thresholds
-        `theta`, `rho`, `rule`, `criteria` and `limit_set` of `Settings`; what is not given stays as it was.
+        `form`, `simplify`, `erode`, `limb`, `theta`, `rho`, `rule`, `criteria` and `limit_set` of `Settings`; what is
+        not given stays as it was. Forms are milliseconds, too, once the hierarchy was computed for `theta`, `rho`,
+        `rule` and `criteria`.
 
     Raises
     ------

@@ -4,7 +4,10 @@
 #include <pybind11/stl.h>
 
 #include "arrays.h"
+#include "base/rows.h"
+#include "base/text.h"
 #include "bindings.h"
+#include "sampling/closing_samples.h"
 
 namespace medial::python {
 namespace {
@@ -25,6 +28,18 @@ constexpr const char* kSampleDoc =
     "sharp_edges : (e, 2) int32, optional\nsmooth : bool\nkeep_vertices : bool\n"
     "mirrored_rows : int\n    Beside each sharp edge; default 2.\nseed : int\n"
     "progress : Progress, optional\nthreads : int\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+constexpr const char* kClosingDoc =
+    "Samples that close the openings of a surface: blue noise where the winding number is 1/2, off "
+    "the triangles.\n\n"
+    "Parameters\n----------\n"
+    "points : (n, 3) float64\n    Samples of the surface that bound its solid.\n"
+    "normals : (n, 3) float64\nradius : (n,) float64\n    Of their discs.\n"
+    "vertices : (v, 3) float64\ntriangles : (m, 3) int32\nseed : int\n"
+    "progress : Progress, optional\nthreads : int\n\n"
+    "Returns\n-------\npoints : (k, 3) float64\nnormals : (k, 3) float64\nradius : (k,) "
+    "float64\n\n"
     "Raises\n------\nInvalidInputError, Cancelled";
 
 using FloatArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -104,6 +119,48 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
       sample_surface(point_span, face_span, options, team, progress));
 }
 
+std::vector<Disk> disks_of(const Points& points, const Points& normals, const FloatArray& radius) {
+  const auto centres = points.span(), directions = normals.span();
+  const auto count = static_cast<py::ssize_t>(centres.size());
+  if (directions.size() != centres.size() || radius.ndim() != 1 || radius.size() != count) {
+    throw InvalidInputError("Expected one normal and one radius per point, found " +
+                            std::to_string(directions.size()) + " and " +
+                            std::to_string(radius.size()) + " for " + std::to_string(count) +
+                            " points; pass all of them.");
+  }
+  require_finite(centres, "point");
+  require_finite(directions, "normal");
+  std::vector<Disk> disks;
+  for (size_t i = 0; i < centres.size(); ++i) {
+    const double r = radius.data()[i];
+    if (!(r > 0 && r < HUGE_VAL)) {
+      throw InvalidInputError("Expected positive radii, found " + text(r) + "; correct it.");
+    }
+    disks.push_back({centres[i], r, directions[i]});
+  }
+  return disks;
+}
+
+py::tuple close_openings(const py::object& points, const py::object& normals,
+                         const FloatArray& radius, const py::object& vertices,
+                         const py::object& triangles, int64_t seed, Progress* progress,
+                         int threads) {
+  const auto kept = disks_of(Points(points, "points"), Points(normals, "normals"), radius);
+  const Points corners(vertices, "vertices");
+  const Triangles faces(triangles);
+  const Run run{thread_count(thread_argument(threads)), progress};
+  ClosingSamples samples;
+  {
+    const auto corner_span = corners.span();
+    const auto face_span = faces.span();
+    const py::gil_scoped_release release;
+    samples = closing_samples(corner_span, face_span, kept, static_cast<uint64_t>(seed), run);
+  }
+  return py::make_tuple(array_of<double>(std::move(samples.points)),
+                        array_of<double>(std::move(samples.normals)),
+                        array_of<double>(std::move(samples.radius)));
+}
+
 }  // namespace
 
 void bind_sampling(py::module_& m) {
@@ -112,7 +169,8 @@ void bind_sampling(py::module_& m) {
       .value("SHARP", SampleKind::sharp)
       .value("BOUNDARY", SampleKind::boundary)
       .value("VERTEX", SampleKind::vertex)
-      .value("SURFACE", SampleKind::surface);
+      .value("SURFACE", SampleKind::surface)
+      .value("OPENING", SampleKind::opening);
   using S = SurfaceSamples;
   py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", kSamplesDoc, py::is_final(),
                                     py::module_local())
@@ -139,6 +197,9 @@ void bind_sampling(py::module_& m) {
         py::arg("keep_vertices") = false,
         py::arg("mirrored_rows") = SamplingOptions{}.mirrored_rows, py::arg("seed") = 0,
         py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("closing_samples", &close_openings, kClosingDoc, py::arg("points"), py::arg("normals"),
+        py::arg("radius"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
+        py::arg("seed") = 0, py::arg("progress") = nullptr, py::arg("threads") = 0);
 }
 
 }  // namespace medial::python

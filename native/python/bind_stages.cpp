@@ -9,6 +9,7 @@
 #include "delaunay/polygon_triangles.h"
 #include "delaunay/samples.h"
 #include "inside/buried.h"
+#include "inside/solid_betti.h"
 #include "inside/surface.h"
 #include "inside/winding_number.h"
 
@@ -59,6 +60,14 @@ constexpr const char* kOpenEdgesDoc =
     "equally often in\n"
     "both directions, rows with the same coordinates being one. 0: the surface is closed, or there "
     "is none.\n\n"
+    "Parameters\n----------\npoints : (n, 3) float64\ntriangles : (m, 3) int32";
+
+constexpr const char* kSolidBettiDoc =
+    "Pieces, loops and cavities of the solid whose boundary the triangles are, if they pass "
+    "nowhere "
+    "through themselves;\nNone where they are no closed manifold, or a shell of them has no "
+    "volume. "
+    "Rows with the same coordinates are one.\n\n"
     "Parameters\n----------\npoints : (n, 3) float64\ntriangles : (m, 3) int32";
 
 constexpr const char* kWindingDoc =
@@ -233,6 +242,20 @@ int64_t open_edges(const py::object& points, const py::object& triangles) {
   return make_surface(face_span, samples.point_of_row, samples.count(), all_cores()).open_edges();
 }
 
+py::object betti_of_solid(const py::object& points, const py::object& triangles) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  const auto betti = [&, row_span = rows.span(), face_span = faces.span()] {
+    const py::gil_scoped_release release;
+    require_corners(face_span, row_span.size());
+    const Samples samples = distinct_rows(row_span, "point", all_cores());
+    return solid_betti(make_surface(face_span, samples.point_of_row, samples.count(), all_cores()),
+                       samples.points, all_cores());
+  }();
+  if (!betti) return py::none();
+  return py::make_tuple((*betti)[0], (*betti)[1], (*betti)[2]);
+}
+
 py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& face_vertices,
                             int32_t vertices) {
   const auto offsets = ids_of(face_offsets, "face_offsets");
@@ -305,6 +328,7 @@ void bind_stages(py::module_& m) {
   m.def("umbrellas", &umbrella_triangles, kUmbrellasDoc, py::arg("points"));
   m.def("cocone", &cocone_parts, kCoconeDoc, py::arg("points"), py::arg("options") = py::none());
   m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
+  m.def("solid_betti", &betti_of_solid, kSolidBettiDoc, py::arg("points"), py::arg("triangles"));
   m.def("polygon_edges", &edges_of_polygons, kPolygonEdgesDoc, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));
   m.def("polygon_triangles", &triangles_of_polygons, kPolygonTrianglesDoc, py::arg("points"),

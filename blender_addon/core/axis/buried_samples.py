@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which samples of the faces lie where the surface bounds nothing, because another part of the solid covers it."""
+"""Which samples of the faces lie where the surface bounds nothing, because another part of the solid covers it.
+
+The solid is where the winding number of the faces is above one half, be they closed or open.
+"""
 
 from __future__ import annotations
 
@@ -14,25 +17,48 @@ if TYPE_CHECKING:
 
     from .shape import Shape
 
+# How far from the surface one looks for its two sides, as a share of the spacing.
+OFF = 1e-3
+# Of more faces only so many are looked at, evenly spread: they tell shares to a percent.
+_LOOKED_AT = 20_000
 
-def find_bare(shape: Shape, found: Any, gaps: int, offset: float) -> NDArray[np.bool_]:
+
+def find_bare(shape: Shape, found: Any, spacing: float) -> NDArray[np.bool_]:
     """(n,) True for the samples that lie between inside and outside, False for those that are buried.
 
     Parameters
     ----------
     shape : Shape
     found : _medial.SurfaceSamples
-    gaps : int
-        Open edges of the faces. Open faces bound nothing, so none of their samples is buried.
-    offset : float
-        How far from the surface one looks to both sides.
+    spacing : float
+        The distance of neighbours.
     """
     # Where the faces point inward the axis is empty, and a warning says why; so no sample is left out there either.
-    if gaps or shape.volume < 0:
+    if shape.volume < 0:
         return np.ones(len(found.points), bool)
+    offset = OFF * spacing
     points, normals = _on_flat_faces(shape, found, 100.0 * offset)
     with native.own_errors() as module:
         return ~module.buried(points, normals, offset, shape.points, shape.triangles)
+
+
+def bounding_share(shape: Shape, spacing: float) -> float:
+    """The share of the area of the faces that bounds the solid.
+
+    Parameters
+    ----------
+    shape : Shape
+    spacing : float
+        One looks as far from the faces as for samples so far apart.
+    """
+    count = len(shape.triangles)
+    some = np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(np.intp))
+    corners = shape.points[shape.triangles[some]]
+    normals, areas = _unit_normals(corners)
+    with native.own_errors() as module:
+        points = corners.mean(axis=1)
+        buried = module.buried(points, normals, OFF * spacing, shape.points, shape.triangles)
+    return 1.0 - float(areas[buried].sum() / areas.sum())
 
 
 def _on_flat_faces(
@@ -51,6 +77,11 @@ def _on_flat_faces(
     inward = corners[on_edge].mean(axis=1) - points[on_edge]
     ways = np.linalg.norm(inward, axis=1)[:, None]
     points[on_edge] += inward * np.minimum(0.1, step / np.where(ways > 0.0, ways, step))
+    return points, _unit_normals(corners)[0]
+
+
+def _unit_normals(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(n, 3) the unit normal of each triangle, zero where it has none, and (n,) twice its area."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)
-    return points, normals / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    return normals / np.where(lengths > 0.0, lengths, 1.0)[:, None], lengths

@@ -6,22 +6,23 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..errors import DegenerateInputError
 from ..machine import native
-from .analysis import AnalysedSamples, Request, analyse, kept_or_made
+from ..settings import SidesFrom
+from .analysis import AnalysedSamples, Request, analyse, betti_by_faces, kept_or_made
 from .buried_samples import find_bare
+from .closing_samples import closed_by_samples
 from .density import estimate
 from .sample_spacing import first_count, mean_spacing
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
     from .shape import Shape
     from .sides import Sides
 
-# How far from the surface one looks for its two sides, as a share of the spacing.
-_OFF = 1e-3
 # Edges are sharp from so much above the angle: tubes of twelve sides are round, and bent ones have 30.1 degrees.
 _CLEARLY = 1.01
 
@@ -75,15 +76,27 @@ def _sampled(
         request.limit.check(first_count(shape, settings))
     found = _sample_surface(shape, options, request.progress.part(0.2 * share))
     spacing = mean_spacing(found.area, len(found.points))
-    bare = find_bare(shape, found, request.gaps, _OFF * spacing)
+    closing = request.gaps > 0 and sides.source is SidesFrom.SURFACE
+    bare = np.ones(len(found.points), bool)
+    if closing or not request.gaps:
+        bare = find_bare(shape, found, spacing)
     _check_some(bare)
     points, normals, kinds = (x[bare] for x in (found.points, found.normals, found.kind))
+    if closing:
+        radius, progress = found.radius[bare], request.progress.part(0.1 * share)
+        points, normals, kinds = closed_by_samples(
+            request, points, normals, kinds, radius, progress
+        )
     analysis = analyse(request, points, normals, sides, request.progress.part(share))
     first = first or spacing
-    on_edges = points[_are_on_edges(kinds, request.gaps)]
+    on_edges = points[_are_on_edges(kinds, request.gaps, closing)]
     density = estimate(analysis, points, on_edges, first, settings.epsilon)
-    buried = len(bare) - len(points)
-    return AnalysedSamples(points, kinds, normals, analysis, density, first, buried)
+    buried = int(np.count_nonzero(~bare))
+    by_faces = betti_by_faces(request, sides)
+    faces = found.triangle[bare]
+    return AnalysedSamples(
+        points, kinds, normals, analysis, density, first, buried, by_faces=by_faces, faces=faces
+    )
 
 
 def _sample_surface(shape: Shape, options: dict[str, Any], progress: Any) -> Any:
@@ -105,11 +118,14 @@ def _check_some(bare: NDArray[np.bool_]) -> None:
         )
 
 
-def _are_on_edges(kinds: NDArray[np.int32], gaps: int) -> NDArray[np.bool_]:
-    """(n,) True for samples of sharp edges and corners, where the feature size is 0.
+def _are_on_edges(kinds: NDArray[np.int32], gaps: int, closing: bool) -> NDArray[np.bool_]:
+    """(n,) True for samples of edges of the solid and of its corners, where the feature size is 0.
 
-    Corners of an open mesh are not counted: they may be those of an opening, where the shape may be thick.
+    Where an opening is closed its rim is an edge of the solid. Corners of a mesh that stays open are
+    not counted: they may be those of an opening, where the shape may be thick.
     """
     kind_of = native.load().SampleKind
     edge = kinds == int(kind_of.SHARP)
-    return edge if gaps else edge | (kinds == int(kind_of.CORNER))
+    if closing:
+        edge |= kinds == int(kind_of.BOUNDARY)
+    return edge if gaps and not closing else edge | (kinds == int(kind_of.CORNER))

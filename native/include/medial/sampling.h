@@ -10,7 +10,8 @@
 
 namespace medial {
 
-enum class SampleKind : int32_t { corner, sharp, boundary, vertex, surface };
+// An opening is where closing_samples lie; sample_surface makes none.
+enum class SampleKind : int32_t { corner, sharp, boundary, vertex, surface, opening };
 
 struct SamplingOptions {
   std::optional<int64_t> count;  // one of count, spacing and sites

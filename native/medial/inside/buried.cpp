@@ -23,18 +23,6 @@ void check(std::span<const Vec3> points, std::span<const Vec3> normals, double o
   }
 }
 
-Surface closed_surface(const DistinctRows& corners, std::span<const Triangle> triangles,
-                       const Run& run) {
-  Surface surface = make_surface(triangles, corners.point_of_row, corners.count(), run);
-  if (!surface.closed()) {
-    throw InvalidInputError("Expected closed triangles, found " +
-                            std::to_string(surface.open_edges()) + " open edges among " +
-                            std::to_string(surface.triangles.size()) +
-                            " triangles; close them first.");
-  }
-  return surface;
-}
-
 // Tells inside from outside at one place after the other; little surface lies between places that
 // follow each other.
 class Follower {
@@ -64,7 +52,7 @@ std::vector<uint8_t> buried(std::span<const Vec3> points, std::span<const Vec3> 
   check(points, normals, offset);
   require_corners(triangles, vertices.size());
   const DistinctRows corners = distinct_rows(vertices, "vertex", run);
-  const Surface surface = closed_surface(corners, triangles, run);
+  const Surface surface = make_surface(triangles, corners.point_of_row, corners.count(), run);
   const WindingNumber winding(corners.points, surface.triangles, surface.boundary, run.progress);
   const auto order = hilbert_order(points, run);
   std::vector<uint8_t> result(points.size(), 0);

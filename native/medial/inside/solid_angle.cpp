@@ -117,8 +117,9 @@ SolidAngle::Term SolidAngle::term(int32_t id, const Vec3& query) const {
 }
 
 // Replaces the cluster with the largest bound by its children, or by its triangles, until the
-// bounds cannot matter.
-bool SolidAngle::is_below(double bound, const Vec3& query) const {
+// value and the bound of its error are enough, both times 4 pi.
+template <typename Enough>
+double SolidAngle::opened(const Vec3& query, const Enough& enough) const {
   const auto smaller = [](const Term& s, const Term& t) { return s.error < t.error; };
   std::vector<Term> heap;
   heap.reserve(64);
@@ -138,7 +139,7 @@ bool SolidAngle::is_below(double bound, const Vec3& query) const {
     count(t, 1);
   };
   if (!nodes_.empty()) push(term(0, query));
-  while (!heap.empty() && (unbounded > 0 || std::abs(total - bound * kFull) <= error)) {
+  while (!heap.empty() && (unbounded > 0 || !enough(total, error))) {
     std::pop_heap(heap.begin(), heap.end(), smaller);
     const Term top = heap.back();
     heap.pop_back();
@@ -152,7 +153,19 @@ bool SolidAngle::is_below(double bound, const Vec3& query) const {
       push(term(node.right, query));
     }
   }
-  return total < bound * kFull;
+  return total;
+}
+
+bool SolidAngle::is_below(double bound, const Vec3& query) const {
+  const auto told = [&](double total, double error) {
+    return std::abs(total - bound * kFull) > error;
+  };
+  return opened(query, told) < bound * kFull;
+}
+
+double SolidAngle::within(double tolerance, const Vec3& query) const {
+  const auto close = [&](double, double error) { return error <= tolerance * kFull; };
+  return opened(query, close) / kFull;
 }
 
 }  // namespace medial

@@ -31,6 +31,8 @@ class SolidAngle {
   double exact(const Vec3& query) const { return solid_angle_sum(corners_, query); }
   // Whether the exact value is below `bound`; clusters are opened only as far as it takes to tell.
   bool is_below(double bound, const Vec3& query) const;
+  // The value with an error of at most `tolerance`, likewise.
+  double within(double tolerance, const Vec3& query) const;
 
  private:
   // A contiguous range of triangles, expanded about its area-weighted centroid.
@@ -53,6 +55,8 @@ class SolidAngle {
   void describe_leaf(Node& node) const;
   static void describe_parent(Node& node, const Node& left, const Node& right);
   Term term(int32_t id, const Vec3& query) const;
+  template <typename Enough>
+  double opened(const Vec3& query, const Enough& enough) const;
 
   std::vector<Corners> corners_;
   std::vector<Node> nodes_;

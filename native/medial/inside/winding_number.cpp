@@ -6,7 +6,6 @@
 #include "base/union_find.h"
 
 namespace medial {
-namespace {
 
 std::vector<Corners> soup(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   std::vector<Corners> corners;
@@ -17,6 +16,8 @@ std::vector<Corners> soup(std::span<const Vec3> vertices, std::span<const Triang
   }
   return corners;
 }
+
+namespace {
 
 // Every connected part of the boundary is closed in itself: each gets an apex of its own, the mean
 // of its edges.

@@ -14,6 +14,9 @@
 
 namespace medial {
 
+// The corners of the triangles, but for those with a repeated one.
+std::vector<Corners> soup(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
 class WindingNumber {
  public:
   // `boundary` as from boundary_edges.
@@ -29,6 +32,10 @@ class WindingNumber {
   // Whether the winding number of the soup itself exceeds 1/2; the caps are summed only as far as
   // it takes to tell.
   bool is_inside(const Vec3& query, int closed_here) const;
+  // The winding number of the soup itself, with an error of at most `tolerance`.
+  double within(double tolerance, const Vec3& query, int closed_here) const {
+    return closed_here - caps_.within(tolerance, query);
+  }
 
  private:
   WindingNumber(std::vector<Corners> soup, std::vector<Corners> caps, const Progress* progress);

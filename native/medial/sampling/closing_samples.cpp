@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sampling/closing_samples.h"
+
+#include <numeric>
+#include <optional>
+
+#include "base/random.h"
+#include "base/rows.h"
+#include "inside/level_set.h"
+#include "inside/surface.h"
+
+namespace medial {
+namespace {
+
+// Steps of the lattice in one radius: about five candidates for every disc that has room.
+constexpr double kSteps = 1.5;
+
+double median_radius(std::span<const Disk> disks) {
+  std::vector<double> radii;
+  for (const Disk& disk : disks) radii.push_back(disk.radius);
+  const auto middle = radii.begin() + static_cast<ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
+}
+
+bool alike(const Vec3& normal, const Vec3& other) {
+  return normal == Vec3{} || other == Vec3{} || dot(normal, other) > 0;
+}
+
+std::vector<Disk> candidates_of(const OpenSurface& open, std::span<const OpenSurface::Fall> falls,
+                                std::span<const Disk> kept, const Run& run) {
+  std::vector<Vec3> centres;
+  double largest = 0;
+  for (const Disk& disk : kept) {
+    centres.push_back(disk.centre);
+    largest = std::max(largest, disk.radius);
+  }
+  const Nearest nearest(centres);
+  std::vector<Disk> candidates(falls.size());
+  parallel_chunks(
+      static_cast<int64_t>(falls.size()), run,
+      [&](int64_t begin, int64_t end, int) {
+        std::vector<Neighbour> found;
+        for (int64_t i = begin; i < end; ++i) {
+          const Vec3 at = falls[i].middle();
+          nearest.find(at, 1, found);
+          const auto& [away, id] = found.front();
+          const double grown = kept[id].radius + SizingField::kGrading * away;
+          candidates[i] = {at, std::min(largest, grown), open.normal(at)};
+        }
+      },
+      64);
+  return candidates;
+}
+
+// Throws candidates in random order among the discs that are there; those that stay, in that order.
+class Thinning {
+ public:
+  Thinning(std::span<const Disk> kept, std::span<const Disk> candidates)
+      : disks_(kept.begin(), kept.end()), kept_(kept.size()) {
+    disks_.insert(disks_.end(), candidates.begin(), candidates.end());
+    stays_.assign(disks_.size(), 0);
+    std::fill_n(stays_.begin(), kept_, uint8_t{1});
+    std::vector<Vec3> centres;
+    for (const Disk& disk : disks_) centres.push_back(disk.centre);
+    nearest_.emplace(centres);
+  }
+
+  std::vector<int32_t> operator()(uint64_t seed) {
+    std::vector<int32_t> order(disks_.size() - kept_), stay;
+    std::iota(order.begin(), order.end(), 0);
+    const auto rank = [&](int32_t i) { return scrambled(seed ^ scrambled(uint64_t(i))); };
+    std::sort(order.begin(), order.end(), [&](int32_t i, int32_t j) { return rank(i) < rank(j); });
+    for (const int32_t i : order) {
+      const size_t id = kept_ + static_cast<size_t>(i);
+      if (!has_room(id)) continue;
+      stays_[id] = 1;
+      stay.push_back(i);
+    }
+    return stay;
+  }
+
+ private:
+  bool has_room(size_t id) {
+    const Disk& disk = disks_[id];
+    for (size_t count = 32;; count *= 4) {
+      nearest_->find(disk.centre, count, found_);
+      for (const auto& [away, j] : found_) {
+        if (!stays_[j] || !(away < std::min(disk.radius, disks_[j].radius))) continue;
+        if (alike(disk.normal, disks_[j].normal)) return false;
+      }
+      if (found_.size() < count || found_.back().distance >= disk.radius) return true;
+    }
+  }
+
+  std::vector<Disk> disks_;
+  size_t kept_;
+  std::vector<uint8_t> stays_;
+  std::optional<Nearest> nearest_;
+  std::vector<Neighbour> found_;
+};
+
+}  // namespace
+
+ClosingSamples closing_samples(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                               std::span<const Disk> kept, uint64_t seed, const Run& run) {
+  begin_stage(run.progress, "Openings", 0, 1);
+  require_corners(triangles, vertices.size());
+  const DistinctRows corners = distinct_rows(vertices, "vertex", run);
+  const Surface surface = make_surface(triangles, corners.point_of_row, corners.count(), run);
+  if (kept.empty() || surface.boundary.empty()) return {};
+  const std::span<const Vec3> points = corners.points;
+  const OpenSurface open(points, surface.triangles, surface.boundary, run.progress);
+  const auto falls = open.falls(median_radius(kept) / kSteps, run);
+  const auto candidates = candidates_of(open, falls, kept, run);
+  const auto stay = Thinning(kept, candidates)(seed);
+  std::vector<std::optional<Vec3>> places(stay.size());
+  parallel_for(
+      static_cast<int64_t>(stay.size()), run,
+      [&](int64_t i) { places[i] = open.place(falls[stay[i]]); }, 64);
+  ClosingSamples samples;
+  for (size_t i = 0; i < stay.size(); ++i) {
+    if (!places[i]) continue;
+    samples.points.push_back(*places[i]);
+    samples.normals.push_back(candidates[stay[i]].normal);
+    samples.radius.push_back(candidates[stay[i]].radius);
+  }
+  advance(run.progress, 1);
+  return samples;
+}
+
+}  // namespace medial
