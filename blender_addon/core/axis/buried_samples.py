@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..machine import native
+from .nearness import near
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
 
 # How far from the surface one looks for its two sides, as a share of the spacing.
 OFF = 1e-3
+# Beside what is buried, parts of the solid leave clefts. Those narrower than this share of the spacing, which the
+# samples cannot tell from one solid, would be bridged here and there only: no sample is taken in them.
+_CLEFT = 0.25
+_BESIDE = 1.5  # how far from buried samples clefts are looked for, in spacings
 # Of more faces only so many are looked at, evenly spread: they tell shares to a percent.
 _LOOKED_AT = 20_000
 
@@ -39,7 +44,12 @@ def find_bare(shape: Shape, found: Any, spacing: float) -> NDArray[np.bool_]:
     offset = OFF * spacing
     points, normals = _on_flat_faces(shape, found, 100.0 * offset)
     with native.own_errors() as module:
-        return ~module.buried(points, normals, offset, shape.points, shape.triangles)
+        buried = module.buried(points, normals, offset, shape.points, shape.triangles).copy()
+        beside = np.flatnonzero(near(found.points, found.points[buried], _BESIDE * spacing))
+        outward = points[beside] + _CLEFT * spacing * normals[beside]
+        above = module.winding_number(outward, shape.points, shape.triangles)
+    buried[beside[above > 0.5]] = True
+    return ~buried
 
 
 def bounding_share(shape: Shape, spacing: float) -> float:
