@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .density import Density
     from .shape import Shape
     from .sides import Sides
+    from .walls import Walls
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +40,8 @@ class AnalysedSamples:
         The distance of neighbours in the first pass of samples; 0.0 where the points are vertices.
     buried : int
         Samples that were left out because the surface there bounds nothing.
+    walls : Walls or None
+        How thin the shape is there; None where no faces tell.
     rows : (n,) int32 or None
         The rows of the whole cloud that were analysed; None where all of them were, and for samples of faces.
     key : str
@@ -52,6 +55,7 @@ class AnalysedSamples:
     density: Density
     spacing: float = 0.0
     buried: int = 0
+    walls: Walls | None = None
     rows: NDArray[np.int32] | None = None
     key: str = ""
 
@@ -61,7 +65,9 @@ class AnalysedSamples:
         density = self.density
         own = (self.points, self.kinds, self.normals, self.rows)
         others = (density.points, density.spacing, density.feature_size, density.edges)
-        arrays = [x for x in (*own, *others) if x is not None]
+        walls = self.walls
+        more = (walls.points, walls.distance, walls.spacing, walls.area) if walls else ()
+        arrays = [x for x in (*own, *others, *more) if x is not None]
         return int(self.analysis.bytes) + sum(x.nbytes for x in arrays)
 
 

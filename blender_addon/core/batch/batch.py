@@ -185,6 +185,7 @@ def _figures(computation: Computation) -> dict[str, Any]:
         "radius": [float(axis.radius.min()), float(axis.radius.max())],
         "sampled": computation.chosen.reason,
         "density": str(computation.density),
+        "missed": computation.missed,
         "inside": str(computation.sides),
     }
 
