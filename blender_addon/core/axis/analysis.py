@@ -40,6 +40,8 @@ class AnalysedSamples:
         The distance of neighbours in the first pass of samples; 0.0 where the points are vertices.
     buried : int
         Samples that were left out because the surface there bounds nothing.
+    closing : int
+        Samples among the points that close openings of the surface.
     walls : Walls or None
         How thin the shape is there; None where no faces tell.
     rows : (n,) int32 or None
@@ -55,6 +57,7 @@ class AnalysedSamples:
     density: Density
     spacing: float = 0.0
     buried: int = 0
+    closing: int = 0
     walls: Walls | None = None
     rows: NDArray[np.int32] | None = None
     key: str = ""

@@ -99,7 +99,10 @@ def _sampled(
     on_edges = points[_are_on_edges(kinds, request.gaps, closing)]
     density = estimate(analysis, points, on_edges, first, settings.epsilon)
     buried = int(np.count_nonzero(~bare))
-    return AnalysedSamples(points, kinds, normals, analysis, density, first, buried, walls)
+    more = len(points) - int(np.count_nonzero(bare))
+    return AnalysedSamples(
+        points, kinds, normals, analysis, density, first, buried, closing=more, walls=walls
+    )
 
 
 def _walls(
