@@ -182,6 +182,6 @@ def test_tunnels_of_real_meshes(data_file, name, most):
     from medial_axis.core.axis.compute import compute_axis
     from medial_axis.core.files.read_shape import read_shape
 
-    found = compute_axis(read_shape(data_file(name)), Settings())
+    found = compute_axis(read_shape(data_file(name))[0], Settings())
     pieces, tunnels, cavities = found.chosen.samples.analysis.hierarchy().betti
     assert (pieces, cavities) == (1, 0) and tunnels <= most

@@ -35,8 +35,8 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
     walls = samples.walls
     if walls is not None and walls.are_missed:
         yield (
-            f"at {percent(walls.missed)} of the surface the walls are less than half as far apart as the samples "
-            f"(about {walls.thickness:.2g}), so the inner axis is missing or torn there; "
+            f"at {percent(walls.missed)} of the surface the walls are closer to each other, about "
+            f"{walls.thickness:.2g}, than the samples, so the inner axis is missing or torn there; "
             "more samples, a smaller Spacing or a larger Budget help"
         )
     if density.share > _SPARSE:

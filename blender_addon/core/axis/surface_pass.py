@@ -87,7 +87,7 @@ def _sampled(
     _check_some(bare)
     walls = None
     if sides.source is not SidesFrom.TIGHT_COCONE and shape.volume > 0:
-        walls = _walls(request, feet[bare], outward[bare], found.radius[bare])
+        walls = _walls(request, found, bare & _are_inside_faces(found.kind), feet, outward)
     points, normals, kinds = (x[bare] for x in (found.points, found.normals, found.kind))
     if closing:
         radius, progress = found.radius[bare], request.progress.part(0.1 * share)
@@ -107,12 +107,25 @@ def _sampled(
 
 def _walls(
     request: Request,
+    found: Any,
+    chosen: NDArray[np.bool_],
     feet: NDArray[np.float64],
     normals: NDArray[np.float64],
-    radius: NDArray[np.float64],
 ) -> Walls:
-    progress = request.progress.part(0.01)
-    return find_walls(request.shape, feet, normals, radius / _DISC, radius**2, progress)
+    radius, progress = found.radius[chosen], request.progress.part(0.01)
+    return find_walls(
+        request.shape, feet[chosen], normals[chosen], radius / _DISC, radius**2, progress
+    )
+
+
+def _are_inside_faces(kinds: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """(n,) True for samples that lie inside faces, where these are most; else for all.
+
+    What is behind a place on an edge depends on which of its faces one asks.
+    """
+    kind_of = native.load().SampleKind
+    inside = (kinds == int(kind_of.SURFACE)) | (kinds == int(kind_of.VERTEX))
+    return inside if 2 * np.count_nonzero(inside) > len(kinds) else np.ones(len(kinds), bool)
 
 
 def _sample_surface(shape: Shape, options: dict[str, Any], progress: Any) -> Any:

@@ -234,7 +234,7 @@ Vec3 OpenSurface::normal(const Vec3& place) const {
     const Vec3 a = vertices_[from] - place, b = vertices_[to] - place;
     const double la = length(a), lb = length(b), both = la * lb;
     const double below = both * (both + dot(a, b));
-    if (below > 0) sum = sum + ((la + lb) / below) * cross(a, b);
+    if (below > 0) sum = sum + ((la + lb) / below) * cross(b, a);
   }
   return normalized(sum);
 }
