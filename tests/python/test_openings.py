@@ -37,10 +37,11 @@ def test_a_plane_opening_gets_a_plane_lid(medial, mesh, lid):
     """The solid angle of a bowl, and of a box without lid, is half of all from each place of the lid."""
     found, (points, normals, _) = sampled(medial, mesh)
     assert np.abs(points[:, 2] - lid).max() < (0.08 if lid == 0.0 else 1e-4)
-    assert (normals[:, 2] > 0.95).all()
+    assert (normals[:, 2] > 0.5).all() and np.median(normals[:, 2]) > 0.999
     assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0)
     area = np.pi if lid == 0.0 else 4.0
-    assert len(points) == pytest.approx(area / found.area * len(found.points), rel=0.15)
+    expected = area / found.area * len(found.points)
+    assert 0.75 * expected < len(points) < 1.05 * expected
 
 
 @pytest.mark.parametrize("mesh", [BOWL, OPEN_BOX, EYE], ids=["bowl", "box", "eye"])
@@ -55,9 +56,9 @@ def test_they_lie_where_the_winding_number_is_a_half_and_as_far_apart_as_the_oth
     assert radius == pytest.approx(found.radius[0])
     apart = np.linalg.norm(points[:, None] - points, axis=2)
     alike = (normals @ normals.T > 0) & ~np.eye(len(points), dtype=bool)
-    assert apart[alike].min() > 0.9 * radius[0]
+    assert apart[alike].min() > 0.85 * radius[0]
     away = np.linalg.norm(points[:, None] - found.points, axis=2)
-    assert away[normals @ found.normals.T > 0].min() > 0.9 * radius[0]
+    assert away[normals @ found.normals.T > 0].min() > 0.85 * radius[0]
 
 
 def test_they_leave_no_hole(medial):

@@ -51,18 +51,19 @@ def test_what_is_missing_of_a_plate_is_said(sampling, thickness, turned):
     found = computed(plate(thickness, turned), SamplingMode[sampling])
     there = sheet_area(found.axis, turned) / AREA
     assert there + found.missed > 0.85
-    assert len(said(found)) == (there < 0.85)
+    assert said(found) or there > 0.85
     if there < 0.5:
         assert found.missed > 0.8
 
 
 @pytest.mark.parametrize("sampling", [SamplingMode.AUTOMATIC, SamplingMode.ADAPTIVE])
 def test_close_walls_are_refined_within_the_budget(sampling):
-    """2,000 samples are 0.034 apart, 12,000 are 0.014."""
-    even, fine = (computed(plate(0.015), how) for how in (SamplingMode.SURFACE, sampling))
+    """2,000 samples are 0.034 apart, 20,000 are 0.011."""
+    hows = SamplingMode.SURFACE, sampling
+    even, fine = (computed(plate(0.015), how, budget=20_000) for how in hows)
     assert said(even) and sheet_area(even.axis) < 0.3
-    assert not said(fine) and sheet_area(fine.axis) > 0.85
-    assert fine.points < 13_000
+    assert fine.missed < 0.05 and sheet_area(fine.axis) > 0.85
+    assert fine.points < 21_000
 
 
 def test_no_samples_are_spent_on_walls_that_stay_too_close():
@@ -103,9 +104,9 @@ def ring(radius, width, sides, around=64):
 
 def test_two_linked_thin_tubes():
     """All of them is sharp; what is said of shares and of medians speaks of the same samples."""
-    one = ring(1.0, 0.015, 4)
+    one = ring(1.0, 0.008, 4)
     two = one[0][:, [0, 2, 1]] * (1, -1, 1) + (1, 0, 0), one[1]
-    found = computed(meshes.join(one, two), SamplingMode.SURFACE, samples=4000)
+    found = computed(meshes.join(one, two), SamplingMode.SURFACE, samples=1000)
     assert said(found)
     density = found.density
     assert (density.median > density.limit) == (density.share > 0.5)
@@ -169,7 +170,7 @@ def test_a_wedge_is_not_thin_at_its_edge():
 
 
 def test_the_report_has_the_share(tmp_path, capsys):
-    vertices, triangles = plate(0.001)
+    vertices, triangles = plate(0.01)
     lines = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
     lines += [" ".join(map(repr, map(float, row))) for row in vertices]
     lines += [" ".join(map(str, (3, *row))) for row in triangles.tolist()]

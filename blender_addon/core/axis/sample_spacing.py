@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import SamplingMode, Settings
+from .nearness import near
 
 if TYPE_CHECKING:
     from .analysis import AnalysedSamples
@@ -71,6 +72,8 @@ def next_amount(
     sites = density.points
     if walls is not None and walls.are_missed:
         between, wanted = walls.wanted(finest_walls * samples.spacing)
-        sites = np.concatenate((sites, between))
-        spacings = np.concatenate((spacings, np.minimum(wanted, samples.spacing)))
+        # What asks for nothing beside them, as a sharp edge does, would keep its surroundings coarse.
+        left = (spacings < samples.spacing) | ~near(sites, between, samples.spacing)
+        sites = np.concatenate((sites[left], between))
+        spacings = np.concatenate((spacings[left], np.minimum(wanted, samples.spacing)))
     return {"sizing": (sites, spacings), "count": budget}
