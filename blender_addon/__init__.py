@@ -29,6 +29,7 @@ __all__ = [
     "Criteria",
     "DegenerateInputError",
     "ExportError",
+    "Form",
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",

@@ -43,6 +43,7 @@ from .core.settings import (
     SAMPLING_OPTIONS,
     Choice,
     Criteria,
+    Form,
     Rule,
     SamplingMode,
     Settings,
@@ -60,6 +61,7 @@ __all__ = [
     "Criteria",
     "DegenerateInputError",
     "ExportError",
+    "Form",
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",
@@ -130,7 +132,9 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     ----------
     computation : Computation
     **thresholds
-        `theta`, `rho`, `rule`, `criteria` and `limit_set` of `Settings`; what is not given stays as it was.
+        `form`, `simplify`, `erode`, `limb`, `theta`, `rho`, `rule`, `criteria` and `limit_set` of `Settings`; what is
+        not given stays as it was. Forms are milliseconds, too, once the hierarchy was computed for `theta`, `rho`,
+        `rule` and `criteria`.
 
     Raises
     ------
@@ -168,8 +172,17 @@ def read(path: str | os.PathLike[str]) -> Shape:
     return shape
 
 
-def write(found: MedialAxis | Computation, path: str | os.PathLike[str]) -> Path:
+def write(
+    found: MedialAxis | Computation, path: str | os.PathLike[str], *, triangles: bool = False
+) -> Path:
     """Write a medial axis; the extension says how: .ma .ply .obj .off .npz (docs/formats.md).
+
+    Parameters
+    ----------
+    found : MedialAxis or Computation
+    path : path of the file; its folder must exist
+    triangles : bool
+        Write .ply, .obj and .off as triangles in text, which more programs read; the others are as ever.
 
     Returns
     -------
@@ -180,7 +193,8 @@ def write(found: MedialAxis | Computation, path: str | os.PathLike[str]) -> Path
     ------
     ExportError
     """
-    return export_axis(found.axis if isinstance(found, Computation) else found, path)
+    axis = found.axis if isinstance(found, Computation) else found
+    return export_axis(axis, path, triangles=triangles)
 
 
 def read_axis(path: str | os.PathLike[str]) -> MedialAxis:

@@ -12,7 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.axis.medial_axis import MedialAxis
+    from ..core.axis.medial_axis import LevelValues, MedialAxis
     from ..core.axis.sampling_report import SamplingReport
 
 
@@ -25,7 +25,7 @@ class Attribute:
     name : str
         In Blender.
     field, column : str, int or None
-        Of `MedialAxis` or `SamplingReport`; `column` picks one where Blender has no type for pairs.
+        Of `MedialAxis`, its level, or `SamplingReport`; `column` picks one where Blender has no type for pairs.
     domain, type : str
         Blender's identifiers.
     dtype : type
@@ -39,8 +39,18 @@ class Attribute:
     dtype: type
     column: int | None = None
 
-    def values(self, axis: MedialAxis | SamplingReport) -> NDArray:
-        """The flat array that `foreach_set("value", ...)` wants."""
+    @property
+    def width(self) -> int:
+        """How many numbers an element has."""
+        return {"INT32_2D": 2, "FLOAT_VECTOR": 3}.get(self.type, 1)
+
+    @property
+    def key(self) -> str:
+        """What Blender calls the numbers of an element."""
+        return "vector" if self.type == "FLOAT_VECTOR" else "value"
+
+    def values(self, axis: MedialAxis | LevelValues | SamplingReport) -> NDArray:
+        """The flat array that `foreach_set` wants; of edges, those that stand by themselves."""
         array = getattr(axis, self.field)
         if self.column is not None:
             array = array[:, self.column]
@@ -65,6 +75,14 @@ _TWO_INTS = (
     Attribute("ma_generator_a", "generators", "FACE", "INT", np.int32, column=0),
     Attribute("ma_generator_b", "generators", "FACE", "INT", np.int32, column=1),
 )
+# Of clean forms and curves; lengths are percent of the diagonal, as on the sliders.
+_LEVEL = (
+    Attribute("ma_exact", "exact", "POINT", "FLOAT_VECTOR", np.float32),
+    Attribute("ma_exact_radius", "exact_radius", "POINT", "FLOAT", np.float32),
+    Attribute("ma_sheet", "sheet", "FACE", "FLOAT", np.float32),
+    Attribute("ma_erosion", "erosion", "FACE", "FLOAT", np.float32),
+    Attribute("ma_limb", "limb", "EDGE", "FLOAT", np.float32),
+)
 
 EPSILON = Attribute("ma_epsilon", "epsilon", "POINT", "FLOAT", np.float32)
 SAMPLE_ATTRIBUTES = (
@@ -75,9 +93,28 @@ SAMPLE_ATTRIBUTES = (
 
 
 def attributes() -> tuple[Attribute, ...]:
-    """All attributes, as this Blender can hold them."""
+    """Those of every medial axis, as this Blender can hold them."""
     types = bpy.types.Attribute.bl_rna.properties["data_type"].enum_items
     return (RADIUS, *_FACE, *(_PAIR if "INT32_2D" in types else _TWO_INTS))
+
+
+def level_attributes() -> tuple[Attribute, ...]:
+    """Those of clean forms and curves besides."""
+    return _LEVEL
+
+
+def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
+    """Give a mesh in object mode an attribute; one of that name and of another kind is replaced."""
+    found = mesh.attributes.get(name)
+    if found is not None and (found.domain, found.data_type) != (domain, kind):
+        mesh.attributes.remove(found)
+        found = None
+    target = found or mesh.attributes.new(name, kind, domain)
+    target.data.foreach_set("value", values)
+
+
+def has_attribute(mesh: bpy.types.Mesh, name: str) -> bool:
+    return name in mesh.attributes
 
 
 # Normals of points, a vector each. "normal" is what Blender's PLY importer writes from 4.0; earlier

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.axis.medial_axis import MedialAxis
+from ..core.axis.medial_axis import LevelValues, MedialAxis
 from ..core.errors import InvalidInputError
-from .attributes import Attribute, attributes
-from .axis_object import UNBOUNDED, ZERO_AREA, is_result, result_of
+from .attributes import Attribute, attributes, level_attributes
+from .axis_object import BETTI, UNBOUNDED, ZERO_AREA, is_result, result_of
 from .output_object import is_gone
 
 if TYPE_CHECKING:
@@ -39,13 +39,17 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
         offsets, corners = _faces(mesh)
         positions = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.vertices.foreach_get("co", positions)
-        fields = _fields(mesh, result.name)
+        edges, alone = _edges_alone(mesh)
+        fields = _fields(mesh, attributes(), result.name)
+        level = _level(mesh, alone, result)
     return MedialAxis(
         vertices=positions.reshape(-1, 3).astype(np.float64),
         face_offsets=offsets,
         face_vertices=corners,
         unbounded=int(result.get(UNBOUNDED, 0)),
         zero_area=int(result.get(ZERO_AREA, 0)),
+        edges=edges,
+        level=level,
         **fields,
     )
 
@@ -82,10 +86,33 @@ def _faces(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     return offsets, corners[places]
 
 
-def _fields(mesh: bpy.types.Mesh, name: str) -> dict[str, NDArray]:
-    """The fields of `MedialAxis` that are stored as attributes; `name` is for messages."""
+def _edges_alone(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
+    """(w, 2) the ends of the edges without a face, and (w,) which edges these are."""
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    of_faces = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("edge_index", of_faces)
+    alone = np.ones(len(mesh.edges), bool)
+    alone[of_faces] = False
+    return ends.reshape(-1, 2)[alone], np.flatnonzero(alone)
+
+
+def _level(
+    mesh: bpy.types.Mesh, alone: NDArray[np.intp], result: bpy.types.Object
+) -> LevelValues | None:
+    """What is known of a clean form or a curve; None for an axis as published."""
+    if BETTI not in result:
+        return None
+    fields = _fields(mesh, level_attributes(), result.name)
+    fields["limb"] = fields["limb"][alone]
+    pieces, loops, cavities = result[BETTI]
+    return LevelValues(betti=(pieces, loops, cavities), **fields)
+
+
+def _fields(mesh: bpy.types.Mesh, table: tuple[Attribute, ...], name: str) -> dict[str, NDArray]:
+    """The fields that are stored as the attributes of a table; `name` is for messages."""
     columns: dict[str, list[NDArray]] = {}
-    for attribute in attributes():
+    for attribute in table:
         columns.setdefault(attribute.field, []).append(_values(mesh, attribute, name))
     return {
         field: np.column_stack(parts) if len(parts) > 1 else parts[0]
@@ -100,9 +127,8 @@ def _values(mesh: bpy.types.Mesh, attribute: Attribute, name: str) -> NDArray:
             f"Expected the {attribute.domain.lower()} attribute '{attribute.name}' on '{name}', "
             "found none; compute the medial axis again"
         )
-    width = 2 if attribute.type == "INT32_2D" else 1
-    values = np.empty(len(found.data) * width, attribute.dtype)
-    found.data.foreach_get("value", values)
+    values = np.empty(len(found.data) * attribute.width, attribute.dtype)
+    found.data.foreach_get(attribute.key, values)
     if attribute.dtype == np.float32:
         values = values.astype(np.float64)
-    return values.reshape(-1, 2) if width == 2 else values
+    return values.reshape(-1, attribute.width) if attribute.width > 1 else values

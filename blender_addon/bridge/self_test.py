@@ -9,8 +9,7 @@ import numpy as np
 from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import MedialAxisError
 from ..core.known_box import Check, checks_of, compute_box
-from .attributes import attributes
-from .write_mesh import new_mesh
+from .write_mesh import new_axis_mesh
 
 
 def self_test() -> list[Check]:
@@ -23,7 +22,7 @@ def self_test() -> list[Check]:
 
 
 def _check_mesh(axis: MedialAxis) -> Check:
-    mesh = new_mesh(axis, "Medial Axis Self-Test", attributes())
+    mesh = new_axis_mesh(axis, "Medial Axis Self-Test")
     try:
         radius = np.empty(len(mesh.vertices), np.float32)
         mesh.attributes["ma_radius"].data.foreach_get("value", radius)

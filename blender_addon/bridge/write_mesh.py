@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polygons -> a Blender mesh with attributes. Here alone float64 becomes float32."""
+"""Polygons and edges -> a Blender mesh with attributes. Here alone float64 becomes float32."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Protocol
 
 import bpy
 import numpy as np
 
+from ..core.axis.medial_axis import no_edges
 from ..core.errors import InvalidInputError
 from ..core.machine.native import own_errors
+from .attributes import attributes, level_attributes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..core.axis.medial_axis import MedialAxis
     from .attributes import Attribute
 
 
@@ -26,8 +30,37 @@ class Polygons(Protocol):
     face_vertices: NDArray[np.int32]
 
 
-def new_mesh(polygons: Polygons, name: str, table: Iterable[Attribute] = ()) -> bpy.types.Mesh:
+def new_axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
+    """A medial axis as a mesh with all attributes, or no mesh at all.
+
+    Raises
+    ------
+    InvalidInputError
+        Coordinates too large for Blender.
+    """
+    mesh = new_mesh(axis, name, attributes(), axis.edges)
+    if axis.level is None:
+        return mesh
+    with _removed_on_error(mesh):
+        _add_attributes(mesh, axis.level, level_attributes())
+    return mesh
+
+
+def new_mesh(
+    polygons: Polygons,
+    name: str,
+    table: Iterable[Attribute] = (),
+    edges: NDArray[np.int32] | None = None,
+) -> bpy.types.Mesh:
     """A mesh of n-gons, flat shaded, with the attributes of a table, or no mesh at all.
+
+    Parameters
+    ----------
+    polygons : Polygons
+    name : str
+    table : iterable of Attribute
+    edges : (w, 2) int32, optional
+        Edges besides those of the polygons; they come after these.
 
     Raises
     ------
@@ -37,15 +70,28 @@ def new_mesh(polygons: Polygons, name: str, table: Iterable[Attribute] = ()) -> 
     positions = _positions(polygons)
     _check_faces(polygons)
     mesh = bpy.data.meshes.new(name)
+    with _removed_on_error(mesh):
+        _set_faces(mesh, polygons, positions, no_edges() if edges is None else edges)
+        _add_attributes(mesh, polygons, table)
+    return mesh
+
+
+@contextmanager
+def _removed_on_error(mesh: bpy.types.Mesh) -> Iterator[None]:
     try:
-        _set_faces(mesh, polygons, positions)
-        for attribute in table:
-            data = mesh.attributes.new(attribute.name, attribute.type, attribute.domain).data
-            data.foreach_set("value", attribute.values(polygons))
+        yield
     except BaseException:
         bpy.data.meshes.remove(mesh)
         raise
-    return mesh
+
+
+def _add_attributes(mesh: bpy.types.Mesh, values: Any, table: Iterable[Attribute]) -> None:
+    for attribute in table:
+        data = mesh.attributes.new(attribute.name, attribute.type, attribute.domain).data
+        own = attribute.values(values)
+        if attribute.domain == "EDGE":  # those of polygons, which come first, have none
+            own = np.concatenate([np.zeros(len(data) - len(own), own.dtype), own])
+        data.foreach_set(attribute.key, own)
 
 
 def _positions(polygons: Polygons) -> np.ndarray:
@@ -73,7 +119,9 @@ def _check_faces(polygons: Polygons) -> None:
         raise AssertionError("the arrays of a mesh contradict each other")
 
 
-def _set_faces(mesh: bpy.types.Mesh, polygons: Polygons, positions: np.ndarray) -> None:
+def _set_faces(
+    mesh: bpy.types.Mesh, polygons: Polygons, positions: np.ndarray, alone: NDArray[np.int32]
+) -> None:
     """Set vertices, edges, corners and polygons.
 
     The edges are made here, because Blender takes several times as long for them, longer than for all the rest.
@@ -86,6 +134,7 @@ def _set_faces(mesh: bpy.types.Mesh, polygons: Polygons, positions: np.ndarray) 
         edges, corner_edges = module.polygon_edges(
             polygons.face_offsets, polygons.face_vertices, len(polygons.vertices)
         )
+    edges = np.concatenate([edges, alone])
     mesh.vertices.add(len(polygons.vertices))
     mesh.edges.add(len(edges))
     mesh.loops.add(len(polygons.face_vertices))

@@ -9,6 +9,7 @@ from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..bridge.read_axis import find_axis, read_axis, world_matrix
+from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import MedialAxisError
 from ..core.files.write import FORMATS, export_axis
 from .paths import RELATIVE
@@ -80,8 +81,14 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
         except MedialAxisError as error:
             self.report({"ERROR"}, say(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, say(f"Wrote {axis.facets:,} facets to '{written.name}'"))
+        self.report({"INFO"}, say(f"Wrote {_size(axis)} to '{written.name}'"))
         return {"FINISHED"}
+
+
+def _size(axis: MedialAxis) -> str:
+    if not len(axis.edges):
+        return f"{axis.facets:,} facets"
+    return f"{axis.facets:,} facets and {len(axis.edges):,} edges"
 
 
 def menu_func_export(self: bpy.types.Menu, context: bpy.types.Context) -> None:

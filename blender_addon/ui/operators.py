@@ -10,6 +10,8 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.report_object import (
     check_report_writable,
     check_source_writable,
+    report_of,
+    shows_well,
     write_on_source,
     write_report,
 )
@@ -17,15 +19,26 @@ from ..bridge.surface_object import check_surface_writable, is_surface, write_su
 from ..core.axis.compute import compute_axis
 from ..core.axis.reconstruction import reconstruct
 from ..core.axis.sampling_report import report_sampling
-from ..core.settings import OPTIONS, SAMPLING_OPTIONS
+from ..core.settings import LOOKS, OPTIONS, SAMPLING_OPTIONS, Form, applies_to_form
 from . import current_job
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
-from .properties import SamplingProperties, choice, draw_sampling, number, settings_from, switch
+from .properties import (
+    LookProperties,
+    SamplingProperties,
+    choice,
+    draw_sampling,
+    look_from,
+    number,
+    settings_from,
+    switch,
+)
 from .translation import say
 
 
-class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis(
+    ComputeOperator, SamplingProperties, LookProperties, bpy.types.Operator
+):
     """Compute the medial axis of the selected objects, with the radius at every point"""
 
     bl_idname = "object.medial_axis"
@@ -35,6 +48,10 @@ class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Opera
     product = "medial axis"
     check_writable = staticmethod(check_writable)
 
+    form: choice("form")
+    simplify: number("simplify")
+    erode: number("erode")
+    limb: number("limb")
     theta: number("theta")
     rho: number("rho")
     side: choice("side")
@@ -45,24 +62,32 @@ class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Opera
 
     def draw(self, _context):
         self.layout.use_property_split = True
+        form = Form[self.form]
         for name in OPTIONS:
             if name not in SAMPLING_OPTIONS:
-                self.layout.prop(self, name)
+                row = self.layout.row()
+                row.active = applies_to_form(name, form)
+                row.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
+        box = self.layout.box().column()
+        for name in (*LOOKS, "select_result"):
+            box.prop(self, name)
 
     def work(self, shape):
         return partial(compute_axis, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, computation, frame):
-        return write_result(thing, computation, frame) if computation.axis.facets else None
+        if computation.axis.is_empty:
+            return None
+        return write_result(thing, computation, frame, look_from(self))
 
     def summary(self, computation):
-        axis = computation.axis
+        axis, chosen = computation.axis, computation.chosen
+        known = (computation.topology, computation.sides, chosen.reason, computation.density)
         return (
-            f"{computation.points:,} points, {axis.facets:,} facets, duplicates merged "
-            f"{computation.duplicates:,}, unbounded facets {axis.unbounded:,}, facets "
-            f"without area {axis.zero_area:,}; {computation.sides}; {computation.chosen.reason}; "
-            f"{computation.density}"
+            f"{computation.points:,} points, {axis.facets:,} facets, edges alone {len(axis.edges):,}, "
+            f"duplicates merged {computation.duplicates:,}, unbounded facets {axis.unbounded:,}, "
+            f"facets without area {axis.zero_area:,}; {'; '.join(str(x) for x in known if str(x))}"
         )
 
 
@@ -85,6 +110,11 @@ class OBJECT_OT_medial_axis_sampling_report(
         name="Write To",
         description="Where the attribute ma_epsilon is written",
         items=[
+            (
+                "AUTOMATIC",
+                "Automatic",
+                "The object itself where its vertices can show it; else a copy",
+            ),
             ("COPY", "Copy", "A new object, or the one that was made before, of the samples"),
             (
                 "SOURCE",
@@ -93,25 +123,30 @@ class OBJECT_OT_medial_axis_sampling_report(
                 "each is nearest",
             ),
         ],
-        default="COPY",
+        default="AUTOMATIC",
     )
+    colours: switch("colours", of=LOOKS)
+    parent: switch("parent", of=LOOKS)
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in ("target", "side", "sides", "sampling"):
+        for name in ("target", "side", "sides", "sampling", "colours", "parent"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
     def check_writable(self, thing):
-        check_report_writable(thing) if self.target == "COPY" else check_source_writable(thing)
+        check_source_writable(thing) if self.target == "SOURCE" else check_report_writable(thing)
 
     def work(self, shape):
         return partial(report_sampling, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, found, frame):
-        if self.target == "SOURCE":
-            return write_on_source(thing, found)
-        return write_report(thing, found, frame)
+        on_source = self.target == "SOURCE"
+        if self.target == "AUTOMATIC":
+            on_source = report_of(thing) is None and shows_well(thing, found)
+        if on_source:
+            return write_on_source(thing, found, self.colours)
+        return write_report(thing, found, frame, self.colours)
 
     def summary(self, found):
         return f"{found.chosen.reason}; {found.density}"
@@ -128,6 +163,8 @@ class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
 
     product = "surface"
     check_writable = staticmethod(check_surface_writable)
+
+    parent: switch("parent", of=LOOKS)
 
     def sources(self, context):
         return list(dict.fromkeys(map(_made_anew, super().sources(context))))

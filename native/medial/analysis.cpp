@@ -4,6 +4,7 @@
 #include "analysis_parts.h"
 #include "axis/feature_size.h"
 #include "axis/medial_mesh.h"
+#include "axis/thickness.h"
 #include "cocone/watertight_surface.h"
 #include "skeleton/hierarchy.h"
 
@@ -164,9 +165,13 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
   return kept;
 }
 
+Facets facets_of(const Parts& made) {
+  return {made.samples.points, made.triangulation, made.voronoi,
+          made.edges,          made.significance,  made.sides};
+}
+
 Selection selection(const Parts& made, const Extraction& x) {
-  const Selection selection(x, {made.samples.points, made.triangulation, made.voronoi, made.edges,
-                                made.significance, made.sides});
+  const Selection selection(x, facets_of(made));
   if (x.side != Side::both) require_solid(made.sides_from, made.tight_cocone.get());
   return selection;
 }
@@ -221,10 +226,7 @@ Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
         "where fire has no rim to start from.");
   }
   require_solid(parts_->sides_from, parts_->tight_cocone.get());
-  return make_hierarchy(parts_->samples,
-                        {parts_->samples.points, parts_->triangulation, parts_->voronoi,
-                         parts_->edges, parts_->significance, parts_->sides},
-                        thresholds, parts_->run(progress));
+  return make_hierarchy(parts_->samples, facets_of(*parts_), thresholds, parts_->run(progress));
 }
 
 std::vector<double> MedialAnalysis::theta(Rule rule) const {
@@ -258,6 +260,28 @@ std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
                            parts_->edges, ids, {parts_->threads, progress});
   advance(progress, 1);
   return sizes;
+}
+
+WallThickness MedialAnalysis::thickness(const ThicknessInput& input,
+                                        const ThicknessOptions& options, Progress* progress) const {
+  if (options.side != Side::inner && options.side != Side::outer) {
+    throw InvalidInputError(
+        "Expected side INNER for a thickness or OUTER for a gap, found another one; choose one of "
+        "them.");
+  }
+  require_solid(parts_->sides_from, parts_->tight_cocone.get());
+  const size_t rows = parts_->samples.point_of_row.size();
+  if (options.mode != ThicknessMode::scan) require_normals(input.normals, rows);
+  if (input.at_edge && input.at_edge->size() != rows) {
+    throw InvalidInputError("Expected edges as one flag per point, found " +
+                            std::to_string(input.at_edge->size()) + " for " + std::to_string(rows) +
+                            " points; pass all of them or none.");
+  }
+  begin_stage(progress, "Thickness", 0, 1);
+  auto found = medial::thickness(input, options, parts_->samples, facets_of(*parts_),
+                                 {parts_->threads, progress});
+  advance(progress, 1);
+  return found;
 }
 
 std::vector<Triangle> MedialAnalysis::solid_triangles() const {

@@ -16,12 +16,13 @@ from pathlib import Path
 
 # What each preset changes of the defaults.
 PRESETS: dict[str, dict[str, object]] = {
-    "As_Published": {"sampling": "VERTICES"},
+    "As_Published": {"form": "PUBLISHED", "sampling": "VERTICES"},
+    "Curve": {"form": "CURVE"},
     "Defaults": {},
     "Low_Poly": {"sharp_angle": math.pi / 3},
     "Noisy_Scan": {"rule": "BOTH"},
     "Thin_Parts": {"sampling": "ADAPTIVE"},
-    "Tubes_and_Fingers": {"rho": 16.0, "limit_set": True},
+    "Tubes_and_Fingers": {"form": "PUBLISHED", "rho": 16.0, "limit_set": True},
 }
 
 

@@ -237,13 +237,20 @@ class Level:
     @property
     def vertices(self) -> NDArray[np.float64]:
         """(v, 3) float64: Voronoi vertices, the centres of empty balls, in order of first use by facets, wires and
-        points."""
+        points. Relaxed: what is shown; vertices of wires but their ends are new ones, the last of all."""
     @property
     def radius(self) -> NDArray[np.float64]:
-        """(v,) float64: radius of each vertex' empty ball."""
+        """(v,) float64: radius of each vertex' ball: the empty one, or, relaxed, that of what is shown."""
+    @property
+    def exact(self) -> NDArray[np.float64]:
+        """(v, 3) float64: the place on the Voronoi diagram that each vertex stands for; equal to `vertices` unless
+        relaxed."""
+    @property
+    def exact_radius(self) -> NDArray[np.float64]:
+        """(v,) float64: radius of the empty ball there."""
     @property
     def vertex_of(self) -> NDArray[np.int32]:
-        """(v,) int32: vertex of the hierarchy, for its values."""
+        """(v,) int32: vertex of the hierarchy, for its values; of new vertices the nearest along the wire."""
     @property
     def face_offsets(self) -> NDArray[np.int32]:
         """(f + 1,) int32: facet i has the corners `face_vertices[face_offsets[i] : face_offsets[i + 1]]`."""
@@ -257,11 +264,26 @@ class Level:
     def facet_of(self) -> NDArray[np.int32]:
         """(f,) int32: facet of the hierarchy, for its values."""
     @property
+    def theta(self) -> NDArray[np.float64]:
+        """(f,) float64, radians: as in `MedialMesh`, by the rule of the hierarchy."""
+    @property
+    def rho(self) -> NDArray[np.float64]:
+        """(f,) float64: as in `MedialMesh`, by the rule of the hierarchy."""
+    @property
+    def sheet(self) -> NDArray[np.float32]:
+        """(f,) float32: `facet_sheet` of each facet."""
+    @property
+    def erosion(self) -> NDArray[np.float32]:
+        """(f,) float32: `facet_erosion` of each facet."""
+    @property
     def wires(self) -> NDArray[np.int32]:
         """(w, 2) int32: ends of the edges without a facet."""
     @property
     def edge_of(self) -> NDArray[np.int32]:
-        """(w,) int32: edge of the hierarchy, for its values."""
+        """(w,) int32: edge of the hierarchy, for its values; of new wires that at the middle."""
+    @property
+    def limb(self) -> NDArray[np.float32]:
+        """(w,) float32: `edge_limb` of each wire."""
     @property
     def points(self) -> NDArray[np.int32]:
         """(k,) int32: vertices without an edge: the axis of a ball is one."""
@@ -270,8 +292,8 @@ class Level:
         """Components, tunnels and cavities, counted on the level; those of the hierarchy."""
     @property
     def hidden(self) -> int:
-        """Edges from a vertex to itself, and facets with fewer than three other edges: they count but cannot be
-        drawn. Only where very many samples are cospherical."""
+        """Edges from a vertex to itself, facets with fewer than three other edges, and facets with the corners of
+        another one: they count but cannot be drawn. Only where very many samples are cospherical."""
 
 @final
 class Hierarchy:
@@ -287,6 +309,9 @@ class Hierarchy:
     @property
     def betti(self) -> tuple[int, int, int]:
         """Components, tunnels and cavities of the complex, and so of every level."""
+    @property
+    def bytes(self) -> int:
+        """Memory that the hierarchy holds."""
     @property
     def diagonal(self) -> float:
         """Of the box of the samples: the unit of `sheet`, `erosion` and `limb`."""
@@ -366,6 +391,8 @@ class Hierarchy:
         spacings: float = 0.0,
         erosion: float = 0.0,
         limb: float = 0.04,
+        relaxed: bool = False,
+        round_limbs: bool = False,
         progress: Progress | None = None,
     ) -> Level:
         """The level at some thresholds. A facet stays if it exceeds the first three. A vertex or an edge stays if it
@@ -381,6 +408,11 @@ class Hierarchy:
             Thickness of the facet itself, as a share of the diagonal; default 0. Rims recede.
         limb : float
             Length of the branch of a wire, as a share of the diagonal; default 0.04.
+        relaxed : bool
+            For the eye: wires are smoothed, divided anew and fitted to the samples round them, rims are smoothed. The
+            topology and the facets are the same, and `exact` says where all that is on the Voronoi diagram.
+        round_limbs : bool
+            Of wires with a loose end only those that run in round limbs.
         progress : Progress, optional
 
         Infinity takes all away that can go: `sheet=inf` leaves a curve skeleton.
@@ -389,6 +421,30 @@ class Hierarchy:
         ------
         InvalidInputError, Cancelled
         """
+
+class ThicknessMode:
+    """What `MedialAnalysis.thickness` measures."""
+
+    WALL: ThicknessMode
+    """Balls between walls: where their two normals differ by 120 degrees or more. Elsewhere, as next to an edge, what
+    the nearest wall along the surface has, but never less than the ball at the sample itself."""
+    BALL: ThicknessMode
+    """All balls; zero at every convex edge."""
+    SCAN: ThicknessMode
+    """The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No
+    normals are used; what tapers reads too thick."""
+
+@final
+class WallThickness:
+    """How thick a solid is at its samples, or how wide the gap; made by `MedialAnalysis.thickness`."""
+
+    @property
+    def values(self) -> NDArray[np.float64]:
+        """(k,) float64: at each of `MedialAnalysis.samples`, in the unit of the input; infinite where there is no
+        wall, or no ball."""
+    @property
+    def measured(self) -> NDArray[np.bool_]:
+        """(k,) bool: measured at the sample itself; else filled from the nearest along the surface, or infinite."""
 
 @final
 class MedialAnalysis:
@@ -516,6 +572,44 @@ class MedialAnalysis:
         Raises
         ------
         InvalidInputError, Cancelled
+        """
+    def thickness(
+        self,
+        normals: NDArray[np.float64] | None = None,
+        *,
+        edges: NDArray[np.bool_] | None = None,
+        mode: ThicknessMode = ...,
+        side: Side = ...,
+        theta: float = ...,
+        rho: float = ...,
+        rule: Rule = ...,
+        criteria: Criteria = ...,
+        progress: Progress | None = None,
+    ) -> WallThickness:
+        """How thick the solid is at each of `samples`, or how wide the gap. The ball that is tangent at p and touches
+        q has the diameter |pq|^2 / (n_p . (p - q)); the least over the selected facets (p, q) counts. Between walls
+        the ball is tangent to the plane at q, too.
+
+        Parameters
+        ----------
+        normals : (n, 3) float64, optional
+            Outward normals of the points, of any length; what has a zero one is filled. Only SCAN does without.
+        edges : (n,) bool, optional
+            Points on sharp edges, where a normal is the mean of sides: they are filled. Default: none.
+        mode : ThicknessMode
+            WALL (default), BALL or SCAN.
+        side : Side
+            INNER (default) or OUTER, the gap; it needs a bounding sphere where gaps are open. What faces nothing has
+            an infinite one.
+        theta, rho, rule, criteria
+            As in `extract`; SCAN has its own.
+        progress : Progress, optional
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        DegenerateInputError
+            `TightCocone.encloses` is false.
         """
     def solid_triangles(self) -> NDArray[np.int32]:
         """(f, 3) int32: rows of the facets between inner and outer cells, outward, lowest row first, in lexicographic
@@ -708,6 +802,33 @@ def sample_surface(
     Cancelled
     """
 
+def patches(
+    triangles: NDArray[np.int32], wanted: NDArray[np.bool_], vertices: int
+) -> NDArray[np.int32]:
+    """(m,) int32: number of the patch of each triangle: those of `wanted` that share a corner are in one. Patches are
+    numbered in the order of their first triangles; -1: not wanted.
+
+    Parameters
+    ----------
+    triangles : (m, 3) int32
+    wanted : (m,) bool
+    vertices : int
+        The number of rows that the triangles count.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
+def nearest(sites: NDArray[np.float64], queries: NDArray[np.float64]) -> NDArray[np.int32]:
+    """(k,) int32: row of the site nearest to each of (k, 3) queries, of equally near ones the lowest; -1 where there
+    are no sites.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
 def closing_samples(
     points: NDArray[np.float64],
     normals: NDArray[np.float64],
@@ -826,6 +947,19 @@ def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int
     triangles : (m, 3) int32
     """
 
+def solid_betti(
+    points: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> tuple[int, int, int] | None:
+    """Pieces, loops and cavities of the solid whose boundary the triangles are, if they pass nowhere through
+    themselves; None where they are no closed manifold, or a shell of them has no volume. Rows with the same
+    coordinates are one. Shells that point outward are pieces, those that point inward cavities, every handle is a loop.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+    """
+
 def polygon_edges(
     face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32], vertices: int
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
@@ -844,6 +978,29 @@ def polygon_edges(
         Lower vertex first, in lexicographic order.
     corner_edges : (c,) int32
         The row of the edge from each corner to the next one of its polygon.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
+def polygon_triangles(
+    points: NDArray[np.float64], face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """Polygons as triangles, without new vertices.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+        Rows of `points`, three at least for each polygon.
+
+    Returns
+    -------
+    triangles : (c - 2 f, 3) int32
+        Polygon after polygon, each with its boundary and turning as it does. Quads are cut from the first corner to the
+        third, where they are convex there; larger ones by their constrained Delaunay triangulation.
 
     Raises
     ------

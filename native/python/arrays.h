@@ -99,6 +99,18 @@ inline std::span<const int32_t> ids_of(const py::object& ids, const char* name) 
   return {view.data(), static_cast<size_t>(view.size())};
 }
 
+// A view of the caller's flags.
+inline std::span<const uint8_t> flags_of(const py::object& flags, const char* name) {
+  using Flags = py::array_t<bool, py::array::c_style>;
+  if (!py::isinstance<Flags>(flags) || py::cast<Flags>(flags).ndim() != 1) {
+    throw InvalidInputError("Expected " + std::string(name) +
+                            " as a contiguous (n,) bool array, found " + describe(flags) +
+                            "; convert it.");
+  }
+  const auto view = py::reinterpret_borrow<Flags>(flags);
+  return {reinterpret_cast<const uint8_t*>(view.data()), static_cast<size_t>(view.size())};
+}
+
 // Rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis for
 // one).
 template <typename Scalar, typename Rows>

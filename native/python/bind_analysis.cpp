@@ -88,6 +88,24 @@ constexpr const char* kHierarchyMethodDoc =
     "Raises\n------\nInvalidInputError, Cancelled\n"
     "DegenerateInputError\n    `TightCocone.encloses` is false.";
 
+constexpr const char* kThicknessDoc =
+    "How thick the solid is at each of `samples`, or how wide the gap, as a WallThickness. The "
+    "ball "
+    "that is tangent at p and\ntouches q has the diameter |pq|^2 / (n_p . (p - q)); the least "
+    "over the selected facets (p, q) counts.\n\n"
+    "Parameters\n----------\n"
+    "normals : (n, 3) float64, optional\n    Outward normals of the points, of any length; what "
+    "has a zero one is filled. Only SCAN does without.\n"
+    "edges : (n,) bool, optional\n    Points on sharp edges, where a normal is the mean of sides: "
+    "they are filled. Default: none.\n"
+    "mode : ThicknessMode\n    WALL (default), BALL or SCAN.\n"
+    "side : Side\n    INNER (default) or OUTER, the gap; it needs a bounding sphere where gaps are "
+    "open.\n"
+    "theta, rho, rule, criteria\n    As in `extract`; SCAN has its own.\n"
+    "progress : Progress, optional\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled\n"
+    "DegenerateInputError\n    `TightCocone.encloses` is false.";
+
 constexpr const char* kSelectDoc =
     "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and "
     "zero-area\n"
@@ -116,6 +134,18 @@ std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::obje
   if (corners) input.vertices = corners->span();
   const py::gil_scoped_release release;
   return std::make_unique<MedialAnalysis>(input, options, progress);
+}
+
+WallThickness thickness_of(const MedialAnalysis& analysis, const py::object& normals,
+                           const py::object& edges, ThicknessMode mode, Side side, double theta,
+                           double rho, Rule rule, Criteria criteria, Progress* progress) {
+  const auto directions = optional_points(normals, "normals");
+  ThicknessInput input;
+  if (directions) input.normals = directions->span();
+  if (!edges.is_none()) input.at_edge = flags_of(edges, "edges");
+  const ThicknessOptions options{mode, side, {theta, rho, rule, criteria}};
+  const py::gil_scoped_release release;
+  return analysis.thickness(input, options, progress);
 }
 
 Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria criteria,
@@ -216,6 +246,7 @@ void bind_analysis(py::module_& m) {
   bind_progress(m);
   bind_mesh(m);
   bind_hierarchy(m);
+  bind_thickness(m);
   m.def("memory_needed", &memory_needed, kMemoryDoc, py::arg("points"));
   const Thresholds paper;
   py::class_<MedialAnalysis>(m, "MedialAnalysis", kAnalysisDoc, py::is_final(), py::module_local())
@@ -289,6 +320,11 @@ void bind_analysis(py::module_& m) {
           kFeatureSizeDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho,
           py::arg("rule") = paper.rule, py::arg("criteria") = paper.criteria, py::kw_only(),
           py::arg("rows") = py::none(), py::arg("progress") = nullptr)
+      .def("thickness", &thickness_of, kThicknessDoc, py::arg("normals") = py::none(),
+           py::kw_only(), py::arg("edges") = py::none(), py::arg("mode") = ThicknessMode::wall,
+           py::arg("side") = Side::inner, py::arg("theta") = paper.theta,
+           py::arg("rho") = paper.rho, py::arg("rule") = paper.rule,
+           py::arg("criteria") = paper.criteria, py::arg("progress") = nullptr)
       .def(
           "solid_triangles",
           [](const MedialAnalysis& a) {

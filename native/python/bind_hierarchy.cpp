@@ -30,6 +30,9 @@ constexpr const char* kExtractDoc =
     "Rims recede.\n"
     "limb : float\n    Length of the branch of a wire, as a share of the diagonal; default "
     "0.04.\n"
+    "relaxed : bool\n    For the eye: wires are smoothed, divided anew and fitted to the samples "
+    "round them, rims are smoothed.\n    The topology and the facets are the same.\n"
+    "round_limbs : bool\n    Of wires with a loose end only those that run in round limbs.\n"
     "progress : Progress, optional\n\n"
     "Raises\n------\nInvalidInputError, Cancelled";
 
@@ -78,17 +81,13 @@ py::array corner_part(const Corners& corners, int32_t Corner::*part) {
 }
 
 // The values of the edges.
-template <typename OfPartner>
-py::array edge_values(const Hierarchy& h, const OfPartner& of_partner) {
+template <typename OfEdge>
+py::array edge_values(const Hierarchy& h, const OfEdge& of_edge) {
+  const int32_t edges = h.parts().complex.edges();
   std::vector<float> values;
-  values.reserve(h.parts().partner.size());
-  for (const int32_t partner : h.parts().partner) values.push_back(of_partner(partner));
+  values.reserve(static_cast<size_t>(edges));
+  for (int32_t e = 0; e < edges; ++e) values.push_back(of_edge(h.parts(), e));
   return array_of<float>(std::move(values));
-}
-
-float limb_of(const Hierarchy& h, int32_t partner) {
-  if (partner == kAlone) return HUGE_VALF;
-  return partner >= 0 ? 0 : h.parts().limb[with_vertex(partner)];
 }
 
 // One of the values of each facet or vertex.
@@ -111,8 +110,9 @@ void bind_values(py::class_<Hierarchy>& c, const std::string& name, float Thickn
                           of_facets);
   c.def_property_readonly(("edge_" + name).c_str(),
                           [value](const Hierarchy& h) {
-                            return edge_values(
-                                h, [&](int32_t p) { return h.parts().values.of_edge(p).*value; });
+                            return edge_values(h, [&](const auto& parts, int32_t e) {
+                              return parts.values.of_edge(parts.partner[e]).*value;
+                            });
                           },
                           "(e,) float32: the same of each edge.");
   c.def_property_readonly(("vertex_" + name).c_str(),
@@ -127,11 +127,16 @@ void bind_level(py::module_& m) {
   py::class_<Level>(m, "Level", kLevelDoc, py::is_final(), py::module_local())
       .def_property_readonly("vertices", view_property<double>(&Level::vertices),
                              "(v, 3) float64: Voronoi vertices, the centres of empty balls, in "
-                             "order of first use.")
+                             "order of first use. Relaxed: what is shown.")
       .def_property_readonly("radius", view_property<double>(&Level::radius),
-                             "(v,) float64: radius of each vertex' empty ball.")
+                             "(v,) float64: radius of each vertex' ball.")
+      .def_property_readonly("exact", view_property<double>(&Level::exact),
+                             "(v, 3) float64: where they are on the Voronoi diagram.")
+      .def_property_readonly("exact_radius", view_property<double>(&Level::exact_radius),
+                             "(v,) float64: radius of the empty ball there.")
       .def_property_readonly("vertex_of", view_property<int32_t>(&Level::vertex_of),
-                             "(v,) int32: vertex of the hierarchy.")
+                             "(v,) int32: vertex of the hierarchy; of new ones the nearest along "
+                             "the wire.")
       .def_property_readonly("face_offsets", view_property<int32_t>(&Level::face_offsets),
                              "(f + 1,) int32: facet i has the corners "
                              "face_vertices[face_offsets[i] : face_offsets[i + 1]].")
@@ -142,19 +147,30 @@ void bind_level(py::module_& m) {
                              "facet, in lexicographic order.")
       .def_property_readonly("facet_of", view_property<int32_t>(&Level::facet_of),
                              "(f,) int32: facet of the hierarchy.")
+      .def_property_readonly("theta", view_property<double>(&Level::theta),
+                             "(f,) float64, radians: as in `MedialMesh`, by the rule of the "
+                             "hierarchy.")
+      .def_property_readonly("rho", view_property<double>(&Level::rho),
+                             "(f,) float64: as in `MedialMesh`, by the rule of the hierarchy.")
+      .def_property_readonly("sheet", view_property<float>(&Level::sheet),
+                             "(f,) float32: `facet_sheet` of each.")
+      .def_property_readonly("erosion", view_property<float>(&Level::erosion),
+                             "(f,) float32: `facet_erosion` of each.")
       .def_property_readonly("wires", view_property<int32_t>(&Level::wires),
                              "(w, 2) int32: ends of the edges without a facet.")
       .def_property_readonly("edge_of", view_property<int32_t>(&Level::edge_of),
-                             "(w,) int32: edge of the hierarchy.")
+                             "(w,) int32: edge of the hierarchy; of new ones that at the middle.")
+      .def_property_readonly("limb", view_property<float>(&Level::limb),
+                             "(w,) float32: `edge_limb` of each.")
       .def_property_readonly("points", view_property<int32_t>(&Level::points),
                              "(k,) int32: vertices without an edge.")
       .def_property_readonly(
           "betti", [](const Level& l) { return betti_tuple(l.betti); },
           "Components, tunnels and cavities, counted on the level.")
-      .def_readonly(
-          "hidden", &Level::hidden,
-          "Edges from a vertex to itself, and facets with fewer than three other edges: they count "
-          "but cannot be drawn.");
+      .def_readonly("hidden", &Level::hidden,
+                    "Edges from a vertex to itself, facets with fewer than three other edges, and "
+                    "facets with "
+                    "the corners of another one: they count but cannot be drawn.");
 }
 
 }  // namespace
@@ -165,6 +181,8 @@ void bind_hierarchy(py::module_& m) {
   c.def_property_readonly(
        "betti", [](const Hierarchy& h) { return betti_tuple(h.betti()); },
        "Components, tunnels and cavities of the complex, and so of every level.")
+      .def_property_readonly(
+          "bytes", [](const Hierarchy& h) { return h.bytes(); }, "Memory that the hierarchy holds.")
       .def_property_readonly(
           "diagonal", [](const Hierarchy& h) { return h.diagonal(); },
           "Of the box of the samples: the unit of `sheet`, `erosion` and `limb`.")
@@ -223,7 +241,7 @@ void bind_hierarchy(py::module_& m) {
   c.def_property_readonly(
        "edge_limb",
        [](const Hierarchy& h) {
-         return edge_values(h, [&](int32_t partner) { return limb_of(h, partner); });
+         return edge_values(h, [](const auto& parts, int32_t e) { return parts.limb_of_edge(e); });
        },
        "(e,) float32: length of the branch of each edge, as a share of the diagonal: how long it "
        "is, or how far its tip sticks out,\nwhichever is less; 0 where the edge goes with a facet.")
@@ -237,14 +255,15 @@ void bind_hierarchy(py::module_& m) {
       .def(
           "extract",
           [](const Hierarchy& h, double sheet, double spacings, double erosion, double limb,
-             Progress* progress) {
+             bool relaxed, bool round_limbs, Progress* progress) {
             const py::gil_scoped_release release;
-            return h.extract({sheet, spacings, erosion, limb}, progress);
+            return h.extract({sheet, spacings, erosion, limb, round_limbs, relaxed}, progress);
           },
-          kExtractDoc, py::kw_only(), py::arg("sheet") = LevelThresholds{}.sheet,
-          py::arg("spacings") = LevelThresholds{}.spacings,
-          py::arg("erosion") = LevelThresholds{}.erosion, py::arg("limb") = LevelThresholds{}.limb,
-          py::arg("progress") = nullptr);
+          kExtractDoc, py::kw_only(), py::arg("sheet") = LevelOptions{}.sheet,
+          py::arg("spacings") = LevelOptions{}.spacings,
+          py::arg("erosion") = LevelOptions{}.erosion, py::arg("limb") = LevelOptions{}.limb,
+          py::arg("relaxed") = LevelOptions{}.relaxed,
+          py::arg("round_limbs") = LevelOptions{}.round_limbs, py::arg("progress") = nullptr);
 }
 
 }  // namespace medial::python

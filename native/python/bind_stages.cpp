@@ -6,8 +6,10 @@
 #include "base/polygon_edges.h"
 #include "bindings.h"
 #include "cocone/cocone.h"
+#include "delaunay/polygon_triangles.h"
 #include "delaunay/samples.h"
 #include "inside/buried.h"
+#include "inside/solid_betti.h"
 #include "inside/surface.h"
 #include "inside/walls.h"
 #include "inside/winding_number.h"
@@ -61,6 +63,14 @@ constexpr const char* kOpenEdgesDoc =
     "is none.\n\n"
     "Parameters\n----------\npoints : (n, 3) float64\ntriangles : (m, 3) int32";
 
+constexpr const char* kSolidBettiDoc =
+    "Pieces, loops and cavities of the solid whose boundary the triangles are, if they pass "
+    "nowhere "
+    "through themselves;\nNone where they are no closed manifold, or a shell of them has no "
+    "volume. "
+    "Rows with the same coordinates are one.\n\n"
+    "Parameters\n----------\npoints : (n, 3) float64\ntriangles : (m, 3) int32";
+
 constexpr const char* kWindingDoc =
     "Generalized winding number of a triangle soup at each query: 1 inside an outward one.\n\n"
     "Parameters\n----------\n"
@@ -94,6 +104,16 @@ constexpr const char* kPolygonEdgesDoc =
     "Returns\n-------\nedges : (e, 2) int32\n    Lower vertex first, in lexicographic order.\n"
     "corner_edges : (c,) int32\n    The row of the edge from each corner to the next one of its "
     "polygon.\n\n"
+    "Raises\n------\nInvalidInputError";
+
+constexpr const char* kPolygonTrianglesDoc =
+    "Polygons as triangles, without new vertices.\n\n"
+    "Parameters\n----------\npoints : (n, 3) float64\nface_offsets : (f + 1,) int32\n"
+    "face_vertices : (c,) int32\n    Rows of `points`, three at least for each polygon.\n\n"
+    "Returns\n-------\ntriangles : (c - 2 f, 3) int32\n"
+    "    Polygon after polygon, each with its boundary and turning as it does. Quads are cut from "
+    "the first corner to the\n    third, where they are convex there; larger ones by their "
+    "constrained Delaunay triangulation.\n\n"
     "Raises\n------\nInvalidInputError";
 
 Run all_cores() { return {thread_count(0), nullptr}; }
@@ -232,6 +252,20 @@ int64_t open_edges(const py::object& points, const py::object& triangles) {
   return make_surface(face_span, samples.point_of_row, samples.count(), all_cores()).open_edges();
 }
 
+py::object betti_of_solid(const py::object& points, const py::object& triangles) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  const auto betti = [&, row_span = rows.span(), face_span = faces.span()] {
+    const py::gil_scoped_release release;
+    require_corners(face_span, row_span.size());
+    const Samples samples = distinct_rows(row_span, "point", all_cores());
+    return solid_betti(make_surface(face_span, samples.point_of_row, samples.count(), all_cores()),
+                       samples.points, all_cores());
+  }();
+  if (!betti) return py::none();
+  return py::make_tuple((*betti)[0], (*betti)[1], (*betti)[2]);
+}
+
 py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& face_vertices,
                             int32_t vertices) {
   const auto offsets = ids_of(face_offsets, "face_offsets");
@@ -242,6 +276,18 @@ py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& fa
   }();
   return py::make_tuple(array_of<int32_t>(std::move(edges.ends)),
                         array_of<int32_t>(std::move(edges.of_corner)));
+}
+
+py::array triangles_of_polygons(const py::object& points, const py::object& face_offsets,
+                                const py::object& face_vertices) {
+  const Points rows(points, "points");
+  const auto offsets = ids_of(face_offsets, "face_offsets");
+  const auto corners = ids_of(face_vertices, "face_vertices");
+  auto triangles = [&, span = rows.span()] {
+    const py::gil_scoped_release release;
+    return polygon_triangles(span, offsets, corners, all_cores());
+  }();
+  return array_of<int32_t>(std::move(triangles));
 }
 
 py::array winding_numbers(const py::object& queries, const py::object& vertices,
@@ -312,8 +358,11 @@ void bind_stages(py::module_& m) {
   m.def("umbrellas", &umbrella_triangles, kUmbrellasDoc, py::arg("points"));
   m.def("cocone", &cocone_parts, kCoconeDoc, py::arg("points"), py::arg("options") = py::none());
   m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
+  m.def("solid_betti", &betti_of_solid, kSolidBettiDoc, py::arg("points"), py::arg("triangles"));
   m.def("polygon_edges", &edges_of_polygons, kPolygonEdgesDoc, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));
+  m.def("polygon_triangles", &triangles_of_polygons, kPolygonTrianglesDoc, py::arg("points"),
+        py::arg("face_offsets"), py::arg("face_vertices"));
   m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"),
         py::arg("triangles"));
   m.def("buried", &buried_points, kBuriedDoc, py::arg("points"), py::arg("normals"),

@@ -143,13 +143,14 @@ def analyses():
 
 
 def compute(**settings):
-    """Run the operator on the selection, by its vertices if nothing else is said; it must succeed."""
+    """Run the operator on the selection, by its vertices and as published if nothing else is said; it must succeed."""
     assert compute_or_not(**settings) == {"FINISHED"}
 
 
 def compute_or_not(**settings):
-    """What the operator answers for the selection, by its vertices if nothing else is said."""
-    return bpy.ops.object.medial_axis(**{"sampling": "VERTICES"} | settings)
+    """What the operator answers for the selection: by its vertices, as published and whole, if nothing else is said."""
+    usual = {"sampling": "VERTICES", "form": "PUBLISHED", "within": 0.0}
+    return bpy.ops.object.medial_axis(**usual | settings)
 
 
 def refuse(match, operator="medial_axis", **settings):

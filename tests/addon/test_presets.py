@@ -11,12 +11,13 @@ from scene import addon
 FOLDER = Path(addon().__file__).parent / "presets" / "medial_axis"
 # What each changes of the defaults.
 SHIPPED = {
-    "As_Published": {"sampling": "VERTICES"},
+    "As_Published": {"form": "PUBLISHED", "sampling": "VERTICES"},
+    "Curve": {"form": "CURVE"},
     "Defaults": {},
     "Low_Poly": {"sharp_angle": math.pi / 3},
     "Noisy_Scan": {"rule": "BOTH"},
     "Thin_Parts": {"sampling": "ADAPTIVE"},
-    "Tubes_and_Fingers": {"rho": 16.0, "limit_set": True},
+    "Tubes_and_Fingers": {"form": "PUBLISHED", "rho": 16.0, "limit_set": True},
 }
 OTHERS = {"theta": 0.1, "side": "OUTER", "samples": 777, "smooth": False, "seed": 5}
 

@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files written by core/files/write.py: counts, exact numbers, valid references, and writing whole or not at all."""
 
+import dataclasses
 import os
 import resource
 import shutil
 import signal
 import tempfile
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from medial_axis.core.axis.medial_axis import LevelValues, MedialAxis
 from medial_axis.core.errors import ExportError
 from medial_axis.core.files import write as export_module
+from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.write import FORMATS, export_axis
 
 EXTENSIONS = (".ma", ".ply", ".obj", ".off", ".npz")
@@ -23,7 +25,7 @@ def axis_of(vertices, polygons, seed=0):
     rng = np.random.default_rng(seed)
     vertices = np.asarray(vertices, np.float64).reshape(-1, 3)
     counts = [len(polygon) for polygon in polygons]
-    return SimpleNamespace(
+    return MedialAxis(
         vertices=vertices,
         radius=rng.random(len(vertices)),
         face_offsets=np.concatenate([[0], np.cumsum(counts)]).astype(np.int32),
@@ -59,8 +61,43 @@ def grid_of_quads(n=12):
     return axis_of(vertices, [(c, c + n, c + n + 1, c + 1) for c in corner])
 
 
+def clean_axis(seed=2):
+    """A sheet, a chain of edges from its corner, and a vertex by itself; what is shown is moved a little."""
+    sheet, rng = grid_of_quads(), np.random.default_rng(seed)
+    first = len(sheet.vertices)
+    shown = np.concatenate([sheet.vertices, rng.normal(size=(7, 3))])
+    edges = np.array([[0, first], *((i, i + 1) for i in range(first, first + 5))], np.int32)
+    level = LevelValues(
+        exact=np.add(shown, (0.25, 0.5, 0.125)),
+        exact_radius=rng.random(len(shown)),
+        sheet=rng.random(sheet.facets).astype(np.float32),
+        erosion=rng.random(sheet.facets).astype(np.float32),
+        limb=np.array([*rng.random(5), np.inf], np.float32),
+        betti=(2, 0, 0),
+    )
+    radius = rng.random(len(shown))
+    return dataclasses.replace(sheet, vertices=shown, radius=radius, edges=edges, level=level)
+
+
+def curve_axis():
+    """Edges alone."""
+    clean = clean_axis()
+    level = dataclasses.replace(clean.level, sheet=np.empty(0), erosion=np.empty(0))
+    none = axis_of([], [])
+    fields = ("face_offsets", "face_vertices", "theta", "rho", "side", "generators")
+    nothing = {name: getattr(none, name) for name in fields}
+    return dataclasses.replace(clean, level=level, **nothing)
+
+
 EMPTY = axis_of([], [])
-AXES = {"sheets": fan_of_sheets(), "grid": grid_of_quads(), "empty": EMPTY}
+AXES = {
+    "sheets": fan_of_sheets(),
+    "grid": grid_of_quads(),
+    "clean": clean_axis(),
+    "curve": curve_axis(),
+    "empty": EMPTY,
+}
+LEVEL_FIELDS = ("sheet", "erosion", "limb")
 
 
 @pytest.fixture(params=AXES)
@@ -93,15 +130,29 @@ def polygons_of(axis):
     )
 
 
+def balls(axis):
+    """(v, 4) the exact centres and radii."""
+    known = axis.level
+    return np.column_stack(
+        [known.exact, known.exact_radius] if known else [axis.vertices, axis.radius]
+    )
+
+
+def lone_vertices(axis):
+    used = {*axis.face_vertices.tolist(), *axis.edges.ravel().tolist()}
+    return sorted(set(range(len(axis.vertices))) - used)
+
+
 def read_ply(path):
-    """vertices (v, 4), then per face: corners, theta, rho, side, p, q."""
+    """vertices (v, 4); per face: corners, theta, rho, side, p, q, and the floats of a level; edges, as records."""
     data = Path(path).read_bytes()
     head, body = data.split(b"end_header\n", 1)
     lines = head.decode("ascii").splitlines()
     assert lines[:2] == ["ply", "format binary_little_endian 1.0"]
-    vertex_count, face_count = (
+    vertex_count, face_count, edge_count = (
         int(line.split()[2]) for line in lines if line.startswith("element")
     )
+    floats = lines.count("property float sheet") + lines.count("property float erosion")
     width = {"uchar": "u1", "int": "<i4"}[next(line for line in lines if "list" in line).split()[2]]
     vertices = np.frombuffer(body, "<f8", vertex_count * 4).reshape(-1, 4)
     at, faces = vertex_count * 32, []
@@ -112,9 +163,13 @@ def read_ply(path):
         theta, rho = np.frombuffer(body, "<f8", 2, at + 4 * count)
         side, p, q = np.frombuffer(body, "<i4", 3, at + 4 * count + 16)
         at += 4 * count + 28
-        faces.append((corners, theta, rho, side, p, q))
-    assert at == len(body)
-    return vertices, faces
+        known = np.frombuffer(body, "<f4", floats, at)
+        at += 4 * floats
+        faces.append((corners, theta, rho, side, p, q, *known))
+    limb = [("limb", "<f4")] if "property float limb" in lines else []
+    edges = np.frombuffer(body, [("ends", "<i4", 2), *limb], edge_count, at)
+    assert at + edges.nbytes == len(body)
+    return vertices, faces, edges
 
 
 def area_vectors(vertices, triangles):
@@ -127,15 +182,15 @@ def area_vectors(vertices, triangles):
 
 def test_ma_holds_every_number_exactly(axis, tmp_path):
     vertices, _, _ = read_ma(export_axis(axis, tmp_path / "a.ma"))
-    assert np.array_equal(vertices, np.column_stack([axis.vertices, axis.radius]))
+    assert np.array_equal(vertices, balls(axis))
 
 
-def test_ma_lists_every_edge_once_and_only_edges_of_faces(axis, tmp_path):
+def test_ma_lists_every_edge_once_and_only_edges_of_faces_and_those_alone(axis, tmp_path):
     _, edges, faces = read_ma(export_axis(axis, tmp_path / "a.ma"))
     listed = [tuple(sorted(edge)) for edge in edges.tolist()]
     of_faces = {tuple(sorted((f[i], f[i - 1]))) for f in faces.tolist() for i in range(3)}
     assert len(set(listed)) == len(listed)
-    assert set(listed) == of_faces
+    assert set(listed) == of_faces | {tuple(sorted(edge)) for edge in axis.edges.tolist()}
 
 
 def test_ma_triangles_cover_each_polygon(axis, tmp_path):
@@ -185,11 +240,15 @@ def test_triangles_of_polygons_with_straight_corners_have_area(tmp_path, scale):
 
 
 def test_ply_holds_polygons_and_all_attributes(axis, tmp_path):
-    vertices, faces = read_ply(export_axis(axis, tmp_path / "a.ply"))
+    vertices, faces, edges = read_ply(export_axis(axis, tmp_path / "a.ply"))
+    assert np.array_equal(edges["ends"], axis.edges)
+    assert axis.level is None or np.array_equal(edges["limb"], axis.level.limb)
     assert np.array_equal(vertices, np.column_stack([axis.vertices, axis.radius]))
     assert len(faces) == len(axis.theta)
     for i, (face, polygon) in enumerate(zip(faces, polygons_of(axis))):
-        corners, theta, rho, side, p, q = face
+        corners, theta, rho, side, p, q, *known = face
+        if axis.level is not None:
+            assert known == [axis.level.sheet[i], axis.level.erosion[i]]
         assert np.array_equal(corners, polygon)
         assert (theta, rho, side) == (axis.theta[i], axis.rho[i], axis.side[i])
         assert [p, q] == axis.generators[i].tolist()
@@ -200,7 +259,7 @@ def test_ply_of_a_face_with_more_than_255_corners(tmp_path):
     wheel = axis_of(
         np.column_stack([np.cos(angles), np.sin(angles), 0 * angles]), [range(300), range(3)]
     )
-    _, faces = read_ply(export_axis(wheel, tmp_path / "a.ply"))
+    _, faces, _ = read_ply(export_axis(wheel, tmp_path / "a.ply"))
     assert [len(face[0]) for face in faces] == [300, 3]
     _, _, triangles = read_ma(export_axis(wheel, tmp_path / "a.ma"))
     assert len(triangles) == 299
@@ -210,7 +269,10 @@ def test_obj_holds_polygons(axis, tmp_path):
     lines = export_axis(axis, tmp_path / "a.obj").read_text(encoding="ascii").splitlines()
     vertices = [[float(x) for x in line.split()[1:]] for line in lines if line.startswith("v ")]
     faces = [[int(x) - 1 for x in line.split()[1:]] for line in lines if line.startswith("f ")]
-    assert len(lines) == len(vertices) + len(faces)
+    edges = [[int(x) - 1 for x in line.split()[1:]] for line in lines if line.startswith("l ")]
+    alone = [int(line.split()[1]) - 1 for line in lines if line.startswith("p ")]
+    assert len(lines) == len(vertices) + len(faces) + len(edges) + len(alone)
+    assert (edges, alone) == (axis.edges.tolist(), lone_vertices(axis))
     assert np.array_equal(np.reshape(vertices, (-1, 3)), axis.vertices)
     assert faces == [polygon.tolist() for polygon in polygons_of(axis)]
 
@@ -218,18 +280,45 @@ def test_obj_holds_polygons(axis, tmp_path):
 def test_off_holds_polygons(axis, tmp_path):
     lines = export_axis(axis, tmp_path / "a.off").read_text(encoding="ascii").splitlines()
     count = len(axis.vertices)
-    assert lines[:2] == ["OFF", f"{count} {len(axis.theta)} 0"]
+    assert lines[:2] == ["OFF", f"{count} {len(axis.theta) + len(axis.edges)} 0"]
     vertices = [[float(x) for x in line.split()] for line in lines[2 : 2 + count]]
     faces = [[int(x) for x in line.split()] for line in lines[2 + count :]]
     assert np.array_equal(np.reshape(vertices, (-1, 3)), axis.vertices)
-    assert faces == [[len(polygon), *polygon] for polygon in polygons_of(axis)]
+    polygons = [[len(polygon), *polygon] for polygon in polygons_of(axis)]
+    assert faces == polygons + [[2, *edge] for edge in axis.edges.tolist()]
 
 
 def test_npz_holds_everything(axis, tmp_path):
+    """Exact balls under the names that every axis has; what is shown instead of them beside it."""
     arrays = np.load(export_axis(axis, tmp_path / "a.npz"))
-    assert set(arrays) == set(vars(axis))
-    for name, value in vars(axis).items():
+    wanted = {name: value for name, value in vars(axis).items() if name != "level"}
+    if (level := axis.level) is not None:
+        wanted |= {"vertices": level.exact, "radius": level.exact_radius, "betti": level.betti}
+        wanted |= {"shown": axis.vertices, "shown_radius": axis.radius}
+        wanted |= {name: getattr(level, name) for name in LEVEL_FIELDS}
+    assert set(arrays) == set(wanted)
+    for name, value in wanted.items():
         assert np.array_equal(arrays[name], value) and arrays[name].dtype == np.asarray(value).dtype
+
+
+def test_npz_comes_back(axis, tmp_path):
+    if axis is EMPTY:
+        pytest.skip("an axis of nothing is not read")
+    again = load_axis(export_axis(axis, tmp_path / "a.npz"))
+    for name, value in vars(axis).items():
+        if name != "level":
+            assert np.array_equal(getattr(again, name), value), name
+    assert (again.level is None) == (axis.level is None)
+    for name in () if axis.level is None else (*LEVEL_FIELDS, "exact", "exact_radius", "betti"):
+        assert np.array_equal(getattr(again.level, name), getattr(axis.level, name)), name
+
+
+def test_npz_of_a_version_without_forms_is_read(tmp_path):
+    with np.load(export_axis(AXES["grid"], tmp_path / "a.npz")) as arrays:
+        kept = {name: array for name, array in arrays.items() if name != "edges"}
+    np.savez(tmp_path / "old.npz", **kept)
+    again = load_axis(tmp_path / "old.npz")
+    assert again.edges.shape == (0, 2) and again.level is None
 
 
 @pytest.mark.parametrize("extension", EXTENSIONS)
@@ -241,11 +330,12 @@ def test_same_axis_same_bytes(extension, tmp_path):
 @pytest.mark.parametrize("extension", EXTENSIONS)
 def test_more_faces_than_one_chunk(extension, tmp_path, monkeypatch):
     """Pieces of the file join without a seam: tiny chunks give the same bytes as one large one."""
-    from medial_axis.core.files import triangulate as triangulate_module
+    from medial_axis.core.files import facet_triangles, rows_of_text
 
     whole = export_axis(AXES["sheets"], tmp_path / ("a" + extension)).read_bytes()
     monkeypatch.setattr(export_module, "_CHUNK", 7)
-    monkeypatch.setattr(triangulate_module, "_CHUNK", 3)
+    monkeypatch.setattr(rows_of_text, "CHUNK", 5)
+    monkeypatch.setattr(facet_triangles, "_CHUNK", 3)
     assert export_axis(AXES["sheets"], tmp_path / ("b" + extension)).read_bytes() == whole
 
 
@@ -269,16 +359,19 @@ def test_rigid_transform_moves_points_and_leaves_radii(rows, tmp_path):
     assert np.array_equal(vertices[:, 3], axis.radius)
 
 
-def test_even_scale_scales_radii(tmp_path):
-    axis = AXES["grid"]
-    vertices, _, _ = read_ma(export_axis(axis, tmp_path / "a.ma", np.diag([2.0, 2.0, 2.0, 1.0])))
+@pytest.mark.parametrize("name", ["grid", "clean"])
+def test_even_scale_scales_radii(name, tmp_path):
+    axis, twice = AXES[name], np.diag([2.0, 2.0, 2.0, 1.0])
+    vertices, _, _ = read_ma(export_axis(axis, tmp_path / "a.ma", twice))
+    assert np.allclose(vertices, 2 * balls(axis), rtol=1e-15)
+    vertices, _, _ = read_ply(export_axis(axis, tmp_path / "a.ply", twice))
     assert np.allclose(vertices, 2 * np.column_stack([axis.vertices, axis.radius]), rtol=1e-15)
 
 
 def test_mirror_turns_polygons_round(tmp_path):
     axis = AXES["sheets"]
     mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
-    _, faces = read_ply(export_axis(axis, tmp_path / "a.ply", mirror))
+    _, faces, _ = read_ply(export_axis(axis, tmp_path / "a.ply", mirror))
     for face, polygon in zip(faces, polygons_of(axis)):
         assert face[0].tolist() == [polygon[0], *polygon[:0:-1]]
 

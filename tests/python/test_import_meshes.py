@@ -10,7 +10,6 @@ import pytest
 from medial_axis.core.errors import MedialAxisError, ReadError
 from medial_axis.core.files.read import READERS, import_points
 from medial_axis.core.files.read_shape import read_shape
-from medial_axis.core.files.triangulate import triangulate
 
 POINTS = np.array(list(itertools.product((0.0, 1.0), repeat=3)))
 QUADS = np.array(
@@ -321,48 +320,6 @@ def test_every_kind_has_a_damaged_file():
 
 
 # --- polygons of any shape
-
-
-def signed_areas(points, triangles):
-    a, b, c = (points[triangles[:, i], :2] for i in range(3))
-    u, v = b - a, c - a
-    return (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
-
-
-@pytest.mark.parametrize("turned", [False, True])
-@pytest.mark.parametrize(
-    "outline",
-    [
-        [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)],
-        [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)],
-        [(0, 0), (1, 0), (2, 0), (2, 2), (0, 2)],
-        [(0, 0), (3, 0.1), (0, 0.2), (0.5, 0.1)],
-        [(0, 0), (6, 0), (6, 6), (0, 6), (0, 1), (1, 1), (1, 5), (5, 5), (5, 1), (0.5, 0.5)],
-    ],
-    ids=["L", "M", "straight", "dart", "spiral"],
-)
-def test_concave_polygons_are_cut_inside(outline, turned):
-    points = np.column_stack([np.array(outline, float), np.zeros(len(outline))])
-    if turned:
-        points = points[::-1].copy()
-    count = len(points)
-    triangles = triangulate(
-        points, np.array([0, count], np.int32), np.arange(count, dtype=np.int32), convex=False
-    )
-    areas = signed_areas(points, triangles)
-    ring = np.roll(points, -1, axis=0)
-    whole = (points[:, 0] * ring[:, 1] - points[:, 1] * ring[:, 0]).sum() / 2
-    assert len(triangles) == count - 2 and np.sign(areas).tolist() == [np.sign(whole)] * (count - 2)
-    assert areas.sum() == pytest.approx(whole)
-
-
-def test_convex_polygons_are_cut_alike():
-    angles = np.linspace(0, 2 * np.pi, 9, endpoint=False)
-    points = np.column_stack([np.cos(angles), 2 * np.sin(angles), np.zeros(9)])
-    offsets, corners = np.array([0, 9], np.int32), np.arange(9, dtype=np.int32)
-    np.testing.assert_array_equal(
-        triangulate(points, offsets, corners), triangulate(points, offsets, corners, convex=False)
-    )
 
 
 def test_shape_of_a_file(tmp_path):

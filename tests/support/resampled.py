@@ -13,11 +13,12 @@ Array = NDArray[np.float64]
 
 
 def by_the_addon(mesh: Mesh, **options: Any) -> Any:
-    """A `Computation` of the add-on, without Blender. Options are those of its settings, else the defaults."""
+    """A `Computation` of the add-on, without Blender. Options are those of its settings, else as published and the
+    defaults."""
     from medial_axis.core.axis.compute import compute
-    from medial_axis.core.settings import Settings
+    from medial_axis.core.settings import Form, Settings
 
-    return compute(*mesh, Settings(**options))
+    return compute(*mesh, Settings(**{"form": Form.PUBLISHED} | options))
 
 
 def of_surface(mesh: Mesh, count: int, **options: Any) -> Any:

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from ..machine import native
 from ..machine.cache import CACHE, key_of
 from ..settings import Settings, Side, SidesFrom
+from .levels import Levels
 
 if TYPE_CHECKING:
     import numpy as np
@@ -48,6 +49,12 @@ class AnalysedSamples:
         The rows of the whole cloud that were analysed; None where all of them were, and for samples of faces.
     key : str
         The name of these samples in the cache.
+    by_faces : tuple of int or None
+        Pieces, loops and cavities of the solid, as its closed faces tell; None where they cannot.
+    levels : Levels
+        The hierarchy, once a form asked for it.
+    faces : (n,) int32 or None
+        The triangle of the shape that each sample of its faces lies on.
     """
 
     points: NDArray[np.float64]
@@ -61,17 +68,20 @@ class AnalysedSamples:
     walls: Walls | None = None
     rows: NDArray[np.int32] | None = None
     key: str = ""
+    by_faces: tuple[int, int, int] | None = None
+    levels: Levels = field(default_factory=Levels)
+    faces: NDArray[np.int32] | None = None
 
     @property
     def bytes(self) -> int:
-        """The memory that these samples and their analysis hold."""
+        """The memory that these samples, their analysis and its hierarchy hold."""
         density = self.density
-        own = (self.points, self.kinds, self.normals, self.rows)
+        own = (self.points, self.kinds, self.normals, self.rows, self.faces)
         others = (density.points, density.spacing, density.feature_size, density.edges)
         walls = self.walls
         more = (walls.points, walls.distance, walls.spacing, walls.area) if walls else ()
         arrays = [x for x in (*own, *others, *more) if x is not None]
-        return int(self.analysis.bytes) + sum(x.nbytes for x in arrays)
+        return int(self.analysis.bytes) + self.levels.bytes + sum(x.nbytes for x in arrays)
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,6 +152,14 @@ def used_by_sides(
         triangles if sides.source is SidesFrom.SURFACE else None,
         normals if sides.source is SidesFrom.NORMALS else None,
     )
+
+
+def betti_by_faces(request: Request, sides: Sides) -> tuple[int, int, int] | None:
+    """`AnalysedSamples.by_faces`, where the faces are what tells inside from outside."""
+    if sides.source is not SidesFrom.SURFACE or request.gaps:
+        return None
+    with native.own_errors() as module:
+        return module.solid_betti(request.shape.points, request.shape.triangles)
 
 
 def kept_or_made(

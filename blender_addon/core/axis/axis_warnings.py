@@ -11,6 +11,7 @@ from .medial_axis import MedialAxis
 from .sampling_warnings import sampling_warnings
 from .shape import Shape
 from .sides import cocone_warnings, look_inward
+from .verdict import Severe
 
 
 def axis_warnings(
@@ -29,11 +30,11 @@ def axis_warnings(
         yield from cocone_warnings(samples.analysis.tight_cocone, samples.points)
     normals = samples.normals if sides is SidesFrom.NORMALS else None
     if normals is not None and look_inward(samples.points, normals):
-        yield (
+        yield Severe(
             "the normals point inward, so inside and outside are exchanged; turn them round, "
             "or choose Inside From Tight Cocone, and compute again"
         )
-    elif axis.facets == 0:
+    elif axis.is_empty:
         yield _why_empty(shape, settings, chosen, axis)
 
 
@@ -55,7 +56,7 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
     if axis.zero_area:
         return (
             f"all {axis.zero_area:,} facets that pass the conditions are points or lines, as in an "
-            "exact ball; choose Sampling Surface to see where they are"
+            "exact ball; choose Form Clean to see them"
         )
     if closed and settings.side is Side.INNER and shape.volume < 0:
         return (

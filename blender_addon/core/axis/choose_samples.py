@@ -10,7 +10,14 @@ from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..settings import SamplingMode, Settings, SidesFrom
-from .analysis import AnalysedSamples, Request, analyse, kept_or_made, used_by_sides
+from .analysis import (
+    AnalysedSamples,
+    Request,
+    analyse,
+    betti_by_faces,
+    kept_or_made,
+    used_by_sides,
+)
 from .check_faces import check_faces, check_not_flat
 from .density import LOOKED_AT, estimate, percent
 from .sample_spacing import first_amount, first_count, first_spacing, next_amount
@@ -71,6 +78,8 @@ class ChosenSamples:
         The number of edges at which the faces are open.
     thinned : str
         Why there are fewer samples than the settings ask for, a sentence; or empty.
+    sparse : bool
+        The faces were sampled because their vertices are too few.
     """
 
     samples: AnalysedSamples
@@ -79,6 +88,7 @@ class ChosenSamples:
     sides: Sides
     gaps: int
     thinned: str = ""
+    sparse: bool = False
 
 
 def choose_samples(
@@ -142,18 +152,19 @@ def _whichever_is_dense(request: Request) -> ChosenSamples:
     try:
         chosen = _vertices(request, "dense enough", 0.2)
     except DegenerateInputError:  # the faces may span a volume all the same
-        return _samples_of_faces(request, "the vertices alone span no volume")
+        reason = "the vertices alone span no volume"
+        return replace(_samples_of_faces(request, reason), sparse=True)
     density, cocone = chosen.samples.density, chosen.samples.analysis.tight_cocone
     walls = chosen.samples.walls
     if walls is not None and walls.are_missed:
         return _samples_of_faces(request, "the walls are closer than the vertices are apart")
     dense = density.dense_enough
     if not dense and density.is_improved_by(first_spacing(request.shape, request.settings)):
-        return _samples_of_faces(
-            request,
+        reason = (
             f"the vertices are too sparse, epsilon above {density.limit:g} at "
-            f"{percent(density.share)} of them",
+            f"{percent(density.share)} of them"
         )
+        return replace(_samples_of_faces(request, reason), sparse=True)
     if cocone is not None and not cocone.encloses:
         return _samples_of_faces(request, "the vertices alone enclose nothing")
     if dense:
@@ -193,8 +204,16 @@ def _analysed_vertices(request: Request, sides: Sides, share: float) -> Analysed
     walls = None
     if sides.source is SidesFrom.SURFACE and request.shape.volume > 0:
         walls = walls_of_faces(request.shape, request.progress.part(0.01))
-    rows = request.shape.rows
-    return AnalysedSamples(points, None, normals, analysis, density, walls=walls, rows=rows)
+    return AnalysedSamples(
+        points,
+        None,
+        normals,
+        analysis,
+        density,
+        walls=walls,
+        rows=request.shape.rows,
+        by_faces=betti_by_faces(request, sides),
+    )
 
 
 # --- samples of the faces
@@ -228,9 +247,11 @@ def _passes(request: Request, sides: Sides) -> tuple[AnalysedSamples, int]:
         and (not samples.density.dense_enough or _are_worth_more(request, samples))
         and not _is_spent(request, samples)
     ):
+        request.progress.begin_pass(passes + 1)
         amount = next_amount(samples, effort.elsewhere, effort.walls, settings.budget)
         found = surface_pass(request, sides, amount, 0.6, samples.spacing)
         samples, passes = _judged(request, found), passes + 1
+    request.progress.begin_pass(1)
     return samples, passes
 
 

@@ -12,17 +12,23 @@ import numpy as np
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Settings
+from ..settings import Form, Settings
 from .axis_warnings import axis_warnings
 from .choose_samples import ChosenSamples, choose_samples
-from .medial_axis import MedialAxis, extract
+from .extract import extract
+from .medial_axis import MedialAxis
 from .shape import Shape
+from .topology import topology_sentence
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .density import Density
     from .sides import Sides
+
+
+# The share of the work before the hierarchy begins.
+_ANALYSIS = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,11 +39,14 @@ class Computation:
     ----------
     axis : MedialAxis
     settings : Settings
-        `side`, `sides` and `sampling` are never AUTOMATIC here.
+        `side`, `sides` and `sampling` are never AUTOMATIC here, and `form` is what the axis has.
     chosen : ChosenSamples
         What was analysed, why, and how densely it lies; what told inside from outside.
     warnings : tuple of str
         What was assumed or looks wrong, a sentence each.
+    topology : str
+        Of how many pieces, loops and cavities the axis is, and whether the faces say the same: a sentence. Of an
+        axis as published, empty, or why it has no other form.
     seconds : float
     """
 
@@ -45,6 +54,7 @@ class Computation:
     settings: Settings
     chosen: ChosenSamples
     warnings: tuple[str, ...]
+    topology: str
     seconds: float
 
     @property
@@ -111,24 +121,34 @@ def compute_axis(
     start = time.perf_counter()
     progress = progress or Progress()
     settings = settings.with_side()
+    form, wanted = settings.form_of_side, settings.form
+    progress.until(_ANALYSIS if form is not Form.PUBLISHED else 1.0)
     chosen = choose_samples(shape, settings, progress, limit)
-    settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling)
-    axis = extract(chosen.samples, settings, progress.part())
+    progress.until(1.0)
+    settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling, form=form)
+    axis = extract(chosen.samples, settings, progress)
     return Computation(
         axis=axis,
         settings=settings,
         chosen=chosen,
         warnings=tuple(axis_warnings(shape, settings, chosen, axis)),
+        topology=topology_sentence(axis, wanted, chosen.samples),
         seconds=time.perf_counter() - start,
     )
 
 
 def extract_axis(computation: Computation, settings: Settings) -> MedialAxis:
     """The axis for other thresholds of a computation; the rest of the settings must be its own."""
-    return extract(computation.chosen.samples, settings, None)
+    return extract(computation.chosen.samples, settings)
+
+
+def refiltered_topology(key: str, axis: MedialAxis, wanted: Form) -> str:
+    """`Computation.topology` of an axis that `refilter` gave; `wanted` is the form that was asked for."""
+    samples = CACHE.get(key)
+    return "" if samples is None else topology_sentence(axis, wanted, samples)
 
 
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
     """The axis for other thresholds of a kept analysis; None when it is no longer kept."""
     samples = CACHE.get(key)
-    return None if samples is None else extract(samples, settings, None)
+    return None if samples is None else extract(samples, settings)

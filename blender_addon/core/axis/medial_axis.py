@@ -1,24 +1,52 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The medial axis as arrays, and how it is extracted from analysed samples."""
+"""The medial axis as arrays."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
-
-from ..machine import native
-from ..settings import Settings
-from .analysis import AnalysedSamples
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
+class LevelValues:
+    """What is known of an axis that is a level of a hierarchy (docs/hierarchy.md).
+
+    Parameters
+    ----------
+    exact : (v, 3) float64
+        The Voronoi vertex that each vertex is; `MedialAxis.vertices` are moved where that shows rims and curves better.
+    exact_radius : (v,) float64
+        Of its empty ball.
+    sheet, erosion : (f,) float32
+        Up to which Simplify and Erode the facet stays, percent of the diagonal; infinite: always.
+    limb : (w,) float32
+        Up to which Limbs the edge stays, percent of the diagonal; infinite: always.
+    betti : tuple of int
+        Pieces, loops and cavities, counted on this level.
+    """
+
+    exact: NDArray[np.float64]
+    exact_radius: NDArray[np.float64]
+    sheet: NDArray[np.float32]
+    erosion: NDArray[np.float32]
+    limb: NDArray[np.float32]
+    betti: tuple[int, int, int]
+
+
+def no_edges() -> NDArray[np.int32]:
+    return np.zeros((0, 2), np.int32)
+
+
+@dataclass(frozen=True, eq=False)
 class MedialAxis:
-    """The selected facets as convex planar polygons that share vertices, as `_medial.MedialMesh`.
+    """Facets as convex polygons that share vertices; edges without a facet, and vertices without an edge.
+
+    As published there are facets only, which are planar.
 
     Parameters
     ----------
@@ -36,6 +64,10 @@ class MedialAxis:
         the whole cloud.
     unbounded, zero_area : int
         Selected facets that reach infinity, or that are a point or a segment; neither is here.
+    edges : (w, 2) int32
+        Ends of the edges that stand by themselves.
+    level : LevelValues or None
+        None: the axis is as published.
     """
 
     vertices: NDArray[np.float64]
@@ -48,26 +80,15 @@ class MedialAxis:
     generators: NDArray[np.int32]
     unbounded: int
     zero_area: int
+    edges: NDArray[np.int32] = field(default_factory=no_edges)
+    level: LevelValues | None = None
 
     @property
     def facets(self) -> int:
         """Number of polygons."""
         return len(self.face_offsets) - 1
 
-
-def extract(samples: AnalysedSamples, settings: Settings, progress: Any | None) -> MedialAxis:
-    """The facets that the settings select; `progress` is a `_medial.Progress`."""
-    with native.own_errors() as module:
-        mesh = samples.analysis.extract(
-            settings.theta,
-            settings.rho,
-            getattr(module.Side, settings.side.name),
-            getattr(module.Rule, settings.rule.name),
-            getattr(module.Criteria, settings.criteria.name),
-            limit_set=settings.limit_set,
-            progress=progress,
-        )
-    axis = MedialAxis(**{name: getattr(mesh, name) for name in MedialAxis.__dataclass_fields__})
-    if samples.rows is None:
-        return axis
-    return replace(axis, generators=samples.rows[axis.generators])
+    @property
+    def is_empty(self) -> bool:
+        """Whether there is nothing at all: no facet, no edge, no vertex."""
+        return len(self.vertices) == 0

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..settings import SamplingMode
 from .density import percent
+from .verdict import Severe
 
 if TYPE_CHECKING:
     from .choose_samples import ChosenSamples
@@ -34,13 +35,13 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
         )
     walls = samples.walls
     if walls is not None and walls.are_missed:
-        yield (
+        yield Severe(
             f"at {percent(walls.missed)} of the surface the walls are closer to each other, about "
             f"{walls.thickness:.2g}, than the samples, so the inner axis is missing or torn there; "
             "more samples, a smaller Spacing or a larger Budget help"
         )
     if density.share > _SPARSE:
-        yield (
+        yield Severe(
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "
             f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"
         )

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DegenerateInputError
 from ..machine import native
 from ..settings import SidesFrom
-from .analysis import AnalysedSamples, Request, analyse, kept_or_made
+from .analysis import AnalysedSamples, Request, analyse, betti_by_faces, kept_or_made
 from .buried_samples import find_bare, on_flat_faces
 from .closing_samples import closed_by_samples
 from .density import estimate
@@ -101,7 +101,17 @@ def _sampled(
     buried = int(np.count_nonzero(~bare))
     more = len(points) - int(np.count_nonzero(bare))
     return AnalysedSamples(
-        points, kinds, normals, analysis, density, first, buried, closing=more, walls=walls
+        points,
+        kinds,
+        normals,
+        analysis,
+        density,
+        first,
+        buried,
+        closing=more,
+        walls=walls,
+        by_faces=betti_by_faces(request, sides),
+        faces=np.concatenate((found.triangle[bare], np.full(more, -1, np.int32))),
     )
 
 

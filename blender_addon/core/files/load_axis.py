@@ -5,15 +5,13 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from ..axis.medial_axis import MedialAxis
+from ..axis.medial_axis import MedialAxis, no_edges
 from ..errors import ReadError
+from .axis_arrays import LEVEL_NAMES, NAMES, from_arrays
 from .numpy_arrays import read_arrays
-
-_FIELDS = tuple(MedialAxis.__dataclass_fields__)
 
 
 def load_axis(path: str | os.PathLike) -> MedialAxis:
@@ -23,28 +21,35 @@ def load_axis(path: str | os.PathLike) -> MedialAxis:
     ------
     ReadError
     """
-    arrays = read_arrays(path, _FIELDS)
-    missing = [name for name in _FIELDS if name not in arrays]
+    arrays = read_arrays(path, (*NAMES, *LEVEL_NAMES))
+    wanted = set(NAMES) - {"edges"}  # which files of earlier versions lack
+    if "shown" in arrays:
+        wanted |= set(LEVEL_NAMES)
+    missing = sorted(wanted - set(arrays))
     if missing or not _fit(arrays):
         raise ReadError(
             f"Expected the arrays of a medial axis in '{Path(path).name}', found "
             f"{'no ' + missing[0] if missing else 'arrays that contradict each other'}; "
             "export it again"
         )
-    fields: dict[str, Any] = {**arrays}
-    fields |= {name: int(arrays[name]) for name in ("unbounded", "zero_area")}
-    return MedialAxis(**fields)
+    return from_arrays(arrays)
 
 
 def _fit(arrays: dict[str, np.ndarray]) -> bool:
-    """Whether the arrays agree: their lengths, and the corners of the polygons."""
+    """Whether the arrays agree: their lengths, the corners of the polygons and the ends of edges."""
     points, faces = len(arrays["radius"]), len(arrays["side"])
+    edges = arrays.get("edges", no_edges())
     shapes = {"vertices": (points, 3), "generators": (faces, 2), "face_offsets": (faces + 1,)}
     shapes |= dict.fromkeys(("theta", "rho", "side"), (faces,))
     shapes |= dict.fromkeys(("unbounded", "zero_area"), ())
-    if faces == 0 or any(arrays[name].shape != shape for name, shape in shapes.items()):
+    if "shown" in arrays:
+        shapes |= {"shown": (points, 3), "shown_radius": (points,), "limb": (len(edges),)}
+        shapes |= {"sheet": (faces,), "erosion": (faces,), "betti": (3,)}
+    if points == 0 or any(arrays[name].shape != shape for name, shape in shapes.items()):
         return False
     offsets, corners = arrays["face_offsets"], arrays["face_vertices"]
     whole = offsets[0] == 0 and offsets[-1] == len(corners) and (np.diff(offsets) >= 3).all()
-    inside = ((corners >= 0) & (corners < points)).all()
-    return bool(whole and inside and np.isfinite(arrays["vertices"]).all())
+    pairs = edges.ndim == 2 and edges.shape[1] == 2
+    inside = all(((ids >= 0) & (ids < points)).all() for ids in (corners, edges))
+    places = (arrays["vertices"], arrays.get("shown", arrays["vertices"]))
+    return bool(whole and pairs and inside and all(np.isfinite(x).all() for x in places))

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import os
 
+from ..axis.polygon_triangles import polygon_triangles
 from ..axis.shape import Shape
 from .read import import_points
-from .triangulate import triangulate
 
 
 def read_shape(path: str | os.PathLike) -> tuple[Shape, tuple[str, ...]]:
@@ -15,8 +15,8 @@ def read_shape(path: str | os.PathLike) -> tuple[Shape, tuple[str, ...]]:
 
     Raises
     ------
-    ReadError, OutOfMemoryError
+    ReadError, NativeModuleError, OutOfMemoryError
     """
     found = import_points(path)
-    triangles = triangulate(found.vertices, found.face_offsets, found.face_vertices, convex=False)
+    triangles = polygon_triangles(found.vertices, found.face_offsets, found.face_vertices)
     return Shape(found.vertices, triangles, found.normals), found.warnings

@@ -10,16 +10,18 @@ from __future__ import annotations
 import os
 import zipfile
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
 from ..axis.medial_axis import MedialAxis
 from ..errors import ExportError
-from .triangulate import triangulate
+from . import plain_triangles
+from .axis_arrays import as_arrays, exact_balls
+from .facet_triangles import triangulate_facets
+from .rows_of_text import write_rows as _write_rows
 from .whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -38,14 +40,20 @@ class Format:
         For people: menus and file dialogs.
     write : callable
         Takes the axis and a binary stream.
+    write_triangles : callable or None
+        The same as triangles in text; None where the format is what it is.
     """
 
     label: str
     write: Callable[[Any, BinaryIO], None]
+    write_triangles: Callable[[Any, BinaryIO], None] | None = None
 
 
 def export_axis(
-    axis: MedialAxis, path: str | os.PathLike, transform: NDArray | None = None
+    axis: MedialAxis,
+    path: str | os.PathLike,
+    transform: NDArray | None = None,
+    triangles: bool = False,
 ) -> Path:
     """Write a medial axis; the extension of `path` chooses the format.
 
@@ -56,6 +64,8 @@ def export_axis(
     transform : (3, 4) or (4, 4) float64, optional
         Where the axis lies in the world. It may move, turn, mirror and scale evenly, for only then balls
         stay balls; the radii are scaled with it.
+    triangles : bool
+        Write .ply, .obj and .off as triangles in text, which more programs read; the others are as ever.
 
     Returns
     -------
@@ -67,7 +77,8 @@ def export_axis(
     ExportError
         Unknown extension, unfit transform, or the system refused to write; an old file is then unchanged.
     """
-    write = format_of(path).write
+    known = format_of(path)
+    write = (triangles and known.write_triangles) or known.write
     placed = axis if transform is None else _place(axis, np.asarray(transform, np.float64))
     return write_whole(path, lambda stream: write(placed, stream))
 
@@ -92,23 +103,28 @@ def known_extensions() -> str:
 # --- placing
 
 
-_FIELDS = tuple(MedialAxis.__dataclass_fields__)
-
-
-def _place(axis: MedialAxis, transform: NDArray[np.float64]) -> SimpleNamespace:
-    """The same fields, seen in the world."""
+def _place(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
+    """The same axis, seen in the world."""
     if transform.shape not in ((3, 4), (4, 4)) or not np.isfinite(transform).all():
         raise ExportError(
             f"Expected a finite 3x4 or 4x4 transform, found shape {transform.shape}; pass a world matrix"
         )
     linear, offset = transform[:3, :3], transform[:3, 3]
     scale = _even_scale(linear)
-    fields = {name: getattr(axis, name) for name in _FIELDS}
-    fields["vertices"] = axis.vertices @ linear.T + offset
-    fields["radius"] = axis.radius if scale == 1.0 else axis.radius * scale
+    corners = axis.face_vertices
     if np.linalg.det(linear) < 0:
-        fields["face_vertices"] = _turned(axis.face_offsets, axis.face_vertices)
-    return SimpleNamespace(**fields)
+        corners = _turned(axis.face_offsets, corners)
+    placed = replace(
+        axis,
+        vertices=axis.vertices @ linear.T + offset,
+        radius=axis.radius if scale == 1.0 else axis.radius * scale,
+        face_vertices=corners,
+    )
+    if (level := axis.level) is None:
+        return placed
+    radius = level.exact_radius if scale == 1.0 else level.exact_radius * scale
+    exact = level.exact @ linear.T + offset
+    return replace(placed, level=replace(level, exact=exact, exact_radius=radius))
 
 
 def _even_scale(linear: NDArray[np.float64]) -> float:
@@ -137,14 +153,6 @@ def _turned(face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]) -
 # --- formats
 
 
-def _write_rows(stream: BinaryIO, row: str, *columns: NDArray) -> None:
-    """Write one line per row of `columns`, (n,) or (n, k) arrays; `row` is the %-format of one line."""
-    for start in range(0, len(columns[0]), _CHUNK):
-        parts = [column[start : start + _CHUNK] for column in columns]
-        table = np.column_stack(parts)
-        stream.write(((row * len(table)) % tuple(table.ravel().tolist())).encode("ascii"))
-
-
 def _write_polygons(
     stream: BinaryIO,
     row_of: Callable[[int], str],
@@ -163,17 +171,21 @@ def _write_polygons(
 
 def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
     """Q-MAT's plain variant: `nv ne nf`, then `v x y z r`, every edge once, and triangles."""
-    triangles = triangulate(axis.vertices, axis.face_offsets, axis.face_vertices)
-    edges = _edges(triangles, len(axis.vertices))
-    stream.write(b"%d %d %d\n" % (len(axis.vertices), len(edges), len(triangles)))
-    _write_rows(stream, "v %.17g %.17g %.17g %.17g\n", axis.vertices, axis.radius)
+    vertices, radius = exact_balls(axis)
+    triangles = triangulate_facets(vertices, axis.face_offsets, axis.face_vertices)
+    edges = _edges(triangles, axis.edges, len(vertices))
+    stream.write(b"%d %d %d\n" % (len(vertices), len(edges), len(triangles)))
+    _write_rows(stream, "v %.17g %.17g %.17g %.17g\n", vertices, radius)
     _write_rows(stream, "e %d %d\n", edges)
     _write_rows(stream, "f %d %d %d\n", triangles)
 
 
-def _edges(triangles: NDArray[np.int32], vertex_count: int) -> NDArray[np.int64]:
-    """(e, 2) the edges of triangles, each once, i < j, in lexicographic order."""
-    ends = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).astype(np.int64)
+def _edges(
+    triangles: NDArray[np.int32], alone: NDArray[np.int32], vertex_count: int
+) -> NDArray[np.int64]:
+    """(e, 2) the edges of triangles and those that stand by themselves, each once, i < j, in lexicographic order."""
+    all_ends = np.concatenate([triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), alone])
+    ends = np.sort(all_ends, axis=1).astype(np.int64)
     keys = np.unique(ends[:, 0] * vertex_count + ends[:, 1])
     return np.stack(np.divmod(keys, max(vertex_count, 1)), axis=1)
 
@@ -186,10 +198,20 @@ def _write_obj(axis: MedialAxis, stream: BinaryIO) -> None:
         np.diff(axis.face_offsets),
         axis.face_vertices + 1,  # OBJ counts from 1
     )
+    _write_rows(stream, "l %d %d\n", axis.edges + 1)
+    _write_rows(stream, "p %d\n", _lone_vertices(axis) + 1)
+
+
+def _lone_vertices(axis: MedialAxis) -> NDArray[np.intp]:
+    """(k,) the vertices without a face and without an edge."""
+    alone = np.ones(len(axis.vertices), bool)
+    alone[axis.face_vertices] = alone[axis.edges.ravel()] = False
+    return np.flatnonzero(alone)
 
 
 def _write_off(axis: MedialAxis, stream: BinaryIO) -> None:
-    stream.write(b"OFF\n%d %d 0\n" % (len(axis.vertices), len(axis.face_offsets) - 1))
+    faces = axis.facets + len(axis.edges)
+    stream.write(b"OFF\n%d %d 0\n" % (len(axis.vertices), faces))
     _write_rows(stream, "%.17g %.17g %.17g\n", axis.vertices)
     _write_polygons(
         stream,
@@ -197,11 +219,15 @@ def _write_off(axis: MedialAxis, stream: BinaryIO) -> None:
         np.diff(axis.face_offsets),
         axis.face_vertices,
     )
+    _write_rows(stream, "2 %d %d\n", axis.edges)  # OFF has no other edges
 
 
 def _write_ply(axis: MedialAxis, stream: BinaryIO) -> None:
     counts = np.diff(axis.face_offsets)
     count_type = "uchar" if counts.max(initial=0) < 256 else "int"
+    known = axis.level is not None
+    of_faces = _ply_floats("sheet", "erosion") if known else ""
+    of_edges = _ply_floats("limb") if known else ""
     header = f"""ply
 format binary_little_endian 1.0
 comment medial axis: radius of the empty ball per vertex, angles in radians
@@ -217,12 +243,20 @@ property double rho
 property int side
 property int generator_p
 property int generator_q
-end_header
+{of_faces}element edge {len(axis.edges)}
+property int vertex1
+property int vertex2
+{of_edges}end_header
 """
     stream.write(header.encode("ascii"))
     stream.write(np.column_stack([axis.vertices, axis.radius]).astype("<f8").tobytes())
     for faces in _ply_faces(axis, counts, "u1" if count_type == "uchar" else "<i4"):
         stream.write(faces)
+    stream.write(_ply_edges(axis).tobytes())
+
+
+def _ply_floats(*names: str) -> str:
+    return "".join(f"property float {name}\n" for name in names)
 
 
 def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> Iterator[bytes]:
@@ -233,6 +267,8 @@ def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> 
         ("side", "<i4"),
         ("generators", "<i4", (2,)),
     ]
+    if axis.level is not None:
+        fixed += [("sheet", "<f4"), ("erosion", "<f4")]
     for start in range(0, len(counts), _CHUNK):
         chunk = counts[start : start + _CHUNK]
         row_sizes = np.dtype([("count", count_type), *fixed]).itemsize + 4 * chunk.astype(np.int64)
@@ -248,26 +284,39 @@ def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> 
             rows["count"] = count
             rows["corners"] = axis.face_vertices[axis.face_offsets[ids][:, None] + np.arange(count)]
             for name, *_ in fixed:
-                rows[name] = getattr(axis, name)[ids]
+                rows[name] = getattr(axis if hasattr(axis, name) else axis.level, name)[ids]
             places = row_starts[local][:, None] + np.arange(rows.itemsize)
             piece[places] = rows.view(np.uint8).reshape(len(rows), -1)
         yield piece.tobytes()
 
 
+def _ply_edges(axis: MedialAxis) -> NDArray:
+    ends = np.dtype([("ends", "<i4", (2,))])
+    if axis.level is None:
+        rows = np.empty(len(axis.edges), ends)
+    else:
+        rows = np.empty(len(axis.edges), [*ends.descr, ("limb", "<f4")])
+        rows["limb"] = axis.level.limb
+    rows["ends"] = axis.edges
+    return rows
+
+
 def _write_npz(axis: MedialAxis, stream: BinaryIO) -> None:
     """What np.savez writes; np.savez itself leaves an open archive behind when the disk is full."""
     with zipfile.ZipFile(stream, "w") as archive:
-        for name in _FIELDS:
+        for name, array in as_arrays(axis).items():
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
-                np.lib.format.write_array(
-                    entry, np.asarray(getattr(axis, name)), allow_pickle=False
-                )
+                np.lib.format.write_array(entry, array, allow_pickle=False)
 
 
 FORMATS: dict[str, Format] = {
     ".ma": Format("Medial axis, triangles and radii", _write_ma),
-    ".ply": Format("PLY, polygons with radius, theta, rho, side and generators", _write_ply),
-    ".obj": Format("Wavefront OBJ, polygons", _write_obj),
-    ".off": Format("OFF, polygons", _write_off),
+    ".ply": Format(
+        "PLY, polygons with radius, theta, rho, side and generators",
+        _write_ply,
+        plain_triangles.write_ply,
+    ),
+    ".obj": Format("Wavefront OBJ, polygons and lines", _write_obj, plain_triangles.write_obj),
+    ".off": Format("OFF, polygons and lines", _write_off, plain_triangles.write_off),
     ".npz": Format("NumPy arrays, everything", _write_npz),
 }

@@ -61,6 +61,16 @@ class AnalysisCache:
                 self._drop_until(self._room - size)
                 self._kept[key] = (analysis, size)
 
+    def resize(self, key: str, size: int) -> None:
+        """An analysis, where it is kept, has grown to so many bytes; others go first to make room."""
+        with self._lock:
+            if key not in self._kept:
+                return
+            analysis, _ = self._kept.pop(key)
+            if size <= self._room:
+                self._drop_until(self._room - size)
+                self._kept[key] = (analysis, size)
+
     @property
     def room(self) -> int:
         return self._room

@@ -7,6 +7,7 @@
 #include <medial/medial_mesh.h>
 #include <medial/options.h>
 #include <medial/progress.h>
+#include <medial/thickness.h>
 #include <medial/watertight_surface.h>
 
 #include <memory>
@@ -62,6 +63,11 @@ class MedialAnalysis {
   std::vector<double> feature_size(const Thresholds& thresholds,
                                    std::optional<std::span<const int32_t>> rows = {},
                                    Progress* progress = nullptr) const;
+  // How thick the solid is at the samples, or how wide the gap. It needs sides. Throws
+  // InvalidInputError, also for normals or edges that are not one per point, DegenerateInputError
+  // for samples that enclose nothing, Cancelled.
+  WallThickness thickness(const ThicknessInput& input, const ThicknessOptions& options = {},
+                          Progress* progress = nullptr) const;
   // The boundary between inner cells and others, as rows. Throws InvalidInputError for sides none.
   std::vector<Triangle> solid_triangles() const;
 

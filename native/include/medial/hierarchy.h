@@ -13,30 +13,38 @@ namespace medial {
 
 using Betti = std::array<int64_t, 3>;  // components, tunnels, cavities
 
-// What a cell has to exceed to stay. A cell stays if it exceeds the first three, or the last one;
-// and all stay that the collapse left. Infinity takes all away that can go.
-struct LevelThresholds {
-  double sheet = 0;     // thickness of its sheet, as a share of the diagonal
-  double spacings = 0;  // the same in local spacings of the samples
-  double erosion = 0;   // of the facet itself, as a share of the diagonal
-  double limb = 0.04;   // of vertices and edges alone: length of its branch, likewise
+// Which cells stay, and how they are shown. A cell stays if it exceeds the first three thresholds,
+// or the fourth one; and all stay that the collapse left. Infinity takes all away that can go.
+struct LevelOptions {
+  double sheet = 0;          // thickness of its sheet, as a share of the diagonal
+  double spacings = 0;       // the same in local spacings of the samples
+  double erosion = 0;        // of the facet itself, as a share of the diagonal
+  double limb = 0.04;        // of vertices and edges alone: length of its branch, likewise
+  bool round_limbs = false;  // of wires with a loose end only those that run in round limbs
+  // Wires are smoothed, divided anew and fitted to the samples round them; rims are smoothed.
+  bool relaxed = false;
 };
 
 // A level as a mesh of polygons, edges that stand by themselves, and single vertices.
 struct Level {
   Column<Vec3> vertices;          // (v) in order of first use
-  Column<double> radius;          // (v) of the empty ball
-  Column<int32_t> vertex_of;      // (v) of the hierarchy
+  Column<double> radius;          // (v) of the ball; of the empty one unless relaxed
+  Column<Vec3> exact;             // (v) the place on the Voronoi diagram that it stands for
+  Column<double> exact_radius;    // (v) of the empty ball there
+  Column<int32_t> vertex_of;      // (v) of the hierarchy; of new ones the nearest along the wire
   Column<int32_t> face_offsets;   // (f + 1)
   Column<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
   Column<Edge> generators;        // (f) input rows p < q; the facets are in their order
   Column<int32_t> facet_of;       // (f) of the hierarchy
+  Column<double> theta, rho;      // (f) as in MedialMesh, by the rule of the hierarchy
+  Column<float> sheet, erosion;   // (f) values of the facet, infinite where it always stays
   Column<Edge> wires;             // (w) edges without a facet: vertices
-  Column<int32_t> edge_of;        // (w) of the hierarchy
+  Column<int32_t> edge_of;        // (w) of the hierarchy; of new ones that at the middle
+  Column<float> limb;             // (w) value of the edge, infinite where it always stays
   Column<int32_t> points;         // (k) vertices without an edge
   Betti betti = {};               // counted on all this
-  // Edges from a vertex to itself, and facets with fewer than three other edges: they count, but
-  // cannot be drawn.
+  // Edges from a vertex to itself, facets with fewer than three other edges, and facets with the
+  // corners of another one: they count, but cannot be drawn.
   int64_t hidden = 0;
 };
 
@@ -52,8 +60,9 @@ class Hierarchy {
 
   const Betti& betti() const;  // of the whole complex
   double diagonal() const;     // of the box of the samples
+  size_t bytes() const;        // memory that it holds
   // Throws InvalidInputError for thresholds below 0, Cancelled.
-  Level extract(const LevelThresholds& thresholds, Progress* progress = nullptr) const;
+  Level extract(const LevelOptions& options, Progress* progress = nullptr) const;
   const Timings& timings() const;
 
   // What the collapse made, for the library itself.

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 
-#include "base/atomic.h"
 #include "base/nearest.h"
 #include "base/rows.h"
 
@@ -16,20 +15,6 @@ constexpr double kFar = 0.99;
 
 // A cell of the grid whose width goes with the radius of the balls at the vertices in it.
 using GridCell = std::array<double, 4>;
-
-// Per Delaunay cell: whether its Voronoi vertex is one of a facet's.
-std::vector<uint8_t> cells_round(std::span<const int32_t> edge_ids, const Triangulation& t,
-                                 const Edges& edges, const Run& run) {
-  std::vector<uint8_t> marked(t.cells.size(), 0);
-  parallel_chunks(static_cast<int64_t>(edge_ids.size()), run, [&](int64_t begin, int64_t end, int) {
-    std::vector<int32_t> ring;
-    for (int64_t i = begin; i < end; ++i) {
-      ring_of_cells(t, edges.ends[edge_ids[i]], edges.cell[edge_ids[i]], ring);
-      for (const int32_t cell : ring) shared_store(marked[cell], uint8_t{1});
-    }
-  });
-  return marked;
-}
 
 // Vertices in the same cell are no farther apart than kThinning times the smaller of their balls,
 // and no sample lies in these.

@@ -13,8 +13,22 @@
 namespace medial {
 namespace {
 
-void check(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
-           int32_t vertices) {
+// Of a polygon, seen from the lower end.
+struct PolygonSide {
+  int32_t high;    // the other end
+  int32_t corner;  // that it begins at
+
+  friend auto operator<=>(const PolygonSide&, const PolygonSide&) = default;
+};
+
+bool starts_edge(std::span<const PolygonSide> sorted, size_t i) {
+  return i == 0 || sorted[i].high != sorted[i - 1].high;
+}
+
+}  // namespace
+
+void require_polygons(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
+                      int32_t vertices) {
   const bool whole = !face_offsets.empty() && face_offsets.front() == 0 &&
                      face_offsets.back() == static_cast<int64_t>(corners.size()) &&
                      std::is_sorted(face_offsets.begin(), face_offsets.end());
@@ -30,23 +44,9 @@ void check(std::span<const int32_t> face_offsets, std::span<const int32_t> corne
   }
 }
 
-// Of a polygon, seen from the lower end.
-struct PolygonSide {
-  int32_t high;    // the other end
-  int32_t corner;  // that it begins at
-
-  friend auto operator<=>(const PolygonSide&, const PolygonSide&) = default;
-};
-
-bool starts_edge(std::span<const PolygonSide> sorted, size_t i) {
-  return i == 0 || sorted[i].high != sorted[i - 1].high;
-}
-
-}  // namespace
-
 PolygonEdges polygon_edges(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
                            int32_t vertices, const Run& run) {
-  check(face_offsets, corners, vertices);
+  require_polygons(face_offsets, corners, vertices);
   // A bucket for each vertex: the corners whose edges have it as the lower end, with the other ends
   // beside them. (bucket_sort knows ids alone; looking up the ends took 1.7 times as long.) After
   // the counting next[v] is where bucket v begins, after the filling where it ends.

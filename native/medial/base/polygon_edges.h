@@ -15,6 +15,11 @@ struct PolygonEdges {
   std::vector<int32_t> of_corner;  // which leads from a corner to the next one of its polygon
 };
 
+// Throws InvalidInputError unless offsets ascend from 0 to the number of corners, and corners are
+// in [0, vertices).
+void require_polygons(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
+                      int32_t vertices);
+
 // Polygon i has the corners [face_offsets[i], face_offsets[i + 1]), vertices in [0, vertices).
 // Throws InvalidInputError.
 PolygonEdges polygon_edges(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/atomic.h"
+
 namespace medial {
 namespace {
 
@@ -98,6 +100,19 @@ void ring_of_cells(const Triangulation& t, const Edge& ends, int32_t cell,
     ring.push_back(c);
     return true;
   });
+}
+
+std::vector<uint8_t> cells_round(std::span<const int32_t> edge_ids, const Triangulation& t,
+                                 const Edges& edges, const Run& run) {
+  std::vector<uint8_t> marked(t.cells.size(), 0);
+  parallel_chunks(static_cast<int64_t>(edge_ids.size()), run, [&](int64_t begin, int64_t end, int) {
+    std::vector<int32_t> ring;
+    for (int64_t i = begin; i < end; ++i) {
+      ring_of_cells(t, edges.ends[edge_ids[i]], edges.cell[edge_ids[i]], ring);
+      for (const int32_t cell : ring) shared_store(marked[cell], uint8_t{1});
+    }
+  });
+  return marked;
 }
 
 }  // namespace medial

@@ -52,4 +52,9 @@ bool walk_ring(const Triangulation& t, const Edge& ends, int32_t cell, const Vis
 void ring_of_cells(const Triangulation& triangulation, const Edge& ends, int32_t cell,
                    std::vector<int32_t>& ring);
 
+// Per cell: whether its Voronoi vertex is one of the facets' dual to `edge_ids`.
+std::vector<uint8_t> cells_round(std::span<const int32_t> edge_ids,
+                                 const Triangulation& triangulation, const Edges& edges,
+                                 const Run& run);
+
 }  // namespace medial

@@ -46,8 +46,17 @@ struct Burnt {
   Wires wires;
 };
 
+// Works of which none needs what another makes, on as many threads as there are.
+void side_by_side(std::span<const std::function<void()>> works, const Run& run) {
+  parallel_for(
+      static_cast<int64_t>(works.size()), {run.threads, nullptr, run.arena},
+      [&](int64_t i) { works[i](); }, 1);
+}
+
+// `beside` is done while the fire burns, which keeps one thread busy only.
 Burnt burn_down(const InnerComplex& complex, const FacetWeights& weight,
-                std::span<const Vec3> points, Stopwatch& watch, const Run& run) {
+                std::span<const Vec3> points, const std::function<void()>& beside, Stopwatch& watch,
+                const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena};
   begin_stage(run.progress, "Fringe", 0.2, 0.4);
   Collapse collapse = whole(complex, weight, quiet);
@@ -58,7 +67,10 @@ Burnt burn_down(const InnerComplex& complex, const FacetWeights& weight,
   begin_stage(run.progress, "Fire", 0.4, 0.7);
   Sheets sheets = find_sheets(complex, collapse, quiet);
   watch.lap("sheets");
-  Burning burning = burn(complex, points, collapse, run);
+  Burning burning;
+  const std::array<std::function<void()>, 2> works{
+      [&] { burning = burn(complex, points, collapse, run); }, beside};
+  side_by_side(works, run);
   watch.lap("fire");
   begin_stage(run.progress, "Wires", 0.7, 0.8);
   Wires wires = burn_wires(complex, burning.times, collapse, run);
@@ -78,42 +90,54 @@ void find_values(Hierarchy::Parts& made, const Burnt& burnt, std::span<const dou
     return 0.5 * (spacing[p] + spacing[q]);
   });
   Array<float> by_share, by_spacing;
-  // Each of these works by itself.
-  const std::array<std::function<void()>, 3> work{
+  const std::array<std::function<void()>, 3> works{
       [&] { made.limb = kept(limb_values(complex, burnt.collapse, burnt.wires, alone)); },
       [&] { by_share = drop_values(complex, burnt.collapse, burnt.sheets, shares, alone); },
       [&] { by_spacing = drop_values(complex, burnt.collapse, burnt.sheets, spacings, alone); }};
-  const auto run_one = [&](int64_t i) { work[i](); };
-  parallel_for(3, run, run_one, 1);
+  side_by_side(works, run);
   made.values = with_vertices(complex, collapse, wires,
                               joined(by_share, by_spacing, burning.erosion, quiet), quiet);
+}
+
+// How strongly the facets satisfy the conditions.
+void keep_significance(Hierarchy::Parts& made, const Significance& significance, Rule rule,
+                       const Run& run) {
+  const auto& dual = made.complex.dual;
+  made.sine.resize(dual.size());
+  made.rho.resize(dual.size());
+  parallel_for(static_cast<int64_t>(dual.size()), run, [&](int64_t f) {
+    made.sine[f] = significance.sines(rule)[dual[f]];
+    made.rho[f] = significance.ratios(rule)[dual[f]];
+  });
 }
 
 }  // namespace
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
                          const Run& run) {
-  const Run quiet{run.threads, nullptr, run.arena};
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
   made.row = samples.row;
+  made.samples = PointTree({samples.points.data(), samples.row.size()});
   Stopwatch watch(made.timings);
   const FacetWeights weight(facets, thresholds);
   begin_stage(run.progress, "Inner complex", 0, 0.2);
   made.complex =
       inner_complex(samples, facets.triangulation, facets.voronoi, facets.edges, facets.sides, run);
   watch.lap("complex");
-  Burnt burnt = burn_down(made.complex, weight, facets.points, watch, run);
+  const auto count_holes = [&, alone = Run{1, nullptr, run.arena}] {
+    made.outside = outside_components(made.complex, samples.count(), facets.triangulation,
+                                      facets.edges, alone);
+    made.betti = betti_of(made.complex, made.outside, alone);
+  };
+  Burnt burnt = burn_down(made.complex, weight, facets.points, count_holes, watch, run);
   begin_stage(run.progress, "Values", 0.8, 1);
   find_values(made, burnt, facets.significance.spacing, run);
   made.partner = std::move(burnt.collapse.partner);
-  watch.lap("values");
-  made.outside =
-      outside_components(made.complex, samples.count(), facets.triangulation, facets.edges, quiet);
-  made.betti = betti_of(made.complex, made.outside, quiet);
+  keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
   made.complex.dual = {};  // it means nothing without the analysis
-  watch.lap("betti");
+  watch.lap("values");
   advance(run.progress, 1);
   return Hierarchy(std::move(parts));
 }
@@ -125,10 +149,20 @@ Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;
 
 const Betti& Hierarchy::betti() const { return parts_->betti; }
 double Hierarchy::diagonal() const { return parts_->complex.diagonal; }
+size_t Hierarchy::bytes() const {
+  const auto size_of = [](const auto&... arrays) {
+    return (... + (arrays.size() * sizeof(arrays[0])));
+  };
+  const Parts& p = *parts_;
+  const InnerComplex& c = p.complex;
+  return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
+                 c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row, p.outside,
+                 p.sine, p.rho);
+}
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 
-Level Hierarchy::extract(const LevelThresholds& thresholds, Progress* progress) const {
-  return level(*parts_, thresholds, {parts_->threads, progress});
+Level Hierarchy::extract(const LevelOptions& options, Progress* progress) const {
+  return level(*parts_, options, {parts_->threads, progress});
 }
 
 }  // namespace medial

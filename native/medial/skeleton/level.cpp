@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/level.h"
 
+#include "axis/significance.h"
 #include "base/sort.h"
 #include "skeleton/betti.h"
+#include "skeleton/relax.h"
+#include "skeleton/round_limbs.h"
 
 namespace medial {
 namespace {
@@ -16,12 +19,7 @@ void check(double threshold, const char* name) {
 
 bool exceeds(float value, double threshold) { return value > threshold || value == HUGE_VALF; }
 
-bool exceeds(const Thickness& value, const LevelThresholds& t) {
-  return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
-         exceeds(value.erosion, t.erosion);
-}
-
-Alive alive_at(const Hierarchy::Parts& h, const LevelThresholds& t, const Run& run) {
+Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run) {
   const InnerComplex& complex = h.complex;
   Alive alive{array<uint8_t>(complex.generators.size(), run),
               array<uint8_t>(complex.ends.size(), run), array<uint8_t>(complex.cell.size(), run)};
@@ -50,12 +48,21 @@ class Drawer {
         touched_(array<uint8_t>(h.complex.cell.size(), 0, run)),
         number_(array<int32_t>(h.complex.cell.size(), -1, run)) {}
 
-  Level draw() && {
+  Level draw() {
     draw_facets();
     draw_wires();
     draw_points();
     place_vertices();
+    read_values();
     return std::move(level_);
+  }
+
+  // Edges with exactly one facet, after it.
+  std::vector<Edge> rims() const {
+    return parallel_append<Edge>(complex_.edges(), run_, [&](int64_t e, auto& out, int) {
+      const auto& [a, b] = complex_.ends[e];
+      if (used_[e] == 1) out.push_back({number_[a], number_[b]});
+    });
   }
 
  private:
@@ -111,15 +118,33 @@ class Drawer {
         ++level_.hidden;
         continue;
       }
-      for (const int32_t edge : edges) used_[edge] = 1;
       for (int32_t& vertex : polygon) vertex = number(vertex);
       std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+      if (is_twin(polygon)) {
+        ++level_.hidden;
+        continue;
+      }
+      for (const int32_t edge : edges) used_[edge] += used_[edge] < 2;
       const auto& [p, q] = complex_.generators[f];
       level_.face_vertices.insert(level_.face_vertices.end(), polygon.begin(), polygon.end());
       level_.face_offsets.push_back(static_cast<int32_t>(level_.face_vertices.size()));
       level_.generators.push_back({h_.row[p], h_.row[q]});
       level_.facet_of.push_back(f);
     }
+  }
+
+  // Whether an earlier facet has the same corners; notes the polygon where none has. In any order:
+  // two facets between parallel edges are one to the eye.
+  bool is_twin(const std::vector<int32_t>& polygon) {
+    newest_.resize(level_.vertex_of.size(), -1);
+    for (int32_t f = newest_[polygon[0]]; f >= 0; f = before_[f]) {
+      const auto first = level_.face_vertices.begin() + level_.face_offsets[f];
+      const auto last = level_.face_vertices.begin() + level_.face_offsets[f + 1];
+      if (std::is_permutation(first, last, polygon.begin(), polygon.end())) return true;
+    }
+    before_.push_back(newest_[polygon[0]]);
+    newest_[polygon[0]] = static_cast<int32_t>(before_.size()) - 1;
+    return false;
   }
 
   void draw_wires() {
@@ -150,32 +175,64 @@ class Drawer {
       level_.vertices[v] = complex_.position[level_.vertex_of[v]];
       level_.radius[v] = complex_.radius[level_.vertex_of[v]];
     });
+    level_.exact = level_.vertices;
+    level_.exact_radius = level_.radius;
+  }
+
+  void read_values() {
+    const size_t facets = level_.facet_of.size(), wires = level_.edge_of.size();
+    level_.sheet.resize(facets);
+    level_.erosion.resize(facets);
+    level_.limb.resize(wires);
+    level_.theta.resize(facets);
+    level_.rho.resize(facets);
+    parallel_for(static_cast<int64_t>(facets), run_, [&](int64_t f) {
+      level_.theta[f] = theta_of(h_.sine[level_.facet_of[f]]);
+      level_.rho[f] = h_.rho[level_.facet_of[f]];
+    });
+    for (size_t f = 0; f < facets; ++f) {
+      const Thickness& value = h_.values.facet[level_.facet_of[f]];
+      level_.sheet[f] = value.sheet;
+      level_.erosion[f] = value.erosion;
+    }
+    for (size_t w = 0; w < wires; ++w) level_.limb[w] = h_.limb_of_edge(level_.edge_of[w]);
   }
 
   const Hierarchy::Parts& h_;
   const InnerComplex& complex_;
   const Alive& alive_;
   Run run_;
-  Array<uint8_t> used_;     // per edge: by a facet
+  Array<uint8_t> used_;     // per edge: by no facet, one, or more
   Array<uint8_t> touched_;  // per vertex: by an edge
   Array<int32_t> number_;   // per vertex: in the level
+  // Per vertex of the level the newest facet that starts there, per facet the one before it; or -1.
+  std::vector<int32_t> newest_, before_;
   Level level_;
 };
 
 }  // namespace
 
-Level level(const Hierarchy::Parts& h, const LevelThresholds& thresholds, const Run& run) {
-  check(thresholds.sheet, "sheet");
-  check(thresholds.spacings, "spacings");
-  check(thresholds.erosion, "erosion");
-  check(thresholds.limb, "limb");
-  begin_stage(run.progress, "Level", 0, 1);
+bool exceeds(const Thickness& value, const LevelOptions& t) {
+  return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
+         exceeds(value.erosion, t.erosion);
+}
+
+Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& run) {
+  check(options.sheet, "sheet");
+  check(options.spacings, "spacings");
+  check(options.erosion, "erosion");
+  check(options.limb, "limb");
+  begin_stage(run.progress, "Limbs", 0, 0.3);
   const Run quiet{run.threads, nullptr, run.arena};
-  const Alive alive = alive_at(h, thresholds, quiet);
+  Alive alive = alive_at(h, options, quiet);
+  if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
+  begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);
-  Level level = Drawer(h, alive, quiet).draw();
+  Drawer drawer(h, alive, quiet);
+  Level level = drawer.draw();
   throw_if_cancelled(run.progress);
   level.betti = betti_of(h.complex, h.outside, alive, quiet);
+  if (options.relaxed) relax(level, drawer.rims(), h, run);
   advance(run.progress, 1);
   return level;
 }

@@ -4,6 +4,7 @@
 
 #include <medial/hierarchy.h>
 
+#include "base/point_tree.h"
 #include "base/stopwatch.h"
 #include "skeleton/values.h"
 
@@ -14,15 +15,26 @@ struct Hierarchy::Parts {
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
   Values values;
-  Array<float> limb;         // per vertex
+  Array<float> limb;        // per vertex
+  Array<double> sine, rho;  // per facet, as in Significance
+  PointTree samples;
   std::vector<int32_t> row;  // of the samples
   Array<int32_t> outside;    // as from outside_components
   Betti betti = {};          // of the complex
   int threads = 1;
   Timings timings;
+
+  // That of what it went with.
+  float limb_of_edge(int32_t edge) const {
+    if (partner[edge] == kAlone) return HUGE_VALF;
+    return partner[edge] >= 0 ? 0 : limb[with_vertex(partner[edge])];
+  }
 };
 
+// Whether thresholds leave a cell with this value.
+bool exceeds(const Thickness& value, const LevelOptions& options);
+
 // Throws InvalidInputError for thresholds below 0.
-Level level(const Hierarchy::Parts& hierarchy, const LevelThresholds& thresholds, const Run& run);
+Level level(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);
 
 }  // namespace medial

@@ -7,7 +7,7 @@
 
 namespace medial {
 
-// By which facets go; see LevelThresholds.
+// By which facets go; see LevelOptions.
 struct Thickness {
   float sheet = 0, spacings = 0, erosion = 0;
 };

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Planar polygons as triangles, without new vertices and, where they are convex, without triangles of no area.
+"""Facets as triangles, without new vertices and without triangles of no area: facets are planar and convex.
 
 A fan from a fixed corner degenerates where that corner lies on a straight side (Voronoi facets of nearly
 cospherical samples have such corners). Here ears are cut one by one so that neither the ear nor what remains
@@ -18,21 +18,18 @@ if TYPE_CHECKING:
 _CHUNK = 1 << 15  # polygons cut at once; bounds the memory
 
 
-def triangulate(
+def triangulate_facets(
     vertices: NDArray[np.float64],
     face_offsets: NDArray[np.int32],
     face_vertices: NDArray[np.int32],
-    convex: bool = True,
 ) -> NDArray[np.int32]:
-    """Triangulate polygons.
+    """Triangulate convex polygons, without triangles of no area.
 
     Parameters
     ----------
     vertices : (v, 3) float64
     face_offsets : (f + 1,) int32
     face_vertices : (c,) int32
-    convex : bool
-        All polygons are; others take longer.
 
     Returns
     -------
@@ -44,18 +41,15 @@ def triangulate(
     triangles = np.empty((max(len(face_vertices) - 2 * len(counts), 0), 3), np.int32)
     for count in np.unique(counts):
         alike = np.flatnonzero(counts == count)
-        chunk = _CHUNK if convex else max(1, _CHUNK // int(count) ** 2)
-        for start in range(0, len(alike), chunk):
-            ids = alike[start : start + chunk]
+        for start in range(0, len(alike), _CHUNK):
+            ids = alike[start : start + _CHUNK]
             corners = face_vertices[face_offsets[ids][:, None] + np.arange(count)]
             places = first_triangle[ids][:, None] + np.arange(count - 2)
-            triangles[places] = _cut_ears(vertices[corners], corners, convex)
+            triangles[places] = _cut_ears(vertices[corners], corners)
     return triangles
 
 
-def _cut_ears(
-    points: NDArray[np.float64], corners: NDArray[np.int32], convex: bool
-) -> NDArray[np.int32]:
+def _cut_ears(points: NDArray[np.float64], corners: NDArray[np.int32]) -> NDArray[np.int32]:
     """Triangulate polygons.
 
     Parameters
@@ -71,7 +65,7 @@ def _cut_ears(
     rows = np.arange(len(corners))
     ears = []
     while (size := corners.shape[1]) > 3:
-        tip = _best_ear(x, y, convex)
+        tip = _best_ear(x, y)
         ears.append(np.stack([corners[rows, (tip + step) % size] for step in (-1, 0, 1)], axis=1))
         kept = np.arange(size) != tip[:, None]
         x, y = (values[kept].reshape(len(rows), size - 1) for values in (x, y))
@@ -91,35 +85,11 @@ def _flattened(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArra
     return around[rows, :, (across + 1) % 3], around[rows, :, (across + 2) % 3]
 
 
-def _best_ear(x: NDArray[np.float64], y: NDArray[np.float64], convex: bool) -> NDArray[np.intp]:
-    """(m,) the corner of each (m, k) polygon where the smaller of ear and remainder is largest.
-
-    Of polygons that are not convex the ear must not hold another corner. One that crosses itself may
-    have no such ear; the triangles then still have the boundary of the polygon.
-    """
+def _best_ear(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.intp]:
+    """(m,) the corner of each (m, k) polygon where the smaller of ear and remainder is largest."""
     x_next, y_next = np.roll(x, -1, axis=1), np.roll(y, -1, axis=1)
     x_last, y_last = np.roll(x, 1, axis=1), np.roll(y, 1, axis=1)
     ear = (x - x_last) * (y_next - y) - (y - y_last) * (x_next - x)
     whole = (x * y_next - y * x_next).sum(axis=1, keepdims=True)
     turn = np.where(whole < 0.0, -1.0, 1.0)
-    quality = np.minimum(turn * ear, turn * (whole - ear))
-    if not convex:
-        quality[_holds_corner(x, y, turn)] = -np.inf
-    return quality.argmax(axis=1)
-
-
-def _holds_corner(
-    x: NDArray[np.float64], y: NDArray[np.float64], turn: NDArray[np.float64]
-) -> NDArray[np.bool_]:
-    """(m, k) whether the ear at a corner holds or touches another corner, at another place than its own three."""
-    count = x.shape[1]
-    around = [(np.arange(count) + step) % count for step in (-1, 0, 1)]
-    inside = np.ones((*x.shape, count), bool)
-    apart = np.ones_like(inside)
-    for first, second in zip(around, around[1:] + around[:1], strict=True):
-        ax, ay = x[:, first, None], y[:, first, None]
-        bx, by = x[:, second, None], y[:, second, None]
-        px, py = x[:, None, :], y[:, None, :]
-        inside &= turn[..., None] * ((bx - ax) * (py - ay) - (by - ay) * (px - ax)) >= 0.0
-        apart &= (px != ax) | (py != ay)
-    return (inside & apart).any(axis=2)
+    return np.minimum(turn * ear, turn * (whole - ear)).argmax(axis=1)

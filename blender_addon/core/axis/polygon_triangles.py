@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The polygons of a surface as triangles, without new vertices: the same from a file and from a mesh in Blender."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine import native
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def polygon_triangles(
+    points: NDArray[np.float64],
+    face_offsets: NDArray[np.int32],
+    face_vertices: NDArray[np.int32],
+) -> NDArray[np.int32]:
+    """(c - 2 f, 3) int32 the triangles of polygon after polygon, each turning as its polygon does.
+
+    Quads are cut as Blender does, larger polygons by their constrained Delaunay triangulation.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    face_offsets : (f + 1,) int32
+        Polygon i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`, three at least.
+    face_vertices : (c,) int32
+        Rows of `points`.
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, OutOfMemoryError
+    """
+    if len(face_vertices) == 3 * (len(face_offsets) - 1):
+        return face_vertices.reshape(-1, 3)
+    with native.own_errors() as module:
+        return np.asarray(module.polygon_triangles(points, face_offsets, face_vertices))

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Of how many pieces, loops and cavities an axis is, in words, and whether the faces of the shape say the same."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..settings import OPTIONS, Form
+
+if TYPE_CHECKING:
+    from .analysis import AnalysedSamples
+    from .medial_axis import MedialAxis
+
+
+def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) -> str:
+    """A sentence about the topology of an axis. Of an axis as published: why it has not the form that was wanted, or
+    nothing.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+    wanted : Form
+        That of the settings; the axis may have another one.
+    samples : AnalysedSamples
+    """
+    if axis.level is None:
+        if wanted is Form.PUBLISHED:
+            return ""
+        name = OPTIONS["form"].items[wanted][0]
+        return f"Form As Published: {name} is for the inner axis only"
+    betti, by_faces = axis.level.betti, samples.by_faces
+    sentence = f"{betti_words(betti)}, as the solid"
+    if by_faces is None or by_faces == betti:
+        return sentence
+    return f"{sentence}; by its faces it would be {betti_words(by_faces)}: {_why(betti, by_faces, samples)}"
+
+
+def betti_words(betti: tuple[int, int, int]) -> str:
+    """'1 piece, 5 loops, no cavity'."""
+    pieces, loops, cavities = betti
+    cavity = {0: "no cavity", 1: "1 cavity"}.get(cavities, f"{cavities:,} cavities")
+    one = {0: f"no loop, {cavity}", 1: f"1 loop, {cavity}"}
+    loop = one.get(loops, f"{loops:,} loops, {cavity}")
+    return f"1 piece, {loop}" if pieces == 1 else f"{pieces:,} pieces, {loop}"
+
+
+def _why(
+    betti: tuple[int, int, int], by_faces: tuple[int, int, int], samples: AnalysedSamples
+) -> str:
+    torn = betti[0] > by_faces[0]  # which no overlap does
+    if samples.buried and torn:
+        return "its parts overlap, and some are thinner than the spacing of the samples"
+    if samples.buried:
+        return "its parts overlap"
+    if torn:
+        return "some parts are thinner than the spacing of the samples"
+    return "walls or gaps are thinner than the spacing of the samples, or faces pass through each other"

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A medial axis as named arrays, as `.npz` has them, and back.
+
+Files of arrays are for computing, so that `vertices` and `radius` are the exact balls there, and what is shown
+instead of them lies beside them as `shown` and `shown_radius`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..axis.medial_axis import LevelValues, MedialAxis, no_edges
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+# Of every axis; of the clean ones and curves, too.
+NAMES = tuple(name for name in MedialAxis.__dataclass_fields__ if name != "level")
+LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti")
+
+
+def exact_balls(axis: MedialAxis) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(v, 3), (v,): the Voronoi vertices that the vertices are, and the radii of their empty balls."""
+    if axis.level is None:
+        return axis.vertices, axis.radius
+    return axis.level.exact, axis.level.exact_radius
+
+
+def as_arrays(axis: MedialAxis) -> dict[str, NDArray]:
+    arrays = {name: np.asarray(getattr(axis, name)) for name in NAMES}
+    if (level := axis.level) is not None:
+        arrays["vertices"], arrays["radius"] = exact_balls(axis)
+        arrays |= {"shown": axis.vertices, "shown_radius": axis.radius}
+        arrays |= {name: np.asarray(getattr(level, name)) for name in LEVEL_NAMES[2:]}
+    return arrays
+
+
+def from_arrays(arrays: Mapping[str, NDArray]) -> MedialAxis:
+    """What `as_arrays` made; files of earlier versions have no `edges`."""
+    fields: dict[str, Any] = {name: arrays[name] for name in NAMES if name != "edges"}
+    fields |= {name: int(arrays[name]) for name in ("unbounded", "zero_area")}
+    fields["edges"] = arrays.get("edges", no_edges())
+    if "shown" not in arrays:
+        return MedialAxis(**fields)
+    level = LevelValues(
+        exact=arrays["vertices"],
+        exact_radius=arrays["radius"],
+        betti=tuple(arrays["betti"].tolist()),
+        **{name: arrays[name] for name in ("sheet", "erosion", "limb")},
+    )
+    fields |= {"vertices": arrays["shown"], "radius": arrays["shown_radius"], "level": level}
+    return MedialAxis(**fields)

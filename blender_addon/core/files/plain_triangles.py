@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Medial axes as triangles in text: `.ply`, `.obj` and `.off` that the usual readers of meshes read alike.
+
+Some take the first face of a binary PLY for the size of all, some know no numbers beside the corners there, some tear
+polygons (docs/formats.md has the table). What they all read are triangles in text. Each has the values of its facet,
+and the facet's number, by which the polygons can be put together again.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+
+from .facet_triangles import triangulate_facets
+from .rows_of_text import write_rows
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_HEADER = """ply
+format ascii 1.0
+comment medial axis: radius of the empty ball per vertex, angles in radians
+element vertex {vertices}
+property double x
+property double y
+property double z
+property double radius
+element face {triangles}
+property list uchar int vertex_indices
+property double theta
+property double rho
+property int side
+property int generator_p
+property int generator_q
+property int facet
+end_header
+"""
+
+
+def write_ply(axis: Any, stream: BinaryIO) -> None:
+    triangles, facet = _triangles(axis)
+    header = _HEADER.format(vertices=len(axis.vertices), triangles=len(triangles))
+    stream.write(header.encode("ascii"))
+    write_rows(stream, "%.17g %.17g %.17g %.17g\n", axis.vertices, axis.radius)
+    values = (getattr(axis, name)[facet] for name in ("theta", "rho", "side", "generators"))
+    row = "3 %d %d %d %.17g %.17g %d %d %d %d\n"
+    write_rows(stream, row, triangles, *values, facet)
+
+
+def write_obj(axis: Any, stream: BinaryIO) -> None:
+    write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
+    write_rows(stream, "f %d %d %d\n", _triangles(axis)[0] + 1)  # OBJ counts from 1
+
+
+def write_off(axis: Any, stream: BinaryIO) -> None:
+    triangles, _ = _triangles(axis)
+    stream.write(b"OFF\n%d %d 0\n" % (len(axis.vertices), len(triangles)))
+    write_rows(stream, "%.17g %.17g %.17g\n", axis.vertices)
+    write_rows(stream, "3 %d %d %d\n", triangles)
+
+
+def _triangles(axis: Any) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """(t, 3) the triangles, and (t,) the facet of each."""
+    triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
+    facets = len(axis.face_offsets) - 1
+    return triangles, np.repeat(np.arange(facets), np.diff(axis.face_offsets) - 2)

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rows of numbers as lines of text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, BinaryIO
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+CHUNK = 1 << 16  # rows formatted at once; bounds the memory of one write
+
+
+def write_rows(stream: BinaryIO, row: str, *columns: NDArray) -> None:
+    """Write one line per row of `columns`, (n,) or (n, k) arrays; `row` is the %-format of one line."""
+    for start in range(0, len(columns[0]), CHUNK):
+        parts = [column[start : start + CHUNK] for column in columns]
+        table = np.column_stack(parts)
+        stream.write(((row * len(table)) % tuple(table.ravel().tolist())).encode("ascii"))

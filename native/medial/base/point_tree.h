@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Boxes over points that lie along a Hilbert curve: runs of points, runs of boxes, and so on. It
+// takes no sorting to make, and finds whatever can be told from a box.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/nearest.h"
+#include "base/vec3.h"
+
+namespace medial {
+
+// Its const members may be called from several threads.
+class PointTree {
+ public:
+  PointTree() = default;
+  // Keeps a copy. Points that neighbour in the list should neighbour in space.
+  explicit PointTree(std::span<const Vec3> points);
+
+  const Vec3& operator[](int32_t id) const { return points_[id]; }
+  int32_t size() const { return static_cast<int32_t>(points_.size()); }
+
+  // Of equally near points the lowest one. There is one.
+  Neighbour nearest(const Vec3& query) const;
+  // How far the `count` nearest points are at most, those in the same place included; of fewer
+  // points all.
+  double reach(const Vec3& query, size_t count) const;
+  // Calls found(id) for the points, ascending, in all boxes of which wanted(box) says so; in other
+  // boxes, too.
+  template <typename Wanted, typename Found>
+  void visit(const Wanted& wanted, const Found& found) const {
+    if (!levels_.empty()) visit(levels_.size() - 1, 0, wanted, found);
+  }
+
+ private:
+  static constexpr size_t kRun = 8, kFan = 4;  // points to a box, boxes to a larger one
+
+  struct Children {
+    size_t begin, end;
+  };
+  Children children(size_t level, size_t box) const {
+    const size_t fan = level == 0 ? kRun : kFan,
+                 all = level == 0 ? points_.size() : levels_[level - 1].size();
+    return {box * fan, std::min(all, box * fan + fan)};
+  }
+
+  template <typename Wanted, typename Found>
+  void visit(size_t level, size_t box, const Wanted& wanted, const Found& found) const {
+    if (!wanted(levels_[level][box])) return;
+    const auto [begin, end] = children(level, box);
+    for (size_t i = begin; i < end; ++i) {
+      if (level == 0) {
+        found(static_cast<int32_t>(i));
+      } else {
+        visit(level - 1, i, wanted, found);
+      }
+    }
+  }
+  template <typename Search>
+  void descend(size_t level, size_t box, const Vec3& query, Search& search) const;
+
+  std::vector<Vec3> points_;
+  std::vector<std::vector<Box>> levels_;  // the last one is a single box
+};
+
+}  // namespace medial

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "skeleton/relax.h"
+
+#include "skeleton/curves.h"
+#include "skeleton/rims.h"
+
+namespace medial {
+namespace {
+
+// Balls of moved vertices end at the samples, as those of all others do.
+void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samples,
+                 const Run& run) {
+  const auto moved =
+      relax_rims({level.face_offsets, level.face_vertices}, rims, level.vertices, run);
+  parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
+    level.radius[moved[i]] = samples.nearest(level.vertices[moved[i]]).distance;
+  });
+}
+
+// Wires end at facets, and at vertices with other than two of them.
+std::vector<Chain> chains_of(const Level& level) {
+  std::vector<uint8_t> on_facet(level.vertices.size(), 0);
+  for (const int32_t v : level.face_vertices) on_facet[v] = 1;
+  return medial::chains_of(level.wires, on_facet);
+}
+
+// Puts curves in the place of chains.
+class Rewirer {
+ public:
+  Rewirer(Level& level, const Hierarchy::Parts& hierarchy, const std::vector<Chain>& chains,
+          const std::vector<Curve>& curves)
+      : level_(level), h_(hierarchy), chains_(chains), curves_(curves) {}
+
+  void rewire() && {
+    take_out();
+    old_edge_of_ = std::move(level_.edge_of);
+    level_.wires.clear();
+    level_.edge_of = {};
+    for (size_t c = 0; c < chains_.size(); ++c) put_in(chains_[c], curves_[c]);
+    level_.limb.clear();
+    for (const int32_t e : level_.edge_of) level_.limb.push_back(h_.limb_of_edge(e));
+  }
+
+ private:
+  // Vertices inside chains go; those of facets, which are the first ones, keep their numbers.
+  void take_out() {
+    number_.assign(level_.vertices.size(), 0);
+    for (const Chain& chain : chains_) {
+      for (size_t k = chain.closed ? 0 : 1; k < chain.size(); ++k) number_[chain.vertices[k]] = -1;
+    }
+    int32_t left = 0;
+    for (int32_t& number : number_) {
+      if (number == 0) number = left++;
+    }
+    old_exact_ = level_.exact;
+    old_vertex_of_ = level_.vertex_of;
+    keep(level_.vertices);
+    keep(level_.radius);
+    keep(level_.exact);
+    keep(level_.exact_radius);
+    keep(level_.vertex_of);
+    for (int32_t& v : level_.points) v = number_[v];
+  }
+
+  template <typename T>
+  void keep(Column<T>& values) const {
+    size_t left = 0;
+    for (size_t v = 0; v < number_.size(); ++v) {
+      if (number_[v] >= 0) values[left++] = values[v];
+    }
+    values.resize(left);
+  }
+
+  void put_in(const Chain& chain, const Curve& curve) {
+    const size_t last = curve.canal.size() - 1;
+    const int32_t first = chain.closed ? add(chain, curve, 0) : end(chain, curve, 0);
+    int32_t before = first;
+    for (size_t k = 1; k <= last; ++k) {
+      const int32_t next = k < last       ? add(chain, curve, k)
+                           : chain.closed ? first
+                                          : end(chain, curve, 1);
+      level_.wires.push_back({before, next});
+      const auto middle = static_cast<size_t>(0.5 * (curve.at[k - 1] + curve.at[k]));
+      level_.edge_of.push_back(old_edge_of_[chain.wires[std::min(middle, chain.size() - 1)]]);
+      before = next;
+    }
+  }
+
+  int32_t end(const Chain& chain, const Curve& curve, int which) {
+    const int32_t vertex = number_[which == 0 ? chain.vertices.front() : chain.vertices.back()];
+    if (chain.loose[which]) {
+      const Canal& canal = which == 0 ? curve.canal.front() : curve.canal.back();
+      level_.vertices[vertex] = canal.centre;
+      level_.radius[vertex] = canal.radius;
+    }
+    return vertex;
+  }
+
+  int32_t add(const Chain& chain, const Curve& curve, size_t k) {
+    const auto at = std::min(static_cast<size_t>(curve.at[k]), chain.size() - 1);
+    const double share = curve.at[k] - static_cast<double>(at);
+    const int32_t a = chain.vertices[at], b = chain.vertices[at + 1];
+    const Vec3 exact = old_exact_[a] + share * (old_exact_[b] - old_exact_[a]);
+    level_.vertices.push_back(curve.canal[k].centre);
+    level_.radius.push_back(curve.canal[k].radius);
+    level_.exact.push_back(exact);
+    level_.exact_radius.push_back(h_.samples.nearest(exact).distance);
+    level_.vertex_of.push_back(old_vertex_of_[share < 0.5 ? a : b]);
+    return static_cast<int32_t>(level_.vertices.size()) - 1;
+  }
+
+  Level& level_;
+  const Hierarchy::Parts& h_;
+  const std::vector<Chain>& chains_;
+  const std::vector<Curve>& curves_;
+  std::vector<int32_t> number_;  // per old vertex: new one, -1: gone
+  Column<Vec3> old_exact_;
+  Column<int32_t> old_vertex_of_, old_edge_of_;
+};
+
+}  // namespace
+
+void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, const Run& run) {
+  const Run quiet{run.threads, nullptr, run.arena};
+  begin_stage(run.progress, "Rims", 0.6, 0.7);
+  smooth_rims(level, rims, h.samples, quiet);
+  begin_stage(run.progress, "Curves", 0.7, 1);
+  if (level.wires.empty()) return;
+  const auto chains = chains_of(level);
+  const auto curves = fit_curves(chains, level.vertices, h.samples, run);
+  Rewirer(level, h, chains, curves).rewire();
+}
+
+}  // namespace medial

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rims without saws: vertices on the rim of a sheet move towards the middle of their neighbours on
+// it. Facets stay what they are, and none folds.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/run.h"
+#include "base/vec3.h"
+
+namespace medial {
+
+// Of polygons: where their vertices are, facet i with the corners [offsets[i], offsets[i + 1]).
+struct Polygons {
+  std::span<const int32_t> offsets, corners;
+};
+
+// Moves the vertices with exactly two of the rim edges; returns them, ascending.
+std::vector<int32_t> relax_rims(const Polygons& polygons, std::span<const Edge> rims,
+                                std::span<Vec3> places, const Run& run);
+
+}  // namespace medial

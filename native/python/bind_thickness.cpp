@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Thickness for Python: its modes, what is found, and the patches of what is thin.
+#include <medial/thickness.h>
+
+#include "arrays.h"
+#include "base/nearest.h"
+#include "base/parallel.h"
+#include "base/patches.h"
+#include "base/rows.h"
+#include "bindings.h"
+#include "inside/surface.h"
+
+namespace medial::python {
+namespace {
+
+constexpr const char* kPatchesDoc =
+    "(m,) int32: number of the patch of each triangle: those of `wanted` that share a corner are "
+    "in one. Patches are\nnumbered in the order of their first triangles; -1: not wanted.\n\n"
+    "Parameters\n----------\n"
+    "triangles : (m, 3) int32\n"
+    "wanted : (m,) bool\n"
+    "vertices : int\n    The number of rows that the triangles count.\n\n"
+    "Raises\n------\nInvalidInputError";
+
+constexpr const char* kNearestDoc =
+    "(k,) int32: row of the site nearest to each of (k, 3) queries, of equally near ones the "
+    "lowest; -1 where there are no\nsites.\n\nRaises\n------\nInvalidInputError";
+
+py::array patches_of(const py::object& triangles, const py::object& wanted, int64_t vertices) {
+  const Triangles faces(triangles);
+  const auto flags = flags_of(wanted, "wanted");
+  const auto rows = faces.span();
+  if (flags.size() != rows.size()) {
+    throw InvalidInputError("Expected one flag per triangle, found " +
+                            std::to_string(flags.size()) + " for " + std::to_string(rows.size()) +
+                            " triangles; pass all of them.");
+  }
+  require_corners(rows, static_cast<size_t>(std::max<int64_t>(vertices, 0)));
+  std::vector<int32_t> result;
+  {
+    const py::gil_scoped_release release;
+    result = patches(rows, flags, static_cast<size_t>(vertices));
+  }
+  return array_of<int32_t>(std::move(result));
+}
+
+py::array nearest_rows(const py::object& sites, const py::object& queries) {
+  const Points site_rows(sites, "sites"), query_rows(queries, "queries");
+  const auto places = site_rows.span(), at = query_rows.span();
+  std::vector<int32_t> result(at.size(), -1);
+  {
+    const py::gil_scoped_release release;
+    require_finite(places, "site");
+    require_finite(at, "query");
+    const Nearest nearest(places);
+    parallel_chunks(static_cast<int64_t>(at.size()), {thread_count(0)},
+                    [&](int64_t begin, int64_t end, int) {
+                      std::vector<Neighbour> found;
+                      for (int64_t i = begin; i < end; ++i) {
+                        nearest.find(at[i], 1, found);
+                        if (!found.empty()) result[i] = found[0].id;
+                      }
+                    });
+  }
+  return array_of<int32_t>(std::move(result));
+}
+
+}  // namespace
+
+void bind_thickness(py::module_& m) {
+  py::enum_<ThicknessMode>(m, "ThicknessMode", py::module_local(),
+                           "What `MedialAnalysis.thickness` measures.")
+      .value("WALL", ThicknessMode::wall,
+             "Balls between walls: where their two normals differ by 120 degrees or more.")
+      .value("BALL", ThicknessMode::ball, "All balls; zero at every convex edge.")
+      .value("SCAN", ThicknessMode::scan,
+             "The ball that comes nearest, for noise; no normals are used.");
+  py::class_<WallThickness>(m, "WallThickness",
+                            "How thick a solid is at its samples, or how wide the gap; made by "
+                            "`MedialAnalysis.thickness`.",
+                            py::is_final(), py::module_local())
+      .def_property_readonly("values", view_property<double>(&WallThickness::values),
+                             "(k,) float64: at each of `MedialAnalysis.samples`, in the unit of "
+                             "the input; infinite where there is\nno wall, or no ball.")
+      .def_property_readonly(
+          "measured",
+          [](const py::object& self) {
+            return view_of<uint8_t>(self.cast<const WallThickness&>().measured, self)
+                .attr("view")("bool");
+          },
+          "(k,) bool: measured at the sample itself; else filled from the nearest along the "
+          "surface, or infinite.");
+  m.def("patches", &patches_of, kPatchesDoc, py::arg("triangles"), py::arg("wanted"),
+        py::arg("vertices"));
+  m.def("nearest", &nearest_rows, kNearestDoc, py::arg("sites"), py::arg("queries"));
+}
+
+}  // namespace medial::python

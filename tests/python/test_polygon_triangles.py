@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons of surfaces as triangles: always their boundary, and of those that bound a region, that region."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.polygon_triangles import polygon_triangles
+from medial_axis.core.files.read_shape import read_shape
+
+from tests.support.fuzz import repeats
+
+OUTLINES = {
+    "L": [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)],
+    "M": [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)],
+    "straight": [(0, 0), (1, 0), (2, 0), (2, 2), (0, 2)],
+    "dart": [(0, 0), (3, 0.1), (0, 0.2), (0.5, 0.1)],
+    "dart at another corner": [(3, 0.1), (0, 0.2), (0.5, 0.1), (0, 0)],
+    "spiral": [
+        *[(0, 0), (6, 0), (6, 6), (0, 6), (0, 1), (1, 1), (1, 5), (5, 5), (5, 1), (0.5, 0.5)]
+    ],
+}
+
+
+def cut(points, ring=None):
+    """The triangles of one polygon; its boundary is looked at, whatever it is."""
+    ring = np.arange(len(points)) if ring is None else np.asarray(ring)
+    triangles = polygon_triangles(points, np.array([0, len(ring)], np.int32), ring.astype(np.int32))
+    assert triangles.shape == (len(ring) - 2, 3) and triangles.dtype == np.int32
+    # Corners with the same coordinates are one.
+    place = np.unique(points, axis=0, return_inverse=True)[1].ravel()
+    assert boundary(place[triangles]) == boundary(place[ring][None])
+    return triangles
+
+
+def boundary(polygons):
+    """How often each edge is run along, less how often back."""
+    runs = Counter()
+    for a, b in zip(polygons.ravel(), np.roll(polygons, -1, axis=1).ravel(), strict=True):
+        runs[min(a, b), max(a, b)] += int(a < b) - int(a > b)
+    return {edge: count for edge, count in runs.items() if count}
+
+
+def flat(outline, axes=(0, 1, 2)):
+    """(n, 3) float64 in a plane normal to the last of the axes, turning the same way."""
+    return np.column_stack([np.asarray(outline, float), np.zeros(len(outline))])[
+        :, np.argsort(axes)
+    ]
+
+
+def signed_areas(points, triangles):
+    a, b, c = (points[triangles[:, i], :2] for i in range(3))
+    u, v = b - a, c - a
+    return (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+
+
+def area_of(points, ring):
+    x, y = points[ring, 0], points[ring, 1]
+    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2)
+
+
+def star_shaped(count, random):
+    """A simple polygon with many corners that are not convex."""
+    angles = 2 * np.pi * np.arange(count) / count
+    return flat(np.stack([np.cos(angles), np.sin(angles)], 1) * random.uniform(0.2, 1, (count, 1)))
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("outline", OUTLINES.values(), ids=OUTLINES)
+def test_concave_polygons_are_cut_inside(outline, turned):
+    points = flat(outline)
+    if turned:
+        points = points[::-1].copy()
+    areas, whole = signed_areas(points, cut(points)), area_of(points, np.arange(len(points)))
+    assert np.sign(areas).tolist() == [np.sign(whole)] * (len(points) - 2)
+    assert areas.sum() == pytest.approx(whole)
+
+
+@pytest.mark.parametrize("axes", [(0, 1, 2), (1, 2, 0), (2, 0, 1)])
+@pytest.mark.parametrize("scale", [1e-150, 1.0, 1e150])
+def test_scale_and_plane_change_nothing(axes, scale):
+    points = star_shaped(60, np.random.default_rng(1))
+    expected = cut(points)
+    np.testing.assert_array_equal(cut(scale * points[:, np.argsort(axes)]), expected)
+
+
+def test_a_quad_is_cut_from_its_first_corner_where_it_is_convex():
+    assert cut(flat([(0, 0), (1, 0), (1, 1), (0, 1)])).tolist() == [[0, 1, 2], [0, 2, 3]]
+    bent = np.array([(0, 0, 0), (1, 0, 0.2), (1, 1, 0), (0, 1, 0.2)], float)
+    assert cut(bent).tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+def test_a_polygon_of_a_hundred_thousand_corners():
+    """A star with as many spikes; the triangles have its area, none turns back."""
+    points = star_shaped(100_000, np.random.default_rng(2))
+    areas = signed_areas(points, cut(points))
+    assert areas.min() > 0
+    assert areas.sum() == pytest.approx(area_of(points, np.arange(len(points))), rel=1e-12)
+
+
+def test_a_comb_of_a_hundred_thousand_corners():
+    x = np.arange(50_000)
+    teeth = np.column_stack([np.repeat(x, 2)[1:-1] / 50_000, np.tile([0, 0, 1, 1], 25_000)[1:-1]])
+    points = flat([*teeth, (1, 2), (0, 2)])
+    areas = signed_areas(points, cut(points))
+    assert areas.sum() == pytest.approx(area_of(points, np.arange(len(points))), rel=1e-9)
+
+
+@pytest.mark.parametrize("own_corners", [True, False], ids=["the same corners", "others there"])
+@pytest.mark.parametrize("holes", [1, 5])
+def test_holes_that_bridges_join_to_the_rim(holes, own_corners):
+    """The outline runs along each bridge to the hole, round it, and back along the bridge."""
+    rim = [(0, 0), (2 * holes, 0), (2 * holes, 3), (0, 3)]
+    places, ring = list(rim), [0]
+    for i in range(holes):
+        first = len(places)
+        places += [(2 * i + 0.5, 1), (2 * i + 0.5, 2), (2 * i + 1.5, 2), (2 * i + 1.5, 1)]
+        ring += [first, first + 1, first + 2, first + 3, first, 0]
+    ring += [1, 2, 3]
+    points = flat(places)
+    if not own_corners:
+        points, ring = points[ring], np.arange(len(ring))
+    count = len(ring)
+    triangles = polygon_triangles(
+        points, np.array([0, count], np.int32), np.asarray(ring, np.int32)
+    )
+    areas = signed_areas(points, triangles)
+    # The bridges from corner 0 to holes further on pass below the holes before them.
+    assert len(triangles) == count - 2 and areas.min() > 0
+    assert areas.sum() == pytest.approx(6 * holes - holes)
+
+
+def test_repeated_corners_and_spikes_leave_the_region_as_it_is():
+    points = flat([(0, 0), (4, 0), (4, 0), (4, 4), (6, 4), (4, 4), (2, 1), (0, 4)])
+    areas = signed_areas(points, cut(points))
+    assert areas.min() >= 0 and areas.sum() == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize(
+    "outline",
+    [
+        [(0, 0), (2, 2), (2, 0), (0, 2), (-1, 1)],
+        [(0, 0)] * 6,
+        [(i, i) for i in range(7)],
+        [(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)],
+        [(0, 0), (np.nan, 0), (1, 1), (0, 2), (-1, 1)],
+        [(0, 0), (1e308, 0), (-1e308, 1), (0, 2), (-1, 1)],
+    ],
+    ids=["crossing", "one place", "one line", "touching", "NaN", "too large"],
+)
+def test_what_bounds_no_region_still_has_its_boundary(outline):
+    cut(flat(outline))
+
+
+def test_random_polygons_cross_themselves_and_end_soon():
+    random = np.random.default_rng(5)
+    cut(flat(random.normal(size=(100_000, 2))))
+    cut(flat(np.column_stack([np.arange(100_000), np.zeros(100_000)])))
+    x = np.arange(50_000)
+    back = np.column_stack([[*x, 1, 0], [*np.zeros(50_000), 0, 1]])  # back along all of them
+    cut(flat(back))
+
+
+@pytest.mark.parametrize("seed", repeats(60))
+def test_fuzzed_polygons(seed):
+    """On few places, so that corners repeat, edges overlap and touch; turned in space; each with its boundary."""
+    random = np.random.default_rng([seed, 15])
+    for _ in range(100):
+        count, grid = random.integers(3, 40), random.choice([2, 3, 5, 1000])
+        points = random.integers(0, grid, (count, 3)).astype(float)
+        points[:, 2] *= random.choice([0, 0, 1])
+        points = (
+            points @ np.linalg.qr(random.normal(size=(3, 3)))[0]
+            if random.random() < 0.5
+            else points
+        )
+        cut(points * 10.0 ** random.integers(-80, 80), random.integers(0, count, count))
+
+
+@pytest.mark.parametrize("seed", repeats(20))
+def test_fuzzed_simple_polygons(seed):
+    random = np.random.default_rng([seed, 16])
+    points = star_shaped(int(random.integers(5, 3000)), random)
+    areas = signed_areas(points, cut(points))
+    assert areas.min() > 0
+    assert areas.sum() == pytest.approx(area_of(points, np.arange(len(points))))
+
+
+def test_an_obj_cylinder_with_caps_of_many_corners(tmp_path):
+    count = 20_000
+    angles = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    lines = [f"v {np.cos(a):.9g} {np.sin(a):.9g} {z}" for a in angles for z in (0, 1)]
+    lines += [
+        f"f {2 * i + 1} {(2 * i + 2) % (2 * count) + 1} {(2 * i + 3) % (2 * count) + 1} {2 * i + 2}"
+        for i in range(count)
+    ]
+    lines.append("f " + " ".join(str(2 * i + 1) for i in reversed(range(count))))
+    lines.append("f " + " ".join(str(2 * i + 2) for i in range(count)))
+    (tmp_path / "a.obj").write_text("\n".join(lines))
+    shape, _ = read_shape(tmp_path / "a.obj")
+    a, b, c = (shape.points[shape.triangles[:, i]] for i in range(3))
+    assert len(shape.triangles) == 2 * count + 2 * (count - 2)
+    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(np.pi, rel=1e-6)
