@@ -79,7 +79,7 @@ constexpr const char* kWindingDoc =
     "winding : (q,) float64\n    Sum of the solid angles over 4 pi, up to rounding.";
 
 constexpr const char* kBuriedDoc =
-    "Where closed triangles are no boundary of the solid: overlapping shells, walls inside, sheets "
+    "Where triangles are no boundary of the solid: overlapping shells, walls inside, sheets "
     "without thickness.\n\n"
     "Parameters\n----------\npoints : (n, 3) float64\nnormals : (n, 3) float64\noffset : "
     "float\nvertices : (v, 3) float64\n"
@@ -89,7 +89,7 @@ constexpr const char* kBuriedDoc =
     "Raises\n------\nInvalidInputError, Cancelled";
 
 constexpr const char* kWallsDoc =
-    "How far the opposite wall is from points of a surface, against its normals.\n\n"
+    "How thick a solid is behind points of its surface.\n\n"
     "Parameters\n----------\npoints : (n, 3) float64\nnormals : (n, 3) float64\n    Unit, "
     "outward.\nreach : (n,) float64\n    How far one looks.\n"
     "vertices : (v, 3) float64\ntriangles : (m, 3) int32\nprogress : Progress, "
