@@ -11,8 +11,9 @@ import numpy as np
 from mathutils.kdtree import KDTree
 
 from ..core.errors import InvalidInputError
-from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32
+from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
+from .feature_size import write_feature_size
 from .material import FLAT, LIMIT, epsilon_material
 from .output_object import (
     DENSITY,
@@ -157,7 +158,8 @@ def shows_well(source: bpy.types.Object, found: SamplingReport) -> bool:
 def write_on_source(
     source: bpy.types.Object, found: SamplingReport, colours: bool = True
 ) -> bpy.types.Object:
-    """Give the vertices of a source `ma_epsilon`, the largest of the samples to which each is nearest, and colours.
+    """Give the vertices of a source `ma_epsilon`, the largest of the samples to which each is nearest, colours, and the
+    feature size with its vertex group.
 
     Raises
     ------
@@ -172,13 +174,8 @@ def write_on_source(
             f"{vertices:,} and {original:,}; apply the modifiers, or choose Write To Copy"
         )
     values = _on_vertices(found)
-    attributes = source.data.attributes
-    old = attributes.get(EPSILON.name)
-    if old is not None and (old.domain, old.data_type) != (EPSILON.domain, EPSILON.type):
-        attributes.remove(old)
-        old = None
-    target = old or attributes.new(EPSILON.name, EPSILON.type, EPSILON.domain)
-    target.data.foreach_set("value", values)
+    set_attribute(source.data, EPSILON.name, EPSILON.type, EPSILON.domain, values)
+    write_feature_size(source, found)
     if colours:
         alone = not len(source.data.color_attributes)  # else renders show those of the artist
         colour_mesh(source.data, values, 0.0, _SCALE * found.density.limit, render=alone)

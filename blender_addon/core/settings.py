@@ -564,3 +564,117 @@ def _check_range(name: str, option: Number | Integer, value: float) -> None:
             f"Expected {name} {limits.strip()}, found {value:{style}}; "
             f"the default is {option.default:{style}}"
         )
+
+
+# --- thickness
+
+
+class Between(Enum):
+    """What a length is measured of."""
+
+    WALL = "WALL"
+    GAP = "GAP"
+
+
+class Edges(Enum):
+    """What stands at sharp edges, where a ball shrinks to nothing."""
+
+    EXTRAPOLATE = "EXTRAPOLATE"
+    BALL = "BALL"
+    GREY = "GREY"
+
+
+class Noise(Enum):
+    """How good the points are."""
+
+    CLEAN = "CLEAN"
+    SCAN = "SCAN"
+
+
+THICKNESS_OPTIONS: dict[str, Any] = {
+    "limit": Number(
+        label="Limit",
+        description="What is thinner than this length is thin; 0: nothing is",
+        default=0.0,
+        minimum=0.0,
+        maximum=math.inf,
+        soft_maximum=1000.0,
+        unit="length",
+    ),
+    "between": Choice(
+        label="Measure",
+        description="What is measured",
+        default=Between.WALL,
+        items={
+            Between.WALL: ("Wall", "How thick the solid is between opposite walls"),
+            Between.GAP: ("Gap", "How wide the space between walls that face each other is"),
+        },
+    ),
+    "edges": Choice(
+        label="Edges",
+        description="What counts next to sharp edges, where no two walls face each other",
+        default=Edges.EXTRAPOLATE,
+        items={
+            Edges.EXTRAPOLATE: ("Extrapolate", "The thickness of the nearest wall"),
+            Edges.BALL: ("Ball", "The ball that fits there, which shrinks to nothing at an edge"),
+            Edges.GREY: ("Grey", "Nothing: such places are grey and never thin"),
+        },
+    ),
+    "noise": Choice(
+        label="Noise",
+        description="How good the points are",
+        default=Noise.CLEAN,
+        items={
+            Noise.CLEAN: ("Clean", "The points lie on the surface"),
+            Noise.SCAN: (
+                "Scan",
+                "The points scatter, up to a quarter of their spacing; what tapers reads too thick",
+            ),
+        },
+    ),
+    "minimum_patch": Number(
+        label="Minimum Patch",
+        description="Thin patches with less than this share of the surface are left out, in percent",
+        default=0.0,
+        minimum=0.0,
+        maximum=100.0,
+        soft_maximum=5.0,
+        unit="%",
+    ),
+}
+
+
+@dataclass(frozen=True)
+class ThicknessSettings:
+    """What is measured, and what counts as thin.
+
+    Parameters
+    ----------
+    limit : float
+        A length; what is strictly below is thin.
+    between : Between
+    edges : Edges
+        Of clean points; what a scan is measured by extrapolates.
+    noise : Noise
+    minimum_patch : float
+        Percent of the area.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+
+    limit: float = THICKNESS_OPTIONS["limit"].default
+    between: Between = THICKNESS_OPTIONS["between"].default
+    edges: Edges = THICKNESS_OPTIONS["edges"].default
+    noise: Noise = THICKNESS_OPTIONS["noise"].default
+    minimum_patch: float = THICKNESS_OPTIONS["minimum_patch"].default
+
+    @property
+    def side(self) -> Side:
+        """The side whose axis tells."""
+        return Side.INNER if self.between is Between.WALL else Side.OUTER
+
+    def __post_init__(self) -> None:
+        check_ranges(self, THICKNESS_OPTIONS)

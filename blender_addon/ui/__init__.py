@@ -26,15 +26,20 @@ def _modules() -> tuple[ModuleType, ...]:
         properties,
         self_test_operator,
         show,
+        thickness_operators,
+        thickness_panel,
+        thickness_properties,
         translation,
     )
 
     return (
         translation,
         properties,
+        thickness_properties,
         self_test_operator,
         preferences,
         operators,
+        thickness_operators,
         export_axis,
         import_points,
         presets,
@@ -42,6 +47,7 @@ def _modules() -> tuple[ModuleType, ...]:
         show,
         guide,
         panels,
+        thickness_panel,
         compute_sequence,
         menus,
         manual,

@@ -12,6 +12,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..bridge import read_scene
 from ..bridge.sequence_objects import by_frame, write_sequence
+from ..core.batch.axis_work import AxisWork
 from ..core.batch.batch import Item, begin, finish
 from ..core.batch.frames import output_path, parse_frames
 from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
@@ -121,7 +122,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         """The next item, read; None when there is nothing to compute of it."""
         item = self._items.pop(0)
         try:
-            begun = begin(item, self._settings[item.object], limit=self._limit)
+            begun = begin(item, AxisWork(self._settings[item.object]), limit=self._limit)
         except MedialAxisError as error:
             self._fail(item, error)
             return None

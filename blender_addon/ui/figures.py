@@ -31,7 +31,7 @@ def draw_result(context, layout, result):
     if hidden := result.get(axis_object.HIDDEN, 0):
         draw_wrapped(context, layout, f"{hidden:,} facets are not shown", "INFO")
     smallest, largest = axis_object.radius_range(result)
-    figures = {"Radius": f"{_length(context, smallest)} to {_length(context, largest)}"}
+    figures = {"Radius": f"{length_text(context, smallest)} to {length_text(context, largest)}"}
     if seconds := result.get(output_object.SECONDS):
         figures["Time"] = f"{seconds:.2f} s"
     _draw_figures(layout, figures, 0.3)
@@ -40,7 +40,7 @@ def draw_result(context, layout, result):
 def draw_sequence(context, layout, frame):
     """The radii of a frame of a sequence, whose colours are those of all its frames."""
     _draw_name(layout, frame)
-    smallest, largest = (_length(context, frame[name]) for name in (RADIUS_MIN, RADIUS_MAX))
+    smallest, largest = (length_text(context, frame[name]) for name in (RADIUS_MIN, RADIUS_MAX))
     _draw_figures(layout, {"Radius": f"{smallest} to {largest}"})
     _draw_legend(context, layout, frame)
 
@@ -147,10 +147,10 @@ def _draw_legend(context, layout, thing):
     if name == report_object.EPSILON.name:
         draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
     else:
-        draw_legend(layout, _length(context, start), _length(context, end))
+        draw_legend(layout, length_text(context, start), length_text(context, end))
 
 
-def _length(context, value):
+def length_text(context, value):
     """A length in the unit of the scene."""
     units = context.scene.unit_settings
     if units.system == "NONE":

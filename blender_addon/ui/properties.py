@@ -47,6 +47,8 @@ def number(name, update=None, of=OPTIONS):
         limits |= {"subtype": "ANGLE", "step": 100, "precision": 3}
     if option.unit == "%":
         limits |= {"subtype": "PERCENTAGE", "precision": 2}
+    if option.unit == "length":
+        limits |= {"subtype": "DISTANCE", "precision": 4}
     return FloatProperty(
         name=option.label,
         description=option.description,

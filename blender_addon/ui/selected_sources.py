@@ -9,6 +9,7 @@ from ..bridge.axis_object import is_result
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import is_report
+from ..bridge.thickness_object import is_copy
 from . import current_job
 
 _KINDS = "a mesh, point cloud, curve, surface, text or metaball"
@@ -37,7 +38,7 @@ def sources(context) -> list:
     report of samples, what it was made of."""
     found = []
     for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
-        source = source_of(thing) if is_result(thing) or is_report(thing) else thing
+        source = source_of(thing) if _is_made(thing) else thing
         if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
             found.append(source)
     return list(dict.fromkeys(found))
@@ -58,10 +59,15 @@ def obstacle(context) -> str:
     if not chosen:
         return f"Select {_KINDS}; nothing is selected"
     thing = chosen[0]
-    if is_result(thing) or is_report(thing):
+    if _is_made(thing):
         kind = "a medial axis" if is_result(thing) else "a report"
         return f"Select {_KINDS}; '{thing.name}' is {kind} whose source is gone"
     return f"Select {_KINDS}; '{thing.name}' is of type {thing.type.capitalize()}"
+
+
+def _is_made(thing) -> bool:
+    """A medial axis, a report of samples, or a copy that shows thickness."""
+    return is_result(thing) or is_report(thing) or is_copy(thing)
 
 
 def _of(context, name) -> list:

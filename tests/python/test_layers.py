@@ -181,6 +181,7 @@ PUBLIC = {
     "medial_mesh.h": {"axis"},
     "watertight_surface.h": {"cocone"},
     "hierarchy.h": {"skeleton"},
+    "thickness.h": {"axis"},
     "sampling.h": {"sampling"},
     "analysis.h": {"."},
 }

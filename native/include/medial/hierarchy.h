@@ -36,6 +36,7 @@ struct Level {
   Column<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
   Column<Edge> generators;        // (f) input rows p < q; the facets are in their order
   Column<int32_t> facet_of;       // (f) of the hierarchy
+  Column<double> theta, rho;      // (f) as in MedialMesh, by the rule of the hierarchy
   Column<float> sheet, erosion;   // (f) values of the facet, infinite where it always stays
   Column<Edge> wires;             // (w) edges without a facet: vertices
   Column<int32_t> edge_of;        // (w) of the hierarchy; of new ones that at the middle

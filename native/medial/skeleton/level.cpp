@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/level.h"
 
+#include "axis/significance.h"
 #include "base/sort.h"
 #include "skeleton/betti.h"
 #include "skeleton/relax.h"
@@ -183,6 +184,12 @@ class Drawer {
     level_.sheet.resize(facets);
     level_.erosion.resize(facets);
     level_.limb.resize(wires);
+    level_.theta.resize(facets);
+    level_.rho.resize(facets);
+    parallel_for(static_cast<int64_t>(facets), run_, [&](int64_t f) {
+      level_.theta[f] = theta_of(h_.sine[level_.facet_of[f]]);
+      level_.rho[f] = h_.rho[level_.facet_of[f]];
+    });
     for (size_t f = 0; f < facets; ++f) {
       const Thickness& value = h_.values.facet[level_.facet_of[f]];
       level_.sheet[f] = value.sheet;

@@ -15,7 +15,8 @@ struct Hierarchy::Parts {
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
   Values values;
-  Array<float> limb;  // per vertex
+  Array<float> limb;        // per vertex
+  Array<double> sine, rho;  // per facet, as in Significance
   PointTree samples;
   std::vector<int32_t> row;  // of the samples
   Array<int32_t> outside;    // as from outside_components
