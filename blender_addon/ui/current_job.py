@@ -73,7 +73,7 @@ class _Settling:
     until none of them overlaps another."""
 
     def __init__(self) -> None:
-        self._left = 12
+        self._left = 30
 
     def __call__(self) -> float | None:
         redraw()
