@@ -17,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 VIEWPORT = "1056x636+0+22"  # of the window: without the editors on the right and below
-WIDTH, COLOURS = 880, 64
+WIDTH, COLOURS = 880, 128
 
 
 def main() -> int:

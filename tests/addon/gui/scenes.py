@@ -348,7 +348,7 @@ def scene_first_glance():
         kept = shading.type, shading.color_type
         yield from click(*at(COMPUTE))
         yield result_exists
-        yield 2.5
+        yield patience(1.0)
         look(f"{name}-2-computed")
         (result,) = medial_objects()
         assert bpy.context.selected_objects == [source] == [bpy.context.object]
@@ -384,46 +384,46 @@ def scene_tutorial():
     yield 0.5
     yield from click(*at(COMPUTE))
     yield result_exists
-    yield 2.5
+    yield patience(1.5)
     look("02")  # one click
     show_colours()
-    yield 0.7
+    yield patience(0.7)
     look("03")
     (result,) = medial_objects()
     assert bpy.ops.object.medial_axis_source_as_wire(name=result.name) == {"FINISHED"}
-    yield 0.7
+    yield patience(0.7)
     look("04")
     panel.simplify = 4.0
-    yield 2.5
+    yield patience(1.5)
     look("05")
     assert bpy.ops.object.medial_axis_source_as_wire(name=result.name) == {"FINISHED"}
     panel.form = "CURVE"
-    yield 2.5
+    yield patience(1.5)
     look("06")
     source.rotation_euler.z += 0.8
     source.location.x += 0.6
-    yield 2.5
+    yield patience(1.5)
     look("07")  # it follows
     panel.form, panel.simplify = "CLEAN", 0.0
     panel.side = "OUTER"
     yield from click(*at(COMPUTE))
     yield no_job
-    yield 2.5
+    yield patience(1.5)
     look("08")
     panel.side = "AUTOMATIC"
     bpy.data.batch_remove([*medial_objects(), source])
     with bpy.context.temp_override(window=window(), area=viewport()):
-        bpy.ops.mesh.primitive_torus_add(major_segments=128, minor_segments=40, minor_radius=0.35)
+        bpy.ops.mesh.primitive_torus_add(major_segments=192, minor_segments=64, minor_radius=0.35)
     torus = bpy.context.object
     torus.data.transform(uneven())
     yield 0.7
     with bpy.context.temp_override(window=window(), area=viewport()):
         assert bpy.ops.object.medial_axis_sampling_report() == {"FINISHED"}
-    yield 2.5
+    yield patience(1.5)
     look("09")
     yield from click(*at(COMPUTE))
     yield result_exists
-    yield 2.5
+    yield patience(1.5)
     look("10")
 
 
