@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the pictures of docs/tutorial.md: plays the scene `tutorial` in Blender's window, and keeps what it sees, small.
+"""Makes the pictures of docs/tutorial.md: plays the scene `tutorial` in Blender's window; keeps what it sees, small.
 
     python3 tests/demo/tutorial_pictures.py [--blender blender] [--output docs/pictures]
 
