@@ -26,8 +26,8 @@ class Graph:
 
 def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
     """The graph of (e, 2) edges between (n, 3) points, as long as they are in space."""
-    ends = np.concatenate((edges, edges[:, ::-1])).astype(np.int64)
-    ends = ends[np.lexsort((ends[:, 1], ends[:, 0]))]
+    ends = np.concatenate((edges, edges[:, ::-1]))
+    ends = ends[np.argsort(ends[:, 0], kind="stable")].astype(np.int64)
     length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
     first = np.concatenate(([0], np.cumsum(np.bincount(ends[:, 0], minlength=len(points)))))
     return Graph(first, ends[:, 1], length)
