@@ -29,7 +29,8 @@ def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
     ends = np.concatenate((edges, edges[:, ::-1]))
     ends = ends[np.argsort(ends[:, 0], kind="stable")].astype(np.int64)
     length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
-    first = np.concatenate(([0], np.cumsum(np.bincount(ends[:, 0], minlength=len(points)))))
+    first = np.zeros(len(points) + 1, np.int64)
+    np.cumsum(np.bincount(ends[:, 0], minlength=len(points)), out=first[1:])
     return Graph(first, ends[:, 1], length)
 
 
@@ -95,5 +96,4 @@ def _edges_of(
     """The rows of the edges of vertices, one vertex after the other, and how many each has."""
     start, count = graph.first[vertices], graph.first[vertices + 1] - graph.first[vertices]
     before = np.cumsum(count) - count
-    rows: NDArray[np.int64] = np.repeat(start - before, count) + np.arange(count.sum())
-    return rows, count
+    return np.arange(int(count.sum()), dtype=np.int64) + np.repeat(start - before, count), count
