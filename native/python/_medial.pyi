@@ -425,14 +425,13 @@ class Hierarchy:
 class ThicknessMode:
     """What `MedialAnalysis.thickness` measures."""
 
-    WALL: ThicknessMode
-    """Balls between walls: where their two normals differ by 120 degrees or more. Elsewhere, as next to an edge, what
-    the nearest wall along the surface has, but never less than the ball at the sample itself."""
-    BALL: ThicknessMode
-    """All balls; zero at every convex edge."""
-    SCAN: ThicknessMode
-    """The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No
-    normals are used; what tapers reads too thick."""
+    # Balls between walls, whose normals differ by 120 degrees or more. Elsewhere, as next to an edge, what the nearest wall
+    # along the surface has, or the largest ball that is near, but never less than the ball at the sample itself.
+    WALL: ThicknessMode  # 0
+    BALL: ThicknessMode  # 1: all balls; zero at every convex edge
+    # The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No normals are
+    # used; what tapers reads too thick.
+    SCAN: ThicknessMode  # 2
 
 @final
 class WallThickness:

@@ -54,7 +54,7 @@ class AnalysedSamples:
     levels : Levels
         The hierarchy, once a form asked for it.
     faces : (n,) int32 or None
-        The triangle of the shape that each sample of its faces lies on.
+        The triangle of the shape that each sample of its faces lies on; -1: it closes an opening.
     """
 
     points: NDArray[np.float64]

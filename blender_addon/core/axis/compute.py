@@ -12,7 +12,7 @@ import numpy as np
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Form, Settings
+from ..settings import Form, Settings, Side
 from .axis_warnings import axis_warnings
 from .choose_samples import ChosenSamples, choose_samples
 from .extract import extract
@@ -121,6 +121,7 @@ def compute_axis(
     start = time.perf_counter()
     progress = progress or Progress()
     settings = settings.with_side()
+    limit = limit.used(faces=len(shape.triangles) > 0, both=settings.side is not Side.INNER)
     form, wanted = settings.form_of_side, settings.form
     progress.until(_ANALYSIS if form is not Form.PUBLISHED else 1.0)
     chosen = choose_samples(shape, settings, progress, limit)
