@@ -17,7 +17,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from . import __version__
+from . import __version__, cli_skeleton
 from .console import ClosedPipeError, Console, open_streams
 from .core.batch.axis_work import AxisWork
 from .core.batch.batch import Item, begin, failure, finish
@@ -64,6 +64,7 @@ examples:
   medial_axis bunny.ply hand.obj axes/ --format ply --theta 30 --side both
   medial_axis cloth_####.obj axes/cloth_####.npz --frames 1-250
   medial_axis walk.blend axes/{name}_####.npz --frames 1-250 --object Body --json
+  medial_axis skeleton neuron.ply neuron.swc
 
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
@@ -92,6 +93,8 @@ exit codes:
 def main(words: Sequence[str]) -> int:
     """Run a command line; returns its exit code."""
     open_streams()
+    if words and words[0] == "skeleton":
+        return cli_skeleton.main(words[1:])
     try:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why

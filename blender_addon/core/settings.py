@@ -57,6 +57,14 @@ class Criteria(Enum):
     RATIO = "RATIO"
 
 
+class Bind(Enum):
+    """How an object follows an armature."""
+
+    NONE = "NONE"
+    AUTOMATIC = "AUTOMATIC"
+    AXIS = "AXIS"
+
+
 class Form(Enum):
     """What becomes of the facets that the conditions select."""
 
@@ -375,6 +383,49 @@ LIMITS: dict[str, Any] = {
         },
     ),
 }
+# Options of a skeleton, beside those that say how faces are sampled.
+SKELETON_OPTIONS: dict[str, Any] = {
+    "detail": Number(
+        label="Detail",
+        description="How many ends the skeleton has: more let shorter and lighter branches stay",
+        default=0.5,
+        minimum=0.0,
+        maximum=1.0,
+        soft_maximum=1.0,
+        unit="",
+    ),
+    "simplify": Number(
+        label="Simplify",
+        description="How far the skeleton may leave its curve to need fewer points, as a share of the radius "
+        "there; 0 keeps all points",
+        default=0.02,
+        minimum=0.0,
+        maximum=1.0,
+        soft_maximum=0.5,
+        unit="",
+    ),
+    "mirror": Switch(
+        label="Mirror",
+        description="Where the skeleton is symmetric in X to 2 % of its size, both halves become their mean",
+        default=True,
+    ),
+}
+BIND = Choice(
+    label="Bind",
+    description="How the object follows the armature",
+    default=Bind.AXIS,
+    items={
+        Bind.NONE: ("None", "It does not: bones alone"),
+        Bind.AUTOMATIC: (
+            "Automatic",
+            "Blender's automatic weights; where these fail, those of Axis",
+        ),
+        Bind.AXIS: (
+            "Axis",
+            "Each vertex follows the branch of the skeleton that its ball belongs to",
+        ),
+    },
+)
 # Options of how results look in Blender; what is computed does not depend on them.
 LOOKS: dict[str, Any] = {
     "colours": Switch(
@@ -523,6 +574,39 @@ class Settings:
 
     def __post_init__(self) -> None:
         check_ranges(self, OPTIONS)
+
+
+@dataclass(frozen=True)
+class SkeletonSettings:
+    """What becomes a branch of a skeleton.
+
+    Parameters
+    ----------
+    detail, simplify : float
+    mirror : bool
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+
+    detail: float = SKELETON_OPTIONS["detail"].default
+    simplify: float = SKELETON_OPTIONS["simplify"].default
+    mirror: bool = SKELETON_OPTIONS["mirror"].default
+
+    def __post_init__(self) -> None:
+        check_ranges(self, SKELETON_OPTIONS)
+
+    @property
+    def limb(self) -> float:
+        """The shortest branch, as a share of the diagonal: 16 %, 4 %, 1 % for a detail of 0, 0.5, 1."""
+        return 0.04 * 4.0 ** (1.0 - 2.0 * self.detail)
+
+    @property
+    def share(self) -> float:
+        """The least share of the surface that a branch carries: 40 %, 2.5 %, 0.16 % for a detail of 0, 0.5, 1."""
+        return 0.025 * 16.0 ** (1.0 - 2.0 * self.detail)
 
 
 @dataclass(frozen=True)

@@ -5,14 +5,30 @@ from dataclasses import dataclass
 
 import bpy
 
+from ..bridge.armature_object import is_armature
 from ..bridge.axis_object import is_result
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import is_report
+from ..bridge.skeleton_object import is_skeleton
 from ..bridge.thickness_object import is_copy
 from . import current_job
 
 _KINDS = "a mesh, point cloud, curve, surface, text or metaball"
+
+
+# What is made of a source and has no surface of its own.
+_MADE = {
+    is_result: "a medial axis",
+    is_report: "a report",
+    is_copy: "a report",
+    is_skeleton: "a skeleton",
+    is_armature: "an armature",
+}
+
+
+def _is_made(thing) -> bool:
+    return any(is_kind(thing) for is_kind in _MADE)
 
 
 @dataclass(frozen=True)
@@ -34,8 +50,8 @@ class Source:
 
 
 def sources(context) -> list:
-    """The selected objects that have a surface or points, and those in edit mode; instead of a medial axis or a
-    report of samples, what it was made of."""
+    """The selected objects that have a surface or points, and those in edit mode; instead of a medial axis, a report
+    of samples, a skeleton or an armature, what it was made of."""
     found = []
     for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
         source = source_of(thing) if _is_made(thing) else thing
@@ -60,14 +76,9 @@ def obstacle(context) -> str:
         return f"Select {_KINDS}; nothing is selected"
     thing = chosen[0]
     if _is_made(thing):
-        kind = "a medial axis" if is_result(thing) else "a report"
+        kind = next(words for is_kind, words in _MADE.items() if is_kind(thing))
         return f"Select {_KINDS}; '{thing.name}' is {kind} whose source is gone"
     return f"Select {_KINDS}; '{thing.name}' is of type {thing.type.capitalize()}"
-
-
-def _is_made(thing) -> bool:
-    """A medial axis, a report of samples, or a copy that shows thickness."""
-    return is_result(thing) or is_report(thing) or is_copy(thing)
 
 
 def _of(context, name) -> list:

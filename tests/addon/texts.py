@@ -34,6 +34,7 @@ DATA = {
     "step {}",
     " Medial Axis Sequence",
     "Medial Axis Self-Test",
+    "Medial Axis Armature",
     "the arrays of a mesh contradict each other",
 }
 # Parts of sentences that stand in a source as a single word, or inside of another sentence.

@@ -6,13 +6,11 @@ import math
 import bpy
 import numpy as np
 from mathutils import Vector
-from thick_edges import thick_edges
 
 VIEW = Vector((0.62, -1.0, 0.42))  # from the shape to the camera
 SUN = Vector((-0.3, -0.8, 1.0))  # from the shape to the light
 PIXELS = (1200, 900)
 SAMPLES = 32
-THICKNESS = 0.006  # of edges that stand by themselves, as a share of the shape's radius
 
 
 def arrange(source, result):
@@ -22,7 +20,6 @@ def arrange(source, result):
     source.data.materials.append(glass())
     source.visible_shadow = source.visible_diffuse = source.visible_glossy = False
     result.show_in_front = False
-    thick_edges(result, THICKNESS * radius)
     look_at(center, radius, world_points(source))
     light()
     use_cycles()

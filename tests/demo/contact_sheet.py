@@ -4,7 +4,7 @@
     blender --background --factory-startup --python-exit-code 1 --python tests/demo/contact_sheet.py -- \\
         --zip dist/medial_axis-0.1.0.zip --output pictures [--only cube igea ...] [--forms published clean curve]
 
-The surface is translucent, the axis coloured by radius; edges that stand by themselves are drawn as tubes. With
+The surface is translucent, the axis coloured by radius; edges that stand by themselves are tubes. With
 --forms there is a row per mesh and a column per form. Every picture is rendered by itself; ImageMagick's `montage`
 puts them side by side. What cannot be computed is printed with what the add-on says. Files come from the folder
 in MEDIAL_AXIS_TEST_DATA; those that are not there are named and left out.

@@ -100,11 +100,11 @@ def hausdorff(points, a, b):
 
 @pytest.mark.parametrize("name", ["torus", "capsule", "knot"])
 def test_exact_places_lie_on_the_voronoi_edges(sampled, name):
-    _, analysis, hierarchy = sampled(name, 2000)
+    shape, _, hierarchy = sampled(name, 2000)
     raw, level = curve_of(hierarchy, name), curve_of(hierarchy, name, relaxed=True)
     a, b = raw.vertices[raw.wires[:, 0]], raw.vertices[raw.wires[:, 1]]
     assert hausdorff(level.exact, a, b) < 1e-12 * hierarchy.diagonal
-    points = sampled(name, 2000)[0].sample(2000, 0)
+    points = shape.sample(2000, 0)
     nearest = np.linalg.norm(level.exact[:, None] - points, axis=2).min(axis=1)
     assert level.exact_radius == pytest.approx(nearest, rel=1e-12)
     # In the order of the curve: of all the wires each new one stands for a piece.

@@ -66,6 +66,12 @@ class Computation:
         return self.chosen.samples.density
 
     @property
+    def missed(self) -> float | None:
+        """The share of the surface whose walls are too close for the samples; None where no faces tell."""
+        walls = self.chosen.samples.walls
+        return None if walls is None else walls.missed
+
+    @property
     def key(self) -> str:
         """Names the analysis for `refilter`."""
         return self.chosen.samples.key

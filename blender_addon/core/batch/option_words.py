@@ -13,10 +13,12 @@ from ..settings import (
     LIMITS,
     OPTIONS,
     SAMPLING_OPTIONS,
+    SKELETON_OPTIONS,
     THICKNESS_OPTIONS,
     Between,
     Choice,
     Settings,
+    SkeletonSettings,
     Switch,
     ThicknessSettings,
 )
@@ -34,6 +36,11 @@ def add_options(parser: argparse._ArgumentGroup) -> None:
 def add_limits(parser: argparse._ArgumentGroup) -> None:
     """As `add_options`, for MemoryLimit."""
     _add(parser, LIMITS)
+
+
+def add_skeleton_options(parser: argparse._ArgumentGroup) -> None:
+    """As `add_options`, for SkeletonSettings."""
+    _add(parser, SKELETON_OPTIONS)
 
 
 def add_thickness(parser: argparse._ArgumentGroup) -> None:
@@ -104,6 +111,22 @@ def limit_from(words: argparse.Namespace) -> MemoryLimit:
         A number out of its range.
     """
     return MemoryLimit(**_given(words, LIMITS))
+
+
+def skeleton_settings_from(words: argparse.Namespace) -> SkeletonSettings:
+    """The settings of a skeleton that a parsed command line means.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+    return SkeletonSettings(**_given(words, SKELETON_OPTIONS))
+
+
+def sampling_from(words: argparse.Namespace) -> Settings:
+    """As `settings_from`, of what `add_sampling` adds."""
+    return Settings(**_given(words, {name: OPTIONS[name] for name in _MEASURED}))
 
 
 def as_words(settings: Settings) -> dict[str, str | float | bool]:

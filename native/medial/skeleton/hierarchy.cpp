@@ -172,7 +172,8 @@ size_t Hierarchy::bytes() const {
   const InnerComplex& c = p.complex;
   return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
                  c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row, p.outside,
-                 p.sine, p.rho);
+                 p.sine, p.rho) +
+         p.samples.bytes();
 }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 
