@@ -158,8 +158,18 @@ def job():
     return addon("ui.current_job").job()
 
 
+def job_exists():
+    return job() is not None
+
+
+job_exists.patience = (
+    10.0  # a click begins a job at once; one that was refused has none to wait for
+)
+
+
 def job_runs():
-    return job() is not None and job().fraction > 0.02
+    assert job() is not None, "the job ended before it was seen to run; was it refused?"
+    return job().fraction > 0.02
 
 
 def no_job():
@@ -243,6 +253,7 @@ def start_long_run():
     """Click the button; returns when the job runs and the picture was taken."""
     yield from open_tab()
     yield from click(*at(COMPUTE))
+    yield job_exists
     yield job_runs
     assert medial_objects() == []
 
@@ -484,6 +495,7 @@ def scene_cancel_surface_with_escape():
     cloud()
     yield from open_tab()
     yield from click(*at(RECONSTRUCT))
+    yield job_exists
     yield job_runs
     look("running")
     yield from key("Escape")
@@ -644,6 +656,7 @@ def scene_window_closed_while_running():
     assert second != window()
     with bpy.context.temp_override(window=second):
         assert bpy.ops.object.medial_axis("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield job_exists
     yield job_runs
     with bpy.context.temp_override(window=second):
         bpy.ops.wm.window_close()
@@ -731,6 +744,7 @@ def scene_cancel_sequence_with_escape():
     folder = Path(FOLDER) / "cancelled sequence"
     yield from open_tab()
     start_sequence(folder)
+    yield job_exists
     yield job_runs
     look("running")
     yield from key("Escape")
@@ -799,7 +813,8 @@ def play(scene):
                 waiting = None
             wish = next(scene)
             if callable(wish):
-                waiting = (wish, time.monotonic() + patience(PATIENCE))
+                seconds = getattr(wish, "patience", PATIENCE)
+                waiting = (wish, time.monotonic() + patience(seconds))
                 return 0.05
             return wish
         except StopIteration:
