@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT
-from medial_axis.core.settings import LIMITS, OPTIONS, THICKNESS_OPTIONS, Switch
+from medial_axis.core.settings import LIMITS, LOOKS, OPTIONS, THICKNESS_OPTIONS, Switch
 from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -80,7 +80,7 @@ def sources():
 @pytest.fixture(scope="session")
 def words(sources):
     """Every word of the sources, and those that are put together there."""
-    put_together = {f"ma_{name}" for name in OPTIONS}
+    put_together = {f"ma_{name}" for name in (*OPTIONS, *LOOKS)}
     return set(re.findall(r"\w+", sources)) | put_together
 
 
