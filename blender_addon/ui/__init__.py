@@ -10,6 +10,7 @@ from ..core.machine import native
 
 def _modules() -> tuple[ModuleType, ...]:
     from . import (
+        asset_library,
         command,
         compute_sequence,
         current_job,
@@ -17,6 +18,7 @@ def _modules() -> tuple[ModuleType, ...]:
         import_points,
         manual,
         menus,
+        node_groups,
         operators,
         panels,
         preferences,
@@ -30,6 +32,7 @@ def _modules() -> tuple[ModuleType, ...]:
         translation,
         properties,
         self_test_operator,
+        asset_library,
         preferences,
         operators,
         export_axis,
@@ -38,6 +41,7 @@ def _modules() -> tuple[ModuleType, ...]:
         panels,
         compute_sequence,
         menus,
+        node_groups,
         manual,
         current_job,
         command,

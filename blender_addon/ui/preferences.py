@@ -11,6 +11,7 @@ from ..core.machine.cache import CACHE
 from ..core.machine.memory_limit import MemoryLimit
 from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
 from . import self_test_operator
+from .asset_library import draw_library
 from .manual import draw_manual
 from .properties import choice_of, integer_of
 from .translation import say
@@ -49,6 +50,7 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
     def draw(self, context):
         _draw_installed(context, self.layout.box().column())
         _draw_memory(self.layout.box().column(), self)
+        draw_library(self.layout.box().column())
         _draw_test(context, self.layout.box().column())
         draw_manual(self.layout)
 

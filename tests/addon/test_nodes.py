@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The groups of Geometry Nodes: what they make of an axis, in this Blender as in any other."""
 
+import subprocess
+from pathlib import Path
+
+import bmesh
 import bpy
 import numpy as np
 import pytest
-from scene import addon, attribute, compute, ellipsoid, link, positions, result_of, torus
+from scene import MODULE, addon, attribute, compute, ellipsoid, link, program, result_of, select, torus
 
 KEYS = ("FILTER", "BALLS", "REBUILD", "COLOUR")
 
@@ -39,8 +43,6 @@ def instances(thing):
 
 
 def volume(mesh):
-    import bmesh
-
     with_bmesh = bmesh.new()
     with_bmesh.from_mesh(mesh)
     found = abs(with_bmesh.calc_volume())
@@ -198,3 +200,98 @@ def colours(mesh):
     found = np.empty(4 * len(data), np.float32)
     data.foreach_get("color", found)
     return found.reshape(-1, 4)[:, :3]
+
+
+# --- the menu, the library, and files without the add-on
+
+
+def test_the_menu_adds_a_group_to_the_axis_of_the_active_object():
+    source = ellipsoid()
+    with pytest.raises(RuntimeError, match="Select a medial axis"):
+        bpy.ops.object.medial_axis_nodes(group="BALLS")
+    compute(side="INNER")
+    select(source)
+    for _ in range(2):
+        assert bpy.ops.object.medial_axis_nodes(group="BALLS") == {"FINISHED"}
+    result = result_of(source)
+    assert [one.node_group for one in result.modifiers] == 2 * [groups().group("BALLS")]
+    assert not source.modifiers and len(bpy.data.node_groups) == 1
+
+
+def libraries():
+    return [(one.name, Path(one.path)) for one in bpy.context.preferences.filepaths.asset_libraries]
+
+
+def test_the_library_is_registered_and_is_gone_when_the_add_on_is_disabled():
+    before = libraries()
+    folder = Path(addon().__file__).parent / "nodes"
+    assert bpy.ops.wm.medial_axis_asset_library() == {"FINISHED"}
+    assert libraries() == [*before, ("Medial Axis", folder)]
+    assert bpy.ops.wm.medial_axis_asset_library() == {"FINISHED"}
+    assert libraries() == before
+    bpy.ops.wm.medial_axis_asset_library()
+    bpy.ops.preferences.addon_disable(module=MODULE)
+    try:
+        assert libraries() == before
+    finally:
+        bpy.ops.preferences.addon_enable(module=MODULE)
+
+
+def test_the_library_is_small_and_holds_all_groups_in_the_catalogue():
+    module, folder = groups(), Path(addon().__file__).parent / "nodes"
+    file = folder / module.FILE
+    assert file.stat().st_size < 300_000
+    catalogue = (folder / module.CATALOGUE_FILE).read_text(encoding="utf-8")
+    assert f"\n{module.CATALOGUE}:Medial Axis:" in catalogue
+    with bpy.data.libraries.load(str(file), assets_only=True) as (there, wanted):
+        wanted.node_groups = list(there.node_groups)
+    names = {group.name for group in module.GROUPS.values()}
+    assert {one.name for one in wanted.node_groups} == names
+    assert {one.asset_data.catalog_id for one in wanted.node_groups} == {module.CATALOGUE}
+
+
+def test_groups_of_the_library_evaluate_like_those_that_are_built():
+    file = Path(addon().__file__).parent / "nodes" / groups().FILE
+    thing = two_balls()
+    counts = [len(instances_of(thing, "BALLS", own)) for own in (None, file)]
+    assert counts == [2, 2]
+    found = volume(evaluated(modified(thing, "REBUILD", file, {"Min Radius": 0.6, "Voxel": 0.03})))
+    assert found == pytest.approx(ball_volume(1.0), rel=0.02)
+
+
+def modified(thing, key, file, values):
+    """The object with one modifier alone: a group that is built, or that of a library."""
+    thing.modifiers.clear()
+    modifier = groups().add_modifier(thing, key)
+    if file is not None:
+        name = groups().GROUPS[key].name
+        with bpy.data.libraries.load(str(file)) as (_, wanted):
+            wanted.node_groups = [name]
+        modifier.node_group = wanted.node_groups[0]
+    addon("bridge.nodes.inputs").set_inputs(modifier, values)
+    return thing
+
+
+def instances_of(thing, key, file):
+    return instances(modified(thing, key, file, {}))
+
+
+COUNT = """
+import bpy
+graph = bpy.context.evaluated_depsgraph_get()
+thing = bpy.data.objects["Two"]
+assert not any("medial" in addon.module for addon in bpy.context.preferences.addons)
+print("COUNTED", len(thing.evaluated_get(graph).data.polygons))
+"""
+
+
+def test_a_file_evaluates_without_the_add_on(tmp_path):
+    thing = two_balls()
+    with_group(thing, "REBUILD", Min_Radius=0.6, Voxel=0.1)
+    expected = len(evaluated(thing).polygons)
+    file = tmp_path / "two.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    words = [program(), "--background", "--factory-startup", str(file), "--python-expr", COUNT]
+    done = subprocess.run(words, capture_output=True, text=True)
+    assert f"COUNTED {expected}\n" in done.stdout, done.stdout + done.stderr
+    assert expected > 100

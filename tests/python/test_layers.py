@@ -28,8 +28,9 @@ MAY_IMPORT = {
     "core/axis": {"core", "core/machine"},
     "core/files": {"core", "core/machine", "core/axis"},
     "core/batch": {"core", "core/machine", "core/axis", "core/files", ""},
-    "bridge": {*CORE, ""},
-    "ui": {*CORE, "bridge", ""},
+    "bridge": {*CORE, "bridge/nodes", ""},
+    "bridge/nodes": {"bridge"},
+    "ui": {*CORE, "bridge", "bridge/nodes", ""},
 }
 ON_TOP = {"core.known_box"}  # of core; the rooms below do not see it
 
