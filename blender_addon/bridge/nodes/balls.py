@@ -23,7 +23,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
         "NodeSocketInt", "Subdivisions", 2, "Of each sphere", min_value=1, max_value=6
     )
     sphere = tree.node("GeometryNodeMeshIcoSphere", 1.0, level)
-    round_one = tree.node("GeometryNodeSetShadeSmooth", named={"Geometry": sphere})
+    round_one = tree.node("GeometryNodeSetShadeSmooth", sphere)
     balls = tree.node(
         "GeometryNodeInstanceOnPoints",
         named={"Points": points, "Instance": round_one, "Scale": radius},

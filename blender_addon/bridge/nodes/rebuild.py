@@ -26,7 +26,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     points, radius = points_with_radii(tree, tree.math("MULTIPLY", voxel, merge))
     surface = _from_distances if HAS_DISTANCE_GRIDS else _from_fog
     mesh = surface(tree, points, radius, voxel)
-    return tree.output(tree.node("GeometryNodeSetShadeSmooth", named={"Geometry": mesh}))
+    return tree.output(tree.node("GeometryNodeSetShadeSmooth", mesh))
 
 
 def _voxel(tree: Tree) -> NodeSocket:
