@@ -24,6 +24,7 @@ def _modules() -> tuple[ModuleType, ...]:
         preferences,
         presets,
         properties,
+        rebuild,
         self_test_operator,
         translation,
     )
@@ -39,6 +40,7 @@ def _modules() -> tuple[ModuleType, ...]:
         import_points,
         presets,
         panels,
+        rebuild,
         compute_sequence,
         menus,
         node_groups,

@@ -40,10 +40,15 @@ GROUPS = {
 }
 
 
+def is_group(tree: bpy.types.NodeTree | None, key: str) -> bool:
+    """Whether this is one of our groups, by whatever name."""
+    return tree is not None and tree.get(_BUILT_BY) == key
+
+
 def group(key: str) -> bpy.types.GeometryNodeTree:
     """The group of this file, built when it has none; what someone changed in it stays."""
     for found in bpy.data.node_groups:
-        if found.library is None and found.get(_BUILT_BY) == key:
+        if found.library is None and is_group(found, key):
             return found
     made = GROUPS[key].build(GROUPS[key].name)
     made[_BUILT_BY] = key
