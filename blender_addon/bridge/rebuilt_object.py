@@ -15,7 +15,7 @@ import bpy
 from ..core.axis.solid_difference import SolidDifference, solid_difference
 from ..core.errors import InvalidInputError
 from ..core.settings import Side
-from .axis_object import settings_of
+from .axis_object import radius_range, settings_of
 from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
 from .output_object import SOURCE, is_gone, new_object, output_of, source_of
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 SUFFIX = " Rebuilt"
 REBUILT = "ma_rebuilt"  # marks the object
 MEAN, LARGEST, VOLUME = "ma_rebuilt_mean", "ma_rebuilt_largest", "ma_rebuilt_volume"
-_PARTS = 256  # voxels along the diagonal of the axis
+_PARTS = 256  # voxels along the diagonal
 
 
 def is_rebuilt(thing: bpy.types.Object) -> bool:
@@ -64,15 +64,15 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
     made = new_object(result, SUFFIX, result.data)
     made.matrix_world = result.matrix_world
     made[REBUILT], made[SOURCE] = True, result
-    set_inputs(add_modifier(made, "REBUILD"), {"Voxel": result_diagonal(result) / _PARTS})
+    set_inputs(add_modifier(made, "REBUILD"), {"Voxel": _diagonal(result) / _PARTS})
     return made
 
 
-def result_diagonal(result: bpy.types.Object) -> float:
-    """Of the box round an axis, in its own frame."""
+def _diagonal(result: bpy.types.Object) -> float:
+    """Of the box round an axis, in its own frame, and the largest ball: the axis of a ball is a point."""
     corners = [tuple(corner) for corner in result.bound_box]
     sides = (max(values) - min(values) for values in zip(*corners, strict=True))
-    return sum(side * side for side in sides) ** 0.5
+    return sum(side * side for side in sides) ** 0.5 + 2 * radius_range(result)[1]
 
 
 def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidDifference | None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..attributes import RADIUS
 from .radii import points_with_radii
 from .tree import Tree
 
@@ -30,17 +31,28 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
 
 
 def _voxel(tree: Tree) -> NodeSocket:
-    """The size of voxels: what is asked for, or 1/128 of the diagonal of the axis."""
+    """The size of voxels: what is asked for, or 1/128 of the diagonal of the axis and its largest ball.
+
+    Without the ball a solid that is one, whose axis is a point, would get as many voxels as memory holds.
+    """
     asked = tree.number(
-        "Voxel", 0.0, "Size of voxels; 0: a 128th of the diagonal of the axis", "DISTANCE"
+        "Voxel", 0.0, "Size of voxels; 0: a 128th of the diagonal of the solid", "DISTANCE"
     )
     box = tree.node("GeometryNodeBoundBox", tree.geometry).node
     across = tree.node(
         "ShaderNodeVectorMath", box.outputs["Max"], box.outputs["Min"], operation="SUBTRACT"
     )
     length = tree.node("ShaderNodeVectorMath", across, operation="LENGTH")
+    found = tree.node(
+        "GeometryNodeAttributeStatistic",
+        named={"Geometry": tree.geometry, "Attribute": tree.attribute(RADIUS.name)},
+        data_type="FLOAT",
+        domain="POINT",
+    ).node
+    largest = next(s for s in found.outputs if s.enabled and s.name == "Max")
+    whole = tree.math("MULTIPLY_ADD", largest, 2.0, length)
     return tree.choose(
-        tree.compare("GREATER_THAN", asked, 0.0), tree.math("DIVIDE", length, 128.0), asked
+        tree.compare("GREATER_THAN", asked, 0.0), tree.math("DIVIDE", whole, 128.0), asked
     )
 
 
