@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command line (docs/command_line.md): files in, medial axes as files out.
+"""The command line (docs/command_line.md): files in, medial axes or lengths as files out.
 
 The same in three places: `blender --command medial_axis` from 4.2, `blender --background --python .../__main__.py --`
 in every version, and `python3 -m medial_axis` without Blender.
@@ -18,10 +18,21 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from . import __version__
+from . import __version__, cli_skeleton
+from .core.axis.density import percent
+from .core.batch.axis_work import AxisWork
 from .core.batch.batch import Item, begin, failure, finish
 from .core.batch.frames import at_frame, has_number, output_path, parse_frames
-from .core.batch.option_words import add_limits, add_options, limit_from, settings_from
+from .core.batch.option_words import (
+    add_limits,
+    add_options,
+    add_sampling,
+    add_thickness,
+    limit_from,
+    settings_from,
+    thickness_from,
+)
+from .core.batch.thickness_work import ThicknessWork
 from .core.errors import (
     Cancelled,
     DegenerateInputError,
@@ -32,10 +43,12 @@ from .core.errors import (
 from .core.files.read import READERS
 from .core.files.read_shape import read_shape
 from .core.files.write import FORMATS, format_of
+from .core.files.write_thickness import THICKNESS_FORMATS, thickness_suffix
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 
-DONE, FAILED, USAGE, INPUT, CANCELLED = range(5)
+DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
+THICKNESS = "thickness"  # the first word, where lengths are wanted and no axes
 
 _EXAMPLES = """\
 INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend and what Blender imports.
@@ -43,19 +56,42 @@ INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend a
 OUTPUT    a file (.ma .ply .obj .off .npz), or a folder; {name} is the object or the file, {file} the
           file, #### the frame.
 
+Lengths and no axes: medial_axis thickness --help
+
 examples:
   medial_axis bunny.ply bunny.ma
   medial_axis bunny.ply hand.obj axes/ --format ply --theta 30 --side both
   medial_axis cloth_####.obj axes/cloth_####.npz --frames 1-250
   medial_axis walk.blend axes/{name}_####.npz --frames 1-250 --object Body --json
+  medial_axis skeleton neuron.ply neuron.swc
 
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
 """
 
 
+_EXAMPLES_OF_THICKNESS = """\
+INPUT     as of medial_axis --help.
+OUTPUT    a file, or a folder; {name}, {file} and #### as there.
+          .csv   thickness at every vertex of the input
+          .json  minimum, area and share below the limit, patches with place, area and minimum
+          .ply   the measured surface, coloured: red at the limit, blue from three times the limit
+
+examples:
+  medial_axis thickness bracket.stl bracket.json --limit 1.2 --unit mm
+  medial_axis thickness parts/*.stl reports/ --format csv --limit 1.2
+  medial_axis thickness hinge.stl gaps.ply --limit 0.4 --gap
+
+exit codes:
+  0 nothing is thinner than the limit   1 something failed   2 wrong usage   3 an input cannot be used
+  4 cancelled   5 something is thinner than the limit
+"""
+
+
 def main(words: Sequence[str]) -> int:
     """Run a command line; returns its exit code."""
+    if words and words[0] == "skeleton":
+        return cli_skeleton.main(words[1:])
     try:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why
@@ -88,16 +124,68 @@ def inside_blender() -> bool:
 
 
 def _parse(words: Sequence[str]) -> argparse.Namespace:
+    lengths = list(words[:1]) == [THICKNESS]
+    parser = _thickness_parser() if lengths else _axis_parser()
+    words = words[1:] if lengths else words
+    wanted = parser.parse_intermixed_args(words)
+    wanted.lengths = lengths
+    try:
+        if more := shlex.split(wanted.options):
+            wanted = parser.parse_intermixed_args([*words, *more])
+            wanted.lengths = lengths
+        _complete(wanted)
+    except (MedialAxisError, ValueError) as error:
+        parser.error(str(error))
+    return wanted
+
+
+def _axis_parser() -> argparse.ArgumentParser:
+    parser = _parser(
+        "medial_axis", "The medial axis of meshes and point clouds, with radii.", _EXAMPLES
+    )
+    add_options(parser.add_argument_group("method"))
+    files = _add_files(parser, [suffix[1:] for suffix in FORMATS], "ma")
+    files.add_argument(
+        "--triangles",
+        action="store_true",
+        help="write .ply, .obj and .off as triangles in text, which more programs read",
+    )
+    return parser
+
+
+def _thickness_parser() -> argparse.ArgumentParser:
+    parser = _parser(
+        f"medial_axis {THICKNESS}",
+        "How thick meshes and point clouds are, and where they are too thin.",
+        _EXAMPLES_OF_THICKNESS,
+    )
+    lengths = parser.add_argument_group("lengths")
+    add_thickness(lengths)
+    lengths.add_argument(
+        "--unit", default="", metavar="NAME", help="what lengths are in, for the report; mm, say"
+    )
+    add_sampling(parser.add_argument_group("method"))
+    _add_files(parser, [suffix[1:] for suffix in THICKNESS_FORMATS], "json")
+    return parser
+
+
+def _parser(name: str, description: str, epilog: str) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="medial_axis",
-        usage="medial_axis INPUT [INPUT ...] OUTPUT [options]",
-        description="The medial axis of meshes and point clouds, with radii.",
-        epilog=_EXAMPLES,
+        prog=name,
+        usage=f"{name} INPUT [INPUT ...] OUTPUT [options]",
+        description=description,
+        epilog=epilog,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument("paths", nargs="+", metavar="PATH", help="INPUT ... OUTPUT, see below")
-    add_options(parser.add_argument_group("method"))
+    return parser
+
+
+def _add_files(
+    parser: argparse.ArgumentParser, formats: list[str], usual: str
+) -> argparse._ArgumentGroup:
+    """What all have in common; the group of the files, for more."""
     add_limits(parser.add_argument_group("memory"))
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
@@ -109,14 +197,9 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
     )
     files.add_argument(
         "--format",
-        choices=[suffix[1:] for suffix in FORMATS],
-        default="ma",
-        help="of files in a folder OUTPUT (default: ma)",
-    )
-    files.add_argument(
-        "--triangles",
-        action="store_true",
-        help="write .ply, .obj and .off as triangles in text, which more programs read",
+        choices=formats,
+        default=usual,
+        help=f"of files in a folder OUTPUT (default: {usual})",
     )
     files.add_argument(
         "--options", metavar="TEXT", default="", help="more options in one word, as farms pass them"
@@ -130,25 +213,18 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
     files.add_argument("--json", action="store_true", help="one line of JSON per result")
     files.add_argument("--quiet", action="store_true", help="no progress and no warnings")
     parser.add_argument("--version", action="version", version=f"medial_axis {__version__}")
-    wanted = parser.parse_intermixed_args(words)
-    try:
-        if more := shlex.split(wanted.options):
-            wanted = parser.parse_intermixed_args([*words, *more])
-        _complete(wanted)
-    except (MedialAxisError, ValueError) as error:
-        parser.error(str(error))
-    return wanted
+    return files
 
 
 def _complete(wanted: argparse.Namespace) -> None:
     """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
     *wanted.inputs, output = wanted.paths
-    wanted.settings, wanted.limit = settings_from(wanted), limit_from(wanted)
+    wanted.work, wanted.limit = _work(wanted), limit_from(wanted)
     wanted.frames = None if wanted.frames is None else parse_frames(wanted.frames)
     if output.endswith(("/", "\\")) or Path(output).is_dir():
         number = "" if wanted.frames is None else "_####"
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
-    format_of(output)
+    thickness_suffix(output) if wanted.lengths else format_of(output)
     wanted.output = output
     first = wanted.frames[0] if wanted.frames else None
     output_path(output, "name", "file", first)  # it raises what is wrong
@@ -166,6 +242,14 @@ def _complete(wanted: argparse.Namespace) -> None:
         raise ValueError(
             f"Expected a folder or {{name}} in OUTPUT for several inputs, found '{output}'; add it"
         )
+
+
+def _work(wanted: argparse.Namespace) -> AxisWork | ThicknessWork:
+    """What is computed of each input."""
+    settings = settings_from(wanted)
+    if not wanted.lengths:
+        return AxisWork(settings, wanted.triangles)
+    return ThicknessWork(settings, thickness_from(wanted), wanted.unit)
 
 
 def _is_still(path: str) -> bool:
@@ -243,7 +327,7 @@ def _raise(error: MedialAxisError) -> Any:
 
 def _run(items: Iterable[Item], wanted: argparse.Namespace, console: _Console) -> int:
     """All items; one that fails does not stop the others."""
-    code, outputs = DONE, set()
+    code, thin, outputs = DONE, False, set()
     for item in items:
         try:
             if item.output in outputs:
@@ -251,8 +335,10 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, console: _Console) -
                     f"Expected another output for each input, found '{item.output}' again; put "
                     "{file} or {name} in OUTPUT"
                 )
-            begun = begin(item, wanted.settings, wanted.force, wanted.limit, wanted.triangles)
-            console.tell(begun.kept or finish(begun, _watch(begun.task, console.show)))
+            begun = begin(item, wanted.work, wanted.force, wanted.limit)
+            report = begun.kept or finish(begun, _watch(begun.task, console.show))
+            console.tell(report)
+            thin |= bool(report.get("patches"))
             outputs.add(item.output)
         except (KeyboardInterrupt, Cancelled):
             console.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
@@ -261,7 +347,7 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, console: _Console) -
             console.tell(failure(item, error))
             of_input = isinstance(error, (ReadError, InvalidInputError, DegenerateInputError))
             code = INPUT if of_input and code in (DONE, INPUT) else FAILED
-    return code
+    return THIN if thin and code == DONE else code
 
 
 def _watch(task: Task, show: Callable[[str], None]) -> Outcome:
@@ -325,5 +411,20 @@ class _Console:
             self.complain(f"{name}: {report['error']}")
         elif not self._json:
             how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
-            edges = f", {report['edges']:,} edges" if report.get("edges") else ""
-            print(f"{report['output']}: {report['facets']:,} facets{edges}, {how}", flush=True)
+            print(f"{report['output']}: {_said(report)}, {how}", flush=True)
+
+
+def _said(report: dict[str, Any]) -> str:
+    """What is in an output, in a few words."""
+    if "facets" in report:
+        edges = f", {report['edges']:,} edges" if report.get("edges") else ""
+        return f"{report['facets']:,} facets{edges}"
+    unit = f" {report['unit']}" if report["unit"] else ""
+    if report["minimum"] is None:
+        return "no two walls face each other"
+    minimum = f"minimum {report['minimum']:.4g}{unit}"
+    if not report["limit"]:
+        return minimum
+    patches, share = len(report["patches"]), percent(report["share_below"])
+    where = f" in {patches:,} {'patch' if patches == 1 else 'patches'}" if patches else ""
+    return f"{minimum}, {share} below {report['limit']:g}{unit}{where}"

@@ -26,7 +26,9 @@ FORMS = [(suffix, triangles) for suffix in (".ply", ".obj", ".off") for triangle
 def example():
     """An axis with facets of three to eight corners and more."""
     points = np.random.default_rng(4).normal(size=(400, 3)) * (3, 2, 1)
-    return medial_axis.compute(points / np.linalg.norm(points / (3, 2, 1), axis=1)[:, None]).axis
+    return medial_axis.compute(
+        points / np.linalg.norm(points / (3, 2, 1), axis=1)[:, None], form="published"
+    ).axis
 
 
 def verdict(reader: str, path: Path, vertices: int, area: float) -> str:

@@ -103,6 +103,20 @@ def level_attributes() -> tuple[Attribute, ...]:
     return _LEVEL
 
 
+def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
+    """Give a mesh in object mode an attribute; one of that name and of another kind is replaced."""
+    found = mesh.attributes.get(name)
+    if found is not None and (found.domain, found.data_type) != (domain, kind):
+        mesh.attributes.remove(found)
+        found = None
+    target = found or mesh.attributes.new(name, kind, domain)
+    target.data.foreach_set("value", values)
+
+
+def has_attribute(mesh: bpy.types.Mesh, name: str) -> bool:
+    return name in mesh.attributes
+
+
 # Normals of points, a vector each. "normal" is what Blender's PLY importer writes from 4.0; earlier
 # versions keep that name of a mesh to themselves and make no such attribute.
 NORMAL_NAMES = ("normal", "ma_normal")

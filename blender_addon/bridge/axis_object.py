@@ -3,16 +3,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 
-from ..core.settings import OPTIONS, Choice, Form, Integer, Settings, Switch
-from .material import RADIUS_MAX, RADIUS_MIN, radius_material
+from ..core.axis.colours import radius_range as colours_of_radii
+from ..core.axis.cut import pieces, within_box, without_small_pieces
+from ..core.axis.verdict import verdict
+from ..core.settings import (
+    LOOKS,
+    OPTIONS,
+    Choice,
+    Criteria,
+    Form,
+    Integer,
+    Look,
+    Settings,
+    Side,
+    Switch,
+)
+from .attributes import RADIUS
+from .colours import colour_mesh, remember_colours
+from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
 from .output_object import (
     DENSITY,
     SAMPLED,
+    SECONDS,
     check_mode,
     new_object,
     output_of,
@@ -20,11 +39,10 @@ from .output_object import (
     remember,
     replace_mesh,
 )
+from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from ..core.axis.compute import Computation
     from ..core.axis.medial_axis import MedialAxis
 
@@ -33,8 +51,18 @@ ANALYSIS = "ma_analysis"
 INSIDE = "ma_inside"  # what told inside from outside, and why: a sentence
 UNBOUNDED = "ma_unbounded"
 ZERO_AREA = "ma_zero_area"
+BOX = "ma_box"  # of the samples: three lowest coordinates, three highest
+PIECES = "ma_pieces"
+HIDDEN = "ma_hidden"  # facets that are not there because of the look
+LIGHT = "ma_light"
+VERDICT = "ma_verdict"  # the sentence that matters most
+# Shares of the facets that one of the two conditions keeps alone.
+ONLY_RATIO = "ma_only_ratio"
+ONLY_ANGLE = "ma_only_angle"
 BETTI = "ma_betti"  # pieces, loops and cavities; only of clean forms and curves
 TOPOLOGY = "ma_topology"  # the same in a sentence
+# The whole axis, its own master.
+ALL = Look(within=0.0)
 
 
 def is_result(thing: bpy.types.Object) -> bool:
@@ -52,7 +80,7 @@ def check_writable(source: bpy.types.Object) -> None:
 
 
 def write_result(
-    source: bpy.types.Object, computation: Computation, frame: np.ndarray
+    source: bpy.types.Object, computation: Computation, frame: np.ndarray, look: Look = ALL
 ) -> bpy.types.Object:
     """Make the result of a source, or update the one there is; all or nothing.
 
@@ -63,6 +91,7 @@ def write_result(
     computation : Computation
     frame : (4, 4) float64
         Where the axis lies in the world; rotation and translation only.
+    look : Look
 
     Raises
     ------
@@ -70,23 +99,38 @@ def write_result(
         The result cannot be changed now, or Blender cannot hold it.
     """
     result = result_of(source)
+    box = _box(computation.chosen.samples.points)
+    axis, settings = _shown(computation.axis, box, look), computation.settings
     if result is None:
-        result = _new_result(source, computation.axis)
+        mesh = _axis_mesh(axis, look, source.name + SUFFIX)
+        mesh.materials.append(radius_material())
+        result = new_object(source, SUFFIX, mesh)
+        result.color = FLAT
     else:
-        replace_mesh(result, partial(new_axis_mesh, computation.axis))
+        replace_mesh(result, partial(_axis_mesh, axis, look))
     place(result, frame)
+    if result.get("ma_side") != settings.side.name:
+        result.show_in_front = settings.side is Side.INNER  # it lies inside the surface
+    show_wires(result, axis)
+    result[BOX] = box
     _remember(result, source, computation)
+    _remember_shown(result, computation.axis, axis, settings, look)
     return result
 
 
 def update_result(
-    result: bpy.types.Object, axis: MedialAxis, settings: Settings, topology: str
+    result: bpy.types.Object,
+    axis: MedialAxis,
+    settings: Settings,
+    topology: str,
+    look: Look = ALL,
 ) -> None:
     """Give a result another axis of the same analysis, and a sentence about it; it stays where it is."""
-    replace_mesh(result, partial(new_axis_mesh, axis))
+    shown = _shown(axis, result.get(BOX), look)
+    replace_mesh(result, partial(_axis_mesh, shown, look))
+    show_wires(result, shown)
     result[TOPOLOGY] = topology
-    _remember_settings(result, settings)
-    _remember_axis(result, axis)
+    _remember_shown(result, axis, shown, settings, look)
 
 
 def radius_range(result: bpy.types.Object) -> tuple[float, float]:
@@ -107,12 +151,31 @@ def settings_of(result: bpy.types.Object) -> Settings:
     return Settings(**values)
 
 
-def _new_result(source: bpy.types.Object, axis: MedialAxis) -> bpy.types.Object:
-    mesh = new_axis_mesh(axis, source.name + SUFFIX)
-    mesh.materials.append(radius_material())
-    result = new_object(source, SUFFIX, mesh)
-    result.show_in_front = True  # an inner axis lies inside the surface
-    return result
+def look_of(result: bpy.types.Object) -> Look:
+    """How a result looks; what an older version did not remember is as it was then."""
+    return Look(**{name: result.get(f"ma_{name}", getattr(ALL, name)) for name in LOOKS})
+
+
+def _axis_mesh(axis: MedialAxis, look: Look, name: str) -> bpy.types.Mesh:
+    mesh = new_axis_mesh(axis, name)
+    if look.colours:
+        colour_mesh(mesh, axis.radius, *colours_of_radii(axis.radius))
+    return mesh
+
+
+def _box(points: np.ndarray) -> list[float]:
+    return [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
+
+
+def _shown(axis: MedialAxis, box: Sequence[float] | None, look: Look) -> MedialAxis:
+    """What the look leaves of an axis; everything, where that would be nothing, and of a level."""
+    if axis.level is not None:
+        return axis
+    if box is not None:
+        low, high = np.reshape(box, (2, 3))
+        near = within_box(axis, low, high, look.within)
+        axis = near if near.facets else axis
+    return without_small_pieces(axis, look.smallest_island / 100)
 
 
 def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: Computation) -> None:
@@ -122,23 +185,42 @@ def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: C
     result[TOPOLOGY] = computation.topology
     result[SAMPLED] = computation.chosen.reason
     result[DENSITY] = str(computation.density)
-    _remember_settings(result, computation.settings)
-    _remember_axis(result, computation.axis)
+    result[SECONDS] = computation.seconds
+    found = verdict(computation.chosen, computation.warnings)
+    result[LIGHT], result[VERDICT] = found.light.name, found.sentence
 
 
-def _remember_settings(result: bpy.types.Object, settings: Settings) -> None:
+def _remember_shown(
+    result: bpy.types.Object, whole: MedialAxis, axis: MedialAxis, settings: Settings, look: Look
+) -> None:
+    """What the panel says of the axis that is shown, and the settings and the look that made it."""
     for name, option in OPTIONS.items():
         value = getattr(settings, name)
         result[f"ma_{name}"] = value.name if isinstance(option, Choice) else value
-
-
-def _remember_axis(result: bpy.types.Object, axis: MedialAxis) -> None:
+    for name in LOOKS:
+        result[f"ma_{name}"] = getattr(look, name)
     result[UNBOUNDED] = axis.unbounded
     result[ZERO_AREA] = axis.zero_area
+    result[HIDDEN] = whole.facets - axis.facets
+    result[PIECES] = len(np.unique(pieces(axis))) if axis.level is None else axis.level.betti[0]
+    result[ONLY_RATIO], result[ONLY_ANGLE] = _only(axis, settings)
     if axis.level is not None:
         result[BETTI] = axis.level.betti
     elif BETTI in result:
         del result[BETTI]
     result[RADIUS_MIN] = float(axis.radius.min())
     result[RADIUS_MAX] = float(axis.radius.max())
+    start, end = colours_of_radii(axis.radius)
+    remember_colours(result, RADIUS.name if look.colours else "", start, end)
     result.update_tag()
+
+
+def _only(axis: MedialAxis, settings: Settings) -> tuple[float, float]:
+    """Shares of the facets that only the Ratio, and that only the Angle condition keeps, where either is enough."""
+    if settings.criteria is not Criteria.ANGLE_OR_RATIO or not axis.facets:
+        return 0.0, 0.0
+    angle, ratio = axis.theta >= settings.theta, axis.rho >= settings.rho
+    return (
+        float(np.mean(ratio & ~angle)),
+        float(np.mean(angle & ~ratio)),
+    )

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects that are made of a source, and updated in place when the source is computed again.
 
-They remember their source in a custom property; nothing is written to the source.
+They remember their source in a custom property, and are its children unless that is not wanted; nothing is written
+to the source.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ DUPLICATES = "ma_duplicates"
 WARNINGS = "ma_warnings"
 SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
 DENSITY = "ma_density"  # how densely that lies: a sentence
+SECONDS = "ma_seconds"
 
 
 def source_of(output: bpy.types.Object) -> bpy.types.Object | None:
@@ -89,6 +91,30 @@ def place(output: bpy.types.Object, frame: np.ndarray) -> None:
     output.matrix_world = Matrix(frame.tolist())
     if output.parent is None:
         output.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
+
+
+def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wanted: bool) -> None:
+    """Make an object that has just been placed a child of its source, or its own master again.
+
+    What an artist made it a child of stays its parent. On a source that is flat, nothing can hang.
+
+    Parameters
+    ----------
+    output, source : Object
+    world : (4, 4) matrix
+        Of the source, when it was read.
+    wanted : bool
+    """
+    frame = output.matrix_world.copy()
+    if output.parent == source and not wanted:
+        output.parent = None
+    elif wanted and output.parent in (None, source) and world.determinant() != 0.0:
+        output.parent = source
+        output.matrix_parent_inverse = world.inverted()
+    else:
+        return
+    output.matrix_basis = frame
+    output.scale = (1.0, 1.0, 1.0)
 
 
 def remember(

@@ -11,11 +11,17 @@ import numpy as np
 from mathutils.kdtree import KDTree
 
 from ..core.errors import InvalidInputError
-from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32
-from .material import LIMIT, epsilon_material
+from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
+from .colours import colour_mesh, remember_colours
+from .feature_size import write_feature_size
+from .material import FLAT, LIMIT, epsilon_material
 from .output_object import (
     DENSITY,
+    DUPLICATES,
+    POINTS,
     SAMPLED,
+    SOURCE,
+    WARNINGS,
     check_mode,
     new_object,
     output_of,
@@ -37,9 +43,18 @@ SHARE = "ma_epsilon_share"
 SHARE_OF_ALL = "ma_epsilon_share_of_all"
 WORST = "ma_epsilon_worst"
 WORST_PLACES = "ma_epsilon_worst_places"
+# A source with at least this many vertices for each sample shows a report well enough.
+_ENOUGH = 0.25
+_SCALE = 2.0  # where the colours end, in limits
 
 
 def is_report(thing: bpy.types.Object) -> bool:
+    """Whether this is an object that was made for a report."""
+    return thing.type == "MESH" and SHARE in thing and SOURCE in thing
+
+
+def has_report(thing: bpy.types.Object) -> bool:
+    """Whether this is such an object, or a source that carries its report itself."""
     return thing.type == "MESH" and SHARE in thing
 
 
@@ -54,7 +69,7 @@ def check_report_writable(source: bpy.types.Object) -> None:
 
 
 def write_report(
-    source: bpy.types.Object, found: SamplingReport, frame: np.ndarray
+    source: bpy.types.Object, found: SamplingReport, frame: np.ndarray, colours: bool = True
 ) -> bpy.types.Object:
     """Make the report of a source, or update the one there is; all or nothing.
 
@@ -65,6 +80,8 @@ def write_report(
     found : SamplingReport
     frame : (4, 4) float64
         Where the samples lie in the world; rotation and translation only.
+    colours : bool
+        Whether it has `ma_color`.
 
     Raises
     ------
@@ -72,22 +89,32 @@ def write_report(
         The report cannot be changed now, or Blender cannot hold it.
     """
     report = report_of(source)
-    build = partial(new_mesh, found, table=SAMPLE_ATTRIBUTES)
+    build = partial(_report_mesh, found, colours)
     if report is None:
         mesh = build(source.name + SUFFIX)
         mesh.materials.append(epsilon_material())
         report = new_object(source, SUFFIX, mesh)
+        report.color = FLAT
+        report.show_in_front = True  # it lies exactly on its source
     else:
         replace_mesh(report, build)
     place(report, frame)
     analysis = found.chosen.samples.analysis
     remember(report, source, len(found.vertices), analysis.duplicates, found.warnings)
-    _remember_density(report, found)
+    _remember_density(report, found, colours)
     return report
 
 
-def _remember_density(report: bpy.types.Object, found: SamplingReport) -> None:
+def _report_mesh(found: SamplingReport, colours: bool, name: str) -> bpy.types.Mesh:
+    mesh = new_mesh(found, name, SAMPLE_ATTRIBUTES)
+    if colours:
+        colour_mesh(mesh, found.epsilon, 0.0, _SCALE * found.density.limit)
+    return mesh
+
+
+def _remember_density(report: bpy.types.Object, found: SamplingReport, colours: bool) -> None:
     density, worst = found.density, found.density.worst
+    remember_colours(report, EPSILON.name if colours else "", 0.0, _SCALE * density.limit)
     report[SAMPLED] = found.chosen.reason
     report[DENSITY] = str(density)
     report[LIMIT] = density.limit
@@ -118,8 +145,21 @@ def check_source_writable(source: bpy.types.Object) -> None:
         )
 
 
-def write_on_source(source: bpy.types.Object, found: SamplingReport) -> bpy.types.Object:
-    """Give the vertices of a source `ma_epsilon`: the largest of the samples to which each is nearest.
+def shows_well(source: bpy.types.Object, found: SamplingReport) -> bool:
+    """Whether a source can take its report now, and has vertices enough to show it."""
+    try:
+        check_source_writable(source)
+    except InvalidInputError:
+        return False
+    vertices = len(source.data.vertices)
+    return vertices == len(found.shape.points) and vertices >= _ENOUGH * len(found.vertices)
+
+
+def write_on_source(
+    source: bpy.types.Object, found: SamplingReport, colours: bool = True
+) -> bpy.types.Object:
+    """Give the vertices of a source `ma_epsilon`, the largest of the samples to which each is nearest, colours, and the
+    feature size with its vertex group.
 
     Raises
     ------
@@ -134,14 +174,16 @@ def write_on_source(source: bpy.types.Object, found: SamplingReport) -> bpy.type
             f"{vertices:,} and {original:,}; apply the modifiers, or choose Write To Copy"
         )
     values = _on_vertices(found)
-    attributes = source.data.attributes
-    old = attributes.get(EPSILON.name)
-    if old is not None and (old.domain, old.data_type) != (EPSILON.domain, EPSILON.type):
-        attributes.remove(old)
-        old = None
-    target = old or attributes.new(EPSILON.name, EPSILON.type, EPSILON.domain)
-    target.data.foreach_set("value", values)
+    set_attribute(source.data, EPSILON.name, EPSILON.type, EPSILON.domain, values)
+    write_feature_size(source, found)
+    if colours:
+        alone = not len(source.data.color_attributes)  # else renders show those of the artist
+        colour_mesh(source.data, values, 0.0, _SCALE * found.density.limit, render=alone)
     source.data.update()
+    source[POINTS] = len(found.vertices)
+    source[DUPLICATES] = found.chosen.samples.analysis.duplicates
+    source[WARNINGS] = "\n".join(found.warnings)
+    _remember_density(source, found, colours)
     return source
 
 

@@ -12,11 +12,16 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import bpy
+import numpy as np
 
+from ..core.axis.colours import radius_range
 from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from ..core.files.load_axis import load_axis
-from .material import RADIUS_MAX, RADIUS_MIN, radius_material
+from .attributes import RADIUS
+from .colours import colour_mesh, remember_colours
+from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
+from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
 SUFFIX = " Medial Axis Sequence"
@@ -83,7 +88,9 @@ def _new_object(name: str, axis: MedialAxis, frame: int) -> bpy.types.Object:
     mesh = new_axis_mesh(axis, name)
     mesh.materials.append(radius_material())
     thing = bpy.data.objects.new(name, mesh)
+    thing.color = FLAT
     thing.show_in_front = True
+    show_wires(thing, axis)
     thing[FRAME] = frame
     thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
     return thing
@@ -92,8 +99,13 @@ def _new_object(name: str, axis: MedialAxis, frame: int) -> bpy.types.Object:
 def _same_colours(things: list[bpy.types.Object]) -> None:
     """One range of radii for all frames, so that colours do not flicker."""
     lowest, highest = min(t[RADIUS_MIN] for t in things), max(t[RADIUS_MAX] for t in things)
+    start, end = radius_range([lowest, highest])
     for thing in things:
         thing[RADIUS_MIN], thing[RADIUS_MAX] = lowest, highest
+        radii = np.empty(len(thing.data.vertices), np.float32)
+        thing.data.attributes[RADIUS.name].data.foreach_get("value", radii)
+        colour_mesh(thing.data, radii, start, end)
+        remember_colours(thing, RADIUS.name, start, end)
 
 
 def _key_visibility(things: list[bpy.types.Object], frames: list[int]) -> None:

@@ -28,6 +28,7 @@ _TRIANGLES = np.array(
     ],
     np.int32,
 )
+_TOPOLOGY = "1 piece, no loop, no cavity, as the solid"
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,7 @@ def checks_of(box: Computation) -> list[Check]:
             f"The compiled module is of version {module.__version__}, the add-on of {__version__}",
         ),
         *_of_shape(box.axis, samples.spacing),
+        Check(box.topology == _TOPOLOGY, f"The axis of a box is {box.topology}"),
         Check(
             _facets(module, samples.points, 1) == _facets(module, samples.points, 0),
             "One thread and all threads give the same bytes",

@@ -57,6 +57,14 @@ class Criteria(Enum):
     RATIO = "RATIO"
 
 
+class Bind(Enum):
+    """How an object follows an armature."""
+
+    NONE = "NONE"
+    AUTOMATIC = "AUTOMATIC"
+    AXIS = "AXIS"
+
+
 class Form(Enum):
     """What becomes of the facets that the conditions select."""
 
@@ -147,7 +155,7 @@ OPTIONS: dict[str, Any] = {
         default=0.0,
         minimum=0.0,
         maximum=100.0,
-        soft_maximum=10.0,
+        soft_maximum=20.0,
         unit="%",
     ),
     "erode": Number(
@@ -375,6 +383,83 @@ LIMITS: dict[str, Any] = {
         },
     ),
 }
+# Options of a skeleton, beside those that say how faces are sampled.
+SKELETON_OPTIONS: dict[str, Any] = {
+    "detail": Number(
+        label="Detail",
+        description="How many ends the skeleton has: more let shorter and lighter branches stay",
+        default=0.5,
+        minimum=0.0,
+        maximum=1.0,
+        soft_maximum=1.0,
+        unit="",
+    ),
+    "simplify": Number(
+        label="Simplify",
+        description="How far the skeleton may leave its curve to need fewer points, as a share of the radius "
+        "there; 0 keeps all points",
+        default=0.02,
+        minimum=0.0,
+        maximum=1.0,
+        soft_maximum=0.5,
+        unit="",
+    ),
+    "mirror": Switch(
+        label="Mirror",
+        description="Where the skeleton is symmetric in X to 2 % of its size, both halves become their mean",
+        default=True,
+    ),
+}
+BIND = Choice(
+    label="Bind",
+    description="How the object follows the armature",
+    default=Bind.AXIS,
+    items={
+        Bind.NONE: ("None", "It does not: bones alone"),
+        Bind.AUTOMATIC: (
+            "Automatic",
+            "Blender's automatic weights; where these fail, those of Axis",
+        ),
+        Bind.AXIS: (
+            "Axis",
+            "Each vertex follows the branch of the skeleton that its ball belongs to",
+        ),
+    },
+)
+# Options of how results look in Blender; what is computed does not depend on them.
+LOOKS: dict[str, Any] = {
+    "colours": Switch(
+        label="Colours",
+        description="Results have the attribute ma_color, by radius, which Solid view shows with "
+        "Color: Attribute",
+        default=True,
+    ),
+    "parent": Switch(
+        label="Parent to Source",
+        description="Results move and turn with the object that they were made of",
+        default=True,
+    ),
+    "within": Number(
+        label="Within",
+        description="Facets of an outer axis are shown as far as they lie in the bounding box, made so "
+        "many times as large; 0: all of them",
+        default=1.5,
+        minimum=0.0,
+        maximum=1000.0,
+        soft_maximum=5.0,
+        unit="",
+    ),
+    "smallest_island": Number(
+        label="Smallest Island",
+        description="Pieces of an axis as published with fewer of its facets than this are not shown; "
+        "0: all pieces",
+        default=0.0,
+        minimum=0.0,
+        maximum=100.0,
+        soft_maximum=5.0,
+        unit="%",
+    ),
+}
 CACHE_SIZE = Integer(
     label="Cache Size",
     description="Memory that analyses may keep for other thresholds after a computation, in MB; "
@@ -491,6 +576,61 @@ class Settings:
         check_ranges(self, OPTIONS)
 
 
+@dataclass(frozen=True)
+class SkeletonSettings:
+    """What becomes a branch of a skeleton.
+
+    Parameters
+    ----------
+    detail, simplify : float
+    mirror : bool
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+
+    detail: float = SKELETON_OPTIONS["detail"].default
+    simplify: float = SKELETON_OPTIONS["simplify"].default
+    mirror: bool = SKELETON_OPTIONS["mirror"].default
+
+    def __post_init__(self) -> None:
+        check_ranges(self, SKELETON_OPTIONS)
+
+    @property
+    def limb(self) -> float:
+        """The shortest branch, as a share of the diagonal: 16 %, 4 %, 1 % for a detail of 0, 0.5, 1."""
+        return 0.04 * 4.0 ** (1.0 - 2.0 * self.detail)
+
+    @property
+    def share(self) -> float:
+        """The least share of the surface that a branch carries: 40 %, 2.5 %, 0.16 % for a detail of 0, 0.5, 1."""
+        return 0.025 * 16.0 ** (1.0 - 2.0 * self.detail)
+
+
+@dataclass(frozen=True)
+class Look:
+    """How a result looks in Blender.
+
+    Parameters
+    ----------
+    colours, parent : bool
+    within : float
+        Times the bounding box of the samples.
+    smallest_island : float
+        Percent of the facets.
+    """
+
+    colours: bool = LOOKS["colours"].default
+    parent: bool = LOOKS["parent"].default
+    within: float = LOOKS["within"].default
+    smallest_island: float = LOOKS["smallest_island"].default
+
+    def __post_init__(self) -> None:
+        check_ranges(self, LOOKS)
+
+
 def check_ranges(values: Any, options: Mapping[str, Any]) -> None:
     """Raise InvalidInputError for a number out of its range."""
     for name, option in options.items():
@@ -508,3 +648,117 @@ def _check_range(name: str, option: Number | Integer, value: float) -> None:
             f"Expected {name} {limits.strip()}, found {value:{style}}; "
             f"the default is {option.default:{style}}"
         )
+
+
+# --- thickness
+
+
+class Between(Enum):
+    """What a length is measured of."""
+
+    WALL = "WALL"
+    GAP = "GAP"
+
+
+class Edges(Enum):
+    """What stands at sharp edges, where a ball shrinks to nothing."""
+
+    EXTRAPOLATE = "EXTRAPOLATE"
+    BALL = "BALL"
+    GREY = "GREY"
+
+
+class Noise(Enum):
+    """How good the points are."""
+
+    CLEAN = "CLEAN"
+    SCAN = "SCAN"
+
+
+THICKNESS_OPTIONS: dict[str, Any] = {
+    "limit": Number(
+        label="Limit",
+        description="What is thinner than this length is thin; 0: nothing is",
+        default=0.0,
+        minimum=0.0,
+        maximum=math.inf,
+        soft_maximum=1000.0,
+        unit="length",
+    ),
+    "between": Choice(
+        label="Measure",
+        description="What is measured",
+        default=Between.WALL,
+        items={
+            Between.WALL: ("Wall", "How thick the solid is between opposite walls"),
+            Between.GAP: ("Gap", "How wide the space between walls that face each other is"),
+        },
+    ),
+    "edges": Choice(
+        label="Edges",
+        description="What counts next to sharp edges, where no two walls face each other",
+        default=Edges.EXTRAPOLATE,
+        items={
+            Edges.EXTRAPOLATE: ("Extrapolate", "The thickness of the nearest wall"),
+            Edges.BALL: ("Ball", "The ball that fits there, which shrinks to nothing at an edge"),
+            Edges.GREY: ("Grey", "Nothing: such places are grey and never thin"),
+        },
+    ),
+    "noise": Choice(
+        label="Noise",
+        description="How good the points are",
+        default=Noise.CLEAN,
+        items={
+            Noise.CLEAN: ("Clean", "The points lie on the surface"),
+            Noise.SCAN: (
+                "Scan",
+                "The points scatter, up to a quarter of their spacing; what tapers reads too thick",
+            ),
+        },
+    ),
+    "minimum_patch": Number(
+        label="Minimum Patch",
+        description="Thin patches with less than this share of the surface are left out, in percent",
+        default=0.0,
+        minimum=0.0,
+        maximum=100.0,
+        soft_maximum=5.0,
+        unit="%",
+    ),
+}
+
+
+@dataclass(frozen=True)
+class ThicknessSettings:
+    """What is measured, and what counts as thin.
+
+    Parameters
+    ----------
+    limit : float
+        A length; what is strictly below is thin.
+    between : Between
+    edges : Edges
+        Of clean points; what a scan is measured by extrapolates.
+    noise : Noise
+    minimum_patch : float
+        Percent of the area.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+
+    limit: float = THICKNESS_OPTIONS["limit"].default
+    between: Between = THICKNESS_OPTIONS["between"].default
+    edges: Edges = THICKNESS_OPTIONS["edges"].default
+    noise: Noise = THICKNESS_OPTIONS["noise"].default
+    minimum_patch: float = THICKNESS_OPTIONS["minimum_patch"].default
+
+    @property
+    def side(self) -> Side:
+        """The side whose axis tells."""
+        return Side.INNER if self.between is Between.WALL else Side.OUTER
+
+    def __post_init__(self) -> None:
+        check_ranges(self, THICKNESS_OPTIONS)

@@ -6,6 +6,7 @@ import time
 
 import bpy
 
+from ..bridge.output_object import follow
 from ..bridge.read_object import read_object
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task, run_task
@@ -32,9 +33,19 @@ class ComputeOperator(FromSelection):
     product of a source cannot be written now; `work(shape)` gives the function that a task calls with
     its progress; `write(thing, value, frame)` makes an object of what that returned, or None when
     there is nothing to make. `summary(value)` and `value.warnings` are for people.
+
+    A script has what was made selected, as Blender's own operators do; a person, who runs it in a window, keeps the
+    source selected, for the outline of a selected result hides it.
     """
 
     product = ""
+
+    select_result: bpy.props.BoolProperty(
+        name="Select Result",
+        description="Select what was made and nothing else; off: the selection stays as it is",
+        default=True,
+        options={"SKIP_SAVE"},
+    )
 
     def execute(self, context):
         found, tasks = self._read(context)
@@ -43,6 +54,8 @@ class ComputeOperator(FromSelection):
     def invoke(self, context, _event):
         if bpy.app.background or context.window is None:
             return self.execute(context)
+        if not self.properties.is_property_set("select_result"):
+            self.select_result = False
         self._sources, tasks = self._read(context)
         if not tasks:
             return {"CANCELLED"}
@@ -112,7 +125,9 @@ class ComputeOperator(FromSelection):
             except MedialAxisError as error:
                 self._tell(context, "ERROR", f"'{thing.name}': {error}")
                 continue
-            found.append(Source(thing.name, getattr(thing, "session_uid", None), shape.frame))
+            world = thing.evaluated_get(depsgraph).matrix_world.copy()
+            uid = getattr(thing, "session_uid", None)
+            found.append(Source(thing.name, uid, shape.frame, world))
         return found, tasks
 
     def _write(self, context, found, outcomes):
@@ -123,7 +138,8 @@ class ComputeOperator(FromSelection):
             except MedialAxisError as error:
                 self._tell(context, "ERROR", f"'{source.name}': {error}")
         made = [thing for thing in made if thing is not None]
-        _select(context, made)
+        if self.select_result:
+            _select(context, made)
         return {"FINISHED"} if made else {"CANCELLED"}
 
     def _write_one(self, context, source, outcome):
@@ -137,6 +153,8 @@ class ComputeOperator(FromSelection):
             return None
         start = time.perf_counter()
         made = self.write(thing, outcome.value, source.frame)
+        if made is not None and made != thing:
+            follow(made, thing, source.world, self.parent)
         seconds = outcome.value.seconds + time.perf_counter() - start
         for warning in outcome.value.warnings:
             text = f"'{source.name}': {warning}"

@@ -2,6 +2,7 @@
 """The medial axis of an animated object over a range of frames, and its playback."""
 
 import time
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -11,16 +12,18 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..bridge import read_scene
 from ..bridge.sequence_objects import by_frame, write_sequence
+from ..core.batch.axis_work import AxisWork
 from ..core.batch.batch import Item, begin, finish
 from ..core.batch.frames import output_path, parse_frames
 from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.machine.job import run_task
+from ..core.settings import SamplingMode
 from . import current_job
 from .compute_operator import FromSelection
 from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
-from .selected_sources import sources
+from .selected_sources import has_faces, sources
 from .translation import say
 
 _PRODUCT = "medial axis"
@@ -46,6 +49,11 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         name="Playback",
         description="Also make objects of the files, of which each frame shows its own",
         default=True,
+    )
+    fast: BoolProperty(
+        name="Fast",
+        description="Sample faces once, where Sampling is Automatic: no look at the vertices, no second "
+        "pass for thin parts",
     )
 
     def execute(self, context):
@@ -91,7 +99,11 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
     def _start(self, context):
         """What there is to do, frame by frame; False when it cannot be done, which was reported."""
         try:
-            self._settings = settings_from(context.scene.medial_axis)
+            settings = settings_from(context.scene.medial_axis)
+            self._settings = {
+                thing.name: _faster(settings) if self.fast and has_faces(thing) else settings
+                for thing in sources(context)
+            }
             self._limit = memory_limit()
             pattern = _folder(self.directory) / "{name}_####.npz"
             self._items = list(_items(sources(context), self._frames(context.scene), str(pattern)))
@@ -110,7 +122,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         """The next item, read; None when there is nothing to compute of it."""
         item = self._items.pop(0)
         try:
-            begun = begin(item, self._settings, limit=self._limit)
+            begun = begin(item, AxisWork(self._settings[item.object]), limit=self._limit)
         except MedialAxisError as error:
             self._fail(item, error)
             return None
@@ -185,6 +197,12 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         return {"FINISHED"}
 
 
+def _faster(settings):
+    """The same with one pass of samples, where that is not already chosen otherwise."""
+    automatic = settings.sampling is SamplingMode.AUTOMATIC
+    return replace(settings, sampling=SamplingMode.SURFACE) if automatic else settings
+
+
 def _items(things, frames, pattern):
     for frame in frames:
         for thing in things:
@@ -243,8 +261,9 @@ class VIEW3D_PT_medial_axis_sequence(bpy.types.Panel):
         row = column.row(align=True)
         for name in ("frame_start", "frame_end", "frame_step"):
             row.prop(scene, name, text=name.partition("_")[2].title())
+        column.prop(scene, "medial_axis_fast")
         button = column.operator("object.medial_axis_sequence", icon="RENDER_ANIMATION")
-        button.directory = scene.medial_axis_folder
+        button.directory, button.fast = scene.medial_axis_folder, scene.medial_axis_fast
         column.operator("import_scene.medial_axis_sequence", text="Load Files", icon="IMPORT")
 
 
@@ -271,9 +290,14 @@ def register():
         subtype="DIR_PATH",
         default="//medial_axis/",
     )
+    bpy.types.Scene.medial_axis_fast = BoolProperty(
+        name="Fast",
+        description="Sample faces once at every frame: quicker, and coarser at thin parts",
+    )
 
 
 def unregister():
+    del bpy.types.Scene.medial_axis_fast
     del bpy.types.Scene.medial_axis_folder
     bpy.types.TOPBAR_MT_file_import.remove(menu_func_import)
     for cls in reversed(CLASSES):

@@ -3,10 +3,21 @@
 
 from ..core.settings import Form, applies_to_form
 
+_SLIDERS = ("simplify", "erode", "limb")
+
 
 def draw_form(layout, panel):
-    """Form, and the sliders that matter for it."""
+    """Form, and the slider that matters most for it."""
     layout.prop(panel, "form")
-    for name in ("simplify", "erode", "limb"):
-        if applies_to_form(name, Form[panel.form]):
-            layout.prop(panel, name, slider=True)
+    for name in _that_apply(panel)[:1]:
+        layout.prop(panel, name, slider=True)
+
+
+def draw_more_of_form(layout, panel):
+    """The other sliders of the form."""
+    for name in _that_apply(panel)[1:]:
+        layout.prop(panel, name, slider=True)
+
+
+def _that_apply(panel):
+    return [name for name in _SLIDERS if applies_to_form(name, Form[panel.form])]

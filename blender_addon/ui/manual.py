@@ -7,6 +7,7 @@ import bpy
 
 _FOLDER = Path(__file__).resolve().parent.parent / "manual"
 _PAGES = {
+    "tutorial.html": "Tutorial",
     "user_guide.html": "User Guide",
     "troubleshooting.html": "Troubleshooting",
     "command_line.html": "Command Line",
@@ -27,12 +28,22 @@ _PLACES = (
 )
 
 
+def has(page):
+    """Whether a page of the manual is there; a copy of the sources has none."""
+    return (_FOLDER / page).is_file()
+
+
+def address(place):
+    """The address of a place in the manual, such as 'user_guide.html#sampling'."""
+    return f"{_FOLDER.as_uri()}/{place}"
+
+
 def draw_manual(layout):
     """A button for each page that is there; a copy of the sources has none."""
     row = layout.row()
     for name, label in _PAGES.items():
-        if (_FOLDER / name).is_file():
-            row.operator("wm.url_open", text=label, icon="HELP").url = (_FOLDER / name).as_uri()
+        if has(name):
+            row.operator("wm.url_open", text=label, icon="HELP").url = address(name)
 
 
 def places():

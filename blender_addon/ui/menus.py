@@ -4,6 +4,7 @@
 import bpy
 
 from .properties import copy_settings
+from .skeleton_operators import SKELETON_OPERATORS, copy_all
 
 
 def _compute(self, context):
@@ -13,6 +14,8 @@ def _compute(self, context):
     button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
     copy_settings(context.scene.medial_axis, button)
     self.layout.operator("object.tight_cocone_surface", icon="MESH_ICOSPHERE")
+    for operator, icon in SKELETON_OPERATORS.items():
+        copy_all(context, self.layout.operator(operator, icon=icon))
 
 
 def _menus():

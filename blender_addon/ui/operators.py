@@ -10,6 +10,8 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.report_object import (
     check_report_writable,
     check_source_writable,
+    report_of,
+    shows_well,
     write_on_source,
     write_report,
 )
@@ -17,15 +19,26 @@ from ..bridge.surface_object import check_surface_writable, is_surface, write_su
 from ..core.axis.compute import compute_axis
 from ..core.axis.reconstruction import reconstruct
 from ..core.axis.sampling_report import report_sampling
-from ..core.settings import OPTIONS, SAMPLING_OPTIONS, Form, applies_to_form
+from ..core.settings import LOOKS, OPTIONS, SAMPLING_OPTIONS, Form, applies_to_form
 from . import current_job
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
-from .properties import SamplingProperties, choice, draw_sampling, number, settings_from, switch
+from .properties import (
+    LookProperties,
+    SamplingProperties,
+    choice,
+    draw_sampling,
+    look_from,
+    number,
+    settings_from,
+    switch,
+)
 from .translation import say
 
 
-class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Operator):
+class OBJECT_OT_medial_axis(
+    ComputeOperator, SamplingProperties, LookProperties, bpy.types.Operator
+):
     """Compute the medial axis of the selected objects, with the radius at every point"""
 
     bl_idname = "object.medial_axis"
@@ -56,12 +69,17 @@ class OBJECT_OT_medial_axis(ComputeOperator, SamplingProperties, bpy.types.Opera
                 row.active = applies_to_form(name, form)
                 row.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
+        box = self.layout.box().column()
+        for name in (*LOOKS, "select_result"):
+            box.prop(self, name)
 
     def work(self, shape):
         return partial(compute_axis, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, computation, frame):
-        return None if computation.axis.is_empty else write_result(thing, computation, frame)
+        if computation.axis.is_empty:
+            return None
+        return write_result(thing, computation, frame, look_from(self))
 
     def summary(self, computation):
         axis, chosen = computation.axis, computation.chosen
@@ -92,6 +110,11 @@ class OBJECT_OT_medial_axis_sampling_report(
         name="Write To",
         description="Where the attribute ma_epsilon is written",
         items=[
+            (
+                "AUTOMATIC",
+                "Automatic",
+                "The object itself where its vertices can show it; else a copy",
+            ),
             ("COPY", "Copy", "A new object, or the one that was made before, of the samples"),
             (
                 "SOURCE",
@@ -100,25 +123,30 @@ class OBJECT_OT_medial_axis_sampling_report(
                 "each is nearest",
             ),
         ],
-        default="COPY",
+        default="AUTOMATIC",
     )
+    colours: switch("colours", of=LOOKS)
+    parent: switch("parent", of=LOOKS)
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in ("target", "side", "sides", "sampling"):
+        for name in ("target", "side", "sides", "sampling", "colours", "parent"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
     def check_writable(self, thing):
-        check_report_writable(thing) if self.target == "COPY" else check_source_writable(thing)
+        check_source_writable(thing) if self.target == "SOURCE" else check_report_writable(thing)
 
     def work(self, shape):
         return partial(report_sampling, shape, settings_from(self), limit=memory_limit())
 
     def write(self, thing, found, frame):
-        if self.target == "SOURCE":
-            return write_on_source(thing, found)
-        return write_report(thing, found, frame)
+        on_source = self.target == "SOURCE"
+        if self.target == "AUTOMATIC":
+            on_source = report_of(thing) is None and shows_well(thing, found)
+        if on_source:
+            return write_on_source(thing, found, self.colours)
+        return write_report(thing, found, frame, self.colours)
 
     def summary(self, found):
         return f"{found.chosen.reason}; {found.density}"
@@ -135,6 +163,8 @@ class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
 
     product = "surface"
     check_writable = staticmethod(check_surface_writable)
+
+    parent: switch("parent", of=LOOKS)
 
     def sources(self, context):
         return list(dict.fromkeys(map(_made_anew, super().sources(context))))

@@ -1,18 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar tab of the 3D viewport."""
+"""The sidebar tab of the 3D viewport: its panels, in the order of work."""
 
 import bpy
 
-from ..bridge import axis_object, output_object, report_object, surface_object
-from ..bridge.material import LIMIT
+from ..bridge import axis_object, output_object, sequence_objects
+from ..bridge.wires import width_of, wires_of
 from ..core.machine import native
+from ..core.settings import Form, Side
 from . import current_job
-from .form_panel import draw_form
+from .figures import (
+    draw_details,
+    draw_report,
+    draw_report_details,
+    draw_result,
+    draw_sequence,
+    draw_surface,
+)
+from .form_panel import draw_form, draw_more_of_form
+from .guide import draw_guide
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
-from .selected_sources import obstacle
+from .selected_sources import has_faces, obstacle, sources
+from .show import shows_colours
 from .translation import say
 from .wrapped_text import draw_wrapped
+
+_BINDS = 0.5  # a condition that keeps a larger share of the facets alone is why the other one does little
 
 
 class _Tab:
@@ -21,8 +34,13 @@ class _Tab:
     bl_category = "Medial Axis"
 
 
+class _Closed(_Tab):
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
 class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
-    """Settings, the button, progress"""
+    """The button, progress, and the settings that matter most"""
 
     bl_label = "Medial Axis"
     bl_idname = "VIEW3D_PT_medial_axis"
@@ -34,49 +52,106 @@ class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
         layout = self.layout
         if problem := native.problem():
             draw_wrapped(context, layout.box(), problem, "ERROR")
-        _draw_settings(context, layout)
         _draw_compute(context, layout)
         for note in context.scene.medial_axis.note.splitlines():
             draw_wrapped(context, layout, note, "INFO")
+        draw_guide(layout)
+        _draw_settings(context, layout)
 
 
-class VIEW3D_PT_medial_axis_sampling(_Tab, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_sampling(_Closed, bpy.types.Panel):
     """How faces are sampled, and the report"""
 
     bl_label = "Sampling"
     bl_idname = "VIEW3D_PT_medial_axis_sampling"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         settings = context.scene.medial_axis
-        column = self.layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
-        draw_sampling(column, settings)
+        draw_sampling(_column(self.layout), settings)
         if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
             button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
             copy_settings(settings, button)
-        report = shown_report(context)
-        if report is not None:
-            _draw_report(context, self.layout, report)
+
+
+class VIEW3D_PT_medial_axis_method(_Closed, bpy.types.Panel):
+    """What the published method leaves open"""
+
+    bl_label = "Method"
+    bl_idname = "VIEW3D_PT_medial_axis_method"
+
+    def draw(self, context):
+        settings, column = context.scene.medial_axis, _column(self.layout)
+        draw_more_of_form(column, settings)
+        for name in ("rule", "criteria", "limit_set", "sides"):
+            column.prop(settings, name)
+
+
+class VIEW3D_PT_medial_axis_show(_Closed, bpy.types.Panel):
+    """How the result is seen"""
+
+    bl_label = "Show"
+    bl_idname = "VIEW3D_PT_medial_axis_show"
+
+    @classmethod
+    def poll(cls, context):
+        return _shown(context) is not None
+
+    def draw(self, context):
+        thing, settings = _shown(context), context.scene.medial_axis
+        _draw_colours(context, self.layout)
+        column = _column(self.layout)
+        column.prop(thing, "show_in_front", text="In Front")
+        if output_object.source_of(thing) is not None:
+            _draw_source(column, thing)
+        column.prop(settings, "parent")
+        if Form[settings.form] is Form.PUBLISHED:
+            column.prop(settings, "smallest_island", slider=True)
+        if modifier := wires_of(thing):
+            owner, path = width_of(modifier)
+            column.prop(owner, path, text="Wire Width")
 
 
 class VIEW3D_PT_medial_axis_result(_Tab, bpy.types.Panel):
-    """Figures of the result, and files"""
+    """What matters of the result, and files"""
 
     bl_label = "Result"
     bl_idname = "VIEW3D_PT_medial_axis_result"
     bl_parent_id = "VIEW3D_PT_medial_axis"
 
+    @classmethod
+    def poll(cls, context):
+        return _shown(context) is not None
+
     def draw(self, context):
         layout = self.layout
-        result = shown_result(context)
-        if result is None:
-            layout.label(text="No medial axis yet", icon="INFO")
-        else:
-            _draw_figures(context, layout, result)
-        layout.operator("export_scene.medial_axis", icon="EXPORT")
+        result, report, frame = shown_result(context), shown_report(context), _frame(context)
+        if not shows_colours(context.space_data):
+            _draw_colours(context, layout)
+        if frame is not None:
+            draw_sequence(context, layout, frame)
+        if result is not None:
+            draw_result(context, layout, result)
+        if report is not None:
+            draw_report(context, layout, report)
+        if result is not None:
+            layout.operator("export_scene.medial_axis", icon="EXPORT")
+
+
+class VIEW3D_PT_medial_axis_details(_Closed, bpy.types.Panel):
+    """All other figures, and every sentence"""
+
+    bl_label = "Details"
+    bl_idname = "VIEW3D_PT_medial_axis_details"
+
+    @classmethod
+    def poll(cls, context):
+        return shown_result(context) is not None or shown_report(context) is not None
+
+    def draw(self, context):
+        if result := shown_result(context):
+            draw_details(context, self.layout, result)
+        if report := shown_report(context):
+            draw_report_details(context, self.layout, report)
 
 
 class VIEW3D_PT_medial_axis_surface(_Tab, bpy.types.Panel):
@@ -91,19 +166,47 @@ class VIEW3D_PT_medial_axis_surface(_Tab, bpy.types.Panel):
         return shown_surface(context) is not None
 
     def draw(self, context):
-        _draw_surface(context, self.layout, shown_surface(context))
+        draw_surface(context, self.layout, shown_surface(context))
 
 
-def _draw_settings(context, layout):
-    panel = context.scene.medial_axis
+def _frame(context):
+    """The active object, where it is one of a sequence."""
+    active = context.object
+    return active if active is not None and sequence_objects.FRAME in active else None
+
+
+def _shown(context):
+    """What the panel speaks of: a frame of a sequence, a medial axis, or a report."""
+    return _frame(context) or shown_result(context) or shown_report(context)
+
+
+def _column(layout):
     column = layout.column()
     column.use_property_split = True
     column.use_property_decorate = False
-    draw_form(column, panel)
+    return column
+
+
+def _draw_settings(context, layout):
+    settings, column = context.scene.medial_axis, _column(layout)
+    draw_form(column, settings)
     for name in ("theta", "rho"):
-        column.prop(panel, name, slider=True)
-    for name in ("side", "sides", "sampling", "rule", "criteria", "limit_set"):
-        column.prop(panel, name)
+        column.prop(settings, name, slider=True)
+    if result := shown_result(context):
+        _draw_what_binds(context, column, result)
+    column.prop(settings, "side")
+    if Side[settings.side] in (Side.OUTER, Side.BOTH):
+        column.prop(settings, "within")
+    column.prop(settings, "sampling")
+
+
+def _draw_what_binds(context, layout, result):
+    """Why a slider that is dragged does little: the other condition keeps what its own drops."""
+    ratio, angle = result.get(axis_object.ONLY_RATIO, 0.0), result.get(axis_object.ONLY_ANGLE, 0.0)
+    if ratio > _BINDS:
+        draw_wrapped(context, layout, "Rho binds, not Theta", "INFO")
+    elif angle > _BINDS:
+        draw_wrapped(context, layout, "Theta binds, not Rho", "INFO")
 
 
 def _draw_compute(context, layout):
@@ -117,9 +220,11 @@ def _draw_compute(context, layout):
         context.scene.medial_axis,
         row.operator("object.medial_axis", icon="OUTLINER_DATA_MESH"),
     )
-    layout.operator(
-        "object.tight_cocone_surface", text="Reconstruct Surface", icon="MESH_ICOSPHERE"
-    )
+    if not all(map(has_faces, sources(context))):
+        button = layout.operator(
+            "object.tight_cocone_surface", text="Reconstruct Surface", icon="MESH_ICOSPHERE"
+        )
+        copy_settings(context.scene.medial_axis, button)
     reason = obstacle(context)
     if reason and reason != native.problem():
         draw_wrapped(context, layout, reason, "INFO")
@@ -136,87 +241,31 @@ def _draw_progress(context, layout, job):
     layout.operator("object.medial_axis_cancel", icon="CANCEL")
 
 
-def _draw_figures(context, layout, result):
-    smallest, largest = axis_object.radius_range(result)
-    _draw_table(
-        layout,
-        result,
-        {
-            "Points": f"{result.get(output_object.POINTS, 0):,}",
-            "Duplicates": f"{result.get(output_object.DUPLICATES, 0):,}",
-            "Facets": f"{len(result.data.polygons):,}",
-            "Vertices": f"{len(result.data.vertices):,}",
-            "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
-            "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
-            "Radius": f"{smallest:.3g} to {largest:.3g}",
-        },
+def _draw_colours(context, layout):
+    layout.operator(
+        "view3d.medial_axis_show_colours",
+        icon="COLOR",
+        depress=shows_colours(context.space_data),
     )
-    for name in (
-        axis_object.TOPOLOGY,
-        output_object.SAMPLED,
-        output_object.DENSITY,
-        axis_object.INSIDE,
-    ):
-        if sentence := result.get(name):
-            draw_wrapped(context, layout, sentence, "INFO")
-    _draw_warnings(context, layout, result)
 
 
-def _draw_surface(context, layout, surface):
-    _draw_table(
-        layout,
-        surface,
-        {
-            "Points": f"{surface.get(output_object.POINTS, 0):,}",
-            "Duplicates": f"{surface.get(output_object.DUPLICATES, 0):,}",
-            "Off Surface": f"{surface.get(surface_object.OFF_SURFACE, 0):,}",
-            "Triangles": f"{len(surface.data.polygons):,}",
-            "Non-Manifold": f"{surface.get(surface_object.NONMANIFOLD_EDGES, 0):,} edges",
-            "": f"{surface.get(surface_object.NONMANIFOLD_VERTICES, 0):,} points",
-            "Cavities": f"{surface.get(surface_object.CAVITIES, 0):,}",
-        },
-    )
-    _draw_warnings(context, layout, surface)
-
-
-def _draw_report(context, layout, report):
-    limit = report.get(LIMIT, 0.0)
-    worst = report.get(report_object.WORST) or [0.0]
-    _draw_table(
-        layout,
-        report,
-        {
-            "Samples": f"{report.get(output_object.POINTS, 0):,}",
-            "Epsilon": f"{report.get(report_object.MEDIAN, 0.0):.2f} (median)",
-            "95 % Below": f"{report.get(report_object.P95, 0.0):.2f}",
-            f"Above {limit:g}": f"{100 * report.get(report_object.SHARE, 0.0):.1f} %",
-            "And at Edges": f"{100 * report.get(report_object.SHARE_OF_ALL, 0.0):.1f} %",
-            "Worst": f"{worst[0]:.2g}",
-        },
-    )
-    draw_wrapped(context, layout, report.get(output_object.SAMPLED, ""), "INFO")
-    _draw_warnings(context, layout, report)
-
-
-def _draw_table(layout, thing, figures):
-    layout.label(text=thing.name, icon="OUTLINER_OB_MESH", translate=False)
-    column = layout.column(align=True)
-    for label, text in figures.items():
-        row = column.split(factor=0.45)
-        row.label(text=say(label), translate=False)
-        row.label(text=say(text), translate=False)
-
-
-def _draw_warnings(context, layout, thing):
-    for warning in thing.get(output_object.WARNINGS, "").splitlines():
-        draw_wrapped(context, layout, warning, "ERROR")
+def _draw_source(layout, thing):
+    source = output_object.source_of(thing)
+    layout.operator(
+        "object.medial_axis_source_as_wire",
+        icon="SHADING_WIRE",
+        depress=source.display_type == "WIRE",
+    ).name = thing.name
 
 
 CLASSES = (
     VIEW3D_PT_medial_axis,
     VIEW3D_PT_medial_axis_sampling,
+    VIEW3D_PT_medial_axis_method,
+    VIEW3D_PT_medial_axis_show,
     VIEW3D_PT_medial_axis_result,
     VIEW3D_PT_medial_axis_surface,
+    VIEW3D_PT_medial_axis_details,
 )
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

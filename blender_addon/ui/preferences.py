@@ -4,6 +4,7 @@
 import os
 
 import bpy
+from bpy.props import BoolProperty
 
 from .. import __version__
 from ..core.machine import native
@@ -46,18 +47,33 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
     cache_size: integer_of(CACHE_SIZE, _give_room)
     memory_limit: integer_of(LIMITS["memory_limit"])
     above_limit: choice_of(LIMITS["above_limit"])
+    show_installed: BoolProperty(
+        name="Installation", description="What is installed, what memory holds, and a test of it"
+    )
+    guided: BoolProperty(options={"HIDDEN"})  # the tutorial was opened, or its line dismissed
 
     def draw(self, context):
-        _draw_installed(context, self.layout.box().column())
+        _draw_start(context, self.layout)
         _draw_memory(self.layout.box().column(), self)
         draw_library(self.layout.box().column())
-        _draw_test(context, self.layout.box().column())
-        draw_manual(self.layout)
+        box = self.layout.box().column()
+        arrow = "DISCLOSURE_TRI_DOWN" if self.show_installed else "DISCLOSURE_TRI_RIGHT"
+        box.prop(self, "show_installed", icon=arrow, emboss=False)
+        if self.show_installed:
+            _draw_installed(box)
+            _draw_kept(box)
+            _draw_test(context, box)
 
 
-def _draw_installed(context, layout):
+def _draw_start(context, layout):
+    """Where the panel is, and what there is to read."""
+    draw_wrapped(context, layout, "3D Viewport > Sidebar (N) > Medial Axis", "INFO")
     if problem := native.problem():
         draw_wrapped(context, layout, problem, "ERROR")
+    draw_manual(layout)
+
+
+def _draw_installed(layout):
     file = native.file()
     table = {
         "Version": __version__,
@@ -74,8 +90,12 @@ def _draw_installed(context, layout):
 def _draw_memory(layout, preferences):
     column = layout.column()
     column.use_property_split = True
-    for name in ("cache_size", "memory_limit", "above_limit"):
-        column.prop(preferences, name)
+    for name, option in (("cache_size", CACHE_SIZE), ("memory_limit", LIMITS["memory_limit"])):
+        column.prop(preferences, name, text=f"{say(option.label)} ({option.unit})", translate=False)
+    column.prop(preferences, "above_limit")
+
+
+def _draw_kept(layout):
     row = layout.split(factor=0.7)
     kept = f"{len(CACHE)} analyses are kept, {CACHE.bytes / MEGABYTE:,.0f} MB"
     row.label(text=say(kept), translate=False)

@@ -8,18 +8,26 @@ from dataclasses import replace
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
-from ..bridge.axis_object import ANALYSIS, is_result, result_of, settings_of, update_result
-from ..bridge.output_object import is_gone
+from ..bridge.axis_object import (
+    ANALYSIS,
+    is_result,
+    result_of,
+    settings_of,
+    update_result,
+)
+from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
-from ..bridge.report_object import is_report, report_of
+from ..bridge.report_object import has_report, report_of
 from ..bridge.surface_object import is_surface, surface_of
 from ..core.axis.compute import refilter, refiltered_topology
 from ..core.errors import MedialAxisError
 from ..core.settings import (
     ANALYSED,
+    LOOKS,
     OPTIONS,
     SAMPLING_OPTIONS,
     Choice,
+    Look,
     Number,
     SamplingMode,
     Settings,
@@ -29,9 +37,9 @@ from . import current_job
 from .translation import IN_CONTEXT
 
 
-def number(name, update=None):
+def number(name, update=None, of=OPTIONS):
     """A FloatProperty for an option."""
-    option = OPTIONS[name]
+    option = of[name]
     limits = {"min": option.minimum, "soft_max": option.soft_maximum}
     if math.isfinite(option.maximum):
         limits["max"] = option.maximum
@@ -39,6 +47,8 @@ def number(name, update=None):
         limits |= {"subtype": "ANGLE", "step": 100, "precision": 3}
     if option.unit == "%":
         limits |= {"subtype": "PERCENTAGE", "precision": 2}
+    if option.unit == "length":
+        limits |= {"subtype": "DISTANCE", "precision": 4}
     return FloatProperty(
         name=option.label,
         description=option.description,
@@ -84,9 +94,9 @@ def choice_of(option, update=None):
     )
 
 
-def switch(name, update=None):
+def switch(name, update=None, of=OPTIONS):
     """A BoolProperty for an option."""
-    option = OPTIONS[name]
+    option = of[name]
     return BoolProperty(
         name=option.label,
         description=option.description,
@@ -108,6 +118,22 @@ class SamplingProperties:
     smooth: switch("smooth")
     keep_vertices: switch("keep_vertices")
     seed: integer("seed")
+
+
+class LookProperties:
+    """How results look."""
+
+    colours: switch("colours", of=LOOKS)
+    parent: switch("parent", of=LOOKS)
+    within: number("within", of=LOOKS)
+    smallest_island: number("smallest_island", of=LOOKS)
+
+
+def look_from(properties) -> Look:
+    """Properties of an operator or of the panel -> Look."""
+    return Look(
+        **{name: _value(option, getattr(properties, name)) for name, option in LOOKS.items()}
+    )
 
 
 def draw_sampling(layout, properties):
@@ -133,7 +159,7 @@ def settings_from(properties) -> Settings:
 
 def copy_settings(source, target) -> None:
     """Set the properties of an operator button to those of the panel."""
-    for name in OPTIONS:
+    for name in (*OPTIONS, *LOOKS):
         if hasattr(target, name):
             setattr(target, name, getattr(source, name))
 
@@ -166,14 +192,24 @@ def shown_surface(context):
 
 def shown_report(context):
     """The report that the panel speaks of: the active object, or that of the active object."""
-    return _shown(context, is_report, report_of)
+    return _shown(context, has_report, report_of)
 
 
 def _shown(context, is_kind, of_source):
+    """The active object, what was made of it, or what was made of that of which it was made."""
     active = getattr(context, "object", None)
     if active is None or active.type not in SOURCE_TYPES:
         return None
-    return active if is_kind(active) else of_source(active)
+    if is_kind(active):
+        return active
+    source = source_of(active)
+    return of_source(active) or (
+        None if is_gone(source) else _of_source(source, is_kind, of_source)
+    )
+
+
+def _of_source(source, is_kind, of_source):
+    return source if is_kind(source) else of_source(source)
 
 
 def _refilter(panel, context):
@@ -199,12 +235,14 @@ def _refilter_result(result, panel) -> str:
     if axis.is_empty:
         return "No facet passes these conditions; the medial axis was left as it was"
     topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
-    update_result(result, axis, replace(wanted, form=wanted.form_of_side), topology)
+    settings = replace(wanted, form=wanted.form_of_side)
+    update_result(result, axis, settings, topology, look_from(panel))
     return ""
 
 
 class MedialAxisPanelSettings(SamplingProperties, bpy.types.PropertyGroup):
-    """What the sidebar panel shows; the form, its sliders, theta, rho, rule and criteria act on the result at once."""
+    """What the sidebar panel shows; the form, its sliders, theta, rho, rule, criteria and the look act on the result at
+    once."""
 
     form: choice("form", _refilter)
     simplify: number("simplify", _refilter)
@@ -217,6 +255,10 @@ class MedialAxisPanelSettings(SamplingProperties, bpy.types.PropertyGroup):
     rule: choice("rule", _refilter)
     criteria: choice("criteria", _refilter)
     limit_set: switch("limit_set", _refilter)
+    colours: switch("colours", _refilter, of=LOOKS)
+    parent: switch("parent", of=LOOKS)
+    within: number("within", _refilter, of=LOOKS)
+    smallest_island: number("smallest_island", _refilter, of=LOOKS)
     note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
 

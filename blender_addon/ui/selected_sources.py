@@ -5,13 +5,30 @@ from dataclasses import dataclass
 
 import bpy
 
+from ..bridge.armature_object import is_armature
 from ..bridge.axis_object import is_result
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import is_report
+from ..bridge.skeleton_object import is_skeleton
+from ..bridge.thickness_object import is_copy
 from . import current_job
 
 _KINDS = "a mesh, point cloud, curve, surface, text or metaball"
+
+
+# What is made of a source and has no surface of its own.
+_MADE = {
+    is_result: "a medial axis",
+    is_report: "a report",
+    is_copy: "a report",
+    is_skeleton: "a skeleton",
+    is_armature: "an armature",
+}
+
+
+def _is_made(thing) -> bool:
+    return any(is_kind(thing) for is_kind in _MADE)
 
 
 @dataclass(frozen=True)
@@ -21,6 +38,7 @@ class Source:
     name: str
     uid: int | None
     frame: object  # (4, 4) float64
+    world: object  # its matrix when it was read
 
     def find(self):
         """The object, or None when it is gone."""
@@ -32,14 +50,19 @@ class Source:
 
 
 def sources(context) -> list:
-    """The selected objects that have a surface or points, and those in edit mode; instead of a medial axis or a
-    report of samples, what it was made of."""
+    """The selected objects that have a surface or points, and those in edit mode; instead of a medial axis, a report
+    of samples, a skeleton or an armature, what it was made of."""
     found = []
     for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
-        source = source_of(thing) if is_result(thing) or is_report(thing) else thing
+        source = source_of(thing) if _is_made(thing) else thing
         if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
             found.append(source)
     return list(dict.fromkeys(found))
+
+
+def has_faces(thing) -> bool:
+    """Whether a source is more than points, as far as one sees without evaluating it."""
+    return thing.type != "POINTCLOUD" and (thing.type != "MESH" or bool(thing.data.polygons))
 
 
 def obstacle(context) -> str:
@@ -52,8 +75,8 @@ def obstacle(context) -> str:
     if not chosen:
         return f"Select {_KINDS}; nothing is selected"
     thing = chosen[0]
-    if is_result(thing) or is_report(thing):
-        kind = "a medial axis" if is_result(thing) else "a report"
+    if _is_made(thing):
+        kind = next(words for is_kind, words in _MADE.items() if is_kind(thing))
         return f"Select {_KINDS}; '{thing.name}' is {kind} whose source is gone"
     return f"Select {_KINDS}; '{thing.name}' is of type {thing.type.capitalize()}"
 

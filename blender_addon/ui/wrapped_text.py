@@ -8,10 +8,16 @@ from .translation import say
 _CHARACTER = 7  # pixels of an average character; only decides where lines break
 
 
-def draw_wrapped(context, layout, text, icon):
-    """A sentence over as many lines as the region needs."""
-    width = context.region.width / context.preferences.system.ui_scale - 60
+def draw_wrapped(context, layout, text, icon="NONE", icon_value=0, beside=0):
+    """A sentence over as many lines as the region needs, with an icon by name or by number.
+
+    So many pixels are left for what stands `beside` it.
+    """
+    width = context.region.width / context.preferences.system.ui_scale - 60 - beside
     column = layout.column(align=True)
     column.scale_y = 0.8
     for number, line in enumerate(textwrap.wrap(say(text), max(20, int(width / _CHARACTER)))):
-        column.label(text=line, icon="BLANK1" if number else icon, translate=False)
+        if number or not icon_value:
+            column.label(text=line, icon="BLANK1" if number else icon, translate=False)
+        else:
+            column.label(text=line, icon_value=icon_value, translate=False)

@@ -264,6 +264,12 @@ class Level:
     def facet_of(self) -> NDArray[np.int32]:
         """(f,) int32: facet of the hierarchy, for its values."""
     @property
+    def theta(self) -> NDArray[np.float64]:
+        """(f,) float64, radians: as in `MedialMesh`, by the rule of the hierarchy."""
+    @property
+    def rho(self) -> NDArray[np.float64]:
+        """(f,) float64: as in `MedialMesh`, by the rule of the hierarchy."""
+    @property
     def sheet(self) -> NDArray[np.float32]:
         """(f,) float32: `facet_sheet` of each facet."""
     @property
@@ -286,8 +292,8 @@ class Level:
         """Components, tunnels and cavities, counted on the level; those of the hierarchy."""
     @property
     def hidden(self) -> int:
-        """Edges from a vertex to itself, and facets with fewer than three other edges: they count but cannot be
-        drawn. Only where very many samples are cospherical."""
+        """Edges from a vertex to itself, facets with fewer than three other edges, and facets with the corners of
+        another one: they count but cannot be drawn. Only where very many samples are cospherical."""
 
 @final
 class Hierarchy:
@@ -425,7 +431,8 @@ class ThicknessMode:
     BALL: ThicknessMode
     """All balls; zero at every convex edge."""
     SCAN: ThicknessMode
-    """The ball that comes nearest, of those at facets with a theta above 50 degrees, for noise; no normals are used."""
+    """The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No
+    normals are used; what tapers reads too thick."""
 
 @final
 class WallThickness:
@@ -806,6 +813,15 @@ def patches(
     wanted : (m,) bool
     vertices : int
         The number of rows that the triangles count.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
+def nearest(sites: NDArray[np.float64], queries: NDArray[np.float64]) -> NDArray[np.int32]:
+    """(k,) int32: row of the site nearest to each of (k, 3) queries, of equally near ones the lowest; -1 where there
+    are no sites.
 
     Raises
     ------

@@ -147,6 +147,11 @@ void bind_level(py::module_& m) {
                              "facet, in lexicographic order.")
       .def_property_readonly("facet_of", view_property<int32_t>(&Level::facet_of),
                              "(f,) int32: facet of the hierarchy.")
+      .def_property_readonly("theta", view_property<double>(&Level::theta),
+                             "(f,) float64, radians: as in `MedialMesh`, by the rule of the "
+                             "hierarchy.")
+      .def_property_readonly("rho", view_property<double>(&Level::rho),
+                             "(f,) float64: as in `MedialMesh`, by the rule of the hierarchy.")
       .def_property_readonly("sheet", view_property<float>(&Level::sheet),
                              "(f,) float32: `facet_sheet` of each.")
       .def_property_readonly("erosion", view_property<float>(&Level::erosion),
@@ -162,10 +167,10 @@ void bind_level(py::module_& m) {
       .def_property_readonly(
           "betti", [](const Level& l) { return betti_tuple(l.betti); },
           "Components, tunnels and cavities, counted on the level.")
-      .def_readonly(
-          "hidden", &Level::hidden,
-          "Edges from a vertex to itself, and facets with fewer than three other edges: they count "
-          "but cannot be drawn.");
+      .def_readonly("hidden", &Level::hidden,
+                    "Edges from a vertex to itself, facets with fewer than three other edges, and "
+                    "facets with "
+                    "the corners of another one: they count but cannot be drawn.");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <medial/thickness.h>
 
 #include "arrays.h"
+#include "base/nearest.h"
+#include "base/parallel.h"
 #include "base/patches.h"
 #include "base/rows.h"
 #include "bindings.h"
@@ -20,6 +22,10 @@ constexpr const char* kPatchesDoc =
     "vertices : int\n    The number of rows that the triangles count.\n\n"
     "Raises\n------\nInvalidInputError";
 
+constexpr const char* kNearestDoc =
+    "(k,) int32: row of the site nearest to each of (k, 3) queries, of equally near ones the "
+    "lowest; -1 where there are no\nsites.\n\nRaises\n------\nInvalidInputError";
+
 py::array patches_of(const py::object& triangles, const py::object& wanted, int64_t vertices) {
   const Triangles faces(triangles);
   const auto flags = flags_of(wanted, "wanted");
@@ -34,6 +40,27 @@ py::array patches_of(const py::object& triangles, const py::object& wanted, int6
   {
     const py::gil_scoped_release release;
     result = patches(rows, flags, static_cast<size_t>(vertices));
+  }
+  return array_of<int32_t>(std::move(result));
+}
+
+py::array nearest_rows(const py::object& sites, const py::object& queries) {
+  const Points site_rows(sites, "sites"), query_rows(queries, "queries");
+  const auto places = site_rows.span(), at = query_rows.span();
+  std::vector<int32_t> result(at.size(), -1);
+  {
+    const py::gil_scoped_release release;
+    require_finite(places, "site");
+    require_finite(at, "query");
+    const Nearest nearest(places);
+    parallel_chunks(static_cast<int64_t>(at.size()), {thread_count(0)},
+                    [&](int64_t begin, int64_t end, int) {
+                      std::vector<Neighbour> found;
+                      for (int64_t i = begin; i < end; ++i) {
+                        nearest.find(at[i], 1, found);
+                        if (!found.empty()) result[i] = found[0].id;
+                      }
+                    });
   }
   return array_of<int32_t>(std::move(result));
 }
@@ -65,6 +92,7 @@ void bind_thickness(py::module_& m) {
           "surface, or infinite.");
   m.def("patches", &patches_of, kPatchesDoc, py::arg("triangles"), py::arg("wanted"),
         py::arg("vertices"));
+  m.def("nearest", &nearest_rows, kNearestDoc, py::arg("sites"), py::arg("queries"));
 }
 
 }  // namespace medial::python

@@ -148,8 +148,9 @@ def compute(**settings):
 
 
 def compute_or_not(**settings):
-    """What the operator answers for the selection, by its vertices and as published if nothing else is said."""
-    return bpy.ops.object.medial_axis(**{"sampling": "VERTICES", "form": "PUBLISHED"} | settings)
+    """What the operator answers for the selection: by its vertices, as published and whole, if nothing else is said."""
+    usual = {"sampling": "VERTICES", "form": "PUBLISHED", "within": 0.0}
+    return bpy.ops.object.medial_axis(**usual | settings)
 
 
 def refuse(match, operator="medial_axis", **settings):

@@ -227,7 +227,7 @@ def test_exit_codes_leave_blender(here):
     assert in_blender("none.off", "a.ma").returncode == 3
     assert in_blender("a.off", "--nonsense", "b.ma").returncode == 2
     assert in_blender("--help").returncode == 0
-    assert in_blender("a.ma", "--object", "Body", "--rho=1e9", "--criteria=ratio",
+    assert in_blender("a.ma", "--object", "Body", "--rho=1e9", "--criteria=ratio", "--form=published",
                       file=["walk.blend"]).returncode == 1  # fmt: skip
 
 

@@ -361,6 +361,7 @@ def test_theta_and_rho_are_filtered_from_the_kept_analysis():
     compute()
     before = analyses()
     panel = bpy.context.scene.medial_axis
+    panel.form = "PUBLISHED"
     counts = {}
     for theta in (0.2, 0.6, 1.2):
         panel.theta = theta
@@ -394,6 +395,7 @@ def test_slider_that_leaves_nothing_leaves_the_result_as_it_was():
     compute()
     count = len(result_of(source).data.polygons)
     panel = bpy.context.scene.medial_axis
+    panel.form = "PUBLISHED"
     panel.criteria = "RATIO"
     kept = len(result_of(source).data.polygons)
     panel.rho = 1e9

@@ -36,8 +36,8 @@ class Layout:
         return SimpleNamespace()
 
 
-def page():
-    """What the preferences show."""
+def page(whole=True):
+    """What the preferences show, with the part that is closed at first where `whole` says so."""
     layout = Layout()
     region = SimpleNamespace(width=10_000)
     system = SimpleNamespace(ui_scale=1.0)
@@ -47,6 +47,7 @@ def page():
     shown = SimpleNamespace(
         layout=layout, bl_rna=owner.bl_rna, **dict.fromkeys(owner.bl_rna.properties.keys(), 0)
     )
+    shown.show_installed = whole
     draw(shown, context)
     return layout.drawn
 
@@ -88,7 +89,7 @@ def test_self_test_passes_and_says_so(capfd):
     assert [kind for kind, _ in said] == ["Info"] * CHECKS
     assert all(text.startswith("Passed: ") for _, text in said)
     assert contents() == before
-    assert [text.removeprefix("Passed: ") for _, text in said] == page()[-CHECKS - 3 : -3]
+    assert [text.removeprefix("Passed: ") for _, text in said] == page()[-CHECKS:]
 
 
 def test_self_test_fails_without_the_module(monkeypatch, tmp_path):
@@ -168,4 +169,11 @@ def test_online_manual_of_blender_is_left_alone():
 
 
 def test_page_has_buttons_for_the_manual():
-    assert page()[-3:] == ["User Guide", "Troubleshooting", "Command Line"]
+    first, *buttons = page(whole=False)[:5]
+    assert first == "3D Viewport > Sidebar (N) > Medial Axis"
+    assert buttons == ["Tutorial", "User Guide", "Troubleshooting", "Command Line"]
+
+
+def test_page_begins_short():
+    drawn = page(whole=False)
+    assert str(addon("core.machine.native").file()) not in drawn and len(drawn) < 12

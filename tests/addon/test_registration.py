@@ -22,7 +22,11 @@ SAMPLING = (
     "keep_vertices",
     "seed",
 )
-OPTIONS = ("theta", "rho", "side", "sides", "rule", "criteria", "limit_set", *SAMPLING)
+OPTIONS = (
+    *("form", "simplify", "erode", "limb"),
+    *("theta", "rho", "side", "sides", "rule", "criteria", "limit_set"),
+    *SAMPLING,
+)
 
 
 def menu_texts(menu):

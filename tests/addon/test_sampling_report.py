@@ -27,7 +27,8 @@ EVEN = {"sampling": "SURFACE", "samples": 1_500}
 def report(source, **settings):
     """Run the operator on a source; the report, which must be there."""
     select(source)
-    assert bpy.ops.object.medial_axis_sampling_report(**settings) == {"FINISHED"}
+    options = {"target": "COPY"} | settings
+    assert bpy.ops.object.medial_axis_sampling_report(**options) == {"FINISHED"}
     return addon("bridge.report_object").report_of(source)
 
 

@@ -29,8 +29,12 @@ DATA = {
     "of {}",
     "property float {}\n",
     " Medial Axis",
+    "Medial Axis Wires",
+    "Fill Caps",
+    "step {}",
     " Medial Axis Sequence",
     "Medial Axis Self-Test",
+    "Medial Axis Armature",
     "the arrays of a mesh contradict each other",
 }
 # Parts of sentences that stand in a source as a single word, or inside of another sentence.

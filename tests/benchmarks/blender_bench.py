@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the whole operator costs in Blender beside the bare triangulation of the same points, and what a slider costs.
 
-Used by bench.py. Click: the operator from the mesh object to the evaluated object of the axis. Change: another
-threshold, from the panel's property to the evaluated mesh; drawn: until it is on the screen, which an X server
+Used by bench.py. Click: the operator with its defaults, from the mesh object to the evaluated object of the clean
+axis. Change: another value of Erode, from the panel's property to the evaluated mesh; rho: another Rho, which needs
+another hierarchy; drawn: until it is on the screen, which an X server
 without a screen and OpenGL in software take much longer for than people's machines; drawing: that alone. CPU: the
 ratio to its left in processor time, of all threads together.
 """
@@ -40,6 +41,7 @@ HEADER = [
     "click / bare",
     "CPU",
     "change s",
+    "rho s",
 ]
 HEADER += ["change / click", "CPU", "change drawn s", "drawing s", "facets", "peak B / point"]
 HEADER += ["others"]
@@ -73,7 +75,7 @@ def measured(work: Input, bare: Path, program: str, repeats: int) -> dict:
         folder = Path(name)
         work.write(folder)
         blender = addon.Blender([program], folder / "profile")
-        blender.environment["MEDIAL_AXIS_MODULE"] = blender.install(addon.pack(folder))
+        blender.environment["MEDIAL_AXIS_MODULE"] = blender.install(addon.pack_sources(folder))
         for _ in range(repeats):
             alone = measuring.bare(bare, folder)
             turns.append({"bare": alone, **_in_blender(blender, folder, "--background")})
@@ -114,7 +116,7 @@ def table(results: list[dict]) -> str:
         cells = [result["input"], str(result["points"]), f"{result['bare']['seconds']:.3f}"]
         cells += [f"{seconds['analysis']:.3f}", f"{seconds['run']:.3f}"]
         cells += [f"{result['ratios'][x]:.2f}" for x in ("click", "click cpu")]
-        cells += [f"{seconds['change']:.3f}"]
+        cells += [f"{seconds[x]:.3f}" for x in ("change", "rho")]
         cells += [f"{result['ratios'][x]:.3f}" for x in ("change", "change cpu")]
         cells += [f"{window[x]:.3f}" if window else "" for x in ("change drawn", "drawing")]
         cells += [f"{result['facets']:.0f}", f"{result['bytes'] / result['points']:.0f}"]

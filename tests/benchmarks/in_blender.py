@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender: one run of Compute Medial Axis from object to object, and what other thresholds cost then.
+"""Runs inside Blender: one run of Compute Medial Axis from object to object, and what sliders cost then.
 
     MEDIAL_AXIS_MODULE=medial_axis blender --background --factory-startup --python-exit-code 1 \
         --python tests/benchmarks/in_blender.py -- FOLDER ANSWER
@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from measuring import Input, Memory, median
 
 MODULE = os.environ["MEDIAL_AXIS_MODULE"]
-CHANGES = 8  # of rho; the first is not counted
+CHANGES = 8  # of each slider; the first is not counted
 
 
 def main() -> None:
@@ -33,9 +33,11 @@ def main() -> None:
     bpy.ops.preferences.addon_enable(module=MODULE)
     add_object(Input.read(Path(folder)))
     found = run()
-    changes = [change(9.0 + number) for number in range(CHANGES)][1:]
+    changes = [change("erode", 0.05 * number) for number in range(1, CHANGES + 1)][1:]
     for kind, values in median(changes).items():
         found[kind] |= values
+    others = [change("rho", 9.0 + number) for number in range(CHANGES // 2)][1:]
+    found["seconds"]["rho"] = median(others)["seconds"]["change"]
     Path(answer).write_text(json.dumps(found))
 
 
@@ -76,12 +78,12 @@ def run() -> dict:
     return {"seconds": seconds, "cpu": cpu, "bytes": memory.peak, "facets": facets}
 
 
-def change(rho: float) -> dict:
-    """Another threshold, as the panel's slider sets it, until the mesh is evaluated; until it is drawn; and drawing
-    alone. Theta selects the same facets of an ellipsoid, so it is not taken."""
+def change(slider: str, value: float) -> dict:
+    """Another value of a slider of the panel, until the mesh is evaluated; until it is drawn; and drawing alone.
+    Theta selects the same facets of an ellipsoid, so it is not taken."""
     facets = len(bpy.context.object.data.polygons)
     times, cpu = [time.perf_counter()], time.process_time()
-    bpy.context.scene.medial_axis.rho = rho
+    setattr(bpy.context.scene.medial_axis, slider, value)
     bpy.context.view_layer.update()
     cpu = {"change": time.process_time() - cpu}
     times.append(time.perf_counter())

@@ -2,9 +2,10 @@
 """Contact sheets: what one click makes of each primitive of Blender and of each mesh of the data folder.
 
     blender --background --factory-startup --python-exit-code 1 --python tests/demo/contact_sheet.py -- \\
-        --zip dist/medial_axis-0.1.0.zip --output pictures [--only cube igea ...]
+        --zip dist/medial_axis-0.1.0.zip --output pictures [--only cube igea ...] [--forms published clean curve]
 
-The surface is translucent, the axis coloured by radius. Every picture is rendered by itself; ImageMagick's `montage`
+The surface is translucent, the axis coloured by radius; edges that stand by themselves are tubes. With
+--forms there is a row per mesh and a column per form. Every picture is rendered by itself; ImageMagick's `montage`
 puts them side by side. What cannot be computed is printed with what the add-on says. Files come from the folder
 in MEDIAL_AXIS_TEST_DATA; those that are not there are named and left out.
 """
@@ -90,6 +91,9 @@ FILES = {
 def main():
     arguments = parse()
     blender_demo.install(arguments.zip)
+    if arguments.forms:
+        forms(arguments)
+        return
     for sheet, made in (("primitives", PRIMITIVES), ("meshes", FILES)):
         folder = arguments.output / sheet
         folder.mkdir(parents=True, exist_ok=True)
@@ -99,15 +103,30 @@ def main():
             montage(folder, pictures, arguments.output / f"sheet_{sheet}.png")
 
 
+def forms(arguments):
+    """A row per mesh, a column per form."""
+    folder = arguments.output / "forms"
+    folder.mkdir(parents=True, exist_ok=True)
+    known = {**PRIMITIVES, **FILES}
+    pictures = []
+    for name in arguments.only or FILES:
+        for form in arguments.forms:
+            picture = f"{name} {form}"
+            if show(name, known[name], folder / f"{picture}.png", form=form.upper()):
+                pictures.append(picture)
+    montage(folder, pictures, arguments.output / "sheet_forms.png", len(arguments.forms))
+
+
 def parse():
     parser = argparse.ArgumentParser()
     parser.add_argument("--zip", required=True)
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--only", nargs="+", default=[])
+    parser.add_argument("--forms", nargs="+", choices=["clean", "published", "curve"])
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 
-def show(name, make, path):
+def show(name, make, path, **settings):
     """Render the axis of one object; False when there is none."""
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
@@ -115,12 +134,16 @@ def show(name, make, path):
     if source is None:
         return False
     try:
-        bpy.ops.object.medial_axis()
+        bpy.ops.object.medial_axis(**settings)
     except RuntimeError as refusal:
         print(f"{name}: {refusal}")
         return False
     result = bpy.context.object
-    print(f"{name}: {len(result.data.polygons):,} facets; {result.get('ma_sampled', '')}")
+    print(
+        f"{path.stem}: {len(result.data.polygons):,} facets, {result.get('ma_topology', '')}; "
+        f"{result.get('ma_sampled', '')}; valid {not result.data.validate()}",
+        flush=True,
+    )
     surface = as_mesh(source)
     blender_scene.PIXELS = PIXELS
     blender_scene.arrange(surface, result)
@@ -164,9 +187,9 @@ def as_mesh(source):
     return thing
 
 
-def montage(folder, names, path):
+def montage(folder, names, path, columns=COLUMNS):
     pictures = [word for name in names for word in ("-label", name, str(folder / f"{name}.png"))]
-    command = ["montage", "-font", font(), *pictures, "-tile", f"{COLUMNS}x", "-geometry", "+4+4"]
+    command = ["montage", "-font", font(), *pictures, "-tile", f"{columns}x", "-geometry", "+4+4"]
     subprocess.run([*command, str(path)], check=True)
 
 

@@ -16,6 +16,7 @@ PACKAGE = Path(
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]  # native.packaging, tests.parts; support
 
 from support.data import DATA  # noqa: E402 - the line above makes it found
+from support.sampled import Sampled  # noqa: E402
 from support.slow import (  # noqa: E402, F401 - hooks, which pytest finds here
     pytest_addoption,
     pytest_collection_modifyitems,
@@ -44,6 +45,12 @@ def medial():
     from medial_axis.core.machine import native
 
     return native.load()
+
+
+@pytest.fixture(scope="module")
+def sampled(medial):
+    """(name, n, seed, noise) -> shape, analysis, hierarchy of a shape with a known axis, each made once."""
+    return Sampled(medial)
 
 
 @pytest.fixture(scope="session")

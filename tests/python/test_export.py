@@ -68,7 +68,7 @@ def clean_axis(seed=2):
     shown = np.concatenate([sheet.vertices, rng.normal(size=(7, 3))])
     edges = np.array([[0, first], *((i, i + 1) for i in range(first, first + 5))], np.int32)
     level = LevelValues(
-        exact=shown + (0.25, 0.5, 0.125),
+        exact=np.add(shown, (0.25, 0.5, 0.125)),
         exact_radius=rng.random(len(shown)),
         sheet=rng.random(sheet.facets).astype(np.float32),
         erosion=rng.random(sheet.facets).astype(np.float32),

@@ -17,7 +17,7 @@ NATIVE = ROOT / "native"
 
 BLENDER_MODULES = {"bpy", "bpy_extras", "bmesh", "mathutils", "gpu", "blf", "addon_utils"}
 # What each room may import of the package beside itself; "" is the package itself (its name and version).
-CORE = {"core", "core/machine", "core/axis", "core/files", "core/batch"}
+CORE = {"core", "core/machine", "core/axis", "core/skeleton", "core/files", "core/batch"}
 MAY_IMPORT = {
     "core": {
         "core/machine",
@@ -26,10 +26,11 @@ MAY_IMPORT = {
     },  # errors and settings, which all may see; the known box on top
     "core/machine": {"core", "lib"},
     "core/axis": {"core", "core/machine"},
-    "core/files": {"core", "core/machine", "core/axis"},
-    "core/batch": {"core", "core/machine", "core/axis", "core/files", ""},
+    "core/skeleton": {"core", "core/machine", "core/axis"},
+    "core/files": {"core", "core/machine", "core/axis", "core/skeleton"},
+    "core/batch": {"core", "core/machine", "core/axis", "core/skeleton", "core/files", ""},
     "bridge": {*CORE, "bridge/nodes", ""},
-    "bridge/nodes": {"bridge"},
+    "bridge/nodes": {"core/axis", "bridge"},
     "ui": {*CORE, "bridge", "bridge/nodes", ""},
 }
 ON_TOP = {"core.known_box"}  # of core; the rooms below do not see it
@@ -182,6 +183,7 @@ PUBLIC = {
     "medial_mesh.h": {"axis"},
     "watertight_surface.h": {"cocone"},
     "hierarchy.h": {"skeleton"},
+    "thickness.h": {"axis"},
     "sampling.h": {"sampling"},
     "analysis.h": {"."},
 }

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ...core.axis.colours import SCALE
 from ..attributes import RADIUS
-from ..material import _COLOURS as SCALE
+from ..colours import COLOUR
 from .tree import Tree
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     return tree.output(
         tree.node(
             "GeometryNodeStoreNamedAttribute",
-            named={"Geometry": tree.geometry, "Name": "ma_color", "Value": ramp},
+            named={"Geometry": tree.geometry, "Name": COLOUR, "Value": ramp},
             data_type="FLOAT_COLOR",
             domain="POINT",
         )

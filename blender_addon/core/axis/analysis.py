@@ -48,6 +48,8 @@ class AnalysedSamples:
         Pieces, loops and cavities of the solid, as its closed faces tell; None where they cannot.
     levels : Levels
         The hierarchy, once a form asked for it.
+    faces : (n,) int32 or None
+        The triangle of the shape that each sample of its faces lies on.
     """
 
     points: NDArray[np.float64]
@@ -61,12 +63,13 @@ class AnalysedSamples:
     key: str = ""
     by_faces: tuple[int, int, int] | None = None
     levels: Levels = field(default_factory=Levels)
+    faces: NDArray[np.int32] | None = None
 
     @property
     def bytes(self) -> int:
         """The memory that these samples, their analysis and its hierarchy hold."""
         density = self.density
-        own = (self.points, self.kinds, self.normals, self.rows)
+        own = (self.points, self.kinds, self.normals, self.rows, self.faces)
         others = (density.points, density.spacing, density.feature_size, density.edges)
         arrays = [x for x in (*own, *others) if x is not None]
         return int(self.analysis.bytes) + self.levels.bytes + sum(x.nbytes for x in arrays)

@@ -11,6 +11,7 @@ from .medial_axis import MedialAxis
 from .sampling_warnings import sampling_warnings
 from .shape import Shape
 from .sides import cocone_warnings, look_inward
+from .verdict import Severe
 
 
 def axis_warnings(
@@ -32,7 +33,7 @@ def axis_warnings(
         yield from cocone_warnings(samples.analysis.tight_cocone, samples.points)
     normals = samples.normals if sides is SidesFrom.NORMALS else None
     if normals is not None and look_inward(samples.points, normals):
-        yield (
+        yield Severe(
             "the normals point inward, so inside and outside are exchanged; turn them round, "
             "or choose Inside From Tight Cocone, and compute again"
         )

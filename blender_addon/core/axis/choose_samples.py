@@ -75,6 +75,8 @@ class ChosenSamples:
         The number of edges at which the faces are open.
     thinned : str
         Why there are fewer samples than the settings ask for, a sentence; or empty.
+    sparse : bool
+        The faces were sampled because their vertices are too few.
     """
 
     samples: AnalysedSamples
@@ -83,6 +85,7 @@ class ChosenSamples:
     sides: Sides
     gaps: int
     thinned: str = ""
+    sparse: bool = False
 
 
 def choose_samples(
@@ -146,15 +149,16 @@ def _whichever_is_dense(request: Request) -> ChosenSamples:
     try:
         chosen = _vertices(request, "dense enough", 0.2)
     except DegenerateInputError:  # the faces may span a volume all the same
-        return _samples_of_faces(request, "the vertices alone span no volume")
+        reason = "the vertices alone span no volume"
+        return replace(_samples_of_faces(request, reason), sparse=True)
     density, cocone = chosen.samples.density, chosen.samples.analysis.tight_cocone
     dense = density.dense_enough
     if not dense and density.is_improved_by(first_spacing(request.shape, request.settings)):
-        return _samples_of_faces(
-            request,
+        reason = (
             f"the vertices are too sparse, epsilon above {density.limit:g} at "
-            f"{percent(density.share)} of them",
+            f"{percent(density.share)} of them"
         )
+        return replace(_samples_of_faces(request, reason), sparse=True)
     if cocone is not None and not cocone.encloses:
         return _samples_of_faces(request, "the vertices alone enclose nothing")
     if dense:
@@ -233,9 +237,11 @@ def _passes(request: Request, sides: Sides) -> tuple[AnalysedSamples, int]:
         and not samples.density.dense_enough
         and not _is_spent(request, samples)
     ):
+        request.progress.begin_pass(passes + 1)
         amount = next_amount(samples, effort.elsewhere, settings.budget)
         found = surface_pass(request, sides, amount, 0.6, samples.spacing)
         samples, passes = _judged(request, found), passes + 1
+    request.progress.begin_pass(1)
     return samples, passes
 
 

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..machine import native
-from ..settings import Form, Rule, Settings
+from ..settings import Form, Settings
 from .medial_axis import LevelValues, MedialAxis
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from ..machine.progress import Progress
+
+_INNER = 1  # value of `_medial.Side`
 
 
 class Levels:
@@ -67,16 +67,14 @@ def extract_level(
     hierarchy = levels.hierarchy(analysis, settings, progress and progress.part(0.9))
     with native.own_errors():
         level = hierarchy.extract(**_wanted(settings), progress=progress and progress.part())
-    rows = _rows(analysis.edges, level.generators)
-    both = settings.rule is Rule.BOTH
     return MedialAxis(
         vertices=level.vertices,
         radius=level.radius,
         face_offsets=level.face_offsets,
         face_vertices=level.face_vertices,
-        theta=(analysis.theta_both if both else analysis.theta)[rows],
-        rho=(analysis.rho_both if both else analysis.rho)[rows],
-        side=analysis.side[rows],
+        theta=level.theta,
+        rho=level.rho,
+        side=np.full(len(level.generators), _INNER, np.int32),
         generators=level.generators,
         unbounded=0,
         zero_area=level.hidden,
@@ -105,10 +103,3 @@ def _wanted(settings: Settings) -> dict[str, Any]:
         "relaxed": True,
         "round_limbs": True,
     }
-
-
-def _rows(edges: NDArray[np.int32], pairs: NDArray[np.int32]) -> NDArray[np.intp]:
-    """(k,) the rows of pairs p < q in edges, which are in lexicographic order."""
-    width = int(edges.max(initial=0)) + 1
-    keys, wanted = (ends[:, 0].astype(np.int64) * width + ends[:, 1] for ends in (edges, pairs))
-    return np.searchsorted(keys, wanted)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which points lie near others, or in one place. NumPy has no search tree, and Blender's Python need not have SciPy."""
+"""Which points lie near others, or in one place, and which is the nearest.
+
+NumPy has no search tree, and Blender's Python need not have SciPy.
+"""
 
 from __future__ import annotations
 
@@ -52,6 +55,55 @@ def near(
             found[left[some[away <= reach]]] = True
             first[some] += 1
     return found
+
+
+def nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.int64]:
+    """The nearest of others to each point, by grids that grow coarser where they find nothing.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    others : (m, 3) float64
+        At least one.
+
+    Returns
+    -------
+    nearest : (n,) int64
+        A row of others; the lower of two equally near ones.
+    """
+    found, left = np.zeros(len(points), np.int64), np.arange(len(points))
+    size = np.ptp(np.concatenate((points, others)), axis=0)
+    reach = max(float(size.max()) / np.sqrt(len(others)), np.finfo(float).tiny)
+    while len(left):
+        row, away = _nearest_in_cells(points[left], others, reach)
+        sure = away <= reach  # none in a cell farther off can be nearer
+        found[left[sure]] = row[sure]
+        left, reach = left[~sure], 2.0 * reach
+    return found
+
+
+def _nearest_in_cells(
+    points: NDArray[np.float64], others: NDArray[np.float64], reach: float
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """The nearest of those in the cells round each point, and how far it is; infinite where there is none."""
+    lowest = np.minimum(points.min(axis=0), others.min(axis=0))
+    highest = np.maximum(points.max(axis=0), others.max(axis=0))
+    size = np.floor((highest - lowest) / reach).astype(np.int64) + 5
+    cells = _cells(others, lowest, reach, size)
+    order = np.argsort(cells, kind="stable")
+    sorted_cells, home = cells[order], _cells(points, lowest, reach, size)
+    row, away = np.zeros(len(points), np.int64), np.full(len(points), np.inf)
+    for step in product((-1, 0, 1), repeat=3):
+        cell = home + np.dot(step, _strides(size))
+        first = np.searchsorted(sorted_cells, cell, "left")
+        last = np.searchsorted(sorted_cells, cell, "right")
+        while len(some := np.flatnonzero(first < last)):
+            other = order[first[some]]
+            distance = np.linalg.norm(points[some] - others[other], axis=1)
+            nearer = (distance < away[some]) | ((distance == away[some]) & (other < row[some]))
+            row[some[nearer]], away[some[nearer]] = other[nearer], distance[nearer]
+            first[some] += 1
+    return row, away
 
 
 def _cells(

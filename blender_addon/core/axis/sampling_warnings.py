@@ -10,6 +10,7 @@ import numpy as np
 
 from ..settings import SamplingMode
 from .density import percent
+from .verdict import Severe
 
 if TYPE_CHECKING:
     from .choose_samples import ChosenSamples
@@ -33,7 +34,7 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
             "overlapping parts, walls inside, or sheets without thickness"
         )
     if density.share > _SPARSE:
-        yield (
+        yield Severe(
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "
             f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"
         )

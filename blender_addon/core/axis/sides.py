@@ -13,6 +13,7 @@ from ..errors import InvalidInputError
 from ..settings import OPTIONS, SidesFrom
 from .buried_samples import bounding_share
 from .nearness import same_place
+from .verdict import Severe
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -137,7 +138,9 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
         The points that it was made of.
     """
     if not found.encloses:
-        yield "the points enclose nothing, so inner and outer facets mean little; more points may help"
+        yield Severe(
+            "the points enclose nothing, so inner and outer facets mean little; more points may help"
+        )
         return
     samples, off = len(found.samples), int(np.count_nonzero(~found.on_surface))
     if off:

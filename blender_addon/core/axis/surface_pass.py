@@ -93,8 +93,9 @@ def _sampled(
     density = estimate(analysis, points, on_edges, first, settings.epsilon)
     buried = int(np.count_nonzero(~bare))
     by_faces = betti_by_faces(request, sides)
+    faces = found.triangle[bare]
     return AnalysedSamples(
-        points, kinds, normals, analysis, density, first, buried, by_faces=by_faces
+        points, kinds, normals, analysis, density, first, buried, by_faces=by_faces, faces=faces
     )
 
 

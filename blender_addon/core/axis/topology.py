@@ -32,7 +32,7 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) 
     sentence = f"{betti_words(betti)}, as the solid"
     if by_faces is None or by_faces == betti:
         return sentence
-    return f"{sentence}; by its faces it would be {betti_words(by_faces)}: {_why(samples)}"
+    return f"{sentence}; by its faces it would be {betti_words(by_faces)}: {_why(betti, by_faces, samples)}"
 
 
 def betti_words(betti: tuple[int, int, int]) -> str:
@@ -44,7 +44,14 @@ def betti_words(betti: tuple[int, int, int]) -> str:
     return f"1 piece, {loop}" if pieces == 1 else f"{pieces:,} pieces, {loop}"
 
 
-def _why(samples: AnalysedSamples) -> str:
+def _why(
+    betti: tuple[int, int, int], by_faces: tuple[int, int, int], samples: AnalysedSamples
+) -> str:
+    torn = betti[0] > by_faces[0]  # which no overlap does
+    if samples.buried and torn:
+        return "its parts overlap, and some are thinner than the spacing of the samples"
     if samples.buried:
         return "its parts overlap"
+    if torn:
+        return "some parts are thinner than the spacing of the samples"
     return "walls or gaps are thinner than the spacing of the samples, or faces pass through each other"

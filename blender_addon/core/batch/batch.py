@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Medial axes as files, one after the other; what is finished is recognised and left.
+"""Results as files, one after the other; what is finished is recognised and left.
 
 Beside every output lies its report, `<output>.json`: figures, warnings, and a stamp of all that the output
 depends on. An output is finished when its report has the right stamp and the digest of the file that is there.
@@ -11,21 +11,35 @@ import hashlib
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from ... import __version__
-from ..axis.compute import Computation, compute_axis
 from ..axis.shape import Shape
-from ..errors import ExportError, MedialAxisError
+from ..errors import ExportError
 from ..files.whole_file import write_whole
-from ..files.write import export_axis
 from ..machine.cache import CACHE, key_of
 from ..machine.job import Outcome, Task
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..settings import Settings
-from .option_words import as_words
+from ..machine.progress import Progress
+
+
+class Work(Protocol):
+    """What is computed of each shape; its `repr` names all settings that the output depends on.
+
+    What `compute` gives has `chosen`, `warnings` and `seconds`.
+    """
+
+    def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Any: ...
+    def check(self, found: Any) -> None:
+        """Raise MedialAxisError where there is nothing to write."""
+
+    def write(self, found: Any, path: Path, frame: Any) -> None: ...
+    def words(self) -> dict[str, Any]:
+        """The settings, for the report."""
+
+    def figures(self, found: Any) -> dict[str, Any]:
+        """What the report says of a result."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,44 +78,35 @@ class Begun:
     Parameters
     ----------
     item : Item
-    settings : Settings
+    work : Work
     limit : MemoryLimit
     shape : Shape
     warnings : tuple of str
     kept : dict or None
         The report of the output that is there and finished; None: it has to be computed.
-    triangles : bool
-        Whether the output is of triangles in text.
     """
 
     item: Item
-    settings: Settings
+    work: Work
     limit: MemoryLimit
     shape: Shape
     warnings: tuple[str, ...]
     kept: dict[str, Any] | None
-    triangles: bool = False
 
     @property
     def task(self) -> Task:
         """What is left to compute."""
-        work = partial(compute_axis, self.shape, self.settings, limit=self.limit)
-        return Task(self.item.name, work)
+        return Task(
+            self.item.name, lambda progress: self.work.compute(self.shape, self.limit, progress)
+        )
 
     def stamp(self, thinned: bool) -> str:
         """A hash of all that the output depends on; where samples were thinned, of the memory limit, too."""
         limit = self.limit if thinned else None
-        kind = self.item.output.suffix.lower() + (" triangles" if self.triangles else "")
-        return stamp_of(self.shape, self.settings, kind, limit)
+        return stamp_of(self.shape, self.work, self.item.output.suffix.lower(), limit)
 
 
-def begin(
-    item: Item,
-    settings: Settings,
-    force: bool = False,
-    limit: MemoryLimit = WHAT_IS_FREE,
-    triangles: bool = False,
-) -> Begun:
+def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT_IS_FREE) -> Begun:
     """Read an item and look whether it is finished; with `force` it never is.
 
     Raises
@@ -109,7 +114,7 @@ def begin(
     MedialAxisError
     """
     shape, warnings = item.read()
-    begun = Begun(item, settings, limit, shape, warnings, None, triangles)
+    begun = Begun(item, work, limit, shape, warnings, None)
     kept = None if force else finished(item.output, {begun.stamp(False), begun.stamp(True)})
     return (
         begun if kept is None else replace(begun, kept={**kept, **_place(item), "status": "kept"})
@@ -127,20 +132,19 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
     CACHE.clear()  # no other output uses this analysis
     if outcome.error is not None:
         raise outcome.error
-    computation, output = outcome.value, begun.item.output
-    if computation.axis.is_empty:
-        raise MedialAxisError(computation.warnings[-1])
+    found, output = outcome.value, begun.item.output
+    begun.work.check(found)
     _make_folder(output)
-    export_axis(computation.axis, output, begun.shape.frame, begun.triangles)
+    begun.work.write(found, output, begun.shape.frame)
     report = {
         "status": "done",
         **_place(begun.item),
-        **_figures(computation),
-        "settings": as_words(begun.settings),
-        "warnings": [*begun.warnings, *computation.warnings],
-        "seconds": round(computation.seconds, 3),
+        **begun.work.figures(found),
+        "settings": begun.work.words(),
+        "warnings": [*begun.warnings, *found.warnings],
+        "seconds": round(found.seconds, 3),
         "version": __version__,
-        "stamp": begun.stamp(thinned=bool(computation.chosen.thinned)),
+        "stamp": begun.stamp(thinned=bool(found.chosen.thinned)),
         "digest": _digest(output),
     }
     text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
@@ -153,10 +157,10 @@ def failure(item: Item, error: BaseException) -> dict[str, Any]:
     return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": str(error)}
 
 
-def stamp_of(shape: Shape, settings: Settings, kind: str, limit: MemoryLimit | None = None) -> str:
+def stamp_of(shape: Shape, settings: object, suffix: str, limit: MemoryLimit | None = None) -> str:
     """A hash of all that an output depends on: the whole shape, every setting, format, version."""
     parts = (getattr(shape, part.name) for part in fields(shape))
-    return key_of(*parts, repr(settings), repr(limit), kind, __version__)
+    return key_of(*parts, repr(settings), repr(limit), suffix, __version__)
 
 
 def finished(output: Path, stamps: set[str]) -> dict[str, Any] | None:
@@ -177,26 +181,6 @@ def report_path(output: Path) -> Path:
 def _place(item: Item) -> dict[str, Any]:
     place = {"input": item.input, "object": item.object, "frame": item.frame}
     return {**place, "output": str(item.output)}
-
-
-def _figures(computation: Computation) -> dict[str, Any]:
-    axis = computation.axis
-    return {
-        "points": computation.points,
-        "duplicates": computation.duplicates,
-        "form": as_words(computation.settings)["form"],
-        "topology": computation.topology,
-        "betti": None if axis.level is None else list(axis.level.betti),
-        "facets": axis.facets,
-        "edges": len(axis.edges),
-        "vertices": len(axis.vertices),
-        "unbounded": axis.unbounded,
-        "zero_area": axis.zero_area,
-        "radius": [float(axis.radius.min()), float(axis.radius.max())],
-        "sampled": computation.chosen.reason,
-        "density": str(computation.density),
-        "inside": str(computation.sides),
-    }
 
 
 def _make_folder(output: Path) -> None:

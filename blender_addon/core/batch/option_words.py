@@ -9,9 +9,23 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..machine.memory_limit import MemoryLimit
-from ..settings import LIMITS, OPTIONS, Choice, Settings, Switch
+from ..settings import (
+    LIMITS,
+    OPTIONS,
+    SAMPLING_OPTIONS,
+    SKELETON_OPTIONS,
+    THICKNESS_OPTIONS,
+    Between,
+    Choice,
+    Settings,
+    SkeletonSettings,
+    Switch,
+    ThicknessSettings,
+)
 
-_UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB"}
+_UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB", "length": "LENGTH"}
+# Of the method only what is measured depends on: thresholds do not change it.
+_MEASURED = ("sides", "sampling", *SAMPLING_OPTIONS)
 
 
 def add_options(parser: argparse._ArgumentGroup) -> None:
@@ -22,6 +36,30 @@ def add_options(parser: argparse._ArgumentGroup) -> None:
 def add_limits(parser: argparse._ArgumentGroup) -> None:
     """As `add_options`, for MemoryLimit."""
     _add(parser, LIMITS)
+
+
+def add_skeleton_options(parser: argparse._ArgumentGroup) -> None:
+    """As `add_options`, for SkeletonSettings."""
+    _add(parser, SKELETON_OPTIONS)
+
+
+def add_thickness(parser: argparse._ArgumentGroup) -> None:
+    """As `add_options`, for ThicknessSettings; `--gap` is a switch."""
+    _add(parser, {n: option for n, option in THICKNESS_OPTIONS.items() if n != "between"})
+    walls, gaps = THICKNESS_OPTIONS["between"].items.values()
+    parser.add_argument(
+        "--gap",
+        dest="between",
+        action="store_const",
+        const=_word(Between.GAP),
+        default=argparse.SUPPRESS,
+        help=f"{gaps[1]} (default: {walls[1].lower()})",
+    )
+
+
+def add_sampling(parser: argparse._ArgumentGroup) -> None:
+    """As `add_options`, of those that lengths depend on."""
+    _add(parser, {name: OPTIONS[name] for name in _MEASURED})
 
 
 def _add(parser: argparse._ArgumentGroup, options: Mapping[str, Any]) -> None:
@@ -53,6 +91,17 @@ def settings_from(words: argparse.Namespace) -> Settings:
     return Settings(**_given(words, OPTIONS))
 
 
+def thickness_from(words: argparse.Namespace) -> ThicknessSettings:
+    """What is to be measured, as a parsed command line means it.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+    return ThicknessSettings(**_given(words, THICKNESS_OPTIONS))
+
+
 def limit_from(words: argparse.Namespace) -> MemoryLimit:
     """The limit that a parsed command line means.
 
@@ -64,9 +113,32 @@ def limit_from(words: argparse.Namespace) -> MemoryLimit:
     return MemoryLimit(**_given(words, LIMITS))
 
 
+def skeleton_settings_from(words: argparse.Namespace) -> SkeletonSettings:
+    """The settings of a skeleton that a parsed command line means.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+    return SkeletonSettings(**_given(words, SKELETON_OPTIONS))
+
+
+def sampling_from(words: argparse.Namespace) -> Settings:
+    """As `settings_from`, of what `add_sampling` adds."""
+    return Settings(**_given(words, {name: OPTIONS[name] for name in _MEASURED}))
+
+
 def as_words(settings: Settings) -> dict[str, str | float | bool]:
     """{option: value} as one would write it on the command line."""
     return {name: _outward(option, getattr(settings, name)) for name, option in OPTIONS.items()}
+
+
+def thickness_as_words(wanted: ThicknessSettings) -> dict[str, str | float | bool]:
+    """The same of what is measured."""
+    return {
+        name: _outward(option, getattr(wanted, name)) for name, option in THICKNESS_OPTIONS.items()
+    }
 
 
 def _given(words: argparse.Namespace, options: Mapping[str, Any]) -> dict[str, Any]:

@@ -23,6 +23,7 @@ class Progress:
         self._end = 1.0  # share of the work after which the calls that follow now are over
         self._running: Any = self._module.Progress()
         self._cancelled = False
+        self._pass = 1
 
     def until(self, fraction: float) -> None:
         """What follows is the work up to this fraction; the rest is for what comes after the next `until`."""
@@ -45,10 +46,15 @@ class Progress:
         with self._lock:
             return min(1.0, self._before + self._share * self._running.fraction)
 
+    def begin_pass(self, number: int) -> None:
+        """Say which pass over the same stages begins now; the first has no name."""
+        self._pass = number
+
     @property
     def stage(self) -> str:
-        """Name of the running stage, for people."""
-        return self._running.stage
+        """Name of the running stage, for people, such as 'Poles' or 'Pass 2: Poles'."""
+        stage = self._running.stage
+        return f"Pass {self._pass}: {stage}" if stage and self._pass > 1 else stage
 
     @property
     def cancelled(self) -> bool:

@@ -36,14 +36,15 @@ struct Level {
   Column<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
   Column<Edge> generators;        // (f) input rows p < q; the facets are in their order
   Column<int32_t> facet_of;       // (f) of the hierarchy
+  Column<double> theta, rho;      // (f) as in MedialMesh, by the rule of the hierarchy
   Column<float> sheet, erosion;   // (f) values of the facet, infinite where it always stays
   Column<Edge> wires;             // (w) edges without a facet: vertices
   Column<int32_t> edge_of;        // (w) of the hierarchy; of new ones that at the middle
   Column<float> limb;             // (w) value of the edge, infinite where it always stays
   Column<int32_t> points;         // (k) vertices without an edge
   Betti betti = {};               // counted on all this
-  // Edges from a vertex to itself, and facets with fewer than three other edges: they count, but
-  // cannot be drawn.
+  // Edges from a vertex to itself, facets with fewer than three other edges, and facets with the
+  // corners of another one: they count, but cannot be drawn.
   int64_t hidden = 0;
 };
 

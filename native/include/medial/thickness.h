@@ -16,8 +16,9 @@ namespace medial {
 //         each other do. Elsewhere, as next to an edge, where the ball shrinks to nothing, that of
 //         the nearest wall along the surface, but never less than the own ball.
 //   ball  of all balls: zero at every convex edge.
-//   scan  the diameter of the ball that comes nearest to p, of those at the vertices of facets with
-//         a theta above kScanTheta: noise lifts most samples off the balls. No normals are used.
+//   scan  the diameter of the ball that comes nearest to p, of those at the vertices of facets whose
+//         theta is above kScanTheta at both ends: noise lifts most samples off the balls. No normals
+//         are used. It reads what tapers too thick.
 enum class ThicknessMode : int32_t { wall = 0, ball = 1, scan = 2 };
 
 inline constexpr double kScanTheta = 5 * std::numbers::pi / 18;  // 50 degrees, above a right edge's

@@ -80,7 +80,7 @@ std::vector<Ball> balls_of(std::span<const int32_t> edge_ids, const Facets& face
 
 Values by_nearest_balls(const ThicknessOptions& options, const Samples& samples,
                         const Facets& facets, const Run& run) {
-  const Thresholds clear{.theta = kScanTheta, .criteria = Criteria::angle};
+  const Thresholds clear{.theta = kScanTheta, .rule = Rule::both, .criteria = Criteria::angle};
   const auto balls = balls_of(selected_edges(clear, options.side, facets, run), facets, run);
   const NearestBall nearest(balls);
   Values found{std::vector<double>(static_cast<size_t>(samples.count()), HUGE_VAL), {}};

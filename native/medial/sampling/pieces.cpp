@@ -42,20 +42,24 @@ class Cutter {
         triangle_(triangle) {}
 
   void cut(uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
+    if (depth < cuts_) return cut_into_quarters(path, corners, depth);
     const double spacing =
         spacing_.field ? spacing_(patch_.point(centre(corners))) : spacing_.scale;
     const std::array<Vec3, 3> at{patch_.point(corners[0]), patch_.point(corners[1]),
                                  patch_.point(corners[2])};
     const double area = area_of(at);
-    if (depth < cuts_ || (spacing_.field && depth < kMostCuts && wider(at, 2 * spacing) &&
-                          !(area < kLittleArea * spacing * spacing && even(at, spacing)))) {
-      for (uint32_t i = 0; i < 4; ++i) cut(path << 2 | i, quarter(corners, i), depth + 1);
-      return;
+    if (spacing_.field && depth < kMostCuts && wider(at, 2 * spacing) &&
+        !(area < kLittleArea * spacing * spacing && even(at, spacing))) {
+      return cut_into_quarters(path, corners, depth);
     }
     if (area > 0) out_.push_back({triangle_, path, area, spacing});
   }
 
  private:
+  void cut_into_quarters(uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
+    for (uint32_t i = 0; i < 4; ++i) cut(path << 2 | i, quarter(corners, i), depth + 1);
+  }
+
   static bool wider(const std::array<Vec3, 3>& p, double width) {
     return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])}) > width;
   }

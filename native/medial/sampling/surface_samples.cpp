@@ -334,17 +334,19 @@ double crease_length(const Model& model) {
   return sum;
 }
 
-// Samples that a spacing will lead to, roughly.
-double expected_count(const Model& model, const Spacing& spacing, const Run& run) {
-  double sum = 0;
-  if (!spacing.field) {
-    sum = kHexagonal * model.area / (spacing.scale * spacing.scale);
-  } else {
-    for (const Piece& p : cut_into_pieces(*model.surface, 0, spacing, run)) {
-      sum += kHexagonal * p.area / (p.spacing * p.spacing);
-    }
+// Samples that a spacing will lead to, roughly; and the pieces that tell it, where it varies.
+struct Expected {
+  double count = 0;
+  std::vector<Piece> pieces;
+};
+
+Expected expected_of(const Model& model, const Spacing& spacing, const Run& run) {
+  if (!spacing.field) return {kHexagonal * model.area / (spacing.scale * spacing.scale), {}};
+  Expected expected{0, cut_into_pieces(*model.surface, 0, spacing, run)};
+  for (const Piece& p : expected.pieces) {
+    expected.count += kHexagonal * p.area / (p.spacing * p.spacing);
   }
-  return sum;
+  return expected;
 }
 
 void require_countable(double expected) {
@@ -355,16 +357,24 @@ void require_countable(double expected) {
 }
 
 Turn sample_once(const Model& model, const SamplingOptions& options, const Spacing& spacing,
-                 const Run& run) {
-  const double expected = expected_count(model, spacing, run);
-  require_countable(std::max(expected, spacing.field ? 0 : crease_length(model) / spacing.scale));
+                 Expected expected, const Run& run) {
+  const double creases = spacing.field ? 0 : crease_length(model) / spacing.scale;
+  require_countable(std::max(expected.count, creases));
   Turn turn;
   turn.fixed = fixed_samples(model, options.keep_vertices, spacing, run);
   add_mirrored_rows(model, options, spacing, turn.fixed, run);
-  const auto pieces = cut_into_pieces(*model.surface, cuts_for(model, expected), spacing, run);
-  turn.placed =
-      poisson_disks(*model.surface, pieces, kDisk, disks_of(turn.fixed), kDarts, options.seed, run);
+  const int cuts = cuts_for(model, expected.count);
+  if (cuts > 0 || !spacing.field) {
+    expected.pieces = cut_into_pieces(*model.surface, cuts, spacing, run);
+  }
+  turn.placed = poisson_disks(*model.surface, expected.pieces, kDisk, disks_of(turn.fixed), kDarts,
+                              options.seed, run);
   return turn;
+}
+
+Turn sample_once(const Model& model, const SamplingOptions& options, const Spacing& spacing,
+                 const Run& run) {
+  return sample_once(model, options, spacing, expected_of(model, spacing, run), run);
 }
 
 // Changes the spacing until the count is met within a hundredth; the nearest turn counts.
@@ -390,10 +400,12 @@ Turn sample_sized(const Model& model, const SamplingOptions& options, const Run&
   Spacing spacing{1, &field};
   if (!options.count) return sample_once(model, options, spacing, run);
   const auto most = static_cast<double>(*options.count);
-  for (int i = 0; i < 2; ++i) {
-    spacing.scale *= std::sqrt(std::max(1.0, expected_count(model, spacing, run) / most));
+  Expected expected = expected_of(model, spacing, run);
+  for (int i = 0; i < 2 && expected.count > most; ++i) {
+    spacing.scale *= std::sqrt(expected.count / most);
+    expected = expected_of(model, spacing, run);
   }
-  Turn turn = sample_once(model, options, spacing, run);
+  Turn turn = sample_once(model, options, spacing, std::move(expected), run);
   for (int i = 1; i < kTurns && turn.count() > most; ++i) {
     spacing.scale *= 1.002 * std::sqrt(turn.count() / most);
     turn = sample_once(model, options, spacing, run);

@@ -16,42 +16,66 @@ constexpr double kPivot = 1e-9;     // of a column: below, the samples do not te
 // For every sample: distance from the axis - radius = r . q + u . (x . q), where q = (1, s, s^2), s
 // goes along the tangent, and u is the direction across it. So the unknowns are three of the radius
 // and thrice two of the axis: its shift, tilt and curvature.
-constexpr int kUnknowns = 9;
+constexpr int kPowers = 3, kUnknowns = 3 * kPowers;
 using Row = std::array<double, kUnknowns>;
 
-struct Normals {
-  std::array<Row, kUnknowns> matrix{};
-  Row right{};
-
-  void add(const Row& row, double value, double weight) {
-    for (int i = 0; i < kUnknowns; ++i) {
-      const double scaled = weight * row[i];
-      right[i] += scaled * value;
-      for (int j = 0; j <= i; ++j) matrix[i][j] += scaled * row[j];
+// The normal equations. A row of the samples' is (1, u, v) times (1, s, s^2), so that few sums give
+// the whole matrix: of the products of the former two times the powers of s.
+class Normals {
+ public:
+  void add(double s, double u, double v, double value, double weight) {
+    const std::array<double, 5> power{weight, weight * s, weight * s * s, weight * s * s * s,
+                                      weight * s * s * s * s};
+    const std::array<double, 6> product{1, u, v, u * u, u * v, v * v};
+    for (int i = 0; i < 6; ++i) {
+      for (int k = 0; k < 5; ++k) sums_[i][k] += product[i] * power[k];
+    }
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < kPowers; ++k) right_[kPowers * i + k] += product[i] * power[k] * value;
     }
   }
+
+  // Means of u and v, and of their products, weighted.
+  double mean(int product) const { return sums_[product][0] / sums_[0][0]; }
 
   // By Cholesky's method; nothing where a column is all but a combination of those before.
-  std::optional<Row> solve() && {
+  std::optional<Row> solve() const {
+    auto m = matrix();
+    Row x = right_;
     for (int i = 0; i < kUnknowns; ++i) {
-      const double own = matrix[i][i];
+      const double own = m[i][i];
       for (int j = 0; j <= i; ++j) {
-        for (int k = 0; k < j; ++k) matrix[i][j] -= matrix[i][k] * matrix[j][k];
-        if (j < i) matrix[i][j] /= matrix[j][j];
+        for (int k = 0; k < j; ++k) m[i][j] -= m[i][k] * m[j][k];
+        if (j < i) m[i][j] /= m[j][j];
       }
-      if (!(matrix[i][i] > kPivot * own)) return std::nullopt;
-      matrix[i][i] = std::sqrt(matrix[i][i]);
+      if (!(m[i][i] > kPivot * own)) return std::nullopt;
+      m[i][i] = std::sqrt(m[i][i]);
     }
     for (int i = 0; i < kUnknowns; ++i) {
-      for (int k = 0; k < i; ++k) right[i] -= matrix[i][k] * right[k];
-      right[i] /= matrix[i][i];
+      for (int k = 0; k < i; ++k) x[i] -= m[i][k] * x[k];
+      x[i] /= m[i][i];
     }
     for (int i = kUnknowns; i-- > 0;) {
-      for (int k = i + 1; k < kUnknowns; ++k) right[i] -= matrix[k][i] * right[k];
-      right[i] /= matrix[i][i];
+      for (int k = i + 1; k < kUnknowns; ++k) x[i] -= m[k][i] * x[k];
+      x[i] /= m[i][i];
     }
-    return right;
+    return x;
   }
+
+ private:
+  std::array<Row, kUnknowns> matrix() const {
+    constexpr std::array<std::array<int, 3>, 3> kProduct{{{0, 1, 2}, {1, 3, 4}, {2, 4, 5}}};
+    std::array<Row, kUnknowns> m;
+    for (int i = 0; i < kUnknowns; ++i) {
+      for (int j = 0; j < kUnknowns; ++j) {
+        m[i][j] = sums_[kProduct[i / kPowers][j / kPowers]][i % kPowers + j % kPowers];
+      }
+    }
+    return m;
+  }
+
+  std::array<std::array<double, 5>, 6> sums_{};
+  Row right_{};
 };
 
 // Two unit vectors across a unit vector and each other.
@@ -83,7 +107,7 @@ class Fit {
     if (met_ < kFewest) return canal;
     canal.trust = all_round();
     if (canal.trust == 0) return canal;
-    const auto found = std::move(normals_).solve();
+    const auto found = normals_.solve();
     if (!found) {
       canal.trust = 0;
       return canal;
@@ -107,8 +131,9 @@ class Fit {
     const double along = std::abs(dot(middle, t)),
                  wide = std::abs(half.x * t.x) + std::abs(half.y * t.y) + std::abs(half.z * t.z);
     if (along - wide > half_width_) return false;
-    const double near = length(middle), size = length(half);
-    return near - size < reach_ && near + size > (1 - kBand) * from_.radius;
+    const double size = length(half), inner = (1 - kBand) * from_.radius - size,
+                 near = squared_length(middle);
+    return near < (reach_ + size) * (reach_ + size) && (inner < 0 || near > inner * inner);
   }
 
   void meet(const Vec3& sample) {
@@ -116,20 +141,20 @@ class Fit {
     const double s = dot(to, from_.tangent) / half_width_;
     if (!(std::abs(s) < 1)) return;
     const Vec3 beside = to - s * s * from_.bend;
-    const double x = dot(beside, basis_[0]), y = dot(beside, basis_[1]), d = std::hypot(x, y);
+    const double x = dot(beside, basis_[0]), y = dot(beside, basis_[1]),
+                 d = std::sqrt(x * x + y * y);
     if (!(std::abs(d - from_.radius) < kBand * from_.radius)) return;
-    const double u = x / d, v = y / d, weight = (1 - s * s) * (1 - s * s);
-    normals_.add({1, s, s * s, u, u * s, u * s * s, v, v * s, v * s * s}, d - from_.radius, weight);
+    const double rest = 1 - s * s;
+    normals_.add(s, x / d, y / d, d - from_.radius, rest * rest);
     ++met_;
   }
 
   // Whether samples lie all round, by the directions u: 0 where they lie on two opposite walls, by
   // the lesser principal moment (1/2 on a circle), or all on one side, by their mean.
   double all_round() const {
-    const auto& m = normals_.matrix;
-    const double all = m[0][0], xx = m[3][3] / all, yy = m[6][6] / all, xy = m[6][3] / all,
+    const double xx = normals_.mean(3), xy = normals_.mean(4), yy = normals_.mean(5),
                  least = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy),
-                 aside = std::hypot(m[3][0], m[6][0]) / all;
+                 aside = std::hypot(normals_.mean(1), normals_.mean(2));
     return smoothstep((2 * least - 0.3) / 0.4) * (1 - smoothstep((aside - 0.2) / 0.4));
   }
 

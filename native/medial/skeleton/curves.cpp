@@ -9,6 +9,7 @@ namespace medial {
 namespace {
 
 constexpr int kSmoothings = 20, kFits = 2;
+constexpr double kSettled = 0.002;    // of the radius: another fit would change the square of it
 constexpr double kStep = 0.25;        // of the spacing
 constexpr double kHalfWidth = 2;      // of the piece that is fitted, in spacings
 constexpr size_t kNeighbours = 12;    // that tell the spacing
@@ -137,7 +138,12 @@ std::vector<OnCurve> to_fit(const std::vector<Chain>& chains, const std::vector<
 // Where the samples do not tell the radius, it is that of the empty ball.
 Canal fitted(Canal canal, const PointTree& samples, double half_width) {
   canal.radius = samples.nearest(canal.centre).distance;
-  for (int fit = 0; fit < kFits; ++fit) canal = fit_canal(samples, canal, half_width);
+  for (int fit = 0; fit < kFits; ++fit) {
+    const Canal before = canal;
+    canal = fit_canal(samples, before, half_width);
+    const double change = distance(canal.centre, before.centre) + distance(canal.bend, before.bend);
+    if (change < kSettled * canal.radius) break;
+  }
   const double empty = samples.nearest(canal.centre).distance;
   canal.radius = canal.trust > 0 ? std::lerp(empty, canal.radius, canal.trust) : empty;
   return canal;

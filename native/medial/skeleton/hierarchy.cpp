@@ -99,6 +99,18 @@ void find_values(Hierarchy::Parts& made, const Burnt& burnt, std::span<const dou
                               joined(by_share, by_spacing, burning.erosion, quiet), quiet);
 }
 
+// How strongly the facets satisfy the conditions.
+void keep_significance(Hierarchy::Parts& made, const Significance& significance, Rule rule,
+                       const Run& run) {
+  const auto& dual = made.complex.dual;
+  made.sine.resize(dual.size());
+  made.rho.resize(dual.size());
+  parallel_for(static_cast<int64_t>(dual.size()), run, [&](int64_t f) {
+    made.sine[f] = significance.sines(rule)[dual[f]];
+    made.rho[f] = significance.ratios(rule)[dual[f]];
+  });
+}
+
 }  // namespace
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
@@ -123,6 +135,7 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   begin_stage(run.progress, "Values", 0.8, 1);
   find_values(made, burnt, facets.significance.spacing, run);
   made.partner = std::move(burnt.collapse.partner);
+  keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
   made.complex.dual = {};  // it means nothing without the analysis
   watch.lap("values");
   advance(run.progress, 1);
@@ -143,7 +156,8 @@ size_t Hierarchy::bytes() const {
   const Parts& p = *parts_;
   const InnerComplex& c = p.complex;
   return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
-                 c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row, p.outside);
+                 c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row, p.outside,
+                 p.sine, p.rho);
 }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/level.h"
 
+#include "axis/significance.h"
 #include "base/sort.h"
 #include "skeleton/betti.h"
 #include "skeleton/relax.h"
+#include "skeleton/round_limbs.h"
 
 namespace medial {
 namespace {
@@ -16,11 +18,6 @@ void check(double threshold, const char* name) {
 }
 
 bool exceeds(float value, double threshold) { return value > threshold || value == HUGE_VALF; }
-
-bool exceeds(const Thickness& value, const LevelOptions& t) {
-  return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
-         exceeds(value.erosion, t.erosion);
-}
 
 Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run) {
   const InnerComplex& complex = h.complex;
@@ -121,15 +118,33 @@ class Drawer {
         ++level_.hidden;
         continue;
       }
-      for (const int32_t edge : edges) used_[edge] += used_[edge] < 2;
       for (int32_t& vertex : polygon) vertex = number(vertex);
       std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+      if (is_twin(polygon)) {
+        ++level_.hidden;
+        continue;
+      }
+      for (const int32_t edge : edges) used_[edge] += used_[edge] < 2;
       const auto& [p, q] = complex_.generators[f];
       level_.face_vertices.insert(level_.face_vertices.end(), polygon.begin(), polygon.end());
       level_.face_offsets.push_back(static_cast<int32_t>(level_.face_vertices.size()));
       level_.generators.push_back({h_.row[p], h_.row[q]});
       level_.facet_of.push_back(f);
     }
+  }
+
+  // Whether an earlier facet has the same corners; notes the polygon where none has. In any order:
+  // two facets between parallel edges are one to the eye.
+  bool is_twin(const std::vector<int32_t>& polygon) {
+    newest_.resize(level_.vertex_of.size(), -1);
+    for (int32_t f = newest_[polygon[0]]; f >= 0; f = before_[f]) {
+      const auto first = level_.face_vertices.begin() + level_.face_offsets[f];
+      const auto last = level_.face_vertices.begin() + level_.face_offsets[f + 1];
+      if (std::is_permutation(first, last, polygon.begin(), polygon.end())) return true;
+    }
+    before_.push_back(newest_[polygon[0]]);
+    newest_[polygon[0]] = static_cast<int32_t>(before_.size()) - 1;
+    return false;
   }
 
   void draw_wires() {
@@ -169,6 +184,12 @@ class Drawer {
     level_.sheet.resize(facets);
     level_.erosion.resize(facets);
     level_.limb.resize(wires);
+    level_.theta.resize(facets);
+    level_.rho.resize(facets);
+    parallel_for(static_cast<int64_t>(facets), run_, [&](int64_t f) {
+      level_.theta[f] = theta_of(h_.sine[level_.facet_of[f]]);
+      level_.rho[f] = h_.rho[level_.facet_of[f]];
+    });
     for (size_t f = 0; f < facets; ++f) {
       const Thickness& value = h_.values.facet[level_.facet_of[f]];
       level_.sheet[f] = value.sheet;
@@ -184,19 +205,28 @@ class Drawer {
   Array<uint8_t> used_;     // per edge: by no facet, one, or more
   Array<uint8_t> touched_;  // per vertex: by an edge
   Array<int32_t> number_;   // per vertex: in the level
+  // Per vertex of the level the newest facet that starts there, per facet the one before it; or -1.
+  std::vector<int32_t> newest_, before_;
   Level level_;
 };
 
 }  // namespace
+
+bool exceeds(const Thickness& value, const LevelOptions& t) {
+  return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
+         exceeds(value.erosion, t.erosion);
+}
 
 Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& run) {
   check(options.sheet, "sheet");
   check(options.spacings, "spacings");
   check(options.erosion, "erosion");
   check(options.limb, "limb");
-  begin_stage(run.progress, "Level", 0, options.relaxed ? 0.5 : 1);
+  begin_stage(run.progress, "Limbs", 0, 0.3);
   const Run quiet{run.threads, nullptr, run.arena};
-  const Alive alive = alive_at(h, options, quiet);
+  Alive alive = alive_at(h, options, quiet);
+  if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
+  begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);
   Drawer drawer(h, alive, quiet);
   Level level = drawer.draw();

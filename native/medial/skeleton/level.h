@@ -15,7 +15,8 @@ struct Hierarchy::Parts {
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
   Values values;
-  Array<float> limb;  // per vertex
+  Array<float> limb;        // per vertex
+  Array<double> sine, rho;  // per facet, as in Significance
   PointTree samples;
   std::vector<int32_t> row;  // of the samples
   Array<int32_t> outside;    // as from outside_components
@@ -29,6 +30,9 @@ struct Hierarchy::Parts {
     return partner[edge] >= 0 ? 0 : limb[with_vertex(partner[edge])];
   }
 };
+
+// Whether thresholds leave a cell with this value.
+bool exceeds(const Thickness& value, const LevelOptions& options);
 
 // Throws InvalidInputError for thresholds below 0.
 Level level(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);

@@ -122,7 +122,7 @@ class Rewirer {
 
 void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena};
-  begin_stage(run.progress, "Rims", 0.5, 0.7);
+  begin_stage(run.progress, "Rims", 0.6, 0.7);
   smooth_rims(level, rims, h.samples, quiet);
   begin_stage(run.progress, "Curves", 0.7, 1);
   if (level.wires.empty()) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/rims.h"
 
-#include "base/parallel.h"
+#include "base/csr.h"
 
 namespace medial {
 namespace {
@@ -63,7 +63,26 @@ class Relaxer {
         return;
       }
     });
-    for (const int32_t f : touched_) upright_.push_back(area(f));
+    upright_.resize(touched_.size());
+    parallel_for(static_cast<int64_t>(touched_.size()), run_,
+                 [&](int64_t t) { upright_[t] = area(touched_[t]); });
+    touched_at_.offsets = array<int64_t>(moving_.size() + 1, 0, run_);
+    auto& offsets = touched_at_.offsets;
+    for_touched([&](int32_t, int32_t row) { ++offsets[row]; });
+    counts_to_offsets(offsets);
+    touched_at_.items = array<int32_t>(static_cast<size_t>(offsets.back()), run_);
+    std::vector<int64_t> next(offsets.begin(), offsets.end());
+    for_touched([&](int32_t t, int32_t row) { touched_at_.items[next[row]++] = t; });
+  }
+
+  // Calls found(t, row) for the vertices that move at touched facets.
+  template <typename Found>
+  void for_touched(const Found& found) const {
+    for (size_t t = 0; t < touched_.size(); ++t) {
+      for (const int32_t v : corners(touched_[t])) {
+        if (row_[v] >= 0) found(static_cast<int32_t>(t), row_[v]);
+      }
+    }
   }
 
   std::span<const int32_t> corners(int64_t f) const {
@@ -83,6 +102,7 @@ class Relaxer {
     return sum;
   }
 
+  // Half way to the middle of the neighbours; where facets fold, by half of that, and so on.
   void take_step() {
     std::vector<Vec3> from, move;
     for (size_t i = 0; i < moving_.size(); ++i) {
@@ -90,31 +110,55 @@ class Relaxer {
       from.push_back(places_[moving_[i]]);
       move.push_back(kFactor * (0.5 * (places_[a] + places_[b]) - from[i]));
     }
+    for (size_t i = 0; i < moving_.size(); ++i) places_[moving_[i]] = from[i] + move[i];
     std::vector<int> halvings(moving_.size(), 0);
-    do {
-      for (size_t i = 0; i < moving_.size(); ++i) {
+    auto folded = folded_of(static_cast<int64_t>(touched_.size()), [](int64_t t) { return t; });
+    while (!folded.empty()) {
+      const auto smaller = halve(folded, halvings);
+      for (const int32_t i : smaller) {
         const double share = halvings[i] > kHalvings ? 0 : std::ldexp(1.0, -halvings[i]);
         places_[moving_[i]] = from[i] + share * move[i];
       }
-    } while (step_back(halvings));
+      const auto near = facets_at(smaller);
+      folded = folded_of(static_cast<int64_t>(near.size()), [&](int64_t k) { return near[k]; });
+    }
   }
 
-  // Whether any facet lies the wrong way round; the steps of its vertices are halved.
-  bool step_back(std::vector<int>& halvings) const {
-    std::vector<uint8_t> folds(moving_.size(), 0);
-    bool any = false;
-    for (size_t i = 0; i < touched_.size(); ++i) {
-      if (dot(area(touched_[i]), upright_[i]) >= 0) continue;
-      for (const int32_t v : corners(touched_[i])) {
-        if (row_[v] >= 0) folds[row_[v]] = 1;
+  // Of some of the touched facets those that lie the wrong way round.
+  template <typename Which>
+  std::vector<int32_t> folded_of(int64_t count, const Which& which) const {
+    return parallel_append<int32_t>(count, run_, [&](int64_t k, auto& out, int) {
+      const auto t = which(k);
+      if (dot(area(touched_[t]), upright_[t]) < 0) out.push_back(static_cast<int32_t>(t));
+    });
+  }
+
+  // The vertices of folded facets that can still take smaller steps, ascending.
+  std::vector<int32_t> halve(std::span<const int32_t> folded, std::vector<int>& halvings) const {
+    std::vector<int32_t> rows;
+    for (const int32_t t : folded) {
+      for (const int32_t v : corners(touched_[t])) {
+        if (row_[v] >= 0 && halvings[row_[v]] <= kHalvings) rows.push_back(row_[v]);
       }
     }
-    for (size_t i = 0; i < folds.size(); ++i) {
-      if (!folds[i] || halvings[i] > kHalvings) continue;
-      ++halvings[i];
-      any = true;
+    sort_out(rows);
+    for (const int32_t i : rows) ++halvings[i];
+    return rows;
+  }
+
+  std::vector<int32_t> facets_at(std::span<const int32_t> rows) const {
+    std::vector<int32_t> facets;
+    for (const int32_t i : rows) {
+      const auto own = touched_at_[i];
+      facets.insert(facets.end(), own.begin(), own.end());
     }
-    return any;
+    sort_out(facets);
+    return facets;
+  }
+
+  static void sort_out(std::vector<int32_t>& ids) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
 
   Polygons polygons_;
@@ -124,7 +168,8 @@ class Relaxer {
   std::vector<int32_t> moving_;
   std::vector<Edge> neighbours_;
   std::vector<int32_t> touched_;
-  std::vector<Vec3> upright_;
+  std::vector<Vec3> upright_;  // twice their area vectors at first
+  Csr<int32_t> touched_at_;    // per vertex that moves: positions in touched_
 };
 
 }  // namespace

@@ -19,14 +19,14 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from scene import addon, analyses, attribute, medial_objects, on_ellipsoid, select
+from scene import addon, analyses, attribute, link, medial_objects, on_ellipsoid, select
 
 NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
 # (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 to 5.2 draw it.
 TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's own tab Animation
 THETA_LEFT, THETA_RIGHT = (120, 46), (50, 46)
-COMPUTE = (102, 238)
+COMPUTE = (102, 50)
 RECONSTRUCT = (102, 269)
 CANCEL = (102, 260)
 GERMAN_TAB = (13, 270)
@@ -285,6 +285,90 @@ def scene_scan():
     assert len(surfaces()) == 1, "redo must bring the surface back"
     yield 1.0
     look("redone")
+
+
+def data(name):
+    """A function that makes an object of an optional mesh, or None where it is absent."""
+
+    def make():
+        path = Path(os.environ.get("MEDIAL_AXIS_TEST_DATA", "")) / name
+        if not path.is_file():
+            return None
+        shape, _ = addon("core.files.read_shape").read_shape(path)
+        return link(path.stem, shape.points, shape.triangles)
+
+    return make
+
+
+def text():
+    """Letters that have a thickness."""
+    bpy.ops.object.text_add(rotation=(1.2, 0.0, 0.0))
+    thing = bpy.context.object
+    thing.data.body, thing.data.extrude, thing.data.bevel_depth = "Axis", 0.15, 0.02
+    return thing
+
+
+def added(operator):
+    """A function that makes an object by one of Blender's operators."""
+
+    def make():
+        getattr(bpy.ops.mesh, f"primitive_{operator}_add")()
+        return bpy.context.object
+
+    return make
+
+
+MODELS = {
+    "cube": added("cube"),
+    "torus": added("torus"),
+    "suzanne": added("monkey"),
+    "text": text,
+    "hand": data("hand_closed.obj"),
+    "dilo": data("dilo.off"),
+    "igea": data("igea.ply"),
+    "scan": data("distcap.xyz"),
+}
+
+
+def scene_first_glance():
+    """Each model as a newcomer meets it: the panel, one click, Show Colours; and nothing of his is changed."""
+    yield from open_tab()
+    shading = viewport().spaces.active.shading
+    for name, make in MODELS.items():
+        bpy.data.batch_remove(bpy.data.objects)
+        with bpy.context.temp_override(window=window(), area=viewport()):
+            source = make()
+        if source is None:
+            continue
+        select(source)
+        frame_selected()
+        yield 0.7
+        look(f"{name}-1-before")
+        kept = shading.type, shading.color_type
+        yield from click(*at(COMPUTE))
+        yield result_exists
+        yield 1.0
+        look(f"{name}-2-computed")
+        (result,) = medial_objects()
+        assert bpy.context.selected_objects == [source] == [bpy.context.object]
+        assert (shading.type, shading.color_type) == kept, "nobody pressed Show Colours"
+        assert result.parent == source and "ma_color" in result.data.color_attributes
+        show_colours()
+        yield 0.7
+        look(f"{name}-3-colours")
+        assert (shading.type, shading.color_type) == ("SOLID", "VERTEX")
+        show_colours()
+        assert (shading.type, shading.color_type) == kept
+
+
+def show_colours():
+    area = viewport()
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window(), area=area, region=region):
+        assert bpy.ops.view3d.medial_axis_show_colours() == {"FINISHED"}
+
+
+scene_first_glance_light = scene_first_glance_large = scene_first_glance
 
 
 def scene_sampling():
@@ -670,10 +754,21 @@ def end(problem):
     bpy.ops.wm.quit_blender()
 
 
+def light_theme():
+    """The light theme that comes with Blender."""
+    for folder in bpy.utils.preset_paths("interface_theme"):
+        for path in Path(folder).glob("Blender_Light.xml"):
+            bpy.ops.script.execute_preset(
+                filepath=str(path), menu_idname="USERPREF_MT_interface_theme_presets"
+            )
+
+
 def start():
     bpy.context.preferences.view.show_splash = False
     bpy.context.preferences.inputs.use_mouse_continuous = False  # else a drag warps the mouse
     bpy.ops.preferences.addon_enable(module=os.environ["MEDIAL_AXIS_MODULE"])
+    if NAME.endswith("_light"):
+        light_theme()
     bpy.app.timers.register(play(globals()[f"scene_{NAME}"]()), first_interval=3.0, persistent=True)
 
 

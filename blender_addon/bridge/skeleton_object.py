@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Skeletons as curve objects: how they are found, made and updated; parts as an attribute of the source."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..core.axis.nearness import nearest
+from ..core.errors import InvalidInputError
+from .output_object import check_mode, new_object, output_of, place, remember
+from .read_object import split_transform
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..core.axis.shape import Shape
+    from ..core.skeleton.compute import Skeletonization
+    from ..core.skeleton.skeleton import Skeleton
+
+SUFFIX = " Skeleton"
+ENDS = "ma_ends"
+LOOPS = "ma_loops"
+BRANCHES = "ma_branches"
+MIRRORED = "ma_mirrored"
+PART = "ma_part"
+
+
+def is_skeleton(thing: bpy.types.Object) -> bool:
+    return thing.type == "CURVE" and ENDS in thing
+
+
+def skeleton_of(source: bpy.types.Object) -> bpy.types.Object | None:
+    """The skeleton that the next one of this source updates."""
+    return output_of(source, is_skeleton)
+
+
+def check_skeleton_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when the skeleton of a source cannot be updated now."""
+    check_mode(skeleton_of(source))
+
+
+def write_skeleton(
+    source: bpy.types.Object, found: Skeletonization, frame: np.ndarray
+) -> bpy.types.Object:
+    """Make the skeleton of a source, or update the one there is, whose bevel and materials stay.
+
+    Parameters
+    ----------
+    source : Object
+        It is not changed.
+    found : Skeletonization
+    frame : (4, 4) float64
+        Where the skeleton lies in the world; rotation and translation only.
+
+    Raises
+    ------
+    InvalidInputError
+        The skeleton cannot be changed now, or Blender cannot hold it.
+    """
+    thing = skeleton_of(source)
+    check_mode(thing)
+    _check_size(found.skeleton)
+    if thing is None:
+        curve = bpy.data.curves.new(source.name + SUFFIX, "CURVE")
+        curve.dimensions = "3D"
+        thing = new_object(source, SUFFIX, curve)
+        thing.show_in_front = True  # it lies inside the surface
+    _fill(thing.data, found.skeleton)
+    place(thing, frame)
+    remember(thing, source, found.points, found.duplicates, found.warnings)
+    thing[ENDS], thing[LOOPS] = found.skeleton.tips, found.skeleton.loops
+    thing[BRANCHES], thing[MIRRORED] = found.skeleton.count, found.mirrored
+    thing.update_tag()
+    return thing
+
+
+def _check_size(skeleton: Skeleton) -> None:
+    largest, limit = np.abs(skeleton.points).max(), np.finfo(np.float32).max
+    if largest > limit:
+        raise InvalidInputError(
+            f"Expected coordinates below {limit:.3g}, which Blender can hold, found {largest:.3g}; "
+            "scale the object down"
+        )
+
+
+def _fill(curve: bpy.types.Curve, skeleton: Skeleton) -> None:
+    """A poly spline for each branch, cyclic for loops without a fork, and one of a single point for each lone node."""
+    curve.splines.clear()
+    degree = skeleton.degree
+    for rows in skeleton.branches:
+        closed = bool(rows[0] == rows[-1] and degree[rows[0]] == 2)
+        _add_spline(curve, skeleton, rows[:-1] if closed else rows, closed)
+    for row in np.flatnonzero(degree == 0):
+        _add_spline(curve, skeleton, np.array([row]), False)
+
+
+def _add_spline(
+    curve: bpy.types.Curve, skeleton: Skeleton, rows: NDArray[np.int32], closed: bool
+) -> None:
+    spline = curve.splines.new("POLY")
+    spline.points.add(len(rows) - 1)
+    places = np.column_stack((skeleton.points[rows], np.ones(len(rows))))
+    spline.points.foreach_set("co", places.astype(np.float32).ravel())
+    spline.points.foreach_set("radius", skeleton.radius[rows].astype(np.float32))
+    spline.use_cyclic_u = closed
+
+
+# --- on the source
+
+
+def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> NDArray[np.int64]:
+    """(v,) the point of the shape for each vertex of a mesh: its own, or the nearest where modifiers make others."""
+    count = len(source.data.vertices)
+    if count == len(shape.points):
+        return np.arange(count)
+    values = np.empty(3 * count, np.float32)
+    source.data.vertices.foreach_get("co", values)
+    _, rest = split_transform(np.array(source.matrix_world, np.float64))
+    return nearest(values.reshape(-1, 3).astype(np.float64) @ rest.T, shape.points)
+
+
+def check_parts_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when the faces of a source cannot take an attribute now."""
+    if source.type != "MESH" or source.data.library is not None or source.mode != "OBJECT":
+        raise InvalidInputError(
+            f"Expected a mesh of this file in object mode for parts, found '{source.name}', which is not; "
+            "turn Parts off"
+        )
+
+
+def write_parts(source: bpy.types.Object, found: Skeletonization) -> None:
+    """Give the faces of a source `ma_part`: the branch of most of their corners, -1 for those of single points."""
+    mesh = source.data
+    part = found.parts.vertices.branch[rows_of_vertices(source, found.shape)]
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    sizes = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_total", sizes)
+    values = _most_frequent(np.repeat(np.arange(len(sizes)), sizes), part[corners], len(sizes))
+    old = mesh.attributes.get(PART)
+    if old is not None:
+        mesh.attributes.remove(old)
+    mesh.attributes.new(PART, "INT", "FACE").data.foreach_set("value", values)
+    mesh.update()
+
+
+def _most_frequent(
+    face: NDArray[np.int64], part: NDArray[np.int32], count: int
+) -> NDArray[np.int32]:
+    """(count,) the part that most corners of each face have; of several the lowest."""
+    pairs, times = np.unique(np.column_stack((face, part)), axis=0, return_counts=True)
+    order = np.lexsort((-pairs[:, 1], times, pairs[:, 0]))
+    values = np.full(count, -1, np.int32)
+    values[pairs[order, 0]] = pairs[order, 1]
+    return values

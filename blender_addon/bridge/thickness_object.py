@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thickness in Blender: `ma_thickness`, `ma_thin` and colours on a source, or on a copy of the measured surface where
+the source has other vertices or too few to show it; and what is remembered of it.
+
+The object that is coloured, source or copy, is the carrier: it keeps the figures, and changes with the limit.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..core.axis.thickness import Measurement
+from ..core.axis.thickness_colours import colour_limits, coloured
+from ..core.axis.thin_parts import ThinParts
+from ..core.axis.triangle_faces import TriangleFaces
+from .attributes import as_float32, set_attribute
+from .colours import colour_mesh, remember_colours
+from .material import FLAT
+from .output_object import (
+    SAMPLED,
+    SECONDS,
+    SOURCE,
+    WARNINGS,
+    check_mode,
+    is_gone,
+    new_object,
+    output_of,
+    place,
+    remember,
+    replace_mesh,
+    source_of,
+)
+from .write_mesh import new_mesh
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+SUFFIX = " Thickness"
+THICKNESS, THIN = "ma_thickness", "ma_thin"
+KEY = "ma_thickness_key"  # names the measurement
+MINIMUM = "ma_thickness_minimum"
+LIMIT = "ma_thickness_limit"
+AREA = "ma_thickness_area"
+SHARE = "ma_thickness_share"
+GAP = "ma_thickness_gap"
+NORMALS = "ma_thickness_normals"  # where they come from: a sentence
+PATCHES = "ma_thickness_patches"  # how many
+# Of the thinnest patches, as many as one goes through: x, y, z in the carrier's own frame, area, minimum of each.
+PLACES = "ma_thickness_places"
+LEAST = "ma_thickness_place"  # x, y, z of the minimum
+CURRENT = "ma_thickness_current"  # the patch that was framed last; -1: none
+_MOST_PLACES = 1000
+# A source with at least this many vertices for each sample shows its thickness.
+_ENOUGH = 0.25
+
+
+class _Surface(TriangleFaces):
+    """The measured surface, as `new_mesh` wants it."""
+
+    def __init__(self, found: Measurement) -> None:
+        self.vertices, self.triangles = found.points, found.triangles
+
+
+def is_carrier(thing: bpy.types.Object) -> bool:
+    return thing.type == "MESH" and KEY in thing
+
+
+def is_copy(thing: bpy.types.Object) -> bool:
+    """Whether this is an object that was made to show thickness."""
+    return is_carrier(thing) and SOURCE in thing
+
+
+def carrier_of(thing: bpy.types.Object | None) -> bpy.types.Object | None:
+    """What carries the thickness of an object: its copy, or itself; None where it was not measured."""
+    if is_gone(thing):
+        return None
+    if is_copy(thing):
+        return thing
+    return output_of(thing, is_copy) or (thing if is_carrier(thing) else None)
+
+
+def check_thickness_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when thickness of a source cannot be written now."""
+    check_mode(output_of(source, is_copy))
+    if source.type == "MESH" and source.data.library is None:
+        check_mode(source)
+
+
+def write_thickness(
+    source: bpy.types.Object, found: Measurement, parts: ThinParts, frame: NDArray[np.float64]
+) -> bpy.types.Object:
+    """Write what was measured; returns the carrier.
+
+    Parameters
+    ----------
+    source : Object
+        Gets the attributes where its own vertices and faces were measured.
+    found : Measurement
+    parts : ThinParts
+    frame : (4, 4) float64
+        Where the shape lies in the world.
+    """
+    own = _has_own(source, found)
+    if own:
+        _write_attributes(source.data, found.of_vertices)
+    copy = output_of(source, is_copy)
+    if own and copy is None and len(source.data.vertices) >= _ENOUGH * len(found.points):
+        carrier = source
+        local = np.linalg.inv(np.array(source.matrix_world, np.float64)) @ frame
+    else:
+        carrier, local = _write_copy(source, copy, found, frame), np.identity(4)
+    _remember(carrier, found, local)
+    show_limit(carrier, found, parts)
+    return carrier
+
+
+def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) -> None:
+    """Flags, colours and figures for a limit, on the carrier and on its source; neither may be in edit mode."""
+    on_copy = is_copy(carrier)
+    source = source_of(carrier) if on_copy else carrier
+    if not is_gone(source) and _has_own(source, found):
+        set_attribute(source.data, THIN, "BOOLEAN", "FACE", _thin_polygons(source.data, parts))
+        source.data.update()
+    lengths = found.of_vertices
+    if on_copy:
+        lengths = found.lengths
+        set_attribute(carrier.data, THIN, "BOOLEAN", "FACE", parts.patch_of_triangles >= 0)
+    start, end = colour_limits(found, parts.limit)
+    alone = on_copy or not len(
+        carrier.data.color_attributes
+    )  # else renders show those of the artist
+    colour_mesh(carrier.data, coloured(lengths), start, end, render=alone)
+    remember_colours(carrier, THICKNESS, start, end)
+    carrier.data.update()
+    _remember_parts(carrier, parts)
+
+
+def own_surface(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """(m, 3) the triangles of a mesh, and (m,) the polygon of each."""
+    mesh.calc_loop_triangles()
+    corners = np.empty(3 * len(mesh.loop_triangles), np.uint32)
+    mesh.loop_triangles.foreach_get("vertices", corners)
+    polygons = np.empty(len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("polygon_index", polygons)
+    return corners.view(np.int32).reshape(-1, 3), polygons
+
+
+def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
+    """Whether the vertices and faces of a source are those that were measured, and can be written."""
+    if source.type != "MESH" or source.data.library is not None or source.mode != "OBJECT":
+        return False
+    mesh = source.data
+    if len(mesh.vertices) != len(found.shape.points):
+        return False
+    mesh.calc_loop_triangles()
+    return len(mesh.loop_triangles) == len(found.shape.triangles)
+
+
+def _thin_polygons(mesh: bpy.types.Mesh, parts: ThinParts) -> NDArray[np.bool_]:
+    _, polygons = own_surface(mesh)
+    thin = np.zeros(len(mesh.polygons), bool)
+    thin[polygons[parts.patch_of_faces >= 0]] = True
+    return thin
+
+
+def _write_attributes(mesh: bpy.types.Mesh, lengths: NDArray[np.float64]) -> None:
+    set_attribute(mesh, THICKNESS, "FLOAT", "POINT", as_float32(lengths))
+
+
+def _write_copy(
+    source: bpy.types.Object,
+    copy: bpy.types.Object | None,
+    found: Measurement,
+    frame: NDArray[np.float64],
+) -> bpy.types.Object:
+    build = partial(_copy_mesh, found)
+    if copy is None:
+        copy = new_object(source, SUFFIX, build(source.name + SUFFIX))
+        copy.color = FLAT
+        copy.show_in_front = True  # it lies on its source
+    else:
+        replace_mesh(copy, build)
+    place(copy, frame)
+    duplicates = found.chosen.samples.analysis.duplicates
+    remember(copy, source, len(found.points), duplicates, found.warnings)
+    return copy
+
+
+def _copy_mesh(found: Measurement, name: str) -> bpy.types.Mesh:
+    mesh = new_mesh(_Surface(found), name, ())
+    _write_attributes(mesh, found.lengths)
+    return mesh
+
+
+def _remember(carrier: bpy.types.Object, found: Measurement, local: NDArray[np.float64]) -> None:
+    carrier[KEY] = found.key
+    carrier[MINIMUM] = found.minimum
+    carrier[GAP] = found.settings.between.name == "GAP"
+    carrier[NORMALS] = found.normals
+    carrier[SAMPLED] = found.chosen.reason
+    carrier[SECONDS] = found.seconds
+    carrier[WARNINGS] = "\n".join(found.warnings)
+    carrier["ma_thickness_local"] = local.ravel().tolist()
+    if len(found.triangles):
+        thinnest = found.triangles[found.of_triangles.argmin()]
+        carrier[LEAST] = _moved(local, found.points[thinnest].mean(axis=0)).tolist()
+
+
+def _remember_parts(carrier: bpy.types.Object, parts: ThinParts) -> None:
+    local = np.reshape(carrier["ma_thickness_local"], (4, 4))
+    rows = [
+        (*_moved(local, np.array(patch.place)).tolist(), patch.area, patch.minimum)
+        for patch in parts.patches[:_MOST_PLACES]
+    ]
+    carrier[LIMIT] = parts.limit
+    carrier[AREA], carrier[SHARE] = parts.area, parts.share
+    carrier[PATCHES] = len(parts.patches)
+    carrier[PLACES] = [number for row in rows for number in row]
+    carrier[CURRENT] = -1
+    carrier.update_tag()
+
+
+def _moved(matrix: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
+    return matrix[:3, :3] @ point + matrix[:3, 3]

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers -> colours, by the one scale that everything coloured here has.
+
+From blue over red to yellow: brightness rises all the way, so the order is seen without telling hues apart, too. Both
+ends keep away from the greys of Blender's dark and of its light viewport.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+# Position, linear RGB; between two of them the colours are mixed, as a ramp of Blender does.
+SCALE = (
+    (0.0, (0.05, 0.15, 1.0)),
+    (0.25, (0.36, 0.11, 0.91)),
+    (0.5, (0.87, 0.09, 0.26)),
+    (0.75, (1.0, 0.3, 0.05)),
+    (1.0, (1.0, 0.81, 0.07)),
+)
+UNKNOWN = (0.25, 0.25, 0.25)  # of NaN
+
+
+def colours(values: ArrayLike, start: float, end: float) -> NDArray[np.float32]:
+    """(n, 4) linear RGBA of (n,) numbers: blue at `start`, yellow at `end`, the nearest of both outside.
+
+    `start` may be the larger one. Where both are equal every number is at the start. NaN is grey.
+    """
+    share = _shares(np.asarray(values, np.float64), start, end)
+    positions = [position for position, _ in SCALE]
+    result = np.ones((len(share), 4), np.float32)
+    for channel in range(3):
+        result[:, channel] = np.interp(share, positions, [rgb[channel] for _, rgb in SCALE])
+    result[np.isnan(share), :3] = UNKNOWN
+    return result
+
+
+def radius_range(radii: Sequence[float] | NDArray) -> tuple[float, float]:
+    """(start, end) of the colours of radii: all of them, and half of the largest at the least.
+
+    So an axis whose radii hardly differ, as that of a tube, has one colour and not the noise of its samples.
+    """
+    largest = float(np.max(radii))
+    return min(float(np.min(radii)), largest / 2), largest
+
+
+def _shares(values: NDArray[np.float64], start: float, end: float) -> NDArray[np.float64]:
+    """(n,) where numbers lie between start (0) and end (1); beyond, 0 or 1."""
+    if start == end:
+        return np.where(np.isnan(values), np.nan, 0.0)
+    with np.errstate(over="ignore"):
+        return np.clip((values - start) / (end - start), 0.0, 1.0)

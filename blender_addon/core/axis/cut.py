@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts of a medial axis: its pieces, and what is left of it when small or far ones go. Of axes as published, which
+are facets and nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .medial_axis import MedialAxis
+
+_PER_FACET = ("theta", "rho", "side", "generators")
+
+
+def pieces(axis: MedialAxis) -> NDArray[np.int64]:
+    """(f,) which connected piece each facet belongs to, 0 being the one with the most facets."""
+    if not axis.facets:
+        return np.zeros(0, np.int64)
+    label = _labels(axis)[axis.face_vertices[axis.face_offsets[:-1]]]
+    _, piece, counts = np.unique(label, return_inverse=True, return_counts=True)
+    order = np.argsort(-counts, kind="stable")
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return rank[piece.ravel()]
+
+
+def without_small_pieces(axis: MedialAxis, share: float) -> MedialAxis:
+    """The pieces that have at least this share of the facets; the largest always stays."""
+    if share <= 0.0 or not axis.facets:
+        return axis
+    piece = pieces(axis)
+    counts = np.bincount(piece)
+    large = counts >= share * axis.facets
+    large[0] = True
+    return axis if large.all() else with_facets(axis, large[piece])
+
+
+def within_box(
+    axis: MedialAxis, low: NDArray[np.float64], high: NDArray[np.float64], times: float
+) -> MedialAxis:
+    """The facets that lie wholly in the box from `low` to `high`, made so many times as large about its middle.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+    low, high : (3,) float64
+    times : float
+        0: everything stays.
+    """
+    if times <= 0.0 or not axis.facets:
+        return axis
+    middle, half = (low + high) / 2, times * (high - low) / 2
+    inside = (np.abs(axis.vertices - middle) <= half).all(axis=1)
+    keep = np.logical_and.reduceat(inside[axis.face_vertices], axis.face_offsets[:-1])
+    return axis if keep.all() else with_facets(axis, keep)
+
+
+def with_facets(axis: MedialAxis, keep: NDArray[np.bool_]) -> MedialAxis:
+    """Some of the facets, (f,) True for those, and the vertices that they have; their order stays."""
+    sizes = np.diff(axis.face_offsets)
+    corners = axis.face_vertices[np.repeat(keep, sizes)]
+    used = np.zeros(len(axis.vertices), np.bool_)
+    used[corners] = True
+    row = np.cumsum(used) - 1
+    offsets = np.concatenate([[0], np.cumsum(sizes[keep])])
+    return replace(
+        axis,
+        vertices=axis.vertices[used],
+        radius=axis.radius[used],
+        face_offsets=offsets.astype(np.int32),
+        face_vertices=row[corners].astype(np.int32),
+        **{name: getattr(axis, name)[keep] for name in _PER_FACET},
+    )
+
+
+def _labels(axis: MedialAxis) -> NDArray[np.int64]:
+    """(v,) the lowest vertex of the piece of each: every facet hooks the labels of its corners to the lowest of them,
+    and labels of labels are followed, until nothing changes."""
+    starts, corners = axis.face_offsets[:-1], axis.face_vertices
+    facet_of_corner = np.repeat(np.arange(axis.facets), np.diff(axis.face_offsets))
+    label = np.arange(len(axis.vertices))
+    while True:
+        lowest = np.minimum.reduceat(label[corners], starts)[facet_of_corner]
+        hooked = label.copy()
+        np.minimum.at(hooked, label[corners], lowest)
+        np.minimum.at(hooked, corners, lowest)
+        hooked = hooked[hooked]
+        if np.array_equal(hooked, label):
+            return label
+        label = hooked

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of a measured shape is thinner than a limit: patches, each with its place, area and minimum."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine import native
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .thickness import Measurement
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A connected thin part of the surface.
+
+    Parameters
+    ----------
+    place : tuple of 3 float
+        The middle of its thinnest triangle, in the frame of the shape.
+    area : float
+    minimum : float
+        Its thinnest triangle, each of which is the median of three samples: no single sample decides.
+    lowest : float
+        Of its samples.
+    """
+
+    place: tuple[float, float, float]
+    area: float
+    minimum: float
+    lowest: float
+
+
+@dataclass(frozen=True, eq=False)
+class ThinParts:
+    """What is thin of a measurement.
+
+    Parameters
+    ----------
+    limit : float
+    patches : tuple of Patch
+        The thinnest first.
+    patch_of_triangles : (f,) int32
+        Which of them each triangle of the measured surface is in; -1: none.
+    patch_of_faces : (m,) int32
+        The same of the faces of the shape, as the triangle that speaks for each has it.
+    area : float
+        Of all patches.
+    share : float
+        Of the surface.
+    """
+
+    limit: float
+    patches: tuple[Patch, ...]
+    patch_of_triangles: NDArray[np.int32]
+    patch_of_faces: NDArray[np.int32]
+    area: float
+    share: float
+
+
+def find_thin_parts(
+    found: Measurement, limit: float, minimum_patch: float | None = None
+) -> ThinParts:
+    """The patches that are strictly thinner than a limit.
+
+    Parameters
+    ----------
+    found : Measurement
+    limit : float
+    minimum_patch : float, optional
+        Percent of the area that a patch has at least; default that of the measurement.
+    """
+    least = found.settings.minimum_patch if minimum_patch is None else minimum_patch
+    thin = found.of_triangles < limit - found.slack
+    with native.own_errors() as module:
+        numbers = module.patches(found.triangles, thin, len(found.points))
+    total = float(found.areas.sum())
+    areas = np.bincount(numbers[thin], found.areas[thin], int(numbers.max(initial=-1)) + 1)
+    numbers, areas = _kept(numbers, areas, least / 100.0 * total)
+    numbers, patches = _described(found, numbers, areas)
+    faces = found.triangle_of_faces
+    of_faces = np.where(faces >= 0, numbers[faces], -1).astype(np.int32) if len(numbers) else faces
+    area = float(areas.sum())
+    share = area / total if total > 0.0 else 0.0
+    return ThinParts(limit, patches, numbers, of_faces, area, share)
+
+
+def _kept(
+    numbers: NDArray[np.int32], areas: NDArray[np.float64], least: float
+) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    """Without the patches that are smaller than `least`."""
+    large = areas >= least
+    renumbered = np.append(np.where(large, np.cumsum(large) - 1, -1), -1)
+    return renumbered[numbers].astype(np.int32), areas[large]
+
+
+def _described(
+    found: Measurement, numbers: NDArray[np.int32], areas: NDArray[np.float64]
+) -> tuple[NDArray[np.int32], tuple[Patch, ...]]:
+    """The patches, the thinnest first, and their new numbers."""
+    inside = np.flatnonzero(numbers >= 0)
+    by_value = inside[np.lexsort((inside, found.of_triangles[inside]))]
+    order, first = np.unique(numbers[by_value], return_index=True)
+    thinnest = by_value[first]  # of each patch
+    rank = np.argsort(first, kind="stable")  # patches by their thinnest triangle
+    new = np.full(len(areas) + 1, -1, np.int32)
+    new[order[rank]] = np.arange(len(rank))
+    lowest = np.full(len(areas), np.inf)
+    np.minimum.at(lowest, numbers[inside], found.lengths[found.triangles[inside]].min(axis=1))
+    places = found.points[found.triangles[thinnest]].mean(axis=1)
+    patches = tuple(
+        Patch(
+            place=tuple(places[i].tolist()),
+            area=float(areas[i]),
+            minimum=float(found.of_triangles[thinnest[i]]),
+            lowest=float(lowest[i]),
+        )
+        for i in rank
+    )
+    return new[numbers], patches

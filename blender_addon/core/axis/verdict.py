@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One glance at a computation: good, to be looked at, or probably wrong, and the sentence that matters most."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import TYPE_CHECKING
+
+from ..settings import SamplingMode
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from .choose_samples import ChosenSamples
+
+
+class Light(Enum):
+    """What the sentence is."""
+
+    GOOD = "GOOD"
+    LOOK = "LOOK"
+    WRONG = "WRONG"
+
+
+class Severe(str):
+    """A warning that says that the axis is probably wrong, not only that something was assumed."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True)
+class Verdict:
+    light: Light
+    sentence: str
+
+
+def verdict(chosen: ChosenSamples, warnings: Sequence[str]) -> Verdict:
+    """The first severe warning, or else the first one, or else what was analysed, and why.
+
+    Parameters
+    ----------
+    chosen : ChosenSamples
+    warnings : sequence of str
+    """
+    for warning in warnings:
+        if isinstance(warning, Severe):
+            return Verdict(Light.WRONG, _as_sentence(warning))
+    if warnings:
+        return Verdict(Light.LOOK, _as_sentence(warnings[0]))
+    return Verdict(Light.GOOD, plainly(chosen))
+
+
+def plainly(chosen: ChosenSamples) -> str:
+    """What was analysed, and why, in words of every day."""
+    count = len(chosen.samples.points)
+    if chosen.sampling is SamplingMode.VERTICES:
+        return f"Used the {count:,} vertices as they are."
+    if chosen.sparse:
+        return f"Sampled {count:,} points, because the mesh has too few vertices."
+    return f"Sampled {count:,} points of the surface."
+
+
+def _as_sentence(text: str) -> str:
+    return text[0].upper() + text[1:] + ("" if text.endswith(".") else ".")

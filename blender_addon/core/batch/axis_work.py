@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a batch computes of each shape: medial axes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..axis.compute import Computation, compute_axis
+from ..axis.shape import Shape
+from ..errors import MedialAxisError
+from ..files.write import export_axis
+from ..machine.memory_limit import MemoryLimit
+from ..machine.progress import Progress
+from ..settings import Settings
+from .option_words import as_words
+
+
+@dataclass(frozen=True)
+class AxisWork:
+    """Medial axes of some settings, as files; `triangles` writes them as triangles in text."""
+
+    settings: Settings
+    triangles: bool = False
+
+    def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Computation:
+        return compute_axis(shape, self.settings, progress, limit)
+
+    def check(self, found: Computation) -> None:
+        """Raise MedialAxisError where there is nothing to write."""
+        if found.axis.is_empty:
+            raise MedialAxisError(found.warnings[-1])
+
+    def write(self, found: Computation, path: Path, frame: np.ndarray) -> None:
+        export_axis(found.axis, path, frame, self.triangles)
+
+    def words(self) -> dict[str, Any]:
+        """The settings, as one would write them."""
+        return as_words(self.settings)
+
+    def figures(self, found: Computation) -> dict[str, Any]:
+        axis = found.axis
+        return {
+            "points": found.points,
+            "duplicates": found.duplicates,
+            "form": as_words(found.settings)["form"],
+            "topology": found.topology,
+            "betti": None if axis.level is None else list(axis.level.betti),
+            "facets": axis.facets,
+            "edges": len(axis.edges),
+            "vertices": len(axis.vertices),
+            "unbounded": axis.unbounded,
+            "zero_area": axis.zero_area,
+            "radius": [float(axis.radius.min()), float(axis.radius.max())],
+            "sampled": found.chosen.reason,
+            "density": str(found.density),
+            "inside": str(found.sides),
+        }

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a batch computes of each shape: how thick it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..axis.shape import Shape
+from ..axis.thickness import Measurement, measure_thickness
+from ..axis.thin_parts import find_thin_parts
+from ..files.write_thickness import export_thickness, summary_of
+from ..machine.memory_limit import MemoryLimit
+from ..machine.progress import Progress
+from ..settings import Settings, ThicknessSettings
+from .option_words import as_words, thickness_as_words
+
+
+@dataclass(frozen=True)
+class ThicknessWork:
+    """Measurements of some settings, as files; lengths are in `unit`."""
+
+    settings: Settings
+    wanted: ThicknessSettings
+    unit: str = ""
+
+    def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Measurement:
+        return measure_thickness(shape, self.settings, self.wanted, progress, limit)
+
+    def check(self, found: Measurement) -> None:
+        """A shape without walls is a result, too."""
+
+    def write(self, found: Measurement, path: Path, _frame: np.ndarray) -> None:
+        export_thickness(found, find_thin_parts(found, self.wanted.limit), path, self.unit)
+
+    def words(self) -> dict[str, Any]:
+        """The settings, as one would write them."""
+        return {**as_words(self.settings), **thickness_as_words(self.wanted)}
+
+    def figures(self, found: Measurement) -> dict[str, Any]:
+        summary = summary_of(found, find_thin_parts(found, self.wanted.limit), self.unit)
+        del summary["warnings"]  # every report has them
+        return summary

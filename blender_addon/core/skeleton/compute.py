@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From a shape to its skeleton, and to the part of it that each vertex and face belongs to."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..axis.choose_samples import ChosenSamples, choose_samples
+from ..axis.nearness import nearest
+from ..errors import DegenerateInputError
+from ..machine import native
+from ..machine.cache import CACHE
+from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.progress import Progress
+from ..settings import Settings, Side, SkeletonSettings
+from .centre import centre_of_mass
+from .forks import draw_forks
+from .mirror import make_symmetric
+from .net import Net
+from .owners import owners, shares
+from .parts import Parts, parts_of, places
+from .rules import Loops, clear_loops, join_forks, prune
+from .simplify import kept_points
+from .skeleton import Skeleton, skeleton_of
+from .warnings import skeleton_warnings
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..axis.analysis import AnalysedSamples
+    from ..axis.shape import Shape
+
+# The share of the work before the hierarchy begins.
+_ANALYSIS = 0.6
+
+
+@dataclass(frozen=True, eq=False)
+class Skeletonization:
+    """A skeleton and how it came about.
+
+    Parameters
+    ----------
+    shape : Shape
+    skeleton : Skeleton
+        With as few points as the settings allow.
+    parts : Parts
+        What of the surface belongs to which branch.
+    loops : Loops
+        The small ones that were cut and filled.
+    mirrored : bool
+        Both halves are their mean.
+    chosen : ChosenSamples
+        What was analysed, why, and how densely it lies.
+    warnings : tuple of str
+        What was assumed or looks wrong, a sentence each.
+    seconds : float
+    """
+
+    shape: Shape
+    skeleton: Skeleton
+    parts: Parts
+    loops: Loops
+    mirrored: bool
+    chosen: ChosenSamples
+    warnings: tuple[str, ...]
+    seconds: float
+
+    @property
+    def points(self) -> int:
+        """Rows that were analysed, duplicates included."""
+        return len(self.chosen.samples.points)
+
+    @property
+    def duplicates(self) -> int:
+        """Those of them that were merged into an earlier row with the same coordinates."""
+        return int(self.chosen.samples.analysis.duplicates)
+
+
+def compute_skeleton(
+    shape: Shape,
+    settings: Settings,
+    wanted: SkeletonSettings,
+    progress: Progress | None = None,
+    limit: MemoryLimit = WHAT_IS_FREE,
+) -> Skeletonization:
+    """The skeleton of a solid.
+
+    Parameters
+    ----------
+    shape : Shape
+    settings : Settings
+        What is analysed. The side is always the inner one.
+    wanted : SkeletonSettings
+    progress : Progress, optional
+    limit : MemoryLimit
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
+    DegenerateInputError
+        The samples span no volume, enclose nothing, or what they enclose has no curve.
+    """
+    start = time.perf_counter()
+    progress = progress or Progress()
+    progress.until(_ANALYSIS)
+    chosen = choose_samples(shape, replace(settings, side=Side.INNER), progress, limit)
+    progress.until(1.0)
+    net, owner, sheets, loops = _net(chosen, settings, wanted, progress)
+    names = sorted(net.branches)
+    plane = float(centre_of_mass(_thinned(net, names, 0.0))[0])
+    mirrored = wanted.mirror and make_symmetric(net, plane)
+    place = places(net, names).of(net.stands_for()[owner])
+    sample = _samples_of_vertices(shape, chosen)
+    return Skeletonization(
+        shape=shape,
+        skeleton=_thinned(net, names, wanted.simplify),
+        parts=parts_of(place.of(sample), shape.triangles),
+        loops=loops,
+        mirrored=mirrored,
+        chosen=chosen,
+        warnings=tuple(skeleton_warnings(chosen, loops, sheets)),
+        seconds=time.perf_counter() - start,
+    )
+
+
+def _net(
+    chosen: ChosenSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
+) -> tuple[Net, NDArray[np.int64], int, Loops]:
+    """The branches that are limbs, the point that owns each sample, facets that have no curve, and what was cleared."""
+    samples = chosen.samples
+    level, hierarchy = _curve(samples, settings, wanted, progress)
+    owner = owners(samples, hierarchy, level)
+    spacing, share = shares(samples)
+    count = len(level.vertices)
+    net = Net(
+        level.vertices,
+        level.radius,
+        level.wires,
+        level.points,
+        np.bincount(owner, weights=share, minlength=count).astype(np.float64),
+    )
+    loops = clear_loops(net, _mean_of_owned(owner, spacing, count))
+    prune(net, wanted.share)
+    join_forks(net)
+    draw_forks(net, samples.points)
+    return net, owner, len(level.generators), loops
+
+
+def _curve(
+    samples: AnalysedSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
+) -> tuple[Any, Any]:
+    """The level without sheets, and the hierarchy that it is of."""
+    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress.part(0.9))
+    CACHE.resize(samples.key, samples.bytes)
+    with native.own_errors():
+        level = hierarchy.extract(
+            sheet=math.inf, limb=wanted.limb, relaxed=True, progress=progress.part()
+        )
+    if not len(level.wires) and not len(level.points):
+        raise DegenerateInputError(
+            f"Expected a solid with a curve skeleton, found {len(level.generators):,} facets of closed "
+            "sheets, as of a hollow ball; fill its cavities"
+        )
+    return level, hierarchy
+
+
+def _mean_of_owned(
+    owner: NDArray[np.int64], values: NDArray[np.float64], count: int
+) -> NDArray[np.float64]:
+    """(count,) the mean of the values of the samples that each point owns; of all where it owns none."""
+    owned = np.bincount(owner, minlength=count)
+    total = np.bincount(owner, weights=values, minlength=count)
+    return np.where(owned > 0, total / np.maximum(owned, 1), values.mean())
+
+
+def _thinned(net: Net, names: list[int], simplify: float) -> Skeleton:
+    """The branches with fewer points; neither they nor their radii are farther off than the settings allow."""
+    branches = []
+    for name in names:
+        chain = np.array(net.branches[name])
+        if simplify > 0.0:
+            balls = np.column_stack((net.points[chain], net.radius[chain]))
+            chain = chain[kept_points(balls, simplify * net.radius[chain])]
+        branches.append(chain)
+    singles = np.array([node for node, found in net.at.items() if not found], np.int64)
+    return skeleton_of(net.points, net.radius, branches, singles)
+
+
+def _samples_of_vertices(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int64]:
+    """(v,) the sample nearest to each vertex of the shape."""
+    distinct = chosen.samples.analysis.samples
+    return distinct[nearest(shape.points, chosen.samples.points[distinct])]

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a skeleton is symmetric in X but for its samples, both halves become their mean.
+
+The plane goes through the centre of mass. Nodes and branches must have mirror images, and no point may be farther than
+2 % of the size from the image of another one; else nothing changes.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..axis.nearness import nearest
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .net import Net
+
+SYMMETRIC = 0.02  # of the size
+
+
+def make_symmetric(net: Net, plane: float) -> bool:
+    """Average both halves of a net.
+
+    Parameters
+    ----------
+    net : Net
+    plane : float
+        X of the mirror.
+
+    Returns
+    -------
+    done : bool
+        False where the net is not symmetric.
+    """
+    rows = np.unique(np.concatenate([*net.branches.values(), list(net.at)]).astype(np.int64))
+    points = net.points[rows]
+    allowed = SYMMETRIC * float(np.linalg.norm(np.ptp(points, axis=0)))
+    image = _image(points, plane)
+    if (np.linalg.norm(image - points[nearest(image, points)], axis=1) > allowed).any():
+        return False
+    nodes = _images_of_nodes(net, plane, allowed)
+    branches = None if nodes is None else _images_of_branches(net, nodes, plane, allowed)
+    if nodes is None or branches is None:
+        return False
+    for name, (other, way) in branches.items():
+        if name <= other:
+            _average(net, name, other, way, plane)
+    old = net.points.copy(), net.radius.copy()
+    for node, other in nodes.items():
+        net.points[node] = (old[0][node] + _image(old[0][other], plane)) / 2
+        net.radius[node] = (old[1][node] + old[1][other]) / 2
+    return True
+
+
+def _image(points: NDArray[np.float64], plane: float) -> NDArray[np.float64]:
+    image = points.copy()
+    image[..., 0] = 2.0 * plane - image[..., 0]
+    return image
+
+
+def _images_of_nodes(net: Net, plane: float, allowed: float) -> dict[int, int] | None:
+    """{node: the node that is its mirror image}; None where one has none. Forks may be off by their radius."""
+    nodes = np.array(sorted(net.at))
+    found = nodes[nearest(_image(net.points[nodes], plane), net.points[nodes])]
+    away = np.linalg.norm(_image(net.points[nodes], plane) - net.points[found], axis=1)
+    image = dict(zip(nodes.tolist(), found.tolist(), strict=True))
+    if (away > np.maximum(allowed, net.radius[nodes])).any():
+        return None
+    return image if all(image[image[node]] == node for node in image) else None
+
+
+def _images_of_branches(
+    net: Net, nodes: dict[int, int], plane: float, allowed: float
+) -> dict[int, tuple[int, list[int]]] | None:
+    """{branch: the branch that is its mirror image, and the points of that from the image of its start on}, or None."""
+    image = {}
+    for name, chain in net.branches.items():
+        start, end = nodes[chain[0]], nodes[chain[-1]]
+        middle = _image(_at(net, chain, np.array([0.5]))[0][0], plane)
+        found = []
+        for other in net.at[start]:
+            way = net.branches[other]
+            for rows in (way, way[::-1]):
+                if (rows[0], rows[-1]) == (start, end):
+                    away = _at(net, rows, np.array([0.3, 0.7]))[0]
+                    away -= _image(_at(net, chain, np.array([0.3, 0.7]))[0], plane)
+                    found.append((float(np.linalg.norm(away)), other, rows))
+        if not found:
+            return None
+        _, other, rows = min(found, key=lambda item: item[:2])
+        if np.linalg.norm(_at(net, rows, np.array([0.5]))[0][0] - middle) > 2.0 * allowed:
+            return None
+        image[name] = other, rows
+    return image if all(image[image[name][0]][0] == name for name in image) else None
+
+
+def _average(net: Net, name: int, other: int, way: list[int], plane: float) -> None:
+    """Give two branches, or the two halves of one, as many points, and let each be the image of the other."""
+    chain = net.branches[name]
+    if name == other:
+        _average_with_itself(net, chain, chain[0] != way[0], plane)
+        return
+    short, long = (chain, way) if len(chain) <= len(way) else (way, chain)
+    kept = np.round(np.linspace(0, len(long) - 1, len(short))).astype(np.int64)
+    share = _shares(net.points[short])
+    (places, radii), (others, others_radii) = (_at(net, rows, share) for rows in (short, long))
+    mean, radius = (places + _image(others, plane)) / 2, (radii + others_radii) / 2
+    inner = slice(1, -1)  # nodes are for all branches at once
+    left = [long[i] for i in kept]
+    net.points[short[inner]], net.radius[short[inner]] = mean[inner], radius[inner]
+    net.points[left[inner]], net.radius[left[inner]] = _image(mean, plane)[inner], radius[inner]
+    dropped = np.setdiff1d(np.arange(len(long)), kept)
+    near = (
+        kept[np.abs(dropped[:, None] - kept[None, inner]).argmin(axis=1) + 1]
+        if len(kept) > 2
+        else kept[:1]
+    )
+    net.moved[np.array(long)[dropped]] = np.array(long)[near]
+    net.branches[name], net.branches[other] = (short, left) if short is chain else (left, short)
+
+
+def _average_with_itself(net: Net, chain: list[int], along: bool, plane: float) -> None:
+    """A branch in the plane, or one that crosses it in its middle, which then goes to and fro."""
+    share = np.linspace(0.0, 1.0, len(chain)) if along else _shares(net.points[chain])
+    places, radii = _at(net, chain, share)
+    others, others_radii = (places[::-1], radii[::-1]) if along else (places, radii)
+    net.points[chain[1:-1]] = ((places + _image(others, plane)) / 2)[1:-1]
+    net.radius[chain[1:-1]] = ((radii + others_radii) / 2)[1:-1]
+
+
+def _shares(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n,) how far along a chain each of its points is, from 0 to 1."""
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    return np.concatenate(([0.0], np.cumsum(steps))) / max(steps.sum(), np.finfo(float).tiny)
+
+
+def _at(
+    net: Net, rows: list[int], share: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Places along a chain, and the radii there."""
+    marks, points = _shares(net.points[rows]), net.points[rows]
+    places = np.column_stack([np.interp(share, marks, points[:, axis]) for axis in range(3)])
+    return places, np.interp(share, marks, net.radius[rows])

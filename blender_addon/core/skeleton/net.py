@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Branches between tips and forks, from which branches are taken away."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+
+class Net:
+    """A graph in space whose nodes are tips, forks and single points, and whose branches are chains of points.
+
+    Parameters
+    ----------
+    points : (p, 3) float64
+    radius : (p,) float64
+        Of the ball round each point.
+    wires : (w, 2) integers
+        Edges, rows of `points`.
+    singles : (s,) integers
+        Points without an edge.
+    load : (p,) float64
+        What each point carries: the share of the surface whose balls are nearest to it. What is taken away leaves its
+        load to the point that it hung on.
+
+    Attributes
+    ----------
+    branches : dict of int to list of int
+        Rows of `points` from node to node. A loop without a fork starts and ends at its first point.
+    at : dict of int to list of int
+        The branches that end at each node; one that starts and ends there is named twice.
+    moved : (p,) int64
+        The point that stands for each; itself for those that are there.
+    """
+
+    def __init__(
+        self,
+        points: NDArray[np.float64],
+        radius: NDArray[np.float64],
+        wires: NDArray[np.int32],
+        singles: NDArray[np.int32],
+        load: NDArray[np.float64],
+    ) -> None:
+        self.points, self.radius, self.load = points.copy(), radius.copy(), load.copy()
+        self.branches: dict[int, list[int]] = {}
+        self.at: dict[int, list[int]] = {int(row): [] for row in singles}
+        self.moved = np.arange(len(points))
+        self._next = 0
+        for chain in chains(wires, len(points)):
+            self.add(chain)
+
+    # --- what is there
+
+    def tips(self) -> list[int]:
+        """Nodes at which one branch ends."""
+        return [node for node, branches in self.at.items() if len(branches) == 1]
+
+    def leaves(self) -> list[int]:
+        """Branches from a fork to a tip."""
+        return [name for name in self.branches if len(self.ends_free(name)) == 1]
+
+    def ends_free(self, name: int) -> list[int]:
+        """The ends of a branch that are tips."""
+        chain = self.branches[name]
+        return [node for node in (chain[0], chain[-1]) if len(self.at[node]) == 1]
+
+    def length(self, name: int) -> float:
+        """Along a branch."""
+        steps = np.diff(self.points[self.branches[name]], axis=0)
+        return float(np.linalg.norm(steps, axis=1).sum())
+
+    def from_fork(self, name: int) -> list[int]:
+        """The points of a leaf, its tip last."""
+        chain = self.branches[name]
+        return chain[::-1] if len(self.at[chain[0]]) == 1 else chain
+
+    def carried(self, name: int) -> float:
+        """The load of a leaf without its fork."""
+        return float(self.load[self.from_fork(name)[1:]].sum())
+
+    def stands_for(self) -> NDArray[np.int64]:
+        """(p,) the point that is there for each."""
+        target = self.moved
+        while not np.array_equal(target, target[target]):
+            target = target[target]
+        return target
+
+    # --- what changes it
+
+    def add(self, chain: list[int]) -> int:
+        """A branch along points; its name."""
+        name, self._next = self._next, self._next + 1
+        self.branches[name] = chain
+        for node in (chain[0], chain[-1]):
+            self.at.setdefault(node, []).append(name)
+        return name
+
+    def drop_leaf(self, name: int) -> None:
+        """Take away a branch from a fork to a tip."""
+        chain = self.from_fork(name)
+        self._take(name)
+        self._give(chain[1:], chain[0])
+        del self.at[chain[-1]]
+        self._join(chain[0])
+
+    def cut(self, name: int) -> None:
+        """Take away a branch of a loop; each half leaves its load to its end."""
+        chain = self.branches[name]
+        self._take(name)
+        middle = len(chain) // 2
+        self._give(chain[1:middle], chain[0])
+        self._give(chain[max(middle, 1) : -1], chain[-1])
+        for node in {chain[0], chain[-1]}:
+            self._join(node)
+
+    def contract(self, names: Iterable[int], centre: int) -> None:
+        """Draw branches of a loop together into one of their points; what hangs on them goes there straight."""
+        gone: set[int] = set()
+        for name in names:
+            gone.update(self.branches[name])
+            self._take(name)
+        self.at.setdefault(centre, [])
+        for node in sorted(gone - {centre}):
+            for name in list(self.at.pop(node, [])):
+                self._lead(name, node, centre)
+        self._give(sorted(gone - {centre}), centre)
+        self._join(centre)
+
+    def _lead(self, name: int, node: int, centre: int) -> None:
+        """Let a branch that ends at a node end at another one."""
+        chain = self.branches[name]
+        chain = chain[::-1] if chain[0] == node else chain
+        self.branches[name] = [*chain[:-1], centre]
+        self.at[centre].append(name)
+
+    def _take(self, name: int) -> None:
+        chain = self.branches.pop(name)
+        for node in (chain[0], chain[-1]):
+            self.at[node].remove(name)
+
+    def _give(self, rows: list[int], target: int) -> None:
+        self.load[target] += self.load[rows].sum()
+        self.load[rows] = 0.0
+        self.moved[rows] = target
+
+    def _join(self, node: int) -> None:
+        """Make one branch of the two that meet at a node which is no fork any more."""
+        names = self.at[node]
+        if len(names) != 2 or names[0] == names[1]:
+            return
+        first, second = (self.branches[name] for name in names)
+        first = first if first[-1] == node else first[::-1]
+        second = second if second[0] == node else second[::-1]
+        for name in list(names):
+            self._take(name)
+        del self.at[node]
+        self.add([*first, *second[1:]])
+
+
+def chains(wires: NDArray[np.int32], count: int) -> list[list[int]]:
+    """Edges as chains between vertices of which not two edges go out, and loops; in order of their lowest vertex."""
+    degree = np.bincount(wires.ravel(), minlength=count)
+    edges_at: list[list[tuple[int, int]]] = [[] for _ in range(count)]
+    for edge, (a, b) in enumerate(wires.tolist()):
+        edges_at[a].append((edge, b))
+        edges_at[b].append((edge, a))
+    used = np.zeros(len(wires), bool)
+    nodes = np.flatnonzero((degree != 2) & (degree > 0)).tolist()
+    on_loops = np.flatnonzero(degree == 2).tolist()
+    return [
+        _walked(start, edge, edges_at, degree, used)
+        for start in (*nodes, *on_loops)
+        for edge, _ in edges_at[start]
+        if not used[edge]
+    ]
+
+
+def _walked(
+    start: int,
+    edge: int,
+    edges_at: list[list[tuple[int, int]]],
+    degree: NDArray[np.int64],
+    used: NDArray[np.bool_],
+) -> list[int]:
+    """From a vertex through an edge to the next node, or round a loop."""
+    chain = [start]
+    while True:
+        used[edge] = True
+        chain.append(next(end for name, end in edges_at[chain[-1]] if name == edge))
+        if degree[chain[-1]] != 2 or chain[-1] == start:
+            return chain
+        edge = next(name for name, _ in edges_at[chain[-1]] if name != edge)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which point of the skeleton owns each sample: the nearest, along the axis, to the largest ball that touches it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..axis.nearness import nearest
+from .spread import graph_of, spread
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..axis.analysis import AnalysedSamples
+
+
+def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> NDArray[np.int64]:
+    """The point that owns each sample.
+
+    Parameters
+    ----------
+    samples : AnalysedSamples
+    hierarchy : _medial.Hierarchy
+    level : _medial.Level
+        Whose vertices are the points.
+
+    Returns
+    -------
+    owner : (n,) int64
+        A row of the points. Samples whose ball the skeleton does not reach have that of the nearest one that has, and
+        where there is none, as on a ball, the nearest point.
+    """
+    graph = graph_of(hierarchy.vertices, hierarchy.edges)
+    rows = np.arange(len(level.vertices))
+    label, _ = spread(graph, level.vertex_of.astype(np.int64), rows)
+    ball = largest_balls(hierarchy, len(samples.points))
+    owner = np.where(ball >= 0, label[ball], -1)
+    owner = _of_the_nearest(owner, samples)
+    left = np.flatnonzero(owner < 0)
+    if len(left):
+        owner[left] = nearest(samples.points[left], level.vertices)
+    return owner
+
+
+def _of_the_nearest(owner: NDArray[np.int64], samples: AnalysedSamples) -> NDArray[np.int64]:
+    """The owners of samples, those without one as the nearest along Delaunay edges."""
+    edges = samples.analysis.edges
+    edges = edges[(owner[edges] < 0).any(axis=1)]
+    seeds = np.unique(edges[owner[edges] >= 0]).astype(np.int64)
+    across, _ = spread(graph_of(samples.points, edges), seeds, owner[seeds])
+    return np.where(owner >= 0, owner, across)
+
+
+def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
+    """(n,) of each sample the vertex of the hierarchy with the largest ball that touches it, or -1."""
+    offsets, corners = hierarchy.facet_offsets, hierarchy.facet_vertices
+    ball = np.full(count, -1, np.int64)
+    if len(offsets) < 2:
+        return ball
+    radius = hierarchy.radius[corners]
+    largest = np.maximum.reduceat(radius, offsets[:-1])
+    facet = np.repeat(np.arange(len(largest)), np.diff(offsets))
+    best = np.flatnonzero(radius == largest[facet])[::-1]  # so that the first of several stays
+    of_facet = np.empty(len(largest), np.int64)
+    of_facet[facet[best]] = corners[best]
+    sample = hierarchy.generators.T.ravel()
+    order = np.lexsort((np.tile(largest, 2), sample))
+    last = np.append(sample[order][1:] != sample[order][:-1], True)
+    ball[sample[order][last]] = np.tile(of_facet, 2)[order][last]
+    return ball
+
+
+def shares(samples: AnalysedSamples) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Of each sample the spacing round it, (n,), and its share of the surface, (n,); both 0 for duplicates.
+
+    At sharp edges and at lone samples the umbrella may be as large as the solid; so no spacing counts for more than
+    three usual ones.
+    """
+    spacing = np.zeros(len(samples.points))
+    rows, found = samples.analysis.samples, samples.analysis.spacing
+    spacing[rows] = np.minimum(found, 3.0 * float(np.median(found)))
+    area = spacing**2
+    return spacing, area / area.sum()

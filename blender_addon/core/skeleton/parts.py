@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts of a surface: which branch of the skeleton each vertex and face belongs to, and where along it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .net import Net
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Places on branches.
+
+    Parameters
+    ----------
+    branch : (n,) int32
+        -1 for what belongs to a single point.
+    along : (n,) float64
+        The share of the branch before it: 0 at its start, 1 at its end.
+    """
+
+    branch: NDArray[np.int32]
+    along: NDArray[np.float64]
+
+    def of(self, rows: NDArray[np.int64]) -> Places:
+        """The places of some rows."""
+        return Places(self.branch[rows], self.along[rows])
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """What of a surface belongs to which branch.
+
+    Parameters
+    ----------
+    vertices : Places
+        Of the vertices.
+    faces : (m,) int32
+        The branch of each triangle: that of most of its corners, else of the first; -1 as in `Places`.
+    """
+
+    vertices: Places
+    faces: NDArray[np.int32]
+
+
+def places(net: Net, names: list[int]) -> Places:
+    """Of each point of a net; a fork belongs to the thickest of its branches.
+
+    Parameters
+    ----------
+    net : Net
+    names : list of int
+        The branches in order: the first is branch 0.
+    """
+    branch, along = np.full(len(net.points), -1, np.int32), np.zeros(len(net.points))
+    thickness = {name: float(net.radius[net.branches[name]].mean()) for name in names}
+    for number, name in sorted(enumerate(names), key=lambda item: (thickness[item[1]], item[0])):
+        chain = net.branches[name]
+        steps = np.linalg.norm(np.diff(net.points[chain], axis=0), axis=1)
+        branch[chain] = number
+        total = max(float(steps.sum()), np.finfo(float).tiny)
+        along[chain] = np.concatenate(([0.0], np.cumsum(steps))) / total
+    return Places(branch, np.minimum(along, 1.0))
+
+
+def parts_of(vertices: Places, triangles: NDArray[np.int32]) -> Parts:
+    """The parts of a surface whose vertices are at some places."""
+    a, b, c = vertices.branch[triangles].T
+    return Parts(vertices, np.where(b == c, b, a).astype(np.int32))

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which loops and branches of a net are there because of the solid, and which because of its samples.
+
+Two rules for loops, one for branches:
+
+- A loop is *cut* at its thinnest branch where that is thinner than two spacings of the samples: there two limbs touch.
+- A loop is *filled*, drawn together into its largest ball, where it lies within a spacing of that ball: it goes round a
+  pinhole.
+- A leaf goes, the lightest first, where it hardly reaches out of the ball at its fork, or carries too small a share of
+  the surface for that: it is a ridge of a plate or of a terrace and no limb. The farther it reaches, the less it may
+  carry.
+"""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .net import Net
+
+THIN = 2.0  # spacings
+REACH = 1.6  # radii of the ball at the fork, from the centre of that to the far side of the ball at the tip
+
+
+@dataclass(frozen=True)
+class Loops:
+    """What became of the small ones."""
+
+    cut: int
+    filled: int
+
+
+def clear_loops(net: Net, spacing: NDArray[np.float64]) -> Loops:
+    """Cut and fill the small loops.
+
+    Parameters
+    ----------
+    net : Net
+    spacing : (p,) float64
+        Of the samples round each point.
+    """
+    cut = 0
+    while (name := _thinnest_of_loops(net, spacing)) is not None:
+        net.cut(name)
+        cut += 1
+    filled = 0
+    while (found := _pinhole(net, spacing)) is not None:
+        net.contract(*found)
+        filled += 1
+    return Loops(cut, filled)
+
+
+def prune(net: Net, share: float) -> None:
+    """Take the leaves away that are no limbs, the lightest first.
+
+    Parameters
+    ----------
+    net : Net
+    share : float
+        Of the surface: what a limb carries at least that hardly reaches out; others less, as they reach farther.
+    """
+    queue = [(net.carried(name), name) for name in net.leaves()]
+    heapq.heapify(queue)
+    while queue:
+        load, name = heapq.heappop(queue)
+        if name not in net.branches or len(net.ends_free(name)) != 1:
+            continue
+        if net.carried(name) > load:  # it has grown
+            heapq.heappush(queue, (net.carried(name), name))
+        elif not is_limb(net, name, share):
+            before = set(net.branches)
+            net.drop_leaf(name)
+            for new in net.branches.keys() - before:
+                if len(net.ends_free(new)) == 1:
+                    heapq.heappush(queue, (net.carried(new), new))
+
+
+def join_forks(net: Net) -> None:
+    """Make one fork of two whose branch is shorter than half the radius of the smaller of their balls."""
+    while (name := _shortest_between_forks(net)) is not None:
+        chain = net.branches[name]
+        net.contract([name], max(chain, key=lambda row: (net.radius[row], -row)))
+
+
+def _shortest_between_forks(net: Net) -> int | None:
+    found = []
+    for name, chain in net.branches.items():
+        between = [other for other in net.at[chain[0]] if other in net.at[chain[-1]]]
+        if (
+            between == [name]
+            and not net.ends_free(name)
+            and net.length(name) < min(net.radius[chain[0]], net.radius[chain[-1]]) / 2
+        ):
+            found.append((net.length(name), name))
+    return min(found)[1] if found else None
+
+
+def is_limb(net: Net, name: int, share: float) -> bool:
+    """Whether a leaf reaches out of the ball at its fork, and carries enough for that."""
+    chain = net.from_fork(name)
+    fork, tip = chain[0], chain[-1]
+    reach = net.radius[tip] + np.linalg.norm(net.points[tip] - net.points[fork])
+    needed = REACH * net.radius[fork]
+    return bool(reach >= needed and net.carried(name) * reach >= share * needed)
+
+
+# --- loops
+
+
+def _thinnest_of_loops(net: Net, spacing: NDArray[np.float64]) -> int | None:
+    """The branch of a loop with the thinnest neck in spacings, where it is too thin to be told from none."""
+    necks = []
+    for name in _on_loops(net):
+        rows = net.branches[name]
+        neck = float((net.radius[rows] / spacing[rows]).min())
+        if neck < THIN:
+            necks.append((neck, name))
+    return min(necks)[1] if necks else None
+
+
+def _pinhole(net: Net, spacing: NDArray[np.float64]) -> tuple[list[int], int] | None:
+    """The branches of a loop that lies within a spacing of its largest ball, and the centre of that; or None."""
+    for name in _on_loops(net):
+        loop = _shortest_loop(net, name)
+        rows = np.unique(np.concatenate([net.branches[branch] for branch in loop]))
+        centre = int(rows[np.argmax(net.radius[rows])])
+        reach = np.linalg.norm(net.points[rows] - net.points[centre], axis=1)
+        if (reach <= net.radius[centre] + spacing[centre]).all():
+            return loop, centre
+    return None
+
+
+def _on_loops(net: Net) -> list[int]:
+    """Branches without which the net hangs together as before: all but its bridges."""
+    depth: dict[int, int] = {}
+    lowest: dict[int, int] = {}
+    bridges: set[int] = set()
+    for root in net.at:
+        if root not in depth:
+            _search(net, root, depth, lowest, bridges)
+    return [name for name in net.branches if name not in bridges]
+
+
+def _search(
+    net: Net, root: int, depth: dict[int, int], lowest: dict[int, int], bridges: set[int]
+) -> None:
+    """Depth-first: a branch is a bridge if nothing beyond it leads back above it."""
+    depth[root] = lowest[root] = 0
+    stack = [(root, -1, iter(net.at[root]))]
+    while stack:
+        node, through, names = stack[-1]
+        name = next(names, None)
+        if name is None:
+            stack.pop()
+            if stack:
+                above = stack[-1][0]
+                lowest[above] = min(lowest[above], lowest[node])
+                if lowest[node] > depth[above]:
+                    bridges.add(through)
+        elif name != through:
+            chain = net.branches[name]
+            other = chain[-1] if chain[0] == node else chain[0]
+            if other in depth:
+                lowest[node] = min(lowest[node], depth[other])
+            else:
+                depth[other] = lowest[other] = depth[node] + 1
+                stack.append((other, name, iter(net.at[other])))
+
+
+def _shortest_loop(net: Net, name: int) -> list[int]:
+    """The branches of the shortest loop through one of them, that one first."""
+    start, goal = net.branches[name][0], net.branches[name][-1]
+    came: dict[int, tuple[int, int]] = {}
+    done: set[int] = set()
+    queue = [(0.0, start, -1, -1)]
+    while queue:
+        so_far, node, before, through = heapq.heappop(queue)
+        if node in done:
+            continue
+        done.add(node)
+        came[node] = (before, through)
+        if node == goal:
+            break
+        for other in net.at[node]:
+            if other != name:
+                chain = net.branches[other]
+                end = chain[-1] if chain[0] == node else chain[0]
+                heapq.heappush(queue, (so_far + net.length(other), end, node, other))
+    loop, node = [name], goal
+    while node != start:
+        node, through = came[node]
+        loop.append(through)
+    return loop

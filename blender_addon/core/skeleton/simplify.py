@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fewer points on a chain, by the rule of Douglas and Peucker (1973) with a tolerance of its own at each point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def kept_points(points: NDArray[np.float64], tolerance: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Which points of a chain stay, ascending: its ends, and as many that no other is farther from the chain that they
+    make than its tolerance.
+
+    Parameters
+    ----------
+    points : (n, k) float64
+        In any dimension. Of a closed chain the first and the last are the same.
+    tolerance : (n,) float64
+    """
+    last = len(points) - 1
+    kept, left = {0, last}, [(0, last)]
+    while left:
+        first, end = left.pop()
+        if end - first < 2:
+            continue
+        inner = slice(first + 1, end)
+        excess = _distance(points[inner], points[first], points[end]) / tolerance[inner]
+        worst = int(np.argmax(excess))
+        if excess[worst] > 1.0:
+            kept.add(first + 1 + worst)
+            left += [(first, first + 1 + worst), (first + 1 + worst, end)]
+    if last > 2 and np.array_equal(points[0], points[last]) and len(kept) < 4:
+        kept |= {last // 3, 2 * last // 3}  # a loop stays one
+    return np.array(sorted(kept), np.int64)
+
+
+def _distance(
+    points: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """From points to a segment."""
+    along = b - a
+    square = float(along @ along)
+    share = (
+        np.clip((points - a) @ along / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(points))
+    )
+    return np.linalg.norm(points - a - share[:, None] * along, axis=1)

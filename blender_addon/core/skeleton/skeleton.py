@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A skeleton as arrays: branches of points with radii, and what of the surface belongs to which."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """Branches between nodes: tips, forks, and points that stand by themselves.
+
+    Parameters
+    ----------
+    points : (p, 3) float64
+    radius : (p,) float64
+        Of the ball round each point, in the unit of the input.
+    branch_offsets : (b + 1,) int32
+        Branch i has the points branch_points[branch_offsets[i] : branch_offsets[i + 1]].
+    branch_points : (c,) int32
+        Rows of `points`, from node to node. A loop starts and ends at the same one.
+    nodes : (k,) int32
+        Rows of `points`, ascending: all ends of branches, and points without a branch.
+    """
+
+    points: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    branch_offsets: NDArray[np.int32]
+    branch_points: NDArray[np.int32]
+    nodes: NDArray[np.int32]
+
+    @property
+    def branches(self) -> list[NDArray[np.int32]]:
+        """The points of each branch."""
+        return np.split(self.branch_points, self.branch_offsets[1:-1]) if self.count else []
+
+    @property
+    def count(self) -> int:
+        """Number of branches."""
+        return len(self.branch_offsets) - 1
+
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """(e, 2) int32: neighbours along the branches, branch after branch."""
+        pairs = np.column_stack((self.branch_points[:-1], self.branch_points[1:]))
+        within = np.ones(len(pairs), bool)
+        within[self.branch_offsets[1:-1] - 1] = False
+        return pairs[within]
+
+    @property
+    def degree(self) -> NDArray[np.int64]:
+        """(p,) edges at each point: 1 at tips, 3 or more at forks."""
+        return np.bincount(self.edges.ravel(), minlength=len(self.points))
+
+    @property
+    def tips(self) -> int:
+        """Number of ends."""
+        return int((self.degree == 1).sum())
+
+    @property
+    def loops(self) -> int:
+        """Number of independent loops."""
+        return len(self.edges) - len(self.points) + self.pieces
+
+    @property
+    def pieces(self) -> int:
+        """Number of connected parts."""
+        lowest = np.arange(len(self.points))
+        a, b = self.edges.T
+        while True:
+            before = lowest.copy()
+            np.minimum.at(lowest, a, lowest[b])
+            np.minimum.at(lowest, b, lowest[a])
+            lowest = lowest[lowest]
+            if np.array_equal(before, lowest):
+                return len(np.unique(lowest))
+
+    @property
+    def length(self) -> float:
+        """Of all branches together."""
+        steps = np.diff(self.points[self.edges], axis=1)[:, 0]
+        return float(np.linalg.norm(steps, axis=1).sum())
+
+
+def skeleton_of(
+    points: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    branches: list[NDArray[np.int64]],
+    singles: NDArray[np.int64],
+) -> Skeleton:
+    """A skeleton of those points that branches use, and single ones; `branches` and `singles` are rows of points."""
+    used = np.unique(np.concatenate([*branches, singles]).astype(np.int64))
+    row = np.full(len(points), -1, np.int64)
+    row[used] = np.arange(len(used))
+    ends = [end for branch in branches for end in (branch[0], branch[-1])]
+    offsets = np.cumsum([0, *(len(branch) for branch in branches)])
+    return Skeleton(
+        points=points[used],
+        radius=radius[used],
+        branch_offsets=offsets.astype(np.int32),
+        branch_points=row[np.concatenate([*branches, used[:0]])].astype(np.int32),
+        nodes=row[np.unique(np.concatenate([ends, singles])).astype(np.int64)].astype(np.int32),
+    )

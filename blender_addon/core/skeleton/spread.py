@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which of some seeds is nearest to each vertex of a graph, along its edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+# How much farther the front goes at a time, in mean edges: little, so that few vertices are reached twice.
+_STEP = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class Graph:
+    """Edges by vertex: those of vertex v are the rows first[v] : first[v + 1] of `to` and `length`."""
+
+    first: NDArray[np.int64]
+    to: NDArray[np.int64]
+    length: NDArray[np.float64]
+
+
+def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
+    """The graph of (e, 2) edges between (n, 3) points, as long as they are in space."""
+    ends = np.concatenate((edges, edges[:, ::-1])).astype(np.int64)
+    ends = ends[np.lexsort((ends[:, 1], ends[:, 0]))]
+    length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
+    first = np.concatenate(([0], np.cumsum(np.bincount(ends[:, 0], minlength=len(points)))))
+    return Graph(first, ends[:, 1], length)
+
+
+def spread(
+    graph: Graph,
+    seeds: NDArray[np.int64],
+    labels: NDArray[np.int64],
+    within: float = np.inf,
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """The label of the nearest seed, and how far it is.
+
+    Parameters
+    ----------
+    graph : Graph
+    seeds : (s,) vertices; of several labels of one vertex the lowest counts.
+    labels : (s,) integers, not negative
+    within : float
+        Farther than this nothing is looked for.
+
+    Returns
+    -------
+    label : (n,) int64
+        -1 where no seed can be reached. Of two equally near ones the lower.
+    distance : (n,) float64
+        Infinite there.
+    """
+    count = len(graph.first) - 1
+    distance, label = np.full(count, np.inf), np.full(count, -1, np.int64)
+    step = _STEP * float(graph.length.mean()) if len(graph.length) else 0.0
+    front, at, marks = seeds, np.zeros(len(seeds)), labels
+    while len(front):
+        near = at <= at.min() + step
+        later = front[~near], at[~near], marks[~near]
+        front, at, marks = _best(front[near], at[near], marks[near])
+        nearer = (at < distance[front]) | ((at == distance[front]) & (marks < label[front]))
+        front, at, marks = front[nearer], at[nearer], marks[nearer]
+        distance[front], label[front] = at, marks
+        rows, count_of = _edges_of(graph, front)
+        front, at = graph.to[rows], np.repeat(at, count_of) + graph.length[rows]
+        marks = np.repeat(marks, count_of)
+        hopeful = (at <= distance[front]) & (at <= within)
+        front, at, marks = (
+            np.concatenate((old, new[hopeful]))
+            for old, new in zip(later, (front, at, marks), strict=True)
+        )
+    return label, distance
+
+
+def _best(
+    front: NDArray[np.int64], at: NDArray[np.float64], marks: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
+    """Each vertex once, with the nearest seed that came to it."""
+    order = np.lexsort((marks, at, front))
+    front, at, marks = front[order], at[order], marks[order]
+    first = np.ones(len(front), bool)
+    first[1:] = front[1:] != front[:-1]
+    return front[first], at[first], marks[first]
+
+
+def _edges_of(
+    graph: Graph, vertices: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The rows of the edges of vertices, one vertex after the other, and how many each has."""
+    start, count = graph.first[vertices], graph.first[vertices + 1] - graph.first[vertices]
+    before = np.cumsum(count) - count
+    rows: NDArray[np.int64] = np.repeat(start - before, count) + np.arange(count.sum())
+    return rows, count

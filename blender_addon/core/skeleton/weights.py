@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which bones move which vertex, and how much: those of the branch that owns the vertex' ball.
+
+A vertex follows the bone beside it. Round a joint within a chain its two bones share. Where a limb begins it shares
+with the bone that the limb hangs on, and where two limbs meet both share with that: so the weights are continuous, and no
+limb moves the skin of another one.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .spread import Graph, graph_of, spread
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .bones import Bones
+    from .parts import Places
+
+MOST = 4  # bones of a vertex
+_SMOOTHED = 2  # times each vertex takes the mean of itself and its neighbours
+
+
+def axis_weights(
+    bones: Bones, places: Places, vertices: NDArray[np.float64], edges: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+    """Weights of vertices.
+
+    Parameters
+    ----------
+    bones : Bones
+        At least one.
+    places : Places
+        Of the vertices on the branches.
+    vertices : (v, 3) float64
+    edges : (e, 2) int32
+        Between vertices.
+
+    Returns
+    -------
+    bone : (v, 4) int32
+    weight : (v, 4) float64
+        Not negative, of sum 1; the largest first.
+    """
+    weight = np.zeros((len(vertices), bones.count))
+    chain = _along_branches(weight, bones, places)
+    _to_nearest(weight, chain, bones, vertices)
+    graph = graph_of(vertices, edges)
+    _share_with_parents(weight, chain, bones, vertices, edges)
+    for _ in range(_SMOOTHED):
+        _smooth(weight, graph)
+    bone = np.argsort(-weight, axis=1, kind="stable")[:, :MOST]
+    found = np.take_along_axis(weight, bone, axis=1)
+    missing = MOST - bone.shape[1]
+    if missing > 0:
+        bone, found = (np.pad(x, ((0, 0), (0, missing))) for x in (bone, found))
+    return bone.astype(np.int32), found / found.sum(axis=1, keepdims=True)
+
+
+def edges_of(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
+    """(e, 2) the edges of triangles, each once."""
+    pairs = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.unique(pairs, axis=0)
+
+
+def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -> NDArray[np.int64]:
+    """Fill in the bones beside each vertex; returns their chain, -1 where there is none."""
+    chain = np.full(len(weight), -1, np.int64)
+    length = np.linalg.norm(bones.tail - bones.head, axis=1)
+    for bone in np.flatnonzero(bones.branch >= 0):
+        low, high = np.sort(bones.along[bone])
+        closed = high == bones.along[bones.branch == bones.branch[bone]].max()
+        here = (places.branch == bones.branch[bone]) & (places.along >= low)
+        here &= (places.along <= high) if closed else (places.along < high)
+        chain[here] = bones.chain[bone]
+        weight[here, bone] = 1.0
+    for bone in np.flatnonzero(bones.branch >= 0):
+        before = bones.parent[bone]
+        if bones.chain[before] == bones.chain[bone]:
+            _blend(weight, bones, places, before, bone, length)
+    return chain
+
+
+def _blend(
+    weight: NDArray[np.float64],
+    bones: Bones,
+    places: Places,
+    before: int,
+    after: int,
+    length: NDArray[np.float64],
+) -> None:
+    """Let two bones share round their joint, as far as its radius, and each at most half."""
+    sign = np.sign(bones.along[after, 1] - bones.along[after, 0])
+    share = np.abs(np.diff(bones.along[[before, after]], axis=1)[:, 0])
+    of_length = float(share.sum() / length[[before, after]].sum())
+    reach = min(bones.head_radius[after] * of_length, *(share / 2))
+    past = sign * (places.along - bones.along[after, 0]) / max(reach, np.finfo(float).tiny)
+    here = (places.branch == bones.branch[after]) & (np.abs(past) < 1.0)
+    follows = _smoothstep((past[here] + 1.0) / 2.0)
+    weight[here, after], weight[here, before] = follows, 1.0 - follows
+
+
+def _to_nearest(
+    weight: NDArray[np.float64],
+    chain: NDArray[np.int64],
+    bones: Bones,
+    vertices: NDArray[np.float64],
+) -> None:
+    """Vertices of parts without a branch follow the bone whose middle is nearest."""
+    middle = (bones.head + bones.tail) / 2
+    for row in np.flatnonzero(chain < 0):
+        bone = int(np.argmin(np.linalg.norm(middle - vertices[row], axis=1)))
+        weight[row, bone], chain[row] = 1.0, bones.chain[bone]
+
+
+def _share_with_parents(
+    weight: NDArray[np.float64],
+    chain: NDArray[np.int64],
+    bones: Bones,
+    vertices: NDArray[np.float64],
+    edges: NDArray[np.int32],
+) -> None:
+    """Fade each chain out towards others that do not hang on it, in favour of the bone that it hangs on itself."""
+    first = _first_bones(bones)
+    hangs_on = bones.parent[first]
+    above = np.where(hangs_on >= 0, bones.chain[hangs_on], -1)
+    other = chain[edges]
+    apart = other[:, 0] != other[:, 1]
+    rim = [edges[apart & ~_below(other[:, 1 - i], other[:, i], above)][:, i] for i in (0, 1)]
+    rim_vertices = np.unique(np.concatenate(rim)).astype(np.int64)
+    inner = graph_of(vertices, edges[~apart])
+    _, away = spread(inner, rim_vertices, np.zeros(len(rim_vertices), np.int64))
+    width = bones.head_radius[first][chain]
+    here = np.flatnonzero((away < width) & (hangs_on[chain] >= 0))
+    stays = _smoothstep(away[here] / width[here])
+    weight[here] *= stays[:, None]
+    weight[here, hangs_on[chain[here]]] += 1.0 - stays
+
+
+def _first_bones(bones: Bones) -> NDArray[np.int64]:
+    """(chains,) the bone with which each begins."""
+    first = np.zeros(bones.chain.max() + 1, np.int64)
+    first[bones.chain[::-1]] = np.arange(bones.count)[::-1]
+    return first
+
+
+def _below(
+    lower: NDArray[np.int64], upper: NDArray[np.int64], above: NDArray[np.int64]
+) -> NDArray[np.bool_]:
+    """Whether one chain hangs on another, at once or by others between."""
+    found, at = np.zeros(len(lower), bool), lower
+    while (at >= 0).any():
+        at = np.where(at >= 0, above[at], -1)
+        found |= at == upper
+    return found
+
+
+def _smooth(weight: NDArray[np.float64], graph: Graph) -> None:
+    """Half of each vertex, and half the mean of its neighbours; the sums stay."""
+    count = np.diff(graph.first)
+    joined = np.flatnonzero(count)
+    if not len(joined):
+        return
+    for bone in range(weight.shape[1]):
+        column = weight[:, bone]
+        if column.any():
+            total = np.add.reduceat(column[graph.to], graph.first[joined])
+            weight[joined, bone] = (column[joined] + total / count[joined]) / 2
+
+
+def _smoothstep(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    x = np.clip(x, 0.0, 1.0)
+    return x * x * (3.0 - 2.0 * x)

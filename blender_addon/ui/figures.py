@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panel says of a result: what matters in a few rows, and all figures."""
+
+import re
+
+import bpy
+
+from ..bridge import axis_object, output_object, report_object, surface_object
+from ..bridge.colours import colour_range
+from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
+from . import manual
+from .guide import WHY
+from .legend import draw_legend, light
+from .show import shows_colours
+from .translation import say
+from .wrapped_text import draw_wrapped
+
+_BUTTON = 30  # pixels of a button with an icon
+
+
+def draw_result(context, layout, result):
+    """Its colours, its verdict, its topology, its radii and how long it took."""
+    _draw_legend(context, layout, result)
+    _draw_verdict(context, layout, result)
+    if topology := result.get(axis_object.TOPOLOGY, ""):
+        draw_wrapped(context, layout, topology, "MESH_DATA")
+    else:
+        count = result.get(axis_object.PIECES, 0)
+        text = "1 piece" if count == 1 else f"{count:,} pieces"
+        draw_wrapped(context, layout, text, "MESH_DATA")
+    if hidden := result.get(axis_object.HIDDEN, 0):
+        draw_wrapped(context, layout, f"{hidden:,} facets are not shown", "INFO")
+    smallest, largest = axis_object.radius_range(result)
+    figures = {"Radius": f"{length_text(context, smallest)} to {length_text(context, largest)}"}
+    if seconds := result.get(output_object.SECONDS):
+        figures["Time"] = f"{seconds:.2f} s"
+    _draw_figures(layout, figures, 0.3)
+
+
+def draw_sequence(context, layout, frame):
+    """The radii of a frame of a sequence, whose colours are those of all its frames."""
+    _draw_name(layout, frame)
+    smallest, largest = (length_text(context, frame[name]) for name in (RADIUS_MIN, RADIUS_MAX))
+    _draw_figures(layout, {"Radius": f"{smallest} to {largest}"})
+    _draw_legend(context, layout, frame)
+
+
+def draw_report(context, layout, report):
+    """How densely the samples lie."""
+    _draw_name(layout, report)
+    limit = report.get(LIMIT, 0.0)
+    share = 100 * report.get(report_object.SHARE, 0.0)
+    _draw_figures(
+        layout,
+        {
+            "Epsilon": f"{report.get(report_object.MEDIAN, 0.0):.2f} (median)",
+            f"Above {limit:g}": f"{share:.1f} %",
+        },
+    )
+    for warning in report.get(output_object.WARNINGS, "").splitlines():
+        draw_wrapped(context, layout, warning, "ERROR")
+    _draw_legend(context, layout, report)
+
+
+def draw_details(context, layout, result):
+    """All other figures of a result, and every sentence."""
+    _draw_table(
+        layout,
+        result,
+        {
+            "Points": f"{result.get(output_object.POINTS, 0):,}",
+            "Duplicates": f"{result.get(output_object.DUPLICATES, 0):,}",
+            "Facets": f"{len(result.data.polygons):,}",
+            "Vertices": f"{len(result.data.vertices):,}",
+            "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
+            "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
+        },
+    )
+    for name in (output_object.SAMPLED, output_object.DENSITY, axis_object.INSIDE):
+        if sentence := result.get(name):
+            draw_wrapped(context, layout, sentence, "INFO")
+    for warning in result.get(output_object.WARNINGS, "").splitlines():
+        draw_wrapped(context, layout, warning, "ERROR")
+
+
+def draw_report_details(context, layout, report):
+    """All other figures of a report."""
+    worst = report.get(report_object.WORST) or [0.0]
+    _draw_table(
+        layout,
+        report,
+        {
+            "Samples": f"{report.get(output_object.POINTS, 0):,}",
+            "95 % Below": f"{report.get(report_object.P95, 0.0):.2f}",
+            "And at Edges": f"{100 * report.get(report_object.SHARE_OF_ALL, 0.0):.1f} %",
+            "Worst": f"{worst[0]:.2g}",
+        },
+    )
+    draw_wrapped(context, layout, report.get(output_object.SAMPLED, ""), "INFO")
+
+
+def draw_surface(context, layout, surface):
+    """The figures of a reconstructed surface, and what looks wrong with it."""
+    _draw_table(
+        layout,
+        surface,
+        {
+            "Points": f"{surface.get(output_object.POINTS, 0):,}",
+            "Duplicates": f"{surface.get(output_object.DUPLICATES, 0):,}",
+            "Off Surface": f"{surface.get(surface_object.OFF_SURFACE, 0):,}",
+            "Triangles": f"{len(surface.data.polygons):,}",
+            "Non-Manifold": f"{surface.get(surface_object.NONMANIFOLD_EDGES, 0):,} edges",
+            "": f"{surface.get(surface_object.NONMANIFOLD_VERTICES, 0):,} points",
+            "Cavities": f"{surface.get(surface_object.CAVITIES, 0):,}",
+        },
+    )
+    for warning in surface.get(output_object.WARNINGS, "").splitlines():
+        draw_wrapped(context, layout, warning, "ERROR")
+
+
+def _draw_verdict(context, layout, result):
+    """The traffic light with its sentence, and where the manual says why."""
+    name = result.get(axis_object.LIGHT)
+    if name not in WHY:  # of an older version
+        return
+    row = layout.row()
+    sentence = _short(say(result[axis_object.VERDICT]))
+    draw_wrapped(context, row, sentence, icon_value=light(name), beside=_BUTTON)
+    if manual.has(WHY[name].partition("#")[0]):
+        why = row.row()
+        why.alignment = "RIGHT"
+        why.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
+
+
+def _short(sentence):
+    """The first part of a sentence, without what is in brackets; Details have it whole."""
+    text = re.sub(r" \([^)]*\)", "", sentence)
+    return re.split(r"[;:] ", text)[0].rstrip(".") + "."
+
+
+def _draw_legend(context, layout, thing):
+    """The range of its colours, where it is coloured and one sees that."""
+    found = colour_range(thing)
+    if found is None or not shows_colours(context.space_data):
+        return
+    name, start, end = found
+    if name == report_object.EPSILON.name:
+        draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
+    else:
+        draw_legend(layout, length_text(context, start), length_text(context, end))
+
+
+def length_text(context, value):
+    """A length in the unit of the scene."""
+    units = context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{value:.3g}"
+    return bpy.utils.units.to_string(
+        units.system, "LENGTH", value * units.scale_length, precision=3
+    )
+
+
+def _draw_name(layout, thing):
+    layout.label(text=thing.name, icon="OUTLINER_OB_MESH", translate=False)
+
+
+def _draw_table(layout, thing, figures):
+    _draw_name(layout, thing)
+    _draw_figures(layout, figures)
+
+
+def _draw_figures(layout, figures, share=0.45):
+    """Rows of a label, which has a share of the width, and a text."""
+    column = layout.column(align=True)
+    for label, text in figures.items():
+        row = column.split(factor=share)
+        row.label(text=say(label), translate=False)
+        row.label(text=say(text), translate=False)

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a person presses to see a result better: colours in Solid view, and the source as wire."""
+
+import bpy
+
+from ..bridge.output_object import is_gone, source_of
+
+_before = {}  # a viewport -> what it showed before Show Colours
+
+
+def shows_colours(space) -> bool:
+    """Whether a 3D viewport shows the attributes of meshes as colours."""
+    return space.shading.type == "SOLID" and space.shading.color_type == "VERTEX"
+
+
+class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
+    bl_idname = "view3d.medial_axis_show_colours"
+    bl_label = "Show Colours"
+    bl_description = (
+        "Solid view with Color: Attribute in this viewport; pressed again, what it showed before"
+    )
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context):
+        return getattr(context.space_data, "type", "") == "VIEW_3D"
+
+    def execute(self, context):
+        shading, key = context.space_data.shading, context.space_data.as_pointer()
+        if shows_colours(context.space_data):
+            kind, colour = _before.pop(key, ("SOLID", "MATERIAL"))
+            shading.color_type = colour  # first, for another kind may know other ones
+            shading.type = kind
+        else:
+            kind, shading.type = shading.type, "SOLID"
+            _before[key] = kind, shading.color_type
+            shading.color_type = "VERTEX"
+        return {"FINISHED"}
+
+
+class OBJECT_OT_medial_axis_source_as_wire(bpy.types.Operator):
+    bl_idname = "object.medial_axis_source_as_wire"
+    bl_label = "Source as Wire"
+    bl_description = "Draw the object of which the result was made as wires, or as before"
+    bl_options = {"INTERNAL", "UNDO"}
+
+    name: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    def execute(self, _context):
+        thing = bpy.data.objects.get(self.name)
+        source = thing and source_of(thing)
+        if is_gone(source):
+            return {"CANCELLED"}
+        source.display_type = "TEXTURED" if source.display_type == "WIRE" else "WIRE"
+        return {"FINISHED"}
+
+
+CLASSES = (VIEW3D_OT_medial_axis_show_colours, OBJECT_OT_medial_axis_source_as_wire)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister():
+    _before.clear()
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

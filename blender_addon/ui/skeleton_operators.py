@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Extract Skeleton and Make Armature."""
+
+from functools import partial
+
+import bpy
+
+from ..bridge.armature_object import (
+    bind_by_axis,
+    bind_by_heat,
+    check_armature_writable,
+    write_armature,
+)
+from ..bridge.skeleton_object import (
+    check_parts_writable,
+    check_skeleton_writable,
+    write_parts,
+    write_skeleton,
+)
+from ..core.settings import BIND, LOOKS, SKELETON_OPTIONS, SkeletonSettings
+from ..core.skeleton.compute import compute_skeleton
+from ..core.skeleton.rig import compute_rig
+from .compute_operator import ComputeOperator
+from .preferences import memory_limit
+from .properties import (
+    SamplingProperties,
+    choice,
+    choice_of,
+    copy_settings,
+    draw_sampling,
+    settings_from,
+    switch,
+)
+from .translation import IN_CONTEXT, say
+
+SKELETON_OPERATORS = {
+    "object.medial_axis_skeleton": "OUTLINER_OB_CURVE",
+    "object.medial_axis_armature": "OUTLINER_OB_ARMATURE",
+}
+HEAT_FAILED = "Automatic weights left vertices without a bone; the weights of the axis were taken"
+
+
+def _number(name):
+    """A slider for a number of SKELETON_OPTIONS."""
+    option = SKELETON_OPTIONS[name]
+    return bpy.props.FloatProperty(
+        name=option.label,
+        description=option.description,
+        default=option.default,
+        min=option.minimum,
+        max=option.maximum,
+        soft_max=option.soft_maximum,
+        subtype="FACTOR",
+        **IN_CONTEXT,
+    )
+
+
+def _switch(option):
+    return bpy.props.BoolProperty(
+        name=option.label, description=option.description, default=option.default, **IN_CONTEXT
+    )
+
+
+class SkeletonProperties:
+    """The options of a skeleton."""
+
+    detail: _number("detail")
+    simplify: _number("simplify")
+    mirror: _switch(SKELETON_OPTIONS["mirror"])
+
+
+class ArmatureProperties:
+    """How an armature is used."""
+
+    bind: choice_of(BIND)
+
+
+def skeleton_settings(properties) -> SkeletonSettings:
+    """Properties of an operator -> SkeletonSettings; Blender keeps float32, so a rounded default means that number."""
+    values = {}
+    for name, option in SKELETON_OPTIONS.items():
+        value = getattr(properties, name)
+        near = isinstance(value, float) and abs(value - option.default) < 1e-6
+        values[name] = option.default if near else value
+    return SkeletonSettings(**values)
+
+
+def copy_all(context, button) -> None:
+    """Set the properties of an operator button to those of the panels."""
+    copy_settings(context.scene.medial_axis, button)
+    panel = context.scene.medial_axis_skeleton
+    for name in (*SKELETON_OPTIONS, "bind"):
+        if hasattr(button, name):
+            setattr(button, name, getattr(panel, name))
+
+
+class OBJECT_OT_medial_axis_skeleton(
+    ComputeOperator, SamplingProperties, SkeletonProperties, bpy.types.Operator
+):
+    bl_idname = "object.medial_axis_skeleton"
+    bl_label = "Extract Skeleton"
+    bl_description = (
+        "Make a curve along the middle of the selected objects, with the radius at every point"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    product = "skeleton"
+
+    sides: choice("sides")
+    parent: switch("parent", of=LOOKS)
+    parts: bpy.props.BoolProperty(
+        name="Parts",
+        description="Also give the faces of the object itself the attribute ma_part: the branch "
+        "that each belongs to",
+        default=False,
+    )
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        for name in (*SKELETON_OPTIONS, "parts", "parent", "sides", "sampling"):
+            self.layout.prop(self, name)
+        draw_sampling(self.layout.box().column(), self)
+
+    def check_writable(self, thing):
+        check_skeleton_writable(thing)
+        if self.parts:
+            check_parts_writable(thing)
+
+    def work(self, shape):
+        settings, wanted = settings_from(self), skeleton_settings(self)
+        return partial(compute_skeleton, shape, settings, wanted, limit=memory_limit())
+
+    def write(self, thing, found, frame):
+        made = write_skeleton(thing, found, frame)
+        if self.parts:
+            write_parts(thing, found)
+        return made
+
+    def summary(self, found):
+        skeleton = found.skeleton
+        return (
+            f"{skeleton.count:,} branches, {skeleton.tips:,} ends, {skeleton.loops:,} loops; "
+            f"{found.chosen.reason}"
+        )
+
+
+class OBJECT_OT_medial_axis_armature(
+    ComputeOperator, SamplingProperties, SkeletonProperties, ArmatureProperties, bpy.types.Operator
+):
+    bl_idname = "object.medial_axis_armature"
+    bl_label = "Make Armature"
+    bl_description = (
+        "Make few bones along the skeleton of the selected objects, and bind these to them"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    product = "armature"
+    parent = False  # the object follows its bones
+
+    sides: choice("sides")
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        for name in ("bind", *SKELETON_OPTIONS, "sides", "sampling"):
+            self.layout.prop(self, name)
+        draw_sampling(self.layout.box().column(), self)
+
+    def check_writable(self, thing):
+        check_armature_writable(thing, self.bind != "NONE")
+
+    def work(self, shape):
+        settings, wanted = settings_from(self), skeleton_settings(self)
+        return partial(compute_rig, shape, settings, wanted, limit=memory_limit())
+
+    def write(self, thing, rig, frame):
+        made = write_armature(thing, rig, frame)
+        if self.bind == "AUTOMATIC" and not bind_by_heat(thing, made, rig):
+            self.report({"WARNING"}, say(HEAT_FAILED))
+            made["ma_warnings"] = "\n".join([*rig.warnings, HEAT_FAILED])
+            bind_by_axis(thing, made, rig)
+        elif self.bind == "AXIS":
+            bind_by_axis(thing, made, rig)
+        return made
+
+    def summary(self, rig):
+        skeleton = rig.made_of.skeleton
+        return f"{rig.bones.count:,} bones, {skeleton.tips:,} ends; {rig.made_of.chosen.reason}"
+
+
+class MedialAxisSkeletonSettings(SkeletonProperties, ArmatureProperties, bpy.types.PropertyGroup):
+    """What the panel of skeletons shows."""
+
+
+CLASSES = (
+    OBJECT_OT_medial_axis_skeleton,
+    OBJECT_OT_medial_axis_armature,
+    MedialAxisSkeletonSettings,
+)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.medial_axis_skeleton = bpy.props.PointerProperty(
+        type=MedialAxisSkeletonSettings
+    )
+
+
+def unregister():
+    del bpy.types.Scene.medial_axis_skeleton
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel of skeletons and armatures, closed until someone wants one."""
+
+import bpy
+
+from ..bridge import output_object, skeleton_object
+from ..bridge.armature_object import BONES, armature_of, is_armature
+from ..bridge.skeleton_object import is_skeleton, skeleton_of
+from ..core.settings import SKELETON_OPTIONS
+from . import current_job
+from .skeleton_operators import SKELETON_OPERATORS, copy_all
+from .translation import say
+from .wrapped_text import draw_wrapped
+
+
+class VIEW3D_PT_medial_axis_skeleton(bpy.types.Panel):
+    bl_label = "Skeleton"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Medial Axis"
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column = self.layout.column()
+        column.use_property_split = True
+        column.use_property_decorate = False
+        column.enabled = current_job.job() is None
+        for name in (*SKELETON_OPTIONS, "bind"):
+            column.prop(context.scene.medial_axis_skeleton, name)
+        for operator, icon in SKELETON_OPERATORS.items():
+            copy_all(context, self.layout.operator(operator, icon=icon))
+        for thing in _shown(context):
+            _draw_figures(context, self.layout.column(), thing)
+
+
+def _shown(context):
+    """The skeleton and the armature that the panel speaks of: the active object, or those of the active object."""
+    active = getattr(context, "object", None)
+    if active is None:
+        return []
+    if is_skeleton(active) or is_armature(active):
+        return [active]
+    return [found for found in (skeleton_of(active), armature_of(active)) if found is not None]
+
+
+def _draw_figures(context, layout, thing):
+    figures = {"Bones": thing.get(BONES, 0)}
+    if is_skeleton(thing):
+        names = {"Ends": "ENDS", "Branches": "BRANCHES", "Loops": "LOOPS"}
+        figures = {
+            label: thing.get(getattr(skeleton_object, key), 0) for label, key in names.items()
+        }
+    layout.label(text=thing.name, icon="DOT", translate=False)
+    for label, number in figures.items():
+        row = layout.split(factor=0.45)
+        row.label(text=say(label), translate=False)
+        row.label(text=f"{number:,}", translate=False)
+    for warning in thing.get(output_object.WARNINGS, "").splitlines():
+        draw_wrapped(context, layout, warning, "ERROR")
+
+
+CLASSES = (VIEW3D_PT_medial_axis_skeleton,)
+
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

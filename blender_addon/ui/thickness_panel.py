@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel Thickness: the limit, the button, and what was found, as rows that lead to it."""
+
+import bpy
+
+from ..bridge import thickness_object as of
+from ..bridge.colours import colour_range
+from ..bridge.output_object import WARNINGS
+from ..bridge.thin_selection import patch_at, patches_of
+from ..core.axis.thickness_colours import BLUE
+from ..core.settings import THICKNESS_OPTIONS, Noise
+from . import current_job
+from .figures import length_text
+from .legend import draw_legend
+from .properties import copy_settings
+from .show import shows_colours
+from .thickness_properties import copy_thickness_settings, shown_thickness
+from .translation import say
+from .wrapped_text import draw_wrapped
+
+
+class VIEW3D_PT_medial_axis_thickness(bpy.types.Panel):
+    """How thick the selected object is, and where it is thin"""
+
+    bl_label = "Thickness"
+    bl_idname = "VIEW3D_PT_medial_axis_thickness"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Medial Axis"
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout, settings = self.layout, context.scene.medial_axis_thickness
+        _draw_options(layout, settings)
+        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
+            button = layout.operator("object.medial_axis_thickness", icon="DRIVER_DISTANCE")
+            copy_settings(context.scene.medial_axis, button)
+            copy_thickness_settings(settings, button)
+        if settings.note:
+            draw_wrapped(context, layout, settings.note, "INFO")
+        carrier = shown_thickness(context)
+        if carrier is not None:
+            _draw_found(context, layout, carrier)
+
+
+def _draw_options(layout, settings):
+    column = layout.column()
+    column.use_property_split = True
+    column.use_property_decorate = False
+    for name in THICKNESS_OPTIONS:
+        row = column.row()
+        row.active = name != "edges" or settings.noise == Noise.CLEAN.name
+        row.prop(settings, name)
+
+
+def _draw_found(context, layout, carrier):
+    column = layout.column(align=True)
+    least = carrier[of.MINIMUM]
+    if of.LEAST in carrier and least < float("inf"):
+        _draw_place(column, f"Minimum: {length_text(context, least)}", "MINIMUM", "ZOOM_SELECTED")
+    if carrier[of.LIMIT] > 0.0:
+        share = f"{100 * carrier[of.SHARE]:.2g} %"
+        area = _area(context, carrier[of.AREA])
+        column.label(text=say(f"Thinner: {area} ({share})"), icon="MESH_PLANE", translate=False)
+        _draw_patches(context, column, carrier)
+    if not shows_colours(context.space_data):
+        layout.operator("view3d.medial_axis_show_colours", icon="COLOR")
+    else:
+        _draw_legend(context, layout, carrier)
+    for warning in carrier.get(WARNINGS, "").splitlines():
+        draw_wrapped(context, layout, warning, "ERROR")
+
+
+def _draw_patches(context, column, carrier):
+    count, current = patches_of(carrier), carrier[of.CURRENT]
+    if not count:
+        column.label(text="Nothing is thinner than the limit", icon="CHECKMARK")
+        return
+    total = carrier[of.PATCHES]
+    text = "1 patch" if total == 1 else f"{total:,} patches"
+    if current >= 0:
+        _, _, minimum = patch_at(carrier, current)
+        text = f"Patch {current + 1:,} of {total:,}: {length_text(context, minimum)}"
+    row = column.row(align=True)
+    _draw_place(row, "", "PREVIOUS", "TRIA_LEFT")
+    _draw_place(row, text, "NEXT", "NONE")
+    _draw_place(row, "", "NEXT", "TRIA_RIGHT")
+    _draw_place(column, "Select All Thin Faces", "ALL", "RESTRICT_SELECT_OFF")
+
+
+def _draw_place(layout, text, which, icon):
+    operator = "object.medial_axis_thin_place"
+    button = layout.operator(operator, text=say(text), icon=icon, translate=False)
+    button.which = which
+
+
+def _draw_legend(context, layout, carrier):
+    """Blue from the first text on, red at the second one and yellow far below it."""
+    found = colour_range(carrier)
+    if found is not None:
+        _, blue, _ = found
+        draw_legend(layout, length_text(context, blue), "< " + length_text(context, blue / BLUE))
+
+
+def _area(context, area):
+    """An area in the unit of the scene, squared."""
+    units = context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{area:.3g}"
+    return bpy.utils.units.to_string(
+        units.system, "AREA", area * units.scale_length**2, precision=3
+    )
+
+
+CLASSES = (VIEW3D_PT_medial_axis_thickness,)
+
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of thickness as Blender properties; the limit acts on what was measured at once."""
+
+import bpy
+
+from ..bridge.output_object import is_gone, source_of
+from ..bridge.thickness_object import KEY, carrier_of, is_copy, show_limit
+from ..core.axis.thickness import kept_measurement
+from ..core.axis.thin_parts import find_thin_parts
+from ..core.errors import MedialAxisError
+from ..core.settings import THICKNESS_OPTIONS, Choice, ThicknessSettings
+from . import current_job
+from .properties import choice_of, number
+
+
+def shown_thickness(context):
+    """The object that carries the thickness of the active object; None where it was not measured."""
+    return carrier_of(getattr(context, "object", None))
+
+
+def thickness_settings_from(properties) -> ThicknessSettings:
+    """Properties of an operator or of the panel -> ThicknessSettings, raising InvalidInputError."""
+    values = {name: getattr(properties, name) for name in THICKNESS_OPTIONS}
+    for name, option in THICKNESS_OPTIONS.items():
+        if isinstance(option, Choice):
+            values[name] = type(option.default)[values[name]]
+    return ThicknessSettings(**values)
+
+
+def copy_thickness_settings(source, target) -> None:
+    """Set the properties of an operator button to those of the panel."""
+    for name in THICKNESS_OPTIONS:
+        setattr(target, name, getattr(source, name))
+
+
+def _length(name, update=None):
+    return number(name, update, of=THICKNESS_OPTIONS)
+
+
+def _choice(name):
+    return choice_of(THICKNESS_OPTIONS[name])
+
+
+def _apply_limit(panel, context):
+    """Show a new limit on what was measured, as long as it is kept."""
+    panel.note = ""
+    carrier = shown_thickness(context)
+    if carrier is None or current_job.job() is not None:
+        return
+    found = kept_measurement(carrier[KEY])
+    if found is None:
+        panel.note = "Press Measure Thickness to apply this: the measurement is no longer in memory"
+        return
+    if _is_edited(carrier):
+        panel.note = "Leave Edit Mode to see the new limit"
+        return
+    try:
+        show_limit(carrier, found, find_thin_parts(found, panel.limit, panel.minimum_patch))
+    except MedialAxisError as error:
+        panel.note = str(error)
+
+
+def _is_edited(carrier) -> bool:
+    source = source_of(carrier) if is_copy(carrier) else carrier
+    return carrier.mode == "EDIT" or (not is_gone(source) and source.mode == "EDIT")
+
+
+class ThicknessProperties:
+    """What is measured, of the operator."""
+
+    limit: _length("limit")
+    between: _choice("between")
+    edges: _choice("edges")
+    noise: _choice("noise")
+    minimum_patch: _length("minimum_patch")
+
+
+class MedialAxisThicknessSettings(bpy.types.PropertyGroup):
+    """What the panel shows; the limit and the smallest patch act at once."""
+
+    limit: _length("limit", _apply_limit)
+    between: _choice("between")
+    edges: _choice("edges")
+    noise: _choice("noise")
+    minimum_patch: _length("minimum_patch", _apply_limit)
+    note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+
+def register():
+    bpy.utils.register_class(MedialAxisThicknessSettings)
+    bpy.types.Scene.medial_axis_thickness = bpy.props.PointerProperty(
+        type=MedialAxisThicknessSettings
+    )
+
+
+def unregister():
+    del bpy.types.Scene.medial_axis_thickness
+    bpy.utils.unregister_class(MedialAxisThicknessSettings)

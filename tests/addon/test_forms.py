@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Forms in Blender: loose edges and vertices, attributes, sliders, files that come back, words about the topology."""
+
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from scene import (
+    addon,
+    analyses,
+    attribute,
+    compute,
+    link,
+    positions,
+    result_of,
+    select,
+    torus,
+)
+
+
+def loose_edges(mesh):
+    """(w, 2) the ends of the edges without a face."""
+    of_faces = {i for polygon in mesh.polygons for i in polygon.edge_keys}
+    ends = [tuple(edge.vertices) for edge in mesh.edges]
+    return np.array([e for e in ends if tuple(sorted(e)) not in of_faces]).reshape(-1, 2)
+
+
+def pair():
+    """Two slabs with a rod between them: sheets at both ends, and a curve from one to the other."""
+    rings = [(-2.0, 0.6, 0.6), (-1.2, 0.6, 0.6), (-1.0, 0.1, 0.1), (1.0, 0.1, 0.1)]
+    rings += [(1.2, 0.6, 0.6), (2.0, 0.6, 0.6)]
+    turns = np.linspace(0, 2 * np.pi, 32, endpoint=False)
+    points = [
+        (x, a * np.cos(t), (0.25 if a > 0.5 else 1.0) * b * np.sin(t))
+        for x, a, b in rings
+        for t in turns
+    ]
+    sides = [
+        (32 * i + j, 32 * i + (j + 1) % 32, 32 * (i + 1) + (j + 1) % 32, 32 * (i + 1) + j)
+        for i in range(len(rings) - 1)
+        for j in range(32)
+    ]
+    caps = [tuple(reversed(range(32))), tuple(range(32 * len(rings) - 32, 32 * len(rings)))]
+    return link("Pair", points, [*sides, *caps])
+
+
+def clean(**settings):
+    compute(**{"form": "CLEAN", "sampling": "SURFACE", "samples": 6_000} | settings)
+
+
+def test_clean_is_the_default():
+    bpy.ops.mesh.primitive_cube_add()
+    source = bpy.context.object
+    bpy.ops.object.medial_axis()
+    result = result_of(source)
+    assert result["ma_form"] == "CLEAN" and "ma_sheet" in result.data.attributes
+    assert result["ma_topology"] == "1 piece, no loop, no cavity, as the solid"
+
+
+def test_a_tube_is_a_circle_of_edges():
+    source = torus()
+    clean()
+    mesh = result_of(source).data
+    edges = loose_edges(mesh)
+    where = positions(mesh)
+    assert len(mesh.polygons) == 0 and len(edges) == len(mesh.edges) == len(mesh.vertices) > 20
+    assert (np.bincount(edges.ravel()) == 2).all()
+    assert np.abs(where[:, 2]).max() < 0.02
+    assert tuple(result_of(source)["ma_betti"]) == (1, 1, 0)
+    assert attribute(mesh, "ma_radius") == pytest.approx(
+        np.median(attribute(mesh, "ma_radius")), rel=0.05
+    )
+
+
+def test_a_ball_is_one_point_with_its_radius():
+    bpy.ops.mesh.primitive_uv_sphere_add(radius=2.0)
+    source = bpy.context.object
+    clean(smooth=True)
+    mesh = result_of(source).data
+    assert (len(mesh.vertices), len(mesh.edges), len(mesh.polygons)) == (1, 0, 0)
+    assert np.linalg.norm(positions(mesh)) < 0.05
+    assert attribute(mesh, "ma_radius") == pytest.approx(2.0, rel=0.03)
+
+
+def test_attributes_of_faces_and_of_loose_edges():
+    source = pair()
+    clean()
+    result = result_of(source)
+    mesh = result.data
+    edges = loose_edges(mesh)
+    assert len(mesh.polygons) > 50 and len(edges) > 5
+    limb = attribute(mesh, "ma_limb")
+    assert len(limb) == len(mesh.edges)
+    assert (limb[: -len(edges)] == 0).all() and (limb[-len(edges) :] > 4.0).all()
+    for name in ("ma_sheet", "ma_erosion"):
+        values = attribute(mesh, name)
+        assert len(values) == len(mesh.polygons) and (values > 0).all()
+    assert (attribute(mesh, "ma_erosion") <= attribute(mesh, "ma_sheet")).all()
+    exact = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.attributes["ma_exact"].data.foreach_get("vector", exact)
+    moved = np.linalg.norm(exact.reshape(-1, 3) - positions(mesh), axis=1)
+    assert moved.max() < 0.2 and len(attribute(mesh, "ma_exact_radius")) == len(mesh.vertices)
+    assert mesh.validate() is False
+
+
+def test_what_is_read_back_is_what_was_computed():
+    source = pair()
+    clean()
+    result = result_of(source)
+    core = addon("core.axis.compute")
+    axis = core.refilter(result["ma_analysis"], addon("bridge.axis_object").settings_of(result))
+    again = addon("bridge.read_axis").read_axis(result)
+    for name in ("face_offsets", "face_vertices", "generators", "edges", "side"):
+        assert np.array_equal(getattr(again, name), getattr(axis, name)), name
+    for name in ("exact", "exact_radius", "sheet", "erosion"):
+        expected = getattr(axis.level, name).astype(np.float32)
+        expected = np.minimum(expected, np.finfo(np.float32).max)
+        assert np.array_equal(getattr(again.level, name).astype(np.float32), expected), name
+    assert again.level.betti == axis.level.betti == (1, 0, 0)
+    assert len(again.level.limb) == len(again.edges)
+
+
+def test_form_and_its_sliders_act_at_once_without_another_analysis():
+    source = pair()
+    clean()
+    result, panel, before = result_of(source), bpy.context.scene.medial_axis, analyses()
+    facets = len(result.data.polygons)
+    panel.erode = 1.0
+    eroded = len(result.data.polygons)
+    assert 0 < eroded < facets and result["ma_erode"] == 1.0
+    panel.erode = 0.0
+    assert len(result.data.polygons) == facets
+    panel.simplify = 50.0
+    assert len(result.data.polygons) == 0 and len(result.data.edges) > 0
+    panel.simplify = 0.0
+    panel.form = "CURVE"
+    assert len(result.data.polygons) == 0 and tuple(result["ma_betti"]) == (1, 0, 0)
+    curve = len(result.data.vertices)
+    panel.limb = 60.0
+    assert len(result.data.vertices) < curve
+    panel.form = "PUBLISHED"
+    assert "ma_sheet" not in result.data.attributes and "ma_betti" not in result
+    assert result["ma_topology"] == "" and len(loose_edges(result.data)) == 0
+    panel.form, panel.limb = "CLEAN", 4.0
+    assert len(result.data.polygons) == facets and "as the solid" in result["ma_topology"]
+    panel.theta = 1.0  # another hierarchy of the same analysis
+    assert panel.note == "" and result["ma_theta"] == pytest.approx(1.0)
+    assert analyses() == before
+
+
+@pytest.mark.parametrize("side", ["OUTER", "BOTH"])
+def test_other_sides_are_as_published_which_is_said(side):
+    source = torus()
+    compute(side=side, form="PUBLISHED")
+    facets = len(result_of(source).data.polygons)
+    select(source)
+    compute(side=side, form="CLEAN")
+    result = result_of(source)
+    assert len(result.data.polygons) == facets and result["ma_form"] == "PUBLISHED"
+    assert result["ma_topology"] == "Form As Published: Clean is for the inner axis only"
+    bpy.context.scene.medial_axis.form = "CURVE"
+    assert result["ma_topology"] == "Form As Published: Curve is for the inner axis only"
+
+
+def test_overlapping_parts_differ_from_their_faces():
+    """Two balls that overlap are one solid of two shells."""
+    bpy.ops.mesh.primitive_uv_sphere_add(location=(-0.6, 0, 0))
+    one = bpy.context.object
+    bpy.ops.mesh.primitive_uv_sphere_add(location=(0.6, 0, 0))
+    select(bpy.context.object, one)
+    bpy.ops.object.join()
+    source = bpy.context.object
+    clean()
+    assert result_of(source)["ma_topology"] == (
+        "1 piece, no loop, no cavity, as the solid; by its faces it would be 2 pieces, no loop, "
+        "no cavity: its parts overlap"
+    )
+
+
+def test_a_cavity_is_counted():
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=2.0)
+    outer = bpy.context.object
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4, radius=1.0)
+    bpy.context.object.data.flip_normals()
+    select(bpy.context.object, outer)
+    bpy.ops.object.join()
+    source = bpy.context.object
+    clean()
+    assert result_of(source)["ma_topology"] == "1 piece, no loop, 1 cavity, as the solid"
+
+
+# --- files
+
+
+def export(source, path):
+    select(result_of(source))
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+
+
+def imported(path):
+    before = set(bpy.data.objects)
+    if path.suffix == ".obj":
+        bpy.ops.wm.obj_import(filepath=str(path), forward_axis="Y", up_axis="Z")
+    elif "ply_import" in dir(bpy.ops.wm):
+        bpy.ops.wm.ply_import(filepath=str(path))
+    else:
+        bpy.ops.import_mesh.ply(filepath=str(path))
+    (thing,) = set(bpy.data.objects) - before
+    return thing.data
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".obj"])
+def test_importers_of_blender_read_the_edges(tmp_path, suffix):
+    source = pair()
+    clean()
+    mesh, path = result_of(source).data, tmp_path / f"axis{suffix}"
+    export(source, path)
+    again = imported(path)
+    assert (len(again.polygons), len(again.edges)) == (len(mesh.polygons), len(mesh.edges))
+    ours, theirs = positions(mesh), positions(again)
+
+    def ends(edges, where):
+        rounded = np.round(where[edges], 4) + 0.0
+        return sorted(tuple(sorted(map(tuple, pair))) for pair in rounded.tolist())
+
+    assert ends(loose_edges(again), theirs) == ends(loose_edges(mesh), ours)
+
+
+def test_a_sequence_plays_with_its_edges(tmp_path):
+    source = pair()
+    clean()
+    mesh = result_of(source).data
+    export(source, tmp_path / "Pair_0001.npz")
+    write_sequence = addon("bridge.sequence_objects").write_sequence
+    (thing,) = write_sequence("Pair", {1: Path(tmp_path / "Pair_0001.npz")}).objects
+    assert len(loose_edges(thing.data)) == len(loose_edges(mesh)) > 0
+    assert np.array_equal(positions(thing.data), positions(mesh))
+    assert np.array_equal(attribute(thing.data, "ma_limb"), attribute(mesh, "ma_limb"))

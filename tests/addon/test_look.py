@@ -1,0 +1,363 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How results look: colours, wires, what they follow, and what a person sees of the panel."""
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+from scene import (
+    addon,
+    attribute,
+    compute,
+    ellipsoid,
+    medial_objects,
+    positions,
+    result_of,
+    select,
+    suzanne,
+    torus,
+    world_positions,
+)
+
+EVEN = {"sampling": "SURFACE", "samples": 1_500}
+
+
+def colours_of(mesh):
+    """(n, 4) `ma_color`, which must be the active one of viewport and render."""
+    found = mesh.color_attributes["ma_color"]
+    assert (found.domain, found.data_type) == ("POINT", "FLOAT_COLOR")
+    assert mesh.color_attributes.active_color == found
+    assert mesh.color_attributes[mesh.color_attributes.render_color_index] == found
+    values = np.empty(4 * len(found.data), np.float32)
+    found.data.foreach_get("color", values)
+    return values.reshape(-1, 4)
+
+
+# --- colours
+
+
+def test_result_is_coloured_by_radius():
+    source = ellipsoid()
+    compute(**EVEN)
+    result = result_of(source)
+    radius = attribute(result.data, "ma_radius").astype(float)
+    core = addon("core.axis.colours")
+    start, end = core.radius_range(radius)
+    np.testing.assert_allclose(colours_of(result.data), core.colours(radius, start, end), atol=1e-5)
+    name, *ends = addon("bridge.colours").colour_range(result)
+    assert name == "ma_radius" and ends == pytest.approx([start, end])
+    assert tuple(result.color) == pytest.approx(addon("bridge.material").FLAT)
+
+
+def test_colours_follow_the_sliders():
+    source = ellipsoid()
+    compute(**EVEN)
+    select(source)
+    bpy.context.scene.medial_axis.form = "PUBLISHED"
+    bpy.context.scene.medial_axis.theta = 1.2
+    result = result_of(source)
+    assert len(colours_of(result.data)) == len(result.data.vertices)
+    bpy.context.scene.medial_axis.property_unset("theta")
+
+
+def test_scripts_turn_colours_off():
+    source = ellipsoid()
+    compute(colours=False, **EVEN)
+    result = result_of(source)
+    assert "ma_color" not in result.data.attributes
+    assert addon("bridge.colours").colour_range(result) is None
+
+
+def test_report_is_coloured_by_epsilon():
+    source = ellipsoid()
+    assert bpy.ops.object.medial_axis_sampling_report(target="COPY", **EVEN) == {"FINISHED"}
+    report = addon("bridge.report_object").report_of(source)
+    epsilon = attribute(report.data, "ma_epsilon")
+    expected = addon("core.axis.colours").colours(epsilon, 0.0, 0.5)
+    np.testing.assert_allclose(colours_of(report.data), expected, atol=1e-5)
+    assert report.show_in_front, "it lies exactly on its source"
+
+
+def test_report_lies_on_a_source_that_can_show_it_and_beside_one_that_cannot():
+    fine, coarse = ellipsoid(segments=4), suzanne(levels=1)
+    for source in (fine, coarse):
+        select(source)
+        assert bpy.ops.object.medial_axis_sampling_report(**EVEN) == {"FINISHED"}
+    report_of = addon("bridge.report_object").report_of
+    assert report_of(fine) is None and report_of(coarse) is not None
+    assert "ma_epsilon" in fine.data.attributes and len(colours_of(fine.data))
+    assert "ma_epsilon" not in coarse.data.attributes
+    select(fine)
+    assert addon("ui.properties").shown_report(bpy.context) == fine
+    compute(**EVEN)  # a source with a report is still a source
+    assert result_of(fine) is not None
+
+
+def test_report_leaves_the_render_colours_of_a_source_alone():
+    source = ellipsoid(segments=4)
+    mine = source.data.color_attributes.new("Mine", "BYTE_COLOR", "CORNER")
+    source.data.color_attributes.render_color_index = 0
+    assert bpy.ops.object.medial_axis_sampling_report(**EVEN) == {"FINISHED"}
+    found = source.data.color_attributes
+    assert found.active_color.name == "ma_color" and found[found.render_color_index].name == "Mine"
+    assert mine is not None
+
+
+# --- selection
+
+
+def test_a_script_has_the_result_selected_unless_it_says_otherwise():
+    source = ellipsoid()
+    compute(**EVEN)
+    assert bpy.context.selected_objects == [result_of(source)] == [bpy.context.object]
+    select(source)
+    compute(select_result=False, **EVEN)
+    assert bpy.context.selected_objects == [source] == [bpy.context.object]
+
+
+# --- following the source
+
+
+def test_result_follows_its_source():
+    source = ellipsoid()
+    source.matrix_world = Matrix.Translation((1, 2, 3)) @ Matrix.Rotation(0.5, 4, "Y")
+    compute(**EVEN)
+    result = result_of(source)
+    before = world_positions(result)
+    move = Matrix.Translation((4, 0, -1)) @ Matrix.Rotation(1.0, 4, "X")
+    source.matrix_world = move @ source.matrix_world
+    turn = np.array(move)
+    expected = before @ turn[:3, :3].T + turn[:3, 3]
+    np.testing.assert_allclose(world_positions(result), expected, atol=1e-5)
+    select(source)
+    compute(**EVEN)
+    np.testing.assert_allclose(world_positions(result), expected, atol=1e-5)
+    assert tuple(result.scale) == (1.0, 1.0, 1.0)
+
+
+def test_scripts_turn_following_off_and_an_artists_parent_stays():
+    source = ellipsoid()
+    compute(parent=False, **EVEN)
+    result = result_of(source)
+    assert result.parent is None
+    empty = bpy.data.objects.new("Mine", None)
+    bpy.context.scene.collection.objects.link(empty)
+    result.parent = empty
+    select(source)
+    compute(**EVEN)
+    assert result.parent == empty
+    result.parent = None
+    select(source)
+    compute(**EVEN)
+    assert result.parent == source
+    select(source)
+    compute(parent=False, **EVEN)
+    assert result.parent is None
+    bpy.context.view_layer.update()
+    assert np.allclose(np.array(result.matrix_world), np.identity(4))
+
+
+def test_a_source_that_goes_leaves_its_result_where_it_was():
+    source = ellipsoid()
+    source.location = (3, 0, 0)
+    compute(**EVEN)
+    result = result_of(source)
+    before = world_positions(result)
+    bpy.data.objects.remove(source)
+    np.testing.assert_allclose(world_positions(result), before, atol=1e-5)
+    assert result.visible_get()
+
+
+def test_a_flat_source_carries_nothing():
+    follow = addon("bridge.output_object").follow
+    source, other = ellipsoid("One"), ellipsoid("Two")
+    follow(other, source, Matrix.Diagonal((1, 1, 0, 1)), True)
+    assert other.parent is None
+
+
+def test_panel_finds_the_axis_of_whatever_is_selected():
+    source = ellipsoid()
+    bpy.ops.object.medial_axis_sampling_report(target="COPY", **EVEN)
+    bpy.ops.object.tight_cocone_surface()
+    select(source)
+    compute(**EVEN)
+    report = addon("bridge.report_object").report_of(source)
+    surface = addon("bridge.surface_object").surface_of(source)
+    for thing in (source, result_of(source), report, surface):
+        if thing is None:
+            continue
+        select(thing)
+        assert addon("ui.properties").shown_result(bpy.context) == result_of(source)
+
+
+# --- the outer axis and small pieces
+
+
+def test_outer_axis_is_not_in_front_and_stays_near():
+    source = torus()
+    compute(side="OUTER", within=1.5)
+    result = result_of(source)
+    assert not result.show_in_front
+    box = np.ptp(positions(source.data), axis=0)
+    assert (np.ptp(positions(result.data), axis=0) <= 1.5 * box + 1e-5).all()
+    near, hidden = len(result.data.polygons), result["ma_hidden"]
+    select(source)
+    compute(side="OUTER", within=0.0)
+    assert len(result.data.polygons) == near + hidden > near
+    select(source)
+    compute(side="INNER")
+    assert result.show_in_front
+
+
+def test_small_islands_are_hidden_on_demand_and_counted():
+    source = suzanne(levels=0)
+    compute(sampling="AUTOMATIC")
+    result = result_of(source)
+    assert result["ma_pieces"] > 10
+    select(source)
+    compute(sampling="AUTOMATIC", smallest_island=1.0)
+    assert 1 <= result["ma_pieces"] <= 100 and result["ma_hidden"] > 0
+    assert result.data.validate() is False
+
+
+# --- wires
+
+
+def wires_on(result):
+    return addon("bridge.wires").wires_of(result)
+
+
+def curve_of_a_torus():
+    source = torus()
+    compute(form="CURVE")
+    return source, result_of(source)
+
+
+def evaluated(thing):
+    return thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+
+
+def test_wires_have_faces_when_they_are_seen_and_none_in_the_mesh():
+    _, result = curve_of_a_torus()
+    assert len(result.data.edges) > 20 and not result.data.polygons
+    seen = evaluated(result)
+    assert len(seen.polygons) >= 8 * len(result.data.edges)
+    assert {material.name for material in seen.materials if material} == {"Medial Axis Radius"}
+    assert "ma_color" in seen.attributes and len(seen.attributes["ma_color"].data)
+
+
+def test_wires_are_as_thin_as_wanted():
+    source, result = curve_of_a_torus()
+    module = addon("bridge.wires")
+    owner, path = module.width_of(wires_on(result))
+    for width in (0.001, 0.05):
+        module._set(owner, path, width)
+        result.update_tag()
+        bpy.context.view_layer.update()
+        height = np.ptp(positions(evaluated(result))[:, 2])
+        assert height == pytest.approx(np.ptp(positions(result.data)[:, 2]) + 2 * width, abs=0.01)
+    select(source)
+    compute(form="CURVE", theta=0.5)
+    owner, path = module.width_of(wires_on(result))
+    kept = owner.value if path == "value" else owner[path[2:-2]]
+    assert kept == pytest.approx(0.05), "what the artist chose stays"
+
+
+def test_exports_are_those_of_the_mesh(tmp_path):
+    _, result = curve_of_a_torus()
+    assert bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "axis.ma")) == {"FINISHED"}
+    vertices, edges, faces = map(int, (tmp_path / "axis.ma").read_text().split()[:3])
+    assert (vertices, faces) == (len(result.data.vertices), 0) and edges == len(result.data.edges)
+
+
+def test_a_modifier_that_was_removed_stays_away_and_comes_with_new_wires():
+    source, result = curve_of_a_torus()
+    result.modifiers.remove(wires_on(result))
+    select(source)
+    compute(form="CURVE", theta=0.5)
+    assert wires_on(result) is None
+    select(source)
+    compute(form="PUBLISHED")
+    assert wires_on(result) is None and result["ma_wires"] == 0
+    select(source)
+    compute(form="CURVE")
+    assert wires_on(result) is not None
+    select(source)
+    compute(form="PUBLISHED")
+    assert wires_on(result) is None
+
+
+def test_one_node_group_for_all():
+    for _ in range(3):
+        curve_of_a_torus()
+    assert [group.name for group in bpy.data.node_groups] == ["Medial Axis Wires"]
+    assert len(medial_objects()) == 3
+
+
+# --- what the user presses
+
+
+def viewport():
+    """(window, area) of a 3D viewport; a Blender without a window has its screens, too."""
+    for manager in bpy.data.window_managers:
+        for window in manager.windows:
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    return window, area
+    pytest.skip("this Blender has no window")
+    return None
+
+
+def test_show_colours_goes_and_comes_back():
+    window, area = viewport()
+    shading = area.spaces.active.shading
+    for kind, colour in (("SOLID", "MATERIAL"), ("SOLID", "OBJECT"), ("WIREFRAME", "MATERIAL")):
+        shading.type = "SOLID"
+        shading.color_type, shading.type = colour, kind
+        with bpy.context.temp_override(window=window, area=area):
+            bpy.ops.view3d.medial_axis_show_colours()
+            assert (shading.type, shading.color_type) == ("SOLID", "VERTEX")
+            bpy.ops.view3d.medial_axis_show_colours()
+        assert shading.type == kind
+
+
+def test_computing_changes_no_shading():
+    _, area = viewport()
+    shading = area.spaces.active.shading
+    before = shading.type, shading.color_type
+    ellipsoid()
+    compute(**EVEN)
+    assert (shading.type, shading.color_type) == before
+
+
+def test_source_as_wire_and_back():
+    source = ellipsoid()
+    compute(**EVEN)
+    for expected in ("WIRE", "TEXTURED"):
+        bpy.ops.object.medial_axis_source_as_wire(name=result_of(source).name)
+        assert source.display_type == expected
+
+
+def test_panel_says_which_condition_binds():
+    source = torus()
+    compute(theta=1.5)
+    result = result_of(source)
+    theta, rho = attribute(result.data, "ma_theta"), attribute(result.data, "ma_rho")
+    only_ratio, only_angle = (theta < 1.5) & (rho >= 8), (theta >= 1.5) & (rho < 8)
+    assert result["ma_only_ratio"] == pytest.approx(only_ratio.mean(), abs=1e-3)
+    assert result["ma_only_angle"] == pytest.approx(only_angle.mean(), abs=1e-3)
+    assert result["ma_only_ratio"] > 0.5 > result["ma_only_angle"]
+    select(source)
+    compute(criteria="ANGLE")
+    assert result["ma_only_ratio"] == 0.0
+
+
+def test_guide_is_offered_until_it_was_used_or_dismissed():
+    guide = addon("ui.guide")
+    preferences = bpy.context.preferences.addons[addon().__name__].preferences
+    preferences.property_unset("guided")
+    assert guide._wanted() == addon("ui.manual").has(guide.PAGE)
+    if guide._wanted():
+        bpy.ops.wm.medial_axis_tutorial(dismiss=True)
+        assert not guide._wanted()
+    preferences.property_unset("guided")

@@ -1,0 +1,295 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Extract Skeleton and Make Armature: the objects that are made, and how a source follows its bones."""
+
+import math
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Euler, Matrix
+from scene import (
+    addon,
+    attribute,
+    contents,
+    link,
+    positions,
+    refuse,
+    select,
+    torus,
+    world_positions,
+)
+from support.data import DATA
+
+
+def skeleton_of(source):
+    return addon("bridge.skeleton_object").skeleton_of(source)
+
+
+def armature_of(source):
+    return addon("bridge.armature_object").armature_of(source)
+
+
+def cross(name="Cross"):
+    """A voxel cross with four arms in the plane of X and Z, smoothed: symmetric in X."""
+    cubes = {(0, 0, z) for z in range(-3, 3)} | {(x, 0, 0) for x in range(-3, 4)}
+    vertices, faces, row = [], [], {}
+    corners = {
+        (1, 0, 0): [(1, -1, -1), (1, 1, -1), (1, 1, 1), (1, -1, 1)],
+        (-1, 0, 0): [(-1, -1, -1), (-1, -1, 1), (-1, 1, 1), (-1, 1, -1)],
+        (0, 1, 0): [(-1, 1, -1), (-1, 1, 1), (1, 1, 1), (1, 1, -1)],
+        (0, -1, 0): [(-1, -1, -1), (1, -1, -1), (1, -1, 1), (-1, -1, 1)],
+        (0, 0, 1): [(-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1)],
+        (0, 0, -1): [(-1, -1, -1), (-1, 1, -1), (1, 1, -1), (1, -1, -1)],
+    }
+    for cube in sorted(cubes):
+        for side, square in corners.items():
+            if tuple(np.add(cube, side)) in cubes:
+                continue
+            face = []
+            for corner in square:
+                place = tuple((np.array(cube) + np.array(corner) / 2).tolist())
+                if place not in row:
+                    row[place] = len(vertices)
+                    vertices.append(place)
+                face.append(row[place])
+            faces.append(face)
+    made = link(name, vertices, faces)
+    made.modifiers.new("Round", "SUBSURF").levels = 3
+    bpy.context.view_layer.update()
+    bpy.ops.object.modifier_apply(modifier="Round")
+    return made
+
+
+def extract(**settings):
+    assert bpy.ops.object.medial_axis_skeleton(**settings) == {"FINISHED"}
+
+
+def make_armature(**settings):
+    assert bpy.ops.object.medial_axis_armature(**settings) == {"FINISHED"}
+
+
+def weights_of(source):
+    """(v, groups) float."""
+    table = np.zeros((len(source.data.vertices), len(source.vertex_groups)))
+    for vertex in source.data.vertices:
+        for element in vertex.groups:
+            table[vertex.index, element.group] = element.weight
+    return table
+
+
+def assert_weights_hold(source):
+    table = weights_of(source)
+    assert ((table > 0).sum(axis=1) <= 4).all()
+    np.testing.assert_allclose(table.sum(axis=1), 1.0, atol=1e-5)
+
+
+def test_skeleton_is_a_curve_with_radii():
+    source = cross()
+    extract()
+    thing = skeleton_of(source)
+    assert (
+        thing.name == "Cross Skeleton" and thing.type == "CURVE" and thing.data.dimensions == "3D"
+    )
+    assert {spline.type for spline in thing.data.splines} == {"POLY"}
+    assert (thing["ma_ends"], thing["ma_loops"]) == (4, 0)
+    radii = [point.radius for spline in thing.data.splines for point in spline.points]
+    assert min(radii) > 0.2 and max(radii) < 0.9
+    assert bpy.context.selected_objects == [thing]
+
+
+def test_a_bevel_of_one_shows_tubes_of_the_right_thickness():
+    source = torus()
+    extract()
+    thing = skeleton_of(source)
+    (spline,) = thing.data.splines
+    assert spline.use_cyclic_u and thing["ma_loops"] == 1 and thing["ma_ends"] == 0
+    thing.data.bevel_depth = 1.0
+    bpy.context.view_layer.update()
+    mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    tube = positions(mesh)
+    away = np.hypot(np.hypot(tube[:, 0], tube[:, 1]) - 1.0, tube[:, 2])
+    np.testing.assert_allclose(away, 0.4, atol=0.02)
+
+
+@pytest.mark.parametrize("scale", [1.0, 3.0])
+def test_skeleton_lies_where_the_source_is(scale):
+    source = cross()
+    source.matrix_world = Matrix.LocRotScale((1, 2, 3), Euler((0.3, 0.2, 0.9)), (scale,) * 3)
+    select(source)
+    extract()
+    thing = skeleton_of(source)
+    bpy.context.view_layer.update()
+    assert thing.matrix_world.to_scale()[:] == pytest.approx((1, 1, 1), abs=1e-6)
+    places = [thing.matrix_world @ p.co.xyz for s in thing.data.splines for p in s.points]
+    inside = np.array([source.matrix_world.inverted() @ place for place in places])
+    assert np.abs(inside[:, 1]).max() < 0.05 and np.abs(inside).max() < 3.5
+    assert max(p.radius for s in thing.data.splines for p in s.points) < 0.9 * scale
+
+
+def test_running_again_updates_the_same_curve_and_keeps_its_bevel():
+    source = cross()
+    extract()
+    thing = skeleton_of(source)
+    thing.data.bevel_depth = 0.5
+    extract(detail=0.4)
+    assert skeleton_of(source) == thing and thing.data.bevel_depth == 0.5
+    assert len([t for t in bpy.data.objects if "ma_ends" in t]) == 1
+
+
+def test_detail_says_how_many_ends():
+    source = cross()
+    extract(detail=0.0)
+    few = skeleton_of(source)["ma_ends"]
+    extract(detail=0.5)
+    assert few <= skeleton_of(source)["ma_ends"]
+
+
+def test_parts_on_the_faces_of_the_source():
+    source = cross()
+    extract(parts=True)
+    part = attribute(source.data, "ma_part")
+    assert len(np.unique(part)) == 4 and len(part) == len(source.data.polygons)
+    centres = np.array([polygon.center for polygon in source.data.polygons])
+    for number in np.unique(part):
+        here = centres[part == number]
+        tip = here[np.abs(here).max(axis=1).argmax()]
+        far = np.abs(centres - tip).max(axis=1) < 0.7
+        assert (part[far] == number).all()
+
+
+def test_parts_are_refused_where_there_are_no_faces():
+    bpy.ops.curve.primitive_bezier_circle_add()
+    bpy.context.object.data.bevel_depth = 0.2
+    refuse("turn Parts off", operator="medial_axis_skeleton", parts=True)
+
+
+def test_skeleton_is_one_undo_step():
+    bpy.context.preferences.edit.use_global_undo = True
+    cross()
+    bpy.ops.ed.undo_push(message="Scene is set")
+    before = [o.name for o in bpy.data.objects]
+    assert bpy.ops.object.medial_axis_skeleton("EXEC_DEFAULT", True) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    assert [o.name for o in bpy.data.objects] == before
+
+
+def test_armature_of_few_connected_bones():
+    source = cross()
+    make_armature(bind="NONE")
+    thing = armature_of(source)
+    bones = thing.data.bones
+    assert len(bones) <= 3 * 4 + 20 and [b.name for b in bones if b.parent is None] == ["root"]
+    assert all(b.use_connect for b in bones if b.parent)
+    assert all(b.head_radius > 0.1 and b.tail_radius > 0.1 for b in bones)
+    assert source.parent is None and not source.vertex_groups
+    names = {bone.name for bone in bones}
+    sided = {name for name in names if name.endswith((".L", ".R"))}
+    assert sided and {name[:-1] + ("R" if name[-1] == "L" else "L") for name in sided} == sided
+    for bone in bones:
+        if bone.name.endswith(".L"):
+            assert bone.tail_local.x > 0.1
+            other = bones[bone.name[:-1] + "R"]
+            mirrored = np.array(other.tail_local) * (-1, 1, 1)
+            np.testing.assert_allclose(mirrored, bone.tail_local, atol=0.15)
+
+
+@pytest.mark.parametrize("bind", ["AXIS", "AUTOMATIC"])
+def test_bound_source_follows_its_bones(bind):
+    source = cross()
+    before = world_positions(source)
+    make_armature(bind=bind)
+    thing = armature_of(source)
+    assert source.parent == thing and [m.type for m in source.modifiers] == ["ARMATURE"]
+    np.testing.assert_allclose(world_positions(source), before, atol=1e-5)
+    name = max(b.name for b in thing.data.bones if b.name.endswith(".L"))
+    if bind == "AXIS":
+        assert_weights_hold(source)
+    bone = thing.pose.bones[name]
+    bone.rotation_mode = "XYZ"
+    bone.rotation_euler = (math.radians(60), 0, 0)
+    bpy.context.view_layer.update()
+    mesh = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    moved = np.linalg.norm(positions(mesh) - positions(source.data), axis=1)
+    assert moved.max() > 0.5 and (moved[positions(source.data)[:, 0] < -1.0] < 0.02).all()
+
+
+def test_binding_again_leaves_one_modifier_and_no_old_groups():
+    source = cross()
+    make_armature(bind="AXIS")
+    make_armature(bind="AXIS", detail=0.3)
+    thing = armature_of(source)
+    assert (
+        len(source.modifiers) == 1
+        and len([o for o in bpy.data.objects if o.type == "ARMATURE"]) == 1
+    )
+    assert {group.name for group in source.vertex_groups} == set(thing.data.bones.keys())
+    assert_weights_hold(source)
+
+
+def test_source_with_modifiers_that_make_other_vertices():
+    source = cross()
+    source.modifiers.new("More", "SUBSURF").levels = 1
+    make_armature(bind="AXIS")
+    assert_weights_hold(source)
+
+
+def test_armature_is_one_undo_step():
+    bpy.context.preferences.edit.use_global_undo = True
+    source = cross()
+    bpy.ops.ed.undo_push(message="Scene is set")
+    before = contents()
+    assert bpy.ops.object.medial_axis_armature("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert contents() != before
+    bpy.ops.ed.undo()
+    source = bpy.data.objects["Cross"]
+    assert contents() == before and not source.modifiers and not source.vertex_groups
+
+
+def test_refusals_leave_nothing_behind():
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
+    refuse("its skeleton is a point", operator="medial_axis_armature")
+    bpy.ops.object.mode_set(mode="EDIT")
+    refuse("leave that mode", operator="medial_axis_armature")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.curve.primitive_bezier_circle_add()
+    bpy.context.object.data.bevel_depth = 0.2
+    refuse("choose Bind None", operator="medial_axis_armature")
+
+
+def imported(name):
+    path = DATA / name
+    if not path.is_file():
+        pytest.skip(f"optional data file {name} is not in {DATA}")
+    shape, _ = addon("core.files.read_shape").read_shape(path)
+    return link(name, shape.points, shape.triangles)
+
+
+def test_where_heat_fails_the_axis_steps_in(capfd):
+    """Two boxes that lie in each other: heat finds no way through the inner one."""
+    source = cross()
+    points = positions(source.data)
+    faces = [list(p.vertices) for p in source.data.polygons]
+    twice = link(
+        "Twice",
+        np.concatenate([points, 0.3 * points]),
+        [*faces, *[[i + len(points) for i in face] for face in faces]],
+    )
+    bpy.data.objects.remove(source)
+    select(twice)
+    rig = addon("ui.skeleton_operators")
+    kept, rig.bind_by_heat = rig.bind_by_heat, lambda *_: False
+    try:
+        make_armature(bind="AUTOMATIC")
+    finally:
+        rig.bind_by_heat = kept
+    assert "the weights of the axis were taken" in capfd.readouterr().out
+    assert_weights_hold(twice)
+    assert "weights of the axis" in armature_of(twice)["ma_warnings"]
+
+
+@pytest.mark.parametrize("name", ["hand_closed.obj", "human_woman.obj"])
+def test_real_meshes_are_bound(name):
+    source = imported(name)
+    make_armature(bind="AXIS")
+    assert_weights_hold(source)
+    assert len(armature_of(source).data.bones) <= 3 * 6 + 20

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pieces of an axis, judged by SciPy; and what is left when small or far ones go."""
+
+import numpy as np
+import pytest
+from medial_axis.core.axis import cut
+from medial_axis.core.axis.medial_axis import MedialAxis
+from medial_axis.core.machine import native
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from support.meshes import icosphere
+
+
+def axis_of(points, polygons):
+    """A medial axis of these polygons, whose attributes tell the facets apart."""
+    count = len(polygons)
+    return MedialAxis(
+        vertices=np.asarray(points, np.float64),
+        radius=np.arange(len(points), dtype=np.float64),
+        face_offsets=np.concatenate([[0], np.cumsum([len(p) for p in polygons])]).astype(np.int32),
+        face_vertices=np.concatenate([np.asarray(p, np.int32) for p in polygons]),
+        theta=np.arange(count, dtype=np.float64),
+        rho=np.arange(count, dtype=np.float64),
+        side=np.ones(count, np.int32),
+        generators=np.arange(2 * count, dtype=np.int32).reshape(-1, 2),
+        unbounded=0,
+        zero_area=0,
+    )
+
+
+def random_axis(seed, vertices=300, count=50):
+    rng = np.random.default_rng(seed)
+    polygons = [rng.choice(vertices, rng.integers(3, 6), replace=False) for _ in range(count)]
+    return axis_of(rng.normal(size=(vertices, 3)), polygons)
+
+
+def judged(axis):
+    """Labels of the facets by SciPy."""
+    facets = np.repeat(np.arange(axis.facets), np.diff(axis.face_offsets))
+    size = axis.facets + len(axis.vertices)
+    links = (np.ones(len(facets)), (facets, axis.facets + axis.face_vertices))
+    _, labels = connected_components(coo_matrix(links, (size, size)), directed=False)
+    return labels[: axis.facets]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_pieces_are_those_of_scipy_the_largest_first(seed):
+    axis = random_axis(seed)
+    mine, other = cut.pieces(axis), judged(axis)
+    assert len(set(zip(mine.tolist(), other.tolist(), strict=True))) == len(set(mine.tolist()))
+    assert len(set(mine.tolist())) == len(set(other.tolist())) > 1
+    counts = np.bincount(mine)
+    assert (np.diff(counts) <= 0).all() and counts.min() > 0
+
+
+def test_a_long_strip_is_one_piece_however_it_is_numbered():
+    rows = np.random.default_rng(3).permutation(2002)
+    strip = [rows[[2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2]] for i in range(1000)]
+    axis = axis_of(np.random.default_rng(4).normal(size=(2002, 3)), strip)
+    assert (cut.pieces(axis) == 0).all()
+
+
+def test_small_pieces_go_and_the_largest_always_stays():
+    axis = random_axis(1)
+    counts = np.bincount(cut.pieces(axis))
+    assert cut.without_small_pieces(axis, 0.0) is axis
+    left = cut.without_small_pieces(axis, counts[0] / axis.facets)
+    assert left.facets == counts[counts == counts[0]].sum()
+    assert cut.without_small_pieces(axis, 1.0).facets == counts[0]
+
+
+def test_what_stays_is_as_it_was():
+    axis = random_axis(2)
+    keep = np.random.default_rng(5).random(axis.facets) < 0.4
+    left = cut.with_facets(axis, keep)
+    rows = np.flatnonzero(keep)
+    assert left.facets == len(rows) and len(np.unique(left.face_vertices)) == len(left.vertices)
+    for new, old in enumerate(rows):
+        mine = left.face_vertices[slice(*left.face_offsets[new : new + 2])]
+        whole = axis.face_vertices[slice(*axis.face_offsets[old : old + 2])]
+        np.testing.assert_array_equal(left.vertices[mine], axis.vertices[whole])
+        np.testing.assert_array_equal(left.radius[mine], axis.radius[whole])
+    for name in ("theta", "rho", "side", "generators"):
+        np.testing.assert_array_equal(getattr(left, name), getattr(axis, name)[rows])
+
+
+def test_within_a_box():
+    axis, low, high = random_axis(6), np.array([-1.0, -1.0, -1.0]), np.array([1.0, 1.0, 1.0])
+    assert cut.within_box(axis, low, high, 0.0) is axis
+    left = cut.within_box(axis, low, high, 1.5)
+    assert 0 < left.facets < axis.facets and np.abs(left.vertices).max() <= 1.5
+    out = [
+        np.abs(axis.vertices[axis.face_vertices[a:b]]).max() > 1.5
+        for a, b in zip(axis.face_offsets[:-1], axis.face_offsets[1:], strict=True)
+    ]
+    assert left.facets == axis.facets - sum(out)
+
+
+def test_outer_axis_of_a_sphere_scales():
+    points, triangles = icosphere(2)[:2]
+    module = native.load()
+    analysis = module.MedialAnalysis(points, triangles, bounding_sphere=True)
+    mesh = analysis.extract(side=module.Side.OUTER, theta=0.0, rho=0.0)
+    names = MedialAxis.__dataclass_fields__
+    axis = MedialAxis(**{n: getattr(mesh, n) for n in names if hasattr(mesh, n)})
+    for scale in (1.0, 2.0**40):
+        grown = MedialAxis(**vars(axis) | {"vertices": scale * axis.vertices})
+        box = scale * points.min(axis=0), scale * points.max(axis=0)
+        assert cut.within_box(grown, *box, 1.2).facets == (
+            cut.within_box(axis, points.min(axis=0), points.max(axis=0), 1.2).facets
+        )

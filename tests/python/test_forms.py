@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Forms of the axis without Blender: which settings act, what is cached, what is said of the topology, files."""
+
+import json
+from pathlib import Path
+
+import medial_axis
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.axis.compute import compute_axis, refilter, refiltered_topology
+from medial_axis.core.axis.shape import Shape
+from medial_axis.core.axis.topology import betti_words
+from medial_axis.core.machine.cache import CACHE
+from medial_axis.core.settings import (
+    OPTIONS,
+    Form,
+    Rule,
+    SamplingMode,
+    Settings,
+    Side,
+    applies_to_form,
+)
+from support.meshes import icosphere, torus
+from support.same_axis import same_axis
+
+NONE = np.zeros((0, 3), np.int32)
+
+
+def mesh_of(*parts):
+    """One shape of several meshes."""
+    offsets = np.cumsum([0, *(len(points) for points, _ in parts)])
+    points = np.concatenate([np.asarray(points, float) for points, _ in parts])
+    triangles = [np.asarray(t, np.int32) + int(o) for (_, t), o in zip(parts, offsets)]
+    return Shape(points, np.concatenate(triangles).astype(np.int32))
+
+
+def moved(mesh, x, size=1.0):
+    return np.asarray(mesh[0], float) * size + (x, 0, 0), mesh[1]
+
+
+def turned(mesh):
+    return mesh[0], np.asarray(mesh[1])[:, ::-1]
+
+
+def box(x=0.0, size=(1.0, 1.0, 1.0)):
+    from medial_axis.core.known_box import _CORNERS, _TRIANGLES
+
+    return _CORNERS * size + (x, 0, 0), _TRIANGLES
+
+
+def computed(shape, **options):
+    settings = {"sampling": SamplingMode.SURFACE, "samples": 4_000, "smooth": False} | options
+    return compute_axis(shape, Settings(**settings))
+
+
+BALL, TORUS = icosphere(4), torus()
+SHAPES = {  # pieces, loops and cavities of the solid, and whether its faces say the same
+    "box": (mesh_of(box()), (1, 0, 0), True),
+    "ball": (mesh_of(BALL), (1, 0, 0), True),
+    "torus": (mesh_of(TORUS), (1, 1, 0), True),
+    "two boxes": (mesh_of(box(), box(3.0)), (2, 0, 0), True),
+    "shell": (mesh_of(BALL, turned(moved(BALL, 0.0, 0.5))), (1, 0, 1), True),
+    "boxes that overlap": (mesh_of(box(), box(0.53, (1.0, 0.8, 0.7))), (1, 0, 0), False),
+}
+
+
+# --- topology
+
+
+@pytest.mark.parametrize("form", [Form.CLEAN, Form.CURVE])
+@pytest.mark.parametrize("name", SHAPES)
+def test_topology_is_that_of_the_solid_and_said(name, form):
+    shape, betti, agrees = SHAPES[name]
+    found = computed(shape, form=form)
+    assert found.axis.level.betti == betti
+    assert found.topology.startswith(f"{betti_words(betti)}, as the solid")
+    assert ("by its faces" in found.topology) is not agrees
+    if not agrees:
+        assert found.topology.endswith("2 pieces, no loop, no cavity: its parts overlap")
+
+
+def test_a_wall_thinner_than_the_spacing_is_said():
+    """Two boxes a tenth of a spacing apart are one piece to the samples."""
+    shape = mesh_of(box(), box(1.004))
+    found = computed(shape, samples=2_000)
+    assert found.axis.level.betti[0] == 1
+    assert "by its faces it would be 2 pieces" in found.topology
+    assert "thinner than the spacing" in found.topology
+
+
+def test_words_of_the_topology():
+    assert betti_words((1, 5, 0)) == "1 piece, 5 loops, no cavity"
+    assert betti_words((2, 1, 1)) == "2 pieces, 1 loop, 1 cavity"
+    assert betti_words((1234, 0, 7)) == "1,234 pieces, no loop, 7 cavities"
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_betti_numbers_by_faces(medial, name):
+    shape, betti, agrees = SHAPES[name]
+    expected = betti if agrees else (2, 0, 0)
+    assert medial.solid_betti(shape.points, shape.triangles) == expected
+    order = np.random.default_rng(0).permutation(len(shape.triangles))
+    corners = shape.points[shape.triangles[order]].reshape(-1, 3)  # every face alone
+    alone = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
+    assert medial.solid_betti(corners, alone) == expected
+
+
+def test_no_betti_numbers_by_faces_that_bound_nothing(medial):
+    points, triangles = np.asarray(BALL[0], float), np.asarray(BALL[1], np.int32)
+    assert medial.solid_betti(points, triangles[1:]) is None  # open
+    assert medial.solid_betti(points, NONE) is None
+    both = np.concatenate([triangles, triangles[:, ::-1]])
+    assert medial.solid_betti(points, both) is None  # every edge is in four
+    touching = mesh_of(BALL, (2 * points[0] - points, triangles[:, ::-1]))
+    assert medial.solid_betti(touching.points, touching.triangles) is None  # at one vertex
+    with pytest.raises(medial.InvalidInputError, match="Expected triangle corners below"):
+        medial.solid_betti(points, triangles + 1)
+
+
+# --- what an axis is
+
+
+def test_a_ball_is_one_vertex():
+    axis = computed(SHAPES["ball"][0], smooth=True).axis
+    assert (len(axis.vertices), axis.facets, len(axis.edges)) == (1, 0, 0)
+    assert axis.radius == pytest.approx(1.0, rel=0.02) and not axis.is_empty
+
+
+def test_a_torus_is_a_closed_chain():
+    axis = computed(SHAPES["torus"][0]).axis
+    assert axis.facets == 0 and len(axis.edges) == len(axis.vertices)
+    assert (np.bincount(axis.edges.ravel()) == 2).all()
+    assert np.isinf(axis.level.limb).all()
+
+
+def test_theta_rho_and_side_of_facets_are_those_of_the_analysis():
+    for rule in Rule:
+        found = computed(SHAPES["box"][0], rule=rule)
+        axis, analysis = found.axis, found.chosen.samples.analysis
+        rows = {tuple(edge): row for row, edge in enumerate(analysis.edges.tolist())}
+        at = [rows[tuple(pair)] for pair in axis.generators.tolist()]
+        theta = analysis.theta_both if rule is Rule.BOTH else analysis.theta
+        assert np.array_equal(axis.theta, theta[at])
+        assert (axis.side == 1).all() and axis.facets > 100
+
+
+def test_published_is_what_the_module_extracts(medial):
+    found = computed(SHAPES["box"][0], form=Form.PUBLISHED)
+    mesh = found.chosen.samples.analysis.extract(side=medial.Side.INNER)
+    for name in ("vertices", "radius", "face_offsets", "face_vertices", "theta", "generators"):
+        assert np.array_equal(getattr(found.axis, name), getattr(mesh, name))
+    assert found.axis.level is None and len(found.axis.edges) == 0 and found.topology == ""
+
+
+# --- settings
+
+
+def test_percent_of_the_diagonal():
+    """A facet is there as long as its own values, as the axis gives them, are above the thresholds."""
+    found = computed(SHAPES["box"][0])
+    whole = found.axis
+    for name, own in (("simplify", whole.level.sheet), ("erode", whole.level.erosion)):
+        value = 1.0001 * float(np.median(own))  # between two values
+        fewer = medial_axis.extract(found, **{name: value})
+        assert fewer.facets == np.count_nonzero(own > value) < whole.facets
+
+
+def test_forms_of_one_computation_share_one_analysis_and_one_hierarchy():
+    shape = SHAPES["box"][0]
+    found = computed(shape)
+    samples, before = found.chosen.samples, CACHE.analyses
+    hierarchy = samples.levels.hierarchy(samples.analysis, found.settings, None)
+    curve = medial_axis.extract(found, form="curve", limb=1.0)
+    assert curve.facets == 0 and len(curve.edges) > 0
+    assert samples.levels.hierarchy(samples.analysis, found.settings, None) is hierarchy
+    again = computed(shape, erode=2.0)
+    assert again.chosen.samples.levels is samples.levels and CACHE.analyses == before
+    assert same_axis(again.axis, medial_axis.extract(found, erode=2.0))
+    medial_axis.extract(found, theta=1.0)
+    assert samples.levels.hierarchy(samples.analysis, found.settings, None) is not hierarchy
+
+
+def test_the_cache_counts_the_hierarchy():
+    found = computed(mesh_of(box(0.0, (1.0, 0.9, 0.8))), form=Form.PUBLISHED)
+    before, alone = CACHE.bytes, found.chosen.samples.bytes
+    axis = refilter(found.key, Settings(side=Side.INNER))
+    grown = found.chosen.samples.bytes - alone
+    assert grown > 100_000 and CACHE.bytes == before + grown
+    sentence = refiltered_topology(found.key, axis, Form.CLEAN)
+    assert sentence == "1 piece, no loop, no cavity, as the solid"
+
+
+@pytest.mark.parametrize("side", [Side.OUTER, Side.BOTH])
+@pytest.mark.parametrize("form", [Form.CLEAN, Form.CURVE])
+def test_other_sides_are_as_published_and_said(side, form):
+    shape = SHAPES["torus"][0]
+    found = computed(shape, side=side, form=form)
+    published = computed(shape, side=side, form=Form.PUBLISHED)
+    assert same_axis(found.axis, published.axis) and found.settings.form is Form.PUBLISHED
+    name = OPTIONS["form"].items[form][0]
+    assert found.topology == f"Form As Published: {name} is for the inner axis only"
+    assert found.warnings == published.warnings
+
+
+def test_what_applies_to_a_form():
+    acts = {
+        form: {name for name in ("simplify", "erode", "limb", "limit_set", "theta")
+               if applies_to_form(name, form)}
+        for form in Form
+    }  # fmt: skip
+    assert acts[Form.CLEAN] == {"simplify", "erode", "limb", "theta"}
+    assert acts[Form.PUBLISHED] == {"limit_set", "theta"}
+    assert acts[Form.CURVE] == {"limb", "theta"}
+
+
+def test_points_of_a_thinned_cloud_are_named_by_their_rows_in_the_whole():
+    rng = np.random.default_rng(0)
+    points = rng.normal(size=(2_000, 3))
+    points /= np.linalg.norm(points / (3, 2, 1), axis=1)[:, None]
+    rows = np.arange(1_999, -1, -1, dtype=np.int32)
+    axis = compute_axis(Shape(points, NONE, rows=rows), Settings()).axis
+    assert axis.facets > 100 and (axis.generators[:, 0] > axis.generators[:, 1]).all()
+
+
+# --- command line
+
+
+def test_words_of_the_command_line(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shape = mesh_of(moved(TORUS, 0.0))
+    np.savez("ring.npz", points=shape.points, triangles=shape.triangles)
+    words = ["ring.npz", "ring_axis.npz", "--sampling", "surface", "--samples", "4000", "--json"]
+    reports = {}
+    for form, more in {"clean": ["--limb", "2"], "published": [], "curve": []}.items():
+        assert cli.main([*words, "--form", form, *more]) == cli.DONE
+        reports[form] = json.loads(capsys.readouterr().out)
+    assert [reports[form]["form"] for form in reports] == list(reports)
+    assert reports["clean"]["betti"] == reports["curve"]["betti"] == [1, 1, 0]
+    assert reports["published"]["betti"] is None and reports["published"]["topology"] == ""
+    assert reports["clean"]["topology"] == "1 piece, 1 loop, no cavity, as the solid"
+    assert reports["clean"]["edges"] > 0 == reports["clean"]["facets"]
+    assert reports["published"]["facets"] > 0 == reports["published"]["edges"]
+    assert reports["clean"]["settings"]["limb"] == 2.0
+    assert len({report["stamp"] for report in reports.values()}) == 3
+    assert len(medial_axis.read_axis("ring_axis.npz").edges) == reports["curve"]["edges"]
+
+
+@pytest.mark.parametrize("suffix", [".ma", ".ply", ".obj", ".off", ".npz"])
+def test_an_axis_without_faces_is_written(tmp_path, suffix):
+    found = computed(SHAPES["torus"][0])
+    path = medial_axis.write(found, tmp_path / f"ring{suffix}")
+    assert Path(path).stat().st_size > 1_000

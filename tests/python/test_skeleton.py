@@ -1,0 +1,451 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Skeletons: ends and loops of real meshes, centre lines of solids that have known ones, files, bones and weights."""
+
+import json
+
+import numpy as np
+import pytest
+from medial_axis.cli import main
+from medial_axis.core.axis.nearness import nearest
+from medial_axis.core.axis.shape import Shape
+from medial_axis.core.errors import DegenerateInputError, ExportError
+from medial_axis.core.files.read_shape import read_shape
+from medial_axis.core.files.write_skeleton import export_skeleton
+from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
+from medial_axis.core.skeleton.bones import bones_of
+from medial_axis.core.skeleton.centre import centre_of_mass
+from medial_axis.core.skeleton.compute import compute_skeleton
+from medial_axis.core.skeleton.names import names_of
+from medial_axis.core.skeleton.net import Net
+from medial_axis.core.skeleton.rig import compute_rig
+from medial_axis.core.skeleton.rules import clear_loops, prune
+from medial_axis.core.skeleton.simplify import kept_points
+from medial_axis.core.skeleton.spread import graph_of, spread
+from medial_axis.core.skeleton.weights import edges_of
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import cKDTree
+from support import meshes, tubes
+from support.poses import posed, random_turns, turn
+
+NO_FACES = np.zeros((0, 3), np.int32)
+
+
+def of_tubes(solid, count, **wanted):
+    points = solid.sample(count)
+    shape = Shape(points, NO_FACES, solid.normals(points))
+    return compute_skeleton(shape, Settings(), SkeletonSettings(**wanted))
+
+
+def places_of(skeleton, steps=10):
+    """Places along all edges, and the radii there."""
+    a, b = skeleton.edges.T
+    share = np.linspace(0.0, 1.0, steps + 1)
+    along = (
+        [(1 - t) * skeleton.points[a] + t * skeleton.points[b] for t in share],
+        [(1 - t) * skeleton.radius[a] + t * skeleton.radius[b] for t in share],
+    )
+    return np.concatenate(along[0]), np.concatenate(along[1])
+
+
+# --- known centre lines
+
+
+@pytest.mark.parametrize(
+    ("solid", "tips", "loops", "forks"),
+    [
+        (tubes.y_of_tubes(), 3, 0, 1),
+        (tubes.helix(), 2, 0, 0),
+        (tubes.trefoil(), 0, 1, 0),
+        (tubes.tree(), 5, 0, 3),
+    ],
+    ids=["y", "helix", "knot", "tree"],
+)
+def test_known_centre_lines(solid, tips, loops, forks):
+    found = of_tubes(solid, 4000).skeleton
+    assert (found.tips, found.loops, (found.degree > 2).sum()) == (tips, loops, forks)
+    places, radii = places_of(found)
+    away = solid.distances(places) / np.array(solid.radii)[:, None]
+    assert away.min(axis=0).max() < 0.05
+    assert found.length == pytest.approx(solid.length, rel=0.03)
+    if forks:
+        true = meeting_points(solid)
+        at, which = cKDTree(true).query(found.points[found.degree > 2])
+        assert len(set(which)) == forks
+        thinnest = min(solid.radii)
+        assert at.max() < 0.1 * thinnest
+        away_from_forks = cKDTree(true).query(places)[0] > 2.5 * max(solid.radii)
+        places, radii, away = (
+            places[away_from_forks],
+            radii[away_from_forks],
+            away[:, away_from_forks],
+        )
+    expected = np.array(solid.radii)[away.argmin(axis=0)]
+    assert np.abs(radii / expected - 1).max() < 0.03
+
+
+def meeting_points(solid):
+    ends = np.concatenate([line[[0, -1]] for line in solid.lines]).round(9)
+    places, times = np.unique(ends, axis=0, return_counts=True)
+    return places[times > 2]
+
+
+@pytest.mark.parametrize("count", [8000, 16_000])
+def test_forks_at_other_densities(count):
+    solid = tubes.y_of_tubes()
+    found = of_tubes(solid, count).skeleton
+    (fork,) = found.points[found.degree > 2]
+    assert np.linalg.norm(fork) < 0.1 * min(solid.radii)
+
+
+def test_a_ball_is_one_point():
+    found = compute_skeleton(Shape(*meshes.icosphere(4)), Settings(), SkeletonSettings())
+    assert found.skeleton.count == 0 and len(found.skeleton.points) == 1
+    assert found.skeleton.radius[0] == pytest.approx(1.0, rel=0.01)
+    assert (found.parts.faces == -1).all()
+    with pytest.raises(DegenerateInputError, match="its skeleton is a point"):
+        compute_rig(Shape(*meshes.icosphere(4)), Settings(), SkeletonSettings())
+
+
+def test_a_shell_has_no_curve():
+    vertices, triangles = meshes.nested_shell(4)
+    with pytest.raises(DegenerateInputError, match="closed sheets"):
+        compute_skeleton(Shape(vertices, triangles), Settings(), SkeletonSettings())
+
+
+def test_torus_is_one_loop_without_end():
+    found = compute_skeleton(Shape(*meshes.torus()), Settings(), SkeletonSettings()).skeleton
+    assert (found.tips, found.loops, found.count) == (0, 1, 1)
+    np.testing.assert_allclose(np.hypot(found.points[:, 0], found.points[:, 1]), 1.0, atol=0.01)
+
+
+def test_a_plate_has_few_ends():
+    plate = meshes.box((20, 14, 2), (1.0, 0.7, 0.05))
+    found = compute_skeleton(Shape(*plate), Settings(), SkeletonSettings())
+    assert found.skeleton.tips <= 4
+
+
+# --- real meshes
+
+
+@pytest.mark.parametrize(
+    ("name", "tips", "loops"),
+    [
+        ("hand_closed.obj", {5, 6}, 0),
+        ("spot_low.obj", {6, 7, 8}, 0),
+        ("dilo.off", {6, 7, 8}, 0),
+        ("human_woman.obj", {5}, 0),
+        ("elephant-with-holes.off", set(range(6, 13)), 0),
+        ("3holes.off", {0}, 3),
+        ("rocker-arm.off", {2, 3}, 1),
+        ("knot1.off", {0}, 1),
+    ],
+)
+def test_ends_and_loops_of_real_meshes(data_file, name, tips, loops):
+    shape, _ = read_shape(data_file(name))
+    found = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
+    assert found.tips in tips and found.loops == loops and found.pieces == 1
+
+
+def test_terraced_scans_get_few_ends(data_file):
+    shape, _ = read_shape(data_file("liver.ply"))
+    assert compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton.tips <= 24
+
+
+def ends_of(skeleton):
+    tip = skeleton.degree == 1
+    return skeleton.points[tip], skeleton.radius[tip]
+
+
+@pytest.mark.parametrize("samples", [16_000, 32_000, 64_000])
+def test_the_hand_has_the_same_ends_at_every_density_and_however_it_is_turned(data_file, samples):
+    shape, _ = read_shape(data_file("hand_closed.obj"))
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=samples)
+    points, radii = ends_of(compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton)
+    frame = np.linalg.qr(np.random.default_rng(samples).normal(size=(3, 3)))[0]
+    frame *= np.sign(np.linalg.det(frame))
+    turned = Shape(shape.points @ frame.T, shape.triangles)
+    others, _ = ends_of(compute_skeleton(turned, settings, SkeletonSettings()).skeleton)
+    away, which = cKDTree(others @ frame).query(points)
+    assert len(others) == len(points) and len(set(which)) == len(points)
+    assert (away <= np.maximum(radii, np.median(radii))).all()
+
+
+# --- symmetry
+
+
+def symmetric_tubes():
+    arms = [[(0, 0, -1), (0, 0, 1)], [(0, 0, 0.6), (1, 0.2, 0.9)], [(0, 0, 0.6), (-1, 0.2, 0.9)]]
+    legs = [[(0, 0, -1), (0.5, 0, -2)], [(0, 0, -1), (-0.5, 0, -2)]]
+    lines = tuple(np.array(line, float) for line in (*arms, *legs))
+    return tubes.Tubes(lines, (0.25, 0.12, 0.12, 0.14, 0.14))
+
+
+def test_symmetric_skeletons_are_exactly_so():
+    found = of_tubes(symmetric_tubes(), 6000)
+    assert found.mirrored
+    points = found.skeleton.points
+    plane = centre_of_mass(found.skeleton)[0]
+    image = points * (-1, 1, 1) + (2 * plane, 0, 0)
+    assert cKDTree(points).query(image)[0].max() < 1e-9
+
+
+def test_others_are_left_as_they_are():
+    found = of_tubes(tubes.y_of_tubes(), 4000)
+    plain = of_tubes(tubes.y_of_tubes(), 4000, mirror=False)
+    assert not found.mirrored
+    np.testing.assert_array_equal(found.skeleton.points, plain.skeleton.points)
+
+
+def test_mirrored_model_mirrored_names():
+    solid = symmetric_tubes()
+    points = solid.sample(6000)
+    named = []
+    for sign in (1.0, -1.0):
+        shape = Shape(points * (sign, 1, 1), NO_FACES, solid.normals(points) * (sign, 1, 1))
+        skeleton = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
+        centre = centre_of_mass(skeleton)
+        bones = bones_of(skeleton, centre)
+        named.append(dict(zip(names_of(bones, centre), bones.tail, strict=True)))
+    first, second = named
+    swapped = {n[:-1] + {"L": "R", "R": "L"}[n[-1]] if n[-2:] in (".L", ".R") else n for n in first}
+    assert swapped == set(second) == set(first)
+    assert {name[-2:] for name in first} >= {".L", ".R"}
+    for name, tail in first.items():
+        if name.endswith(".L"):
+            assert tail[0] > 0 and second[name][0] > 0
+            np.testing.assert_allclose(second[name], tail, atol=0.1)
+
+
+# --- bones and weights
+
+
+def rig_of(data_file, name):
+    shape, _ = read_shape(data_file(name))
+    return shape, compute_rig(shape, Settings(), SkeletonSettings())
+
+
+RIGGED = ["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"]
+
+
+@pytest.mark.parametrize("name", RIGGED)
+def test_bones_are_few_connected_and_near_the_curve(data_file, name):
+    _, rig = rig_of(data_file, name)
+    bones, skeleton = rig.bones, rig.made_of.skeleton
+    assert bones.count <= 3 * skeleton.tips + 20 and len(set(rig.names)) == bones.count
+    child = bones.parent >= 0
+    np.testing.assert_array_equal(bones.head[child], bones.tail[bones.parent[child]])
+    assert (bones.parent < np.arange(bones.count)).all()
+    assert (np.linalg.norm(bones.tail - bones.head, axis=1) > 0).all()
+    root = np.linalg.norm(bones.tail[0] - centre_of_mass(skeleton))
+    assert root <= np.linalg.norm(bones.tail - centre_of_mass(skeleton), axis=1).min() + 1e-12
+    share = np.linspace(0, 1, 200)[:, None, None]
+    along = ((1 - share) * bones.head + share * bones.tail).reshape(-1, 3)
+    away = cKDTree(along).query(skeleton.points)[0]
+    spacing = np.linalg.norm(bones.tail - bones.head, axis=1).max() / 200
+    assert (away <= 0.5 * skeleton.radius + spacing).all()
+
+
+@pytest.mark.parametrize("name", RIGGED)
+def test_weights_hold(data_file, name):
+    shape, rig = rig_of(data_file, name)
+    assert rig.bone.shape == rig.weight.shape == (len(shape.points), 4)
+    assert (rig.weight >= 0).all() and (rig.weight[:, 0] > 0).all()
+    np.testing.assert_allclose(rig.weight.sum(axis=1), 1.0)
+    assert set(rig.bone[:, 0]) <= set(range(rig.bones.count))
+
+
+def limbs_of(rig):
+    """(the bones of each limb, the vertices that follow it most, how long it is)."""
+    bones = rig.bones
+    mine = bones.chain[rig.bone[:, 0]]
+    for chain in np.unique(bones.chain[bones.to_tip]):
+        rows = np.flatnonzero(bones.chain == chain)
+        length = np.linalg.norm(bones.tail[rows] - bones.head[rows], axis=1).sum()
+        yield rows, mine == chain, length
+
+
+@pytest.mark.parametrize("name", RIGGED)
+def test_a_bent_limb_moves_no_other_one(data_file, name):
+    shape, rig = rig_of(data_file, name)
+    limbs = list(limbs_of(rig))
+    for rows, here, _ in limbs:
+        for bone in rows:
+            along = rig.bones.tail[bone] - rig.bones.head[bone]
+            for axis in (np.cross(along, (0.0, 0.0, 1.0)), np.cross(along, (0.3, 1.0, 0.0))):
+                moved = posed(rig, shape.points, {bone: turn(axis, np.pi / 3)}) - shape.points
+                far = np.linalg.norm(moved, axis=1)
+                assert far[here].max() > 0.1 * np.linalg.norm(along)
+                for other, there, length in limbs:
+                    if other is not rows and there.any():
+                        assert far[there].max() <= 0.02 * length
+
+
+@pytest.mark.parametrize("name", RIGGED)
+def test_no_vertex_flies_away(data_file, name):
+    """In twenty poses no edge of the surface grows by more than a tenth of the size."""
+    shape, rig = rig_of(data_file, name)
+    edges = edges_of(shape.triangles)
+    size = np.linalg.norm(np.ptp(shape.points, axis=0))
+    a, b = shape.points[edges[:, 0]], shape.points[edges[:, 1]]
+    for seed in range(20):
+        found = posed(rig, shape.points, random_turns(rig.bones, seed))
+        longer = np.linalg.norm(found[edges[:, 0]] - found[edges[:, 1]], axis=1)
+        assert (longer - np.linalg.norm(a - b, axis=1)).max() < 0.1 * size
+
+
+# --- files
+
+
+@pytest.fixture(scope="module")
+def two_rings_and_a_y():
+    return of_tubes(tubes.y_of_tubes(), 4000), compute_skeleton(
+        Shape(*meshes.torus()), Settings(), SkeletonSettings()
+    )
+
+
+def test_json_has_everything(two_rings_and_a_y, tmp_path):
+    for found in two_rings_and_a_y:
+        path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.json")
+        read = json.loads(path.read_text())
+        assert [node["position"] for node in read["nodes"]] == found.skeleton.points.tolist()
+        assert [node["radius"] for node in read["nodes"]] == found.skeleton.radius.tolist()
+        assert read["edges"] == found.skeleton.edges.tolist()
+        faces = [face for part in read["parts"] for face in part["faces"]]
+        assert sorted(faces) == list(range(len(found.parts.faces)))
+
+
+def test_swc_is_a_tree_of_all_points(two_rings_and_a_y, tmp_path):
+    for found in two_rings_and_a_y:
+        path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.swc")
+        lines = path.read_text().splitlines()
+        table = np.array([line.split() for line in lines if line[0] != "#"], float)
+        assert len(table) == len(found.skeleton.points)
+        assert (table[:, 6] < table[:, 0]).all() and (table[:, 6] == -1).sum() == 1
+        np.testing.assert_array_equal(
+            np.sort(table[:, 2:6], axis=0),
+            np.sort(np.column_stack((found.skeleton.points, found.skeleton.radius)), axis=0),
+        )
+        closing = [line for line in lines if "closes a loop" in line]
+        assert len(closing) == found.skeleton.loops
+
+
+def test_obj_has_a_line_for_each_branch(two_rings_and_a_y, tmp_path):
+    for found in two_rings_and_a_y:
+        path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.obj")
+        words = [line.split() for line in path.read_text().splitlines()]
+        points = np.array([line[1:] for line in words if line[0] == "v"], float)
+        np.testing.assert_array_equal(points, found.skeleton.points)
+        lines = [[int(word) - 1 for word in line[1:]] for line in words if line[0] == "l"]
+        assert lines == [branch.tolist() for branch in found.skeleton.branches]
+
+
+def test_unknown_extension_leaves_nothing(two_rings_and_a_y, tmp_path):
+    with pytest.raises(ExportError, match=r"\.swc, \.obj or \.json, found 'a\.fbx'"):
+        export_skeleton(
+            two_rings_and_a_y[0].skeleton, two_rings_and_a_y[0].parts, tmp_path / "a.fbx"
+        )
+    assert not list(tmp_path.iterdir())
+
+
+def test_command_line(tmp_path, capsys):
+    vertices, triangles = meshes.torus()
+    source, target = tmp_path / "ring.npz", tmp_path / "ring.json"
+    np.savez(source, points=vertices, triangles=triangles)
+    assert main(["skeleton", str(source), str(target), "--detail", "0.4"]) == 0
+    assert "1 branches, 0 ends, 1 loops" in capsys.readouterr().out
+    assert len(json.loads(target.read_text())["parts"]) == 1
+    assert main(["skeleton", str(source), str(tmp_path / "ring.fbx")]) == 2
+    assert main(["skeleton", str(tmp_path / "no.obj"), str(target)]) == 3
+    assert main(["skeleton", str(source), str(target), "--detail", "2"]) == 2
+
+
+# --- parts of it
+
+
+def test_spread_is_dijkstras():
+    rng = np.random.default_rng(0)
+    points = rng.normal(size=(300, 3))
+    edges = np.unique(np.sort(rng.integers(0, 300, (700, 2)), axis=1), axis=0).astype(np.int32)
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    seeds = np.array([3, 50, 120])
+    label, distance = spread(graph_of(points, edges), seeds, np.arange(3))
+    length = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
+    graph = coo_array((length, edges.T), shape=(300, 300)).tocsr()
+    away = dijkstra(graph, directed=False, indices=seeds)
+    np.testing.assert_allclose(distance, away.min(axis=0))
+    there = np.isfinite(distance)
+    np.testing.assert_array_equal(label[there], away.argmin(axis=0)[there])
+    assert (label[~there] == -1).all()
+
+
+def test_nearest_is_that_of_a_tree():
+    rng = np.random.default_rng(1)
+    others = rng.normal(size=(2000, 3)) ** 3
+    points = rng.normal(size=(500, 3)) * 4
+    row = nearest(points, others)
+    np.testing.assert_allclose(
+        np.linalg.norm(points - others[row], axis=1), cKDTree(others).query(points)[0]
+    )
+    assert nearest(points[:3], others[:1]).tolist() == [0, 0, 0]
+    assert nearest(np.zeros((2, 3)), np.zeros((5, 3))).tolist() == [0, 0]
+
+
+def test_chains_within_their_tolerance():
+    t = np.linspace(0, 6, 300)
+    points = np.column_stack((t, np.sin(t), 0 * t))
+    kept = kept_points(points, np.full(300, 0.01))
+    assert {0, 299} <= set(kept) and len(kept) < 40
+    share = np.linspace(0, 1, 500)[:, None, None]
+    chain = ((1 - share) * points[kept[:-1]] + share * points[kept[1:]]).reshape(-1, 3)
+    assert cKDTree(chain).query(points)[0].max() < 0.0101
+    ring = np.column_stack((np.cos(t / 6 * 2 * np.pi), np.sin(t / 6 * 2 * np.pi), 0 * t))
+    ring[-1] = ring[0]
+    assert len(kept_points(ring, np.full(300, 10.0))) == 4
+
+
+def net_of(points, wires, radius, load=None):
+    points, wires = np.array(points, float), np.array(wires, np.int32)
+    radius = np.broadcast_to(np.asarray(radius, float), len(points))
+    load = np.full(len(points), 1 / len(points)) if load is None else np.asarray(load, float)
+    return Net(points, radius, wires, np.zeros(0, np.int32), load)
+
+
+def ladder():
+    """A large loop, and a rung whose middle is thin."""
+    points = [(0, 0, 0), (4, 0, 0), (4, 2, 0), (4, 4, 0), (0, 4, 0), (0, 2, 0), (2, 2, 0)]
+    wires = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (5, 0), (2, 6), (6, 5)]
+    return points, wires
+
+
+def test_thin_loops_are_cut_and_others_stay():
+    net = net_of(*ladder(), [0.5] * 6 + [0.01])
+    assert clear_loops(net, np.full(7, 0.1)).cut == 1
+    assert len(net.branches) == 1 and not net.tips() and net.load.sum() == pytest.approx(1.0)
+    net = net_of(*ladder(), [0.5] * 7)
+    loops = clear_loops(net, np.full(7, 0.1))
+    assert (loops.cut, loops.filled, len(net.branches)) == (0, 0, 3)
+
+
+def test_pinholes_are_filled():
+    """A loop inside one of its own balls, with two limbs."""
+    points = [(0, 0, 0), (0.2, 0.1, 0), (0.2, -0.1, 0), (0.4, 0, 0), (3, 0, 0), (-3, 0, 0)]
+    wires = [(0, 1), (1, 3), (0, 2), (2, 3), (3, 4), (0, 5)]
+    net = net_of(points, wires, [0.6, 0.5, 0.5, 0.6, 0.5, 0.5])
+    assert clear_loops(net, np.full(6, 0.1)).filled == 1
+    assert len(net.branches) == 1 and len(net.tips()) == 2
+    assert net.load.sum() == pytest.approx(1.0)
+    stands_for = net.stands_for()
+    (chain,) = net.branches.values()
+    assert set(stands_for[[1, 2]]) <= set(chain)
+
+
+def test_limbs_stay_and_ridges_go():
+    points = [(0, 0, 0), (-3, 0, 0), (3, 0, 0), (0, 3, 0), (0, -0.6, 0)]
+    wires = [(0, 1), (0, 2), (0, 3), (0, 4)]
+    load = [0.5, 0.15, 0.15, 0.15, 0.05]
+    net = net_of(points, wires, [1.0, 0.5, 0.5, 0.5, 0.5], load)
+    prune(net, 0.025)
+    assert len(net.tips()) == 3 and net.stands_for()[4] == 0 and net.load[0] == pytest.approx(0.55)
+    prune(net, 0.4)
+    assert len(net.tips()) == 2

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The traffic light of a computation, and the sentence that stands beside it."""
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.axis.shape import Shape
+from medial_axis.core.axis.verdict import Light, Severe, plainly, verdict
+from medial_axis.core.settings import SamplingMode, Settings
+from support.meshes import icosphere
+
+CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
+FACES = np.array(
+    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1]]
+    + [[2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]],
+    np.int32,
+)
+
+
+def computed(points, triangles, **settings):
+    return compute_axis(Shape(points, triangles), Settings(**settings))
+
+
+def seen(found):
+    return verdict(found.chosen, found.warnings)
+
+
+def test_a_cube_is_good_and_the_sentence_says_why_it_was_sampled():
+    found = computed(CUBE, FACES)
+    count = len(found.chosen.samples.points)
+    assert seen(found).light is Light.GOOD
+    assert seen(found).sentence == (
+        f"Sampled {count:,} points, because the mesh has too few vertices."
+    )
+
+
+def test_vertices_and_samples_that_were_asked_for():
+    vertices = computed(*icosphere(4)[:2], sampling=SamplingMode.VERTICES)
+    assert plainly(vertices.chosen) == "Used the 2,562 vertices as they are."
+    faces = computed(CUBE, FACES, sampling=SamplingMode.SURFACE, samples=1000)
+    assert plainly(faces.chosen) == (
+        f"Sampled {len(faces.chosen.samples.points):,} points of the surface."
+    )
+
+
+def test_an_open_mesh_is_to_be_looked_at():
+    found = computed(CUBE, FACES[:-1])
+    assert found.warnings and seen(found).light is Light.LOOK
+    assert seen(found).sentence.lower().startswith(found.warnings[0][:20].lower())
+
+
+def test_samples_that_are_too_sparse_are_probably_wrong():
+    found = computed(*icosphere(1)[:2], sampling=SamplingMode.VERTICES, epsilon=0.05)
+    assert seen(found).light is Light.WRONG
+    assert "so the axis may be wrong" in seen(found).sentence
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_severe_warnings_come_first(order):
+    found = computed(CUBE, FACES)
+    warnings = ["something was assumed", Severe("it is wrong")][::order]
+    assert verdict(found.chosen, warnings).sentence == "It is wrong."
