@@ -41,7 +41,9 @@ def rebuilt_of(result: bpy.types.Object) -> bpy.types.Object | None:
 
 def modifier_of(rebuilt: bpy.types.Object) -> bpy.types.NodesModifier | None:
     """The modifier that makes the solid; None when someone has removed it."""
-    found = (m for m in rebuilt.modifiers if m.type == "NODES" and is_group(m.node_group, "REBUILD"))
+    found = (
+        m for m in rebuilt.modifiers if m.type == "NODES" and is_group(m.node_group, "REBUILD")
+    )
     return next(found, None)
 
 

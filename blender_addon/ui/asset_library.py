@@ -60,7 +60,9 @@ class WM_OT_medial_axis_asset_library(bpy.types.Operator):
             _remove()
             return {"FINISHED"}
         if not FOLDER.is_dir():
-            found = f"Expected the folder '{FOLDER}', found none; install the add-on from its zip file"
+            found = (
+                f"Expected the folder '{FOLDER}', found none; install the add-on from its zip file"
+            )
             self.report({"ERROR"}, say(found))
             return {"CANCELLED"}
         _add()

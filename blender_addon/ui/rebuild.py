@@ -4,6 +4,7 @@
 import bpy
 
 from ..bridge.nodes.inputs import row_of
+from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis
 from ..bridge.rebuilt_object import (
     LARGEST,
@@ -15,7 +16,6 @@ from ..bridge.rebuilt_object import (
     rebuild,
     rebuilt_of,
 )
-from ..bridge.output_object import is_gone, source_of
 from ..core.errors import MedialAxisError
 from .translation import say
 

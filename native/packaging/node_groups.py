@@ -17,7 +17,12 @@ from . import paths
 from .blender import Blender, find_blender
 
 _SCRIPT = Path(__file__).with_name("write_node_groups.py")
-_SOURCES = ("bridge/nodes/*.py", "bridge/attributes.py", "bridge/colours.py", "core/axis/colours.py")
+_SOURCES = (
+    "bridge/nodes/*.py",
+    "bridge/attributes.py",
+    "bridge/colours.py",
+    "core/axis/colours.py",
+)
 
 
 def library(blender: Path | str = "blender") -> Path | None:

@@ -8,7 +8,18 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from scene import MODULE, addon, attribute, compute, ellipsoid, link, program, result_of, select, torus
+from scene import (
+    MODULE,
+    addon,
+    attribute,
+    compute,
+    ellipsoid,
+    link,
+    program,
+    result_of,
+    select,
+    torus,
+)
 
 KEYS = ("FILTER", "BALLS", "REBUILD", "COLOUR")
 
@@ -109,7 +120,9 @@ def test_filter_by_sheet_erosion_and_radius():
     modifier = with_group(result, "FILTER")
     for label, name in (("Sheet", "ma_sheet"), ("Erosion", "ma_erosion")):
         limit = float(np.median(values[name]))
-        addon("bridge.nodes.inputs").set_inputs(modifier, {"Sheet": 0.0, "Erosion": 0.0, label: limit})
+        addon("bridge.nodes.inputs").set_inputs(
+            modifier, {"Sheet": 0.0, "Erosion": 0.0, label: limit}
+        )
         assert len(evaluated(result).polygons) == (values[name] >= np.float32(limit)).sum()
     radius = attribute(result.data, "ma_radius")
     mean = np.array([radius[list(face.vertices)].mean() for face in result.data.polygons])

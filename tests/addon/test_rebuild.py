@@ -33,7 +33,9 @@ def test_an_ellipsoid_comes_back(capfd):
     made = rebuild(source)
     figures = [float(x) for x in re.findall(r"([\d.]+) %", reports(capfd)[-1][1])]
     assert figures[0] < 0.2 and figures[1] < 1.5 and abs(figures[2] - 100) < 2
-    assert volume(evaluated(made)) / volume(source.data) == pytest.approx(figures[2] / 100, abs=1e-3)
+    assert volume(evaluated(made)) / volume(source.data) == pytest.approx(
+        figures[2] / 100, abs=1e-3
+    )
     assert made["ma_rebuilt_mean"] == pytest.approx(figures[0] / 100, abs=1e-5)
     assert np.allclose(made.matrix_world, result_of(source).matrix_world)
 

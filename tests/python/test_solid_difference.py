@@ -3,7 +3,6 @@
 
 import numpy as np
 import pytest
-
 from medial_axis.core.axis.shape import Shape
 from medial_axis.core.axis.solid_difference import solid_difference
 from medial_axis.core.errors import InvalidInputError
@@ -65,7 +64,9 @@ def test_threads_and_units_change_no_distance(medial):
     vertices, queries = random.normal(size=(300, 3)), random.normal(size=(9000, 3))
     triangles = random.integers(0, 300, (200, 3)).astype(np.int32)
     one = medial.surface_distances(queries, vertices, triangles, threads=1)
-    assert one.tobytes() == medial.surface_distances(queries, vertices, triangles, threads=4).tobytes()
+    assert (
+        one.tobytes() == medial.surface_distances(queries, vertices, triangles, threads=4).tobytes()
+    )
     large = medial.surface_distances(2.0**40 * queries, 2.0**40 * vertices, triangles)
     assert (large == 2.0**40 * one).all()
 

@@ -35,7 +35,9 @@ GROUPS = {
         "Medial Axis Rebuild", "The solid again, thicker, thinner or simpler", rebuild.build
     ),
     "COLOUR": Group(
-        "Medial Axis Thickness Colour", "Colour by radius, or by another number", thickness_colour.build
+        "Medial Axis Thickness Colour",
+        "Colour by radius, or by another number",
+        thickness_colour.build,
     ),
 }
 

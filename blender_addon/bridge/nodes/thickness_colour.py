@@ -22,7 +22,10 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     )
     start = tree.number("Start", 0.0, "The number of the first colour", least=-1e30)
     end = tree.number(
-        "End", 0.0, "The number of the last colour; where it is that of the first: all there are", least=-1e30
+        "End",
+        0.0,
+        "The number of the last colour; where it is that of the first: all there are",
+        least=-1e30,
     )
     found = tree.node(
         "GeometryNodeAttributeStatistic",
@@ -34,7 +37,9 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     all_of_them = tree.compare("EQUAL", start, end)
     low = tree.choose(all_of_them, start, ends[0])
     high = tree.choose(all_of_them, end, ends[1])
-    share = tree.math("DIVIDE", tree.math("SUBTRACT", attribute, low), tree.math("SUBTRACT", high, low))
+    share = tree.math(
+        "DIVIDE", tree.math("SUBTRACT", attribute, low), tree.math("SUBTRACT", high, low)
+    )
     ramp = tree.node("ShaderNodeValToRGB", share)
     _fill(ramp.node.color_ramp.elements)
     return tree.output(

@@ -51,9 +51,7 @@ class Tree:
         self, name: str, default: float, about: str, subtype: str = "NONE", least: float = 0.0
     ) -> bpy.types.NodeSocket:
         """An input that is a float, not below `least`."""
-        return self.input(
-            "NodeSocketFloat", name, default, about, subtype=subtype, min_value=least
-        )
+        return self.input("NodeSocketFloat", name, default, about, subtype=subtype, min_value=least)
 
     def node(self, kind: str, *values: Any, named: dict[str, Any] | None = None, **settings: Any):
         """A new node; returns its first output.
