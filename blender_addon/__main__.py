@@ -3,10 +3,25 @@
 `blender --background [FILE] --python FOLDER/__main__.py -- ...`, where FOLDER is this package's.
 """
 
-import importlib
-import importlib.util
+import os
+import signal
 import sys
-from pathlib import Path
+
+
+def _cancel(_number: int, _frame: object) -> None:
+    """Nothing is half made before the command line has begun, and nothing is left to do when it has ended."""
+    os.write(2, b"medial_axis: cancelled\n")
+    os._exit(4)
+
+
+if __name__ == "__main__" and "bpy" not in sys.modules:
+    # Ctrl-C and a polite kill from the first instant: to load NumPy takes a while.
+    for _signal in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(_signal, _cancel)
+
+import importlib  # noqa: E402
+import importlib.util  # noqa: E402
+from pathlib import Path  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
 
@@ -46,7 +61,10 @@ def main() -> int:
         return 1
     if cli.inside_blender():
         return cli.run()
-    return cli.main(sys.argv[1:])
+    code: int = cli.main(sys.argv[1:])
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)  # what is done is done
+    return code
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ in every version, and `python3 -m medial_axis` without Blender.
 from __future__ import annotations
 
 import argparse
-import json
 import shlex
 import signal
 import sys
@@ -19,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from . import __version__, cli_skeleton
-from .core.axis.density import percent
+from .console import ClosedPipeError, Console, open_streams
 from .core.batch.axis_work import AxisWork
 from .core.batch.batch import Item, begin, failure, finish
 from .core.batch.frames import at_frame, has_number, output_path, parse_frames
@@ -40,6 +39,7 @@ from .core.errors import (
     MedialAxisError,
     ReadError,
 )
+from .core.files.names import is_folder
 from .core.files.read import READERS
 from .core.files.read_shape import read_shape
 from .core.files.write import FORMATS, format_of
@@ -48,6 +48,7 @@ from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
+CLOSED_PIPE = 128 + 13  # as shells say of a program that SIGPIPE ended
 THICKNESS = "thickness"  # the first word, where lengths are wanted and no axes
 
 _EXAMPLES = """\
@@ -67,6 +68,7 @@ examples:
 
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
+  141 nobody reads the results any more
 """
 
 
@@ -84,28 +86,32 @@ examples:
 
 exit codes:
   0 nothing is thinner than the limit   1 something failed   2 wrong usage   3 an input cannot be used
-  4 cancelled   5 something is thinner than the limit
+  4 cancelled   5 something is thinner than the limit   141 nobody reads the results any more
 """
 
 
 def main(words: Sequence[str]) -> int:
     """Run a command line; returns its exit code."""
+    open_streams()
     if words and words[0] == "skeleton":
         return cli_skeleton.main(words[1:])
     try:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why
         return DONE if end.code in (None, 0) else USAGE
-    console = _Console(wanted.json, wanted.quiet)
+    console = Console(wanted.json, wanted.quiet, new_lines=inside_blender())
     if problem := native.problem():
         console.complain(problem)
         return FAILED
     with _interruptible():
         try:
-            return _run(_items(wanted), wanted, console)
+            code = _run(_items(wanted), wanted, console)
         except KeyboardInterrupt:
             console.complain("cancelled")
             return CANCELLED
+        except ClosedPipeError:
+            return CLOSED_PIPE
+    return FAILED if code in (DONE, THIN) and console.lost else code
 
 
 def run() -> None:
@@ -126,7 +132,7 @@ def inside_blender() -> bool:
 def _parse(words: Sequence[str]) -> argparse.Namespace:
     lengths = list(words[:1]) == [THICKNESS]
     parser = _thickness_parser() if lengths else _axis_parser()
-    words = words[1:] if lengths else words
+    words = _with_paths_behind_dashes(words[1:] if lengths else words)
     wanted = parser.parse_intermixed_args(words)
     wanted.lengths = lengths
     try:
@@ -216,12 +222,22 @@ def _add_files(
     return files
 
 
+def _with_paths_behind_dashes(words: Sequence[str]) -> list[str]:
+    """The words without `--`, behind which all are paths, also those that begin with a dash."""
+    end = list(words).index("--") if "--" in words else len(words)
+    return [*words[:end], *(f"./{word}" if word[:1] == "-" else word for word in words[end + 1 :])]
+
+
 def _complete(wanted: argparse.Namespace) -> None:
     """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
     *wanted.inputs, output = wanted.paths
     wanted.work, wanted.limit = _work(wanted), limit_from(wanted)
     wanted.frames = None if wanted.frames is None else parse_frames(wanted.frames)
-    if output.endswith(("/", "\\")) or Path(output).is_dir():
+    if "" in wanted.paths:
+        raise ValueError(
+            "Expected names of files, found an empty one; look whether a variable is unset"
+        )
+    if output.endswith(("/", "\\")) or is_folder(output):
         number = "" if wanted.frames is None else "_####"
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
     thickness_suffix(output) if wanted.lengths else format_of(output)
@@ -275,7 +291,7 @@ def _items_of_file(pattern: str, wanted: argparse.Namespace) -> Iterator[Item]:
     for frame in wanted.frames or (None,):
         path = pattern if frame is None else at_frame(pattern, frame)
         stem = Path(pattern).stem.rstrip("#").rstrip("_.-")
-        yield _item(wanted.output, path, None, stem, frame, partial(read_shape, path))
+        yield _item(wanted.output, path, None, stem, frame, partial(read_shape, path, wanted.limit))
 
 
 def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[Item]:
@@ -293,7 +309,7 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
                 f"Expected {{name}} in OUTPUT for {len(names)} objects, found '{wanted.output}'; "
                 "add it, or choose one with --object"
             )
-    except MedialAxisError as error:
+    except Exception as error:  # whatever Blender or a script in the file says
         yield Item(source, None, None, Path(wanted.output), partial(_raise, error))
         return
     for frame in wanted.frames or (None,):
@@ -318,15 +334,15 @@ def _item(
         return Item(source, thing, frame, Path(pattern), partial(_raise, error))
 
 
-def _raise(error: MedialAxisError) -> Any:
+def _raise(error: Exception) -> Any:
     raise error
 
 
 # --- doing it
 
 
-def _run(items: Iterable[Item], wanted: argparse.Namespace, console: _Console) -> int:
-    """All items; one that fails does not stop the others."""
+def _run(items: Iterable[Item], wanted: argparse.Namespace, console: Console) -> int:
+    """All items; one that fails, however it does, does not stop the others."""
     code, thin, outputs = DONE, False, set()
     for item in items:
         try:
@@ -335,19 +351,24 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, console: _Console) -
                     f"Expected another output for each input, found '{item.output}' again; put "
                     "{file} or {name} in OUTPUT"
                 )
-            begun = begin(item, wanted.work, wanted.force, wanted.limit)
-            report = begun.kept or finish(begun, _watch(begun.task, console.show))
-            console.tell(report)
+            report = _done(item, wanted, console)
             thin |= bool(report.get("patches"))
             outputs.add(item.output)
         except (KeyboardInterrupt, Cancelled):
             console.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
             return CANCELLED
-        except MedialAxisError as error:
-            console.tell(failure(item, error))
+        except Exception as error:
+            report = failure(item, error)
             of_input = isinstance(error, (ReadError, InvalidInputError, DegenerateInputError))
             code = INPUT if of_input and code in (DONE, INPUT) else FAILED
+        console.tell(report)
     return THIN if thin and code == DONE else code
+
+
+def _done(item: Item, wanted: argparse.Namespace, console: Console) -> dict[str, Any]:
+    """The report of an item, which is computed unless it is finished."""
+    begun = begin(item, wanted.work, wanted.force, wanted.limit)
+    return begun.kept or finish(begun, _watch(begun.task, console.show))
 
 
 def _watch(task: Task, show: Callable[[str], None]) -> Outcome:
@@ -381,50 +402,3 @@ def _interruptible() -> Iterator[None]:
     finally:
         for number, handler in kept.items():
             signal.signal(number, signal.SIG_DFL if handler is None else handler)
-
-
-class _Console:
-    """What is said: results on standard output, all else on standard error."""
-
-    def __init__(self, json_lines: bool, quiet: bool) -> None:
-        self._json, self._quiet = json_lines, quiet
-        self._terminal = sys.stderr.isatty() and not quiet
-
-    def show(self, text: str) -> None:
-        """Progress, in one line of a terminal."""
-        if self._terminal:
-            sys.stderr.write(f"\r\x1b[K{text}")
-            sys.stderr.flush()
-
-    def complain(self, text: str) -> None:
-        print(f"medial_axis: {text}", file=sys.stderr, flush=True)
-
-    def tell(self, report: dict[str, Any]) -> None:
-        if self._json:
-            start = "\n" if inside_blender() else ""  # Blender may have left a line unfinished
-            print(start + json.dumps(report, ensure_ascii=False), flush=True)
-        name = report["object"] or Path(report["input"]).name
-        if not self._quiet:
-            for warning in report.get("warnings", ()):
-                self.complain(f"{name}: {warning}")
-        if report["status"] in ("failed", "cancelled"):
-            self.complain(f"{name}: {report['error']}")
-        elif not self._json:
-            how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
-            print(f"{report['output']}: {_said(report)}, {how}", flush=True)
-
-
-def _said(report: dict[str, Any]) -> str:
-    """What is in an output, in a few words."""
-    if "facets" in report:
-        edges = f", {report['edges']:,} edges" if report.get("edges") else ""
-        return f"{report['facets']:,} facets{edges}"
-    unit = f" {report['unit']}" if report["unit"] else ""
-    if report["minimum"] is None:
-        return "no two walls face each other"
-    minimum = f"minimum {report['minimum']:.4g}{unit}"
-    if not report["limit"]:
-        return minimum
-    patches, share = len(report["patches"]), percent(report["share_below"])
-    where = f" in {patches:,} {'patch' if patches == 1 else 'patches'}" if patches else ""
-    return f"{minimum}, {share} below {report['limit']:g}{unit}{where}"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Who reads our files: python3 tests/readers.py writes an axis in every form, has every reader of tests/support/readers.py
+"""Who reads our files: this writes an axis in every form, has every reader of tests/support/readers.py
 that is installed read it, and prints the table of docs/formats.md. Readers that are absent are named.
 """
 
@@ -35,7 +35,7 @@ def verdict(reader: str, path: Path, vertices: int, area: float) -> str:
     """'whole' where the reader finds all vertices and the whole surface, or what it found or said."""
     try:
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-            points, faces, found = READERS[reader](path)
+            points, _, found = READERS[reader](path)
     except (Exception, SystemExit) as error:  # meshio ends the program
         return f"refused: {type(error).__name__}"
     if points == vertices and abs(found / area - 1) < 1e-4:

@@ -108,7 +108,8 @@ def write_thickness(
     if own:
         _write_attributes(source.data, found.of_vertices)
     copy = output_of(source, is_copy)
-    if own and copy is None and len(source.data.vertices) >= _ENOUGH * len(found.points):
+    dense = len(source.data.vertices) >= _ENOUGH * len(found.points)
+    if own and copy is None and dense and len(found.shape.triangles):
         carrier = source
         local = np.linalg.inv(np.array(source.matrix_world, np.float64)) @ frame
     else:

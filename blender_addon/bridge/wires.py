@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 NAME = "Medial Axis Wires"
 WIRES = "ma_wires"  # how many edges without a face and single points a result has
 _WIDTH = "Width"
-_THIN = 0.002  # radius of a tube, as a share of the size of the axis
+_THIN = 0.004  # radius of a tube, as a share of the size of the axis
 _THICKER = 2.0  # balls than tubes
 
 

@@ -24,6 +24,13 @@ class OutOfMemoryError(MedialAxisError, MemoryError):
     """The computer has not enough memory for this many points."""
 
 
+def out_of_memory() -> OutOfMemoryError:
+    """What is said wherever the memory ends."""
+    return OutOfMemoryError(
+        "Expected enough memory, found too little; close other programs or use fewer points"
+    )
+
+
 class MemoryLimitError(OutOfMemoryError):
     """An analysis of so many `points` would need more memory than it may have; it was not begun."""
 

@@ -11,6 +11,8 @@ from ..core.machine.cache import CACHE
 from ..core.machine.job import Job, Task
 from .translation import say
 
+_A_MOMENT = 0.1  # seconds
+
 _job: Job | None = None
 _product = ""
 
@@ -35,6 +37,8 @@ def finish(ended: Job) -> None:
         for workspace in bpy.data.workspaces:
             workspace.status_text_set(None)
         redraw()
+        if not bpy.app.background:
+            bpy.app.timers.register(_Settling(), first_interval=_A_MOMENT)
 
 
 def stop() -> None:
@@ -62,6 +66,19 @@ def redraw() -> None:
                 for region in area.regions:
                     if area.type == "VIEW_3D" and region.type == "UI":
                         region.tag_redraw()
+
+
+class _Settling:
+    """A timer that draws the sidebars a few times more: panels that have appeared or grown take more than one drawing
+    until none of them overlaps another."""
+
+    def __init__(self) -> None:
+        self._left = 30
+
+    def __call__(self) -> float | None:
+        redraw()
+        self._left -= 1
+        return _A_MOMENT if self._left and _job is None else None
 
 
 def obstacle() -> str:

@@ -69,9 +69,6 @@ class OBJECT_OT_medial_axis(
                 row.active = applies_to_form(name, form)
                 row.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
-        box = self.layout.box().column()
-        for name in (*LOOKS, "select_result"):
-            box.prop(self, name)
 
     def work(self, shape):
         return partial(compute_axis, shape, settings_from(self), limit=memory_limit())

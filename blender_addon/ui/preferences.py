@@ -9,7 +9,7 @@ from bpy.props import BoolProperty
 from .. import __version__
 from ..core.machine import native
 from ..core.machine.cache import CACHE
-from ..core.machine.memory_limit import MemoryLimit
+from ..core.machine.memory_limit import OBJECT, MemoryLimit
 from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
 from . import self_test_operator
 from .asset_library import draw_library
@@ -25,9 +25,10 @@ def memory_limit() -> MemoryLimit:
     """What the user allows an analysis; the cache is told its room, for saved preferences call no `update`."""
     addon = bpy.context.preferences.addons.get(ADDON)
     if addon is None:  # registered by a script, without preferences
-        return MemoryLimit()
+        return MemoryLimit().used(output=OBJECT)
     _give_room(addon.preferences)
-    return MemoryLimit(addon.preferences.memory_limit, AboveLimit[addon.preferences.above_limit])
+    limit = MemoryLimit(addon.preferences.memory_limit, AboveLimit[addon.preferences.above_limit])
+    return limit.used(output=OBJECT)
 
 
 def threads() -> int:

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import bpy
 
+from ..core.files.names import shown
+
 _ADDON = __package__.rpartition(".")[0]
 _FOLDER = Path(__file__).resolve().parent.parent / "translations"
 _ENTRY = re.compile(r"^msgid (\".+\")\nmsgstr (\".+\")$", re.MULTILINE)  # of a .po file
@@ -28,8 +30,9 @@ _CONTEXTS = ("*", "Operator", CONTEXT)
 
 def say(text) -> str:
     """A sentence in the language of the user interface, as far as there is a translation."""
+    text = shown(str(text))  # Blender takes text only, and names of files are bytes
     language = _translated(PROBE)
-    return str(text) if language == PROBE else _said(str(text), language)
+    return text if language == PROBE else _said(text, language)
 
 
 @lru_cache(maxsize=512)

@@ -111,6 +111,40 @@ void tell_sides(Parts& made, const Surface& surface, std::span<const Vec3> verti
   }
 }
 
+// The input in the frame in which it is analysed. Where that is the plain one, nothing is copied.
+class FramedInput {
+ public:
+  explicit FramedInput(const AnalysisInput& input) : points(input.points) {
+    require_finite(input.points, "point");
+    if (input.vertices) require_finite(*input.vertices, "vertex");
+    require_extent(input.points);
+    vertices = input.vertices;
+    frame = frame_of(points, vertices.value_or(std::span<const Vec3>()));
+    if (frame.is_plain()) return;
+    points = own_points_ = frame.inward(points);
+    if (vertices) vertices = own_vertices_ = frame.inward(*vertices);
+  }
+  FramedInput(const FramedInput&) = delete;
+
+  Frame frame;
+  std::span<const Vec3> points;
+  std::optional<std::span<const Vec3>> vertices;
+
+ private:
+  std::vector<Vec3> own_points_, own_vertices_;
+};
+
+void bring_outward(MedialMesh& mesh, const Frame& frame) {
+  if (frame.is_plain()) return;
+  for (Vec3& v : mesh.vertices) v = frame.outward(v);
+  for (double& r : mesh.radius) r = frame.outward(r);
+}
+
+std::vector<double> outward_lengths(std::vector<double> lengths, const Frame& frame) {
+  for (double& length : lengths) length = frame.outward(length);
+  return lengths;
+}
+
 std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const AnalysisOptions& options,
                                       Progress* progress) {
   auto kept = std::make_unique<Parts>();
@@ -122,13 +156,15 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
   begin_stage(progress, "Samples", 0, 0.02);
   require_corners(input.triangles, input.vertices.value_or(input.points).size());
   if (input.normals) require_normals(*input.normals, input.points.size());
-  made.samples = make_samples(input.points, quiet);
+  const FramedInput framed(input);
+  made.frame = framed.frame;
+  made.samples = make_samples(framed.points, quiet);
   const int32_t count = made.samples.count();
   made.duplicates = static_cast<int64_t>(input.points.size()) - count;
   require_volume(made.samples.points);
   const Samples apart =
-      input.vertices ? distinct_rows(*input.vertices, "vertex", quiet) : Samples{};
-  const Samples& corners = input.vertices ? apart : made.samples;
+      framed.vertices ? distinct_rows(*framed.vertices, "vertex", quiet) : Samples{};
+  const Samples& corners = framed.vertices ? apart : made.samples;
   const Surface surface =
       make_surface(input.triangles, corners.point_of_row, corners.count(), quiet);
   made.closed = surface.closed();
@@ -214,6 +250,7 @@ MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progr
   MedialMesh mesh =
       voronoi_facets(selection(*parts_, extraction), parts_->samples, parts_->triangulation,
                      parts_->voronoi, parts_->edges, parts_->run(progress));
+  bring_outward(mesh, parts_->frame);
   advance(progress, 1);
   return mesh;
 }
@@ -226,7 +263,8 @@ Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
         "where fire has no rim to start from.");
   }
   require_solid(parts_->sides_from, parts_->tight_cocone.get());
-  return make_hierarchy(parts_->samples, facets_of(*parts_), thresholds, parts_->run(progress));
+  return make_hierarchy(parts_->samples, facets_of(*parts_), thresholds, parts_->frame,
+                        parts_->run(progress));
 }
 
 std::vector<double> MedialAnalysis::theta(Rule rule) const {
@@ -243,7 +281,7 @@ std::vector<double> MedialAnalysis::spacing() const {
   result.reserve(parts_->samples.row.size());
   for (const int32_t id : samples_by_row(parts_->samples))
     result.push_back(parts_->significance.spacing[id]);
-  return result;
+  return outward_lengths(std::move(result), parts_->frame);
 }
 
 std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
@@ -259,7 +297,7 @@ std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
       medial::feature_size(parts_->samples.points, at, parts_->triangulation, parts_->voronoi,
                            parts_->edges, ids, {parts_->threads, progress});
   advance(progress, 1);
-  return sizes;
+  return outward_lengths(std::move(sizes), parts_->frame);
 }
 
 WallThickness MedialAnalysis::thickness(const ThicknessInput& input,

@@ -5,6 +5,7 @@
 #include <medial/analysis.h>
 
 #include "axis/selection.h"
+#include "base/frame.h"
 #include "delaunay/samples.h"
 
 namespace medial {
@@ -17,6 +18,7 @@ struct MedialAnalysis::Parts {
 
   int threads = 1;
   std::unique_ptr<Arena> arena;  // goes after all that lies in it
+  Frame frame;  // in which all places and lengths below are
   Samples samples;
   Triangulation triangulation;
   Voronoi voronoi;

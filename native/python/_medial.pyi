@@ -425,14 +425,13 @@ class Hierarchy:
 class ThicknessMode:
     """What `MedialAnalysis.thickness` measures."""
 
-    WALL: ThicknessMode
-    """Balls between walls: where their two normals differ by 120 degrees or more. Elsewhere, as next to an edge, what
-    the nearest wall along the surface has, but never less than the ball at the sample itself."""
-    BALL: ThicknessMode
-    """All balls; zero at every convex edge."""
-    SCAN: ThicknessMode
-    """The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No
-    normals are used; what tapers reads too thick."""
+    # Balls between walls, whose normals differ by 120 degrees or more. Elsewhere, as next to an edge, what the nearest wall
+    # along the surface has, or the largest ball that is near, but never less than the ball at the sample itself.
+    WALL: ThicknessMode  # 0
+    BALL: ThicknessMode  # 1: all balls; zero at every convex edge
+    # The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No normals are
+    # used; what tapers reads too thick.
+    SCAN: ThicknessMode  # 2
 
 @final
 class WallThickness:
@@ -699,6 +698,7 @@ class SampleKind:
     BOUNDARY: SampleKind  # 2: an edge of one triangle
     VERTEX: SampleKind  # 3: a kept vertex away from creases
     SURFACE: SampleKind  # 4: anywhere
+    OPENING: SampleKind  # 5: off the triangles, where `closing_samples` lie; `sample_surface` makes none
 
 @final
 class SurfaceSamples:
@@ -826,6 +826,49 @@ def nearest(sites: NDArray[np.float64], queries: NDArray[np.float64]) -> NDArray
     Raises
     ------
     InvalidInputError
+    """
+
+def closing_samples(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    seed: int = 0,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Samples that close the openings of a surface: blue noise where the winding number is 1/2, off the triangles.
+
+    They lie on the level set that begins at the boundary edges, within a millionth or two of 1/2, and as far from each
+    other and from the samples that are there as those of `sample_surface`. None where the triangles are closed.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        Samples of the surface, those that bound its solid.
+    normals : (n, 3) float64
+    radius : (n,) float64
+        Of their discs; those of the openings are as large as the nearest of these, and grow by 0.3 of its distance.
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        Rows of `vertices`, outward.
+    seed : int
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Returns
+    -------
+    points : (k, 3) float64
+    normals : (k, 3) float64
+        Outward, unit.
+    radius : (k,) float64
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
     """
 
 def memory_needed(points: int) -> int:
@@ -1015,7 +1058,9 @@ def buried(
     progress: Progress | None = None,
     threads: int = 0,
 ) -> NDArray[np.bool_]:
-    """Where closed triangles are no boundary of the solid: overlapping shells, walls inside, sheets without thickness.
+    """Where triangles are no boundary of the solid: overlapping shells, walls inside, sheets without thickness.
+
+    The solid is where their winding number is above 1/2, be they closed or open.
 
     Parameters
     ----------
@@ -1039,7 +1084,43 @@ def buried(
 
     Raises
     ------
-    InvalidInputError
-        Also when the triangles are not closed.
-    Cancelled
+    InvalidInputError, Cancelled
+    """
+
+def wall_distances(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    reach: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> NDArray[np.float64]:
+    """How thick a solid is behind points of its surface.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        On the surface.
+    normals : (n, 3) float64
+        Of the surface there: unit, outward.
+    reach : (n,) float64
+        How far one looks from each; positive.
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        Rows of `vertices`, outward.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Returns
+    -------
+    distances : (n,) float64
+        The way against the normal to where the solid ends, at a triangle that faces away from the point within 30
+        degrees. Infinite: beyond reach, or the way ends at a slant, as beside a sharp edge; and for a zero normal.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
     """

@@ -13,6 +13,7 @@
 #include "inside/buried.h"
 #include "inside/solid_betti.h"
 #include "inside/surface.h"
+#include "inside/walls.h"
 #include "inside/winding_number.h"
 
 namespace medial::python {
@@ -80,7 +81,7 @@ constexpr const char* kWindingDoc =
     "winding : (q,) float64\n    Sum of the solid angles over 4 pi, up to rounding.";
 
 constexpr const char* kBuriedDoc =
-    "Where closed triangles are no boundary of the solid: overlapping shells, walls inside, sheets "
+    "Where triangles are no boundary of the solid: overlapping shells, walls inside, sheets "
     "without thickness.\n\n"
     "Parameters\n----------\npoints : (n, 3) float64\nnormals : (n, 3) float64\noffset : "
     "float\nvertices : (v, 3) float64\n"
@@ -95,6 +96,15 @@ constexpr const char* kSurfaceDistanceDoc =
     "triangles : (m, 3) int32\n    One at least; they may be without area.\n"
     "progress : Progress, optional\nthreads : int\n"
     "    0: as many as the machine has. The result does not depend on it.\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+constexpr const char* kWallsDoc =
+    "How thick a solid is behind points of its surface.\n\n"
+    "Parameters\n----------\npoints : (n, 3) float64\nnormals : (n, 3) float64\n    Unit, "
+    "outward.\nreach : (n,) float64\n    How far one looks.\n"
+    "vertices : (v, 3) float64\ntriangles : (m, 3) int32\nprogress : Progress, "
+    "optional\nthreads : int\n\nReturns\n-------\ndistances : (n,) float64\n    Infinite "
+    "where there is no such wall within reach.\n\n"
     "Raises\n------\nInvalidInputError, Cancelled";
 
 constexpr const char* kPolygonEdgesDoc =
@@ -353,6 +363,26 @@ py::array surface_distances(const py::object& queries, const py::object& vertice
   return array_of<double>(std::move(result));
 }
 
+py::array distances_of_walls(const py::object& points, const py::object& normals,
+                             const py::array_t<double, py::array::c_style>& reach,
+                             const py::object& vertices, const py::object& triangles,
+                             Progress* progress, int threads) {
+  const Points rows(points, "points"), directions(normals, "normals"),
+      corners(vertices, "vertices");
+  const Triangles faces(triangles);
+  const Run run{thread_count(thread_argument(threads)), progress};
+  std::vector<double> result;
+  {
+    const auto row_span = rows.span(), direction_span = directions.span();
+    const auto corner_span = corners.span();
+    const auto face_span = faces.span();
+    const std::span<const double> reaches(reach.data(), static_cast<size_t>(reach.size()));
+    const py::gil_scoped_release release;
+    result = wall_distances(row_span, direction_span, reaches, corner_span, face_span, run);
+  }
+  return array_of<double>(std::move(result));
+}
+
 }  // namespace
 
 void bind_stages(py::module_& m) {
@@ -373,6 +403,9 @@ void bind_stages(py::module_& m) {
         py::arg("threads") = 0);
   m.def("buried", &buried_points, kBuriedDoc, py::arg("points"), py::arg("normals"),
         py::arg("offset"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
+        py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("wall_distances", &distances_of_walls, kWallsDoc, py::arg("points"), py::arg("normals"),
+        py::arg("reach"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
         py::arg("progress") = nullptr, py::arg("threads") = 0);
 }
 

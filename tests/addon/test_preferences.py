@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scene import MODULE, addon, contents, reports
 
-CHECKS = 7
+CHECKS = 8
 
 
 class Layout:

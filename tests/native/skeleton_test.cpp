@@ -10,7 +10,9 @@
 #include "base/union_find.h"
 #include "shapes.h"
 #include "skeleton/bucket_queue.h"
+#include "skeleton/curves.h"
 #include "skeleton/level.h"
+#include "skeleton/rims.h"
 
 namespace medial {
 namespace {
@@ -130,6 +132,139 @@ TEST(SharedUnionFind, FindsTheSetsOfASerialOneByManyThreads) {
       static_cast<int64_t>(pairs.size()), {4},
       [&](int64_t i) { shared.unite(pairs[i][0], pairs[i][1]); }, 16);
   EXPECT_EQ(std::move(shared).representatives({4}), std::move(serial).representatives());
+}
+
+// --- a level for the eye
+
+TEST(PointTree, FindsWhatALookAtAllFinds) {
+  for (const int count : {1, 7, 8, 9, 500}) {
+    const auto some = test::ellipsoid(count, 7);
+    const PointTree tree(some);
+    for (const Vec3& query : test::ellipsoid(40, 8)) {
+      std::vector<double> far;
+      for (const Vec3& p : some) far.push_back(distance(p, query));
+      const auto least = std::min_element(far.begin(), far.end());
+      EXPECT_EQ(tree.nearest(query).id, least - far.begin());
+      EXPECT_DOUBLE_EQ(tree.nearest(query).distance, *least);
+      std::sort(far.begin(), far.end());
+      EXPECT_DOUBLE_EQ(tree.reach(query, 5), far[std::min(4, count - 1)]);
+    }
+    std::vector<int32_t> met;
+    tree.visit([](const Box& box) { return box.low.x < 0.1; },
+               [&](int32_t id) { met.push_back(id); });
+    EXPECT_TRUE(std::is_sorted(met.begin(), met.end()));
+    const std::set<int32_t> all(met.begin(), met.end());
+    EXPECT_EQ(all.size(), met.size());
+    for (int32_t id = 0; id < tree.size(); ++id) {
+      if (some[id].x < 0.1) EXPECT_TRUE(all.contains(id));
+    }
+  }
+}
+
+TEST(PointTree, OfEquallyNearPointsTheLowestIsTheNearest) {
+  const std::vector<Vec3> corners{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+  EXPECT_EQ(PointTree(corners).nearest({0, 0, 0}).id, 0);
+}
+
+TEST(Chains, EndWhereWiresBranchOrAreFixed) {
+  // A cross at 2, a fixed vertex 5 inside an arm, and a closed curve 7-8-9.
+  const std::vector<Edge> wires{{0, 1}, {1, 2}, {2, 3}, {2, 4}, {4, 5},
+                                {5, 6}, {7, 8}, {8, 9}, {9, 7}};
+  std::vector<uint8_t> fixed(10, 0);
+  fixed[5] = 1;
+  const auto chains = chains_of(wires, fixed);
+  std::vector<std::vector<int32_t>> vertices;
+  for (const Chain& chain : chains) vertices.push_back(chain.vertices);
+  EXPECT_EQ(vertices, (std::vector<std::vector<int32_t>>{
+                          {0, 1, 2}, {2, 3}, {2, 4, 5}, {5, 6}, {7, 8, 9, 7}}));
+  EXPECT_EQ(chains[0].loose, (std::array<bool, 2>{true, false}));
+  EXPECT_EQ(chains[2].loose, (std::array<bool, 2>{false, false}));
+  EXPECT_EQ(chains[3].loose, (std::array<bool, 2>{false, true}));
+  EXPECT_TRUE(chains[4].closed);
+  EXPECT_FALSE(chains[3].closed);
+}
+
+TEST(Canal, IsFoundFromBesideItsAxisAndNotBetweenTwoWalls) {
+  std::vector<Vec3> tube, walls;
+  for (int i = 0; i < 40; ++i) {
+    for (int k = 0; k < 40; ++k) {
+      const double z = 0.05 * (i - 20), angle = 2 * 3.14159265358979 * (k + 0.5 * (i % 2)) / 40;
+      tube.push_back({std::cos(angle), std::sin(angle), z});
+      walls.push_back({0.05 * (k - 20), i % 2 ? 1.0 : -1.0, z});
+    }
+  }
+  Canal canal{.centre = {0.03, -0.02, 0}, .radius = 0.98, .tangent = {0, 0, 1}};
+  Canal between = canal;
+  for (int fit = 0; fit < 3; ++fit) {
+    canal = fit_canal(PointTree(tube), canal, 0.5);
+    between = fit_canal(PointTree(walls), between, 0.5);
+  }
+  EXPECT_LT(length(canal.centre), 1e-6);
+  EXPECT_NEAR(canal.radius, 1, 1e-6);
+  EXPECT_EQ(canal.trust, 1);
+  EXPECT_EQ(between.trust, 0);
+  EXPECT_EQ(between.centre, (Vec3{0.03, -0.02, 0}));
+}
+
+TEST(Rims, RelaxAndNeverFold) {
+  // A fan of triangles with a deep notch: its tip would cross over the hub.
+  std::vector<Vec3> places{{0, 0, 0}};
+  std::vector<int32_t> corners, offsets{0};
+  std::vector<Edge> rims;
+  const int count = 12;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / count, size = i % 2 ? 0.2 : 1;
+    places.push_back({size * std::cos(angle), size * std::sin(angle), 0});
+    const int32_t next = (i + 1) % count + 1;
+    corners.insert(corners.end(), {0, i + 1, next});
+    offsets.push_back(static_cast<int32_t>(corners.size()));
+    rims.push_back({i + 1, next});
+  }
+  const auto before = places;
+  const auto moved = relax_rims({offsets, corners}, rims, places, {2});
+  EXPECT_EQ(moved.size(), static_cast<size_t>(count));
+  EXPECT_EQ(places[0], before[0]);
+  EXPECT_LT(length(places[1]), 0.9);
+  EXPECT_GT(length(places[2]), 0.3);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 &a = places[corners[3 * i + 1]], &b = places[corners[3 * i + 2]];
+    EXPECT_GT(cross(a, b).z, 0);
+  }
+}
+
+TEST(Hierarchy, RelaxedLevelsAreTheSameForEveryThreadCount) {
+  const auto points = test::ellipsoid(5000, 3);
+  for (const LevelOptions& options :
+       {LevelOptions{.relaxed = true},
+        LevelOptions{.sheet = 1, .round_limbs = true, .relaxed = true},
+        LevelOptions{.sheet = 1, .limb = 0, .relaxed = true}}) {
+    std::vector<Level> levels;
+    for (const int threads : {1, 4}) {
+      levels.push_back(
+          MedialAnalysis({points}, {.threads = threads}, nullptr).hierarchy({}).extract(options));
+    }
+    EXPECT_EQ(levels[0].vertices, levels[1].vertices);
+    EXPECT_EQ(levels[0].radius, levels[1].radius);
+    EXPECT_EQ(levels[0].wires, levels[1].wires);
+    EXPECT_EQ(levels[0].exact, levels[1].exact);
+    EXPECT_EQ(levels[0].betti, (Betti{1, 0, 0}));
+  }
+}
+
+TEST(Hierarchy, CancelsWhileCurvesAreFitted) {
+  const Hierarchy h = hierarchy_of(test::torus(200, 80), 2);
+  Progress progress;
+  std::atomic<bool> ended{false};
+  const Thread watcher([&] {
+    while (progress.fraction() < 0.7 && !ended) std::this_thread::yield();
+    progress.cancel();
+  });
+  try {
+    h.extract({.sheet = 1, .relaxed = true}, &progress);
+  } catch (const Cancelled&) {
+    EXPECT_LT(progress.fraction(), 1);
+  }
+  ended = true;
 }
 
 }  // namespace

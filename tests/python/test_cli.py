@@ -76,6 +76,7 @@ def program(tmp_path_factory):
         options.setdefault("stdout", subprocess.PIPE)
         return subprocess.Popen(command, **options) if popen else subprocess.run(command, **options)
 
+    start.environment = environment
     return start
 
 

@@ -41,8 +41,10 @@ def test_figures_leave_out_what_is_at_sharp_edges():
 
 def test_everything_at_sharp_edges_is_no_division_by_nothing():
     found = density([1, 1], [1, 2], np.zeros((2, 3)), edges=np.zeros((1, 3)))
-    assert (found.share, found.share_of_all, found.worst) == (0.0, 1.0, [])
-    assert found.p95 == 1.0
+    assert (found.share, found.share_of_all, found.worst) == (1.0, 1.0, [])
+    assert found.p95 == 1.0 and found.median > found.limit
+    assert found.dense_enough  # another pass would be no closer there
+    assert str(found).endswith("100 % above 0.25")
 
 
 def test_worst_places_are_apart_and_in_order():

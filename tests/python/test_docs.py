@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT
-from medial_axis.core.settings import LIMITS, OPTIONS, Switch
+from medial_axis.core.settings import LIMITS, LOOKS, OPTIONS, THICKNESS_OPTIONS, Switch
 from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -80,14 +80,14 @@ def sources():
 @pytest.fixture(scope="session")
 def words(sources):
     """Every word of the sources, and those that are put together there."""
-    put_together = {f"ma_{name}" for name in OPTIONS}
+    put_together = {f"ma_{name}" for name in (*OPTIONS, *LOOKS)}
     return set(re.findall(r"\w+", sources)) | put_together
 
 
 @pytest.fixture(scope="session")
 def options(sources):
     """Every option of a command line in the sources, and those of the method."""
-    made = {"--" + name.replace("_", "-") for name in (*OPTIONS, *LIMITS)}
+    made = {"--" + name.replace("_", "-") for name in (*OPTIONS, *LIMITS, *THICKNESS_OPTIONS)}
     switches = [name for name, option in OPTIONS.items() if isinstance(option, Switch)]
     made |= {"--no-" + name.replace("_", "-") for name in switches}
     return made | set(OPTION.findall(sources))

@@ -2,6 +2,9 @@
 """Memory: what the cache holds, what an analysis may need, and what is done when it needs more."""
 
 import argparse
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -14,15 +17,17 @@ from medial_axis.core.axis.shape import Shape
 from medial_axis.core.axis.thinning import fewer_samples, spread_rows
 from medial_axis.core.batch import option_words
 from medial_axis.core.errors import InvalidInputError, MemoryLimitError
+from medial_axis.core.files import numpy_arrays
 from medial_axis.core.machine import cache, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
-from medial_axis.core.machine.memory_limit import MemoryLimit, memory_needed
+from medial_axis.core.machine.memory_limit import MemoryLimit, Use, memory_needed
 from medial_axis.core.settings import MEGABYTE, OPTIONS, AboveLimit, SamplingMode, Settings
 from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)
 THIN = AboveLimit.THIN
+CLOUD, MESH = Use(faces=False), Use(faces=True)
 NO_FACES = np.empty((0, 3), np.int32)
 
 
@@ -57,10 +62,11 @@ def empty_cache():
 
 @pytest.fixture
 def room(monkeypatch):
-    """(points) -> a machine on which, without a cache, the analysis of so many points just fits."""
+    """(points, use) -> a machine on which, without a cache, the analysis of so many points just fits."""
 
-    def set_room(points):
-        monkeypatch.setattr(memory, "free_memory", lambda: memory_needed(points) - CACHE.bytes)
+    def set_room(points, use=None):
+        needed = memory_needed(points, use)
+        monkeypatch.setattr(memory, "free_memory", lambda: needed - CACHE.bytes)
 
     return set_room
 
@@ -264,13 +270,13 @@ def test_what_is_kept_is_never_refused(room):
 
 
 def test_thinned_clouds_keep_what_fits_evenly_spread(room):
-    room(5000)
+    room(5000, CLOUD)
     shape = cloud()
     found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
     assert 3000 < found.points <= 5000
     assert (
-        f"20,000 points need about {-(-memory_needed(20_000) // MEGABYTE)} MB, more than the free "
-        f"memory of {-(-memory_needed(5000) // MEGABYTE)} MB: {found.points:,} of the 20,000 points, "
+        f"20,000 points need about {-(-memory_needed(20_000, CLOUD) // MEGABYTE)} MB, more than the free "
+        f"memory of {-(-memory_needed(5000, CLOUD) // MEGABYTE)} MB: {found.points:,} of the 20,000 points, "
         "evenly spread, were kept"
     ) == found.warnings[0]
     rows = found.chosen.samples.rows
@@ -279,7 +285,7 @@ def test_thinned_clouds_keep_what_fits_evenly_spread(room):
 
 
 def test_generators_of_thinned_clouds_are_rows_of_the_whole_cloud(room):
-    room(5000)
+    room(5000, CLOUD)
     shape = cloud()
     found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
     for axis in (found.axis, refilter(found.key, Settings(rho=9.0, side=found.settings.side))):
@@ -292,7 +298,7 @@ def test_generators_of_thinned_clouds_are_rows_of_the_whole_cloud(room):
 
 
 def test_a_thinned_cloud_is_no_cloud_of_its_own_in_the_cache(room):
-    room(5000)
+    room(5000, CLOUD)
     shape = cloud()
     found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN))
     alone = compute_axis(Shape(found.chosen.samples.points, NO_FACES), Settings())
@@ -300,7 +306,7 @@ def test_a_thinned_cloud_is_no_cloud_of_its_own_in_the_cache(room):
 
 
 def test_thinned_normals_stay_with_their_points(room):
-    room(5000)
+    room(5000, CLOUD)
     shape = Shape(egg(20_000), NO_FACES, egg(20_000))
     found = compute_axis(shape, Settings(), limit=MemoryLimit(0, THIN)).chosen
     assert (found.samples.normals == found.samples.points).all()
@@ -319,7 +325,7 @@ def test_thinned_normals_stay_with_their_points(room):
     ids=["vertices", "automatic", "count", "spacing", "keep vertices", "budget"],
 )
 def test_thinned_surfaces_have_fewer_samples(room, settings):
-    room(5000)
+    room(5000, MESH)
     found = compute_axis(ball(), settings, limit=MemoryLimit(0, THIN))
     assert found.points <= 5000 and found.axis.facets > 0
     assert (
@@ -327,18 +333,18 @@ def test_thinned_surfaces_have_fewer_samples(room, settings):
         and "samples of the surface were taken" in found.warnings[0]
     )
     if not settings.keep_vertices:
-        assert found.points > 0.9 * 0.95 * MemoryLimit().points
+        assert found.points > 0.9 * 0.95 * MemoryLimit(use=MESH).points
 
 
 def test_what_fits_is_not_thinned(room):
-    room(20_000)
+    room(20_000, CLOUD)
     found = compute_axis(cloud(), Settings(), limit=MemoryLimit(0, THIN))
     assert found.points == 20_000 and not found.chosen.thinned
 
 
 def test_a_small_spacing_that_fits_stays(room):
     """Only the budget of the later passes is more than fits."""
-    room(5000)
+    room(5000, MESH)
     settings = Settings(sampling=SamplingMode.ADAPTIVE, spacing=3.0, epsilon=0.02)
     found = compute_axis(ball(), settings, limit=MemoryLimit(0, THIN))
     alone = compute_axis(ball(), Settings(sampling=SamplingMode.SURFACE, spacing=3.0))
@@ -438,3 +444,75 @@ def test_words_of_the_limits_are_those_of_the_settings():
     )
     assert found == MemoryLimit(7, THIN)
     assert option_words.limit_from(parser.parse_args([])) == MemoryLimit()
+
+
+# --- before, not after
+
+
+def test_a_cloud_that_needs_too_much_is_not_unpacked(tmp_path, capsys, monkeypatch):
+    """A file of zeros, a thousand times as large unpacked; with faces, and where it may be thinned, it is read."""
+    np.savez_compressed(tmp_path / "zeros.npz", points=np.zeros((2_000_000, 3)))
+    np.save(tmp_path / "zeros.npy", np.zeros((2_000_000, 3), np.float32))
+    reader = "medial_axis.core.files.read_shape.import_points"
+    monkeypatch.setattr(reader, lambda path: pytest.fail("it was unpacked"))
+    for name in ("zeros.npz", "zeros.npy"):
+        words = [str(tmp_path / name), str(tmp_path / "a.ma"), "--memory-limit", "1000"]
+        assert cli.main(words) == cli.FAILED
+        assert "found 2,000,000, which need about" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["a.npz", "a.npy"])
+def test_what_says_nothing_of_its_points_is_read(tmp_path, name):
+    (tmp_path / name).write_bytes(b"PK\x03\x04 nothing")
+    assert numpy_arrays.points_of_cloud(tmp_path / name) == 0
+    assert numpy_arrays.points_of_cloud(tmp_path / "absent.npz") == 0
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
+def test_a_limit_of_addresses_counts(tmp_path):
+    """As by ulimit -v."""
+    program = (
+        "import resource, sys; sys.path.insert(0, sys.argv[1]);"
+        "import conftest; from medial_axis.core.machine.free_memory import free_memory;"
+        "resource.setrlimit(resource.RLIMIT_AS, (700 << 20, 700 << 20)); print(free_memory())"
+    )
+    here = os.path.dirname(__file__)
+    said = subprocess.run([sys.executable, "-c", program, here], capture_output=True, check=True)
+    assert 0 < int(said.stdout) < 700 << 20
+
+
+PEAK = """
+import re, sys
+sys.path.insert(0, sys.argv[1])
+import conftest, numpy as np
+from medial_axis import cli
+from medial_axis.core.machine import native
+native.load()
+# Of this program alone; what getrusage says begins with the parent's.
+peak = lambda: 1024 * int(re.search(r"VmHWM:\\s+(\\d+)", open("/proc/self/status").read())[1])
+before = peak()
+code = cli.main([sys.argv[2], sys.argv[3], "--sampling", "vertices", "--side", sys.argv[4],
+    "--form", "published", "--quiet"])
+print(code, peak() - before)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="kilobytes are those of Linux")
+@pytest.mark.parametrize("side", ["inner", "both"])
+@pytest.mark.parametrize("suffix", [".npz", ".ply", ".ma"])
+@pytest.mark.parametrize("faces", [False, True], ids=["bare", "surface"])
+def test_the_peak_is_what_was_told(tmp_path, faces, suffix, side):
+    """Within 15 %, on a shape without symmetry."""
+    shape = ball(rings=316)
+    sphere = shape.points / np.linalg.norm(shape.points, axis=1)[:, None]
+    waves = 1 + 0.25 * np.sin(5 * sphere[:, 0]) * np.cos(4 * sphere[:, 1])
+    arrays = {"points": shape.points * waves[:, None], "triangles": shape.triangles}
+    if not faces:
+        del arrays["triangles"]
+    np.savez(tmp_path / "in.npz", **arrays)
+    words = [os.path.dirname(__file__), tmp_path / "in.npz", tmp_path / f"out{suffix}", side]
+    command = [sys.executable, "-c", PEAK, *map(str, words)]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+    told = memory_needed(len(shape.points), Use(faces, side == "both", suffix))
+    assert said[-2] == "0" and int(said[-1]) == pytest.approx(told, rel=0.15)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangles in text, which the usual readers of meshes read alike; each reader that is absent is skipped by its name."""
+"""Triangles in text, which the usual readers of meshes read alike; one that is absent is skipped by its name."""
 
 import medial_axis
 import numpy as np

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .density import Density
     from .shape import Shape
     from .sides import Sides
+    from .walls import Walls
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +41,10 @@ class AnalysedSamples:
         The distance of neighbours in the first pass of samples; 0.0 where the points are vertices.
     buried : int
         Samples that were left out because the surface there bounds nothing.
+    closing : int
+        Samples among the points that close openings of the surface.
+    walls : Walls or None
+        How thin the shape is there; None where no faces tell.
     rows : (n,) int32 or None
         The rows of the whole cloud that were analysed; None where all of them were, and for samples of faces.
     key : str
@@ -49,7 +54,7 @@ class AnalysedSamples:
     levels : Levels
         The hierarchy, once a form asked for it.
     faces : (n,) int32 or None
-        The triangle of the shape that each sample of its faces lies on.
+        The triangle of the shape that each sample of its faces lies on; -1: it closes an opening.
     """
 
     points: NDArray[np.float64]
@@ -59,6 +64,8 @@ class AnalysedSamples:
     density: Density
     spacing: float = 0.0
     buried: int = 0
+    closing: int = 0
+    walls: Walls | None = None
     rows: NDArray[np.int32] | None = None
     key: str = ""
     by_faces: tuple[int, int, int] | None = None
@@ -71,7 +78,9 @@ class AnalysedSamples:
         density = self.density
         own = (self.points, self.kinds, self.normals, self.rows, self.faces)
         others = (density.points, density.spacing, density.feature_size, density.edges)
-        arrays = [x for x in (*own, *others) if x is not None]
+        walls = self.walls
+        more = (walls.points, walls.distance, walls.spacing, walls.area) if walls else ()
+        arrays = [x for x in (*own, *others, *more) if x is not None]
         return int(self.analysis.bytes) + self.levels.bytes + sum(x.nbytes for x in arrays)
 
 

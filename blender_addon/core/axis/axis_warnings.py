@@ -20,10 +20,7 @@ def axis_warnings(
     yield from sampling_warnings(shape, chosen)
     samples, sides = chosen.samples, settings.sides
     if sides is SidesFrom.SURFACE and chosen.gaps and settings.side is not Side.BOTH:
-        yield (
-            f"the surface is open at {chosen.gaps:,} edges: inside was taken to be where the "
-            "winding number of the open surface is above one half"
-        )
+        yield _open_surface(chosen)
     if sides is SidesFrom.NORMALS and chosen.sampling is not SamplingMode.VERTICES and chosen.gaps:
         yield (
             f"the surface is open at {chosen.gaps:,} edges: inside was taken to be behind its "
@@ -39,6 +36,19 @@ def axis_warnings(
         )
     elif axis.is_empty:
         yield _why_empty(shape, settings, chosen, axis)
+
+
+def _open_surface(chosen: ChosenSamples) -> str:
+    closing = chosen.samples.closing
+    if chosen.samples.kinds is None:
+        return (
+            f"the surface is open at {chosen.gaps:,} edges: inside was taken to be where the "
+            "winding number of the open surface is above one half"
+        )
+    return (
+        f"the surface is open at {chosen.gaps:,} edges: the solid was taken to be where its winding "
+        f"number is above one half, and {closing:,} samples close the openings"
+    )
 
 
 def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: MedialAxis) -> str:

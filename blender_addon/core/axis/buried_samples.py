@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..machine import native
+from .nearness import near
+from .triangles import some_of, unit_normals
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,28 +20,40 @@ if TYPE_CHECKING:
     from .shape import Shape
 
 # How far from the surface one looks for its two sides, as a share of the spacing.
-OFF = 1e-3
-# Of more faces only so many are looked at, evenly spread: they tell shares to a percent.
-_LOOKED_AT = 20_000
+_OFF = 1e-3
+# Beside what is buried, parts of the solid leave clefts. Those narrower than this share of the spacing, which the
+# samples cannot tell from one solid, would be bridged here and there only: no sample is taken in them.
+_CLEFT = 0.25
+_BESIDE = 1.5  # how far from buried samples clefts are looked for, in spacings
 
 
-def find_bare(shape: Shape, found: Any, spacing: float) -> NDArray[np.bool_]:
+def find_bare(
+    shape: Shape,
+    feet: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    spacing: float,
+) -> NDArray[np.bool_]:
     """(n,) True for the samples that lie between inside and outside, False for those that are buried.
 
     Parameters
     ----------
     shape : Shape
-    found : _medial.SurfaceSamples
+    feet, normals : (n, 3) float64
+        As from `on_flat_faces`.
     spacing : float
         The distance of neighbours.
     """
     # Where the faces point inward the axis is empty, and a warning says why; so no sample is left out there either.
     if shape.volume < 0:
-        return np.ones(len(found.points), bool)
-    offset = OFF * spacing
-    points, normals = _on_flat_faces(shape, found, 100.0 * offset)
+        return np.ones(len(feet), bool)
     with native.own_errors() as module:
-        return ~module.buried(points, normals, offset, shape.points, shape.triangles)
+        found = module.buried(feet, normals, _OFF * spacing, shape.points, shape.triangles)
+        beside = np.flatnonzero(near(feet, feet[found], _BESIDE * spacing))
+        outward = feet[beside] + _CLEFT * spacing * normals[beside]
+        above = module.winding_number(outward, shape.points, shape.triangles)
+    bare = ~found
+    bare[beside[above > 0.5]] = False
+    return bare
 
 
 def bounding_share(shape: Shape, spacing: float) -> float:
@@ -51,24 +65,29 @@ def bounding_share(shape: Shape, spacing: float) -> float:
     spacing : float
         One looks as far from the faces as for samples so far apart.
     """
-    count = len(shape.triangles)
-    some = np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(np.intp))
-    corners = shape.points[shape.triangles[some]]
-    normals, areas = _unit_normals(corners)
+    corners = shape.points[shape.triangles[some_of(len(shape.triangles))]]
+    normals, areas = unit_normals(corners)
     with native.own_errors() as module:
         points = corners.mean(axis=1)
-        buried = module.buried(points, normals, OFF * spacing, shape.points, shape.triangles)
+        buried = module.buried(points, normals, _OFF * spacing, shape.points, shape.triangles)
     return 1.0 - float(areas[buried].sum() / areas.sum())
 
 
-def _on_flat_faces(
-    shape: Shape, found: Any, step: float
+def on_flat_faces(
+    shape: Shape, found: Any, spacing: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(n, 3) a place on its flat face for each sample, and (n, 3) the normal of that face.
 
     Samples may follow the smooth surface, which is not what `_medial.buried` looks at. Places on edges and
-    corners are moved towards the middle of the face, by `step` or a tenth of the way: on the edge
+    corners are moved towards the middle of the face, by a tenth of the spacing or of the way: on the edge
     itself the normal of one face may run along the neighbouring face.
+
+    Parameters
+    ----------
+    shape : Shape
+    found : _medial.SurfaceSamples
+    spacing : float
+        The distance of neighbours.
     """
     corners = shape.points[shape.triangles[found.triangle]]
     points = np.einsum("ij,ijk->ik", found.barycentric, corners)
@@ -76,12 +95,6 @@ def _on_flat_faces(
         on_edge = found.kind != int(module.SampleKind.SURFACE)
     inward = corners[on_edge].mean(axis=1) - points[on_edge]
     ways = np.linalg.norm(inward, axis=1)[:, None]
+    step = 100.0 * (_OFF * spacing)
     points[on_edge] += inward * np.minimum(0.1, step / np.where(ways > 0.0, ways, step))
-    return points, _unit_normals(corners)[0]
-
-
-def _unit_normals(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(n, 3) the unit normal of each triangle, zero where it has none, and (n,) twice its area."""
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    return normals / np.where(lengths > 0.0, lengths, 1.0)[:, None], lengths
+    return points, unit_normals(corners)[0]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..settings import SamplingMode, Settings
+from ..settings import SamplingMode, Settings, SidesFrom
 from .analysis import (
     AnalysedSamples,
     Request,
@@ -24,6 +24,7 @@ from .sample_spacing import first_amount, first_count, first_spacing, next_amoun
 from .sides import Sides, resolve_sides, resolve_sides_of_samples
 from .surface_pass import surface_pass
 from .thinning import fewer_samples, thinned_rows
+from .walls import walls_of_faces
 
 if TYPE_CHECKING:
     from ..machine.progress import Progress
@@ -38,21 +39,23 @@ class _Effort:
     ----------
     passes : int
         How often the faces are sampled at most.
-    at_edges, elsewhere : float
-        The smallest spacing at sharp edges and elsewhere, as shares of the first pass's spacing.
+    at_edges, elsewhere, walls : float
+        The smallest spacing at sharp edges, elsewhere, and between walls where it takes that much to see the axis,
+        as shares of the first pass's spacing.
     """
 
     passes: int
     at_edges: float
     elsewhere: float
+    walls: float
 
 
 # Automatic asks for little, so that a first click is fast.
 _EFFORT = {
-    SamplingMode.VERTICES: _Effort(0, 0.0, 0.0),
-    SamplingMode.SURFACE: _Effort(1, 1.0, 1.0),
-    SamplingMode.AUTOMATIC: _Effort(2, 1.0, 0.5),
-    SamplingMode.ADAPTIVE: _Effort(4, 0.25, 0.0625),
+    SamplingMode.VERTICES: _Effort(0, 0.0, 0.0, 0.0),
+    SamplingMode.SURFACE: _Effort(1, 1.0, 1.0, 1.0),
+    SamplingMode.AUTOMATIC: _Effort(2, 1.0, 0.5, 0.0625),
+    SamplingMode.ADAPTIVE: _Effort(4, 0.25, 0.0625, 0.0625),
 }
 # The budget counts as spent from this share on: it is met by scaling all spacings, which is not exact.
 _SPENT = 0.97
@@ -152,6 +155,9 @@ def _whichever_is_dense(request: Request) -> ChosenSamples:
         reason = "the vertices alone span no volume"
         return replace(_samples_of_faces(request, reason), sparse=True)
     density, cocone = chosen.samples.density, chosen.samples.analysis.tight_cocone
+    walls = chosen.samples.walls
+    if walls is not None and walls.are_missed:
+        return _samples_of_faces(request, "the walls are closer than the vertices are apart")
     dense = density.dense_enough
     if not dense and density.is_improved_by(first_spacing(request.shape, request.settings)):
         reason = (
@@ -195,12 +201,16 @@ def _analysed_vertices(request: Request, sides: Sides, share: float) -> Analysed
     analysis = analyse(request, points, normals, sides, request.progress.part(share))
     no_edges, epsilon = points[:0], request.settings.epsilon
     density = estimate(analysis, points, no_edges, 0.0, epsilon, most=LOOKED_AT)
+    walls = None
+    if sides.source is SidesFrom.SURFACE and request.shape.volume > 0:
+        walls = walls_of_faces(request.shape, request.progress.part(0.01))
     return AnalysedSamples(
         points,
         None,
         normals,
         analysis,
         density,
+        walls=walls,
         rows=request.shape.rows,
         by_faces=betti_by_faces(request, sides),
     )
@@ -234,15 +244,25 @@ def _passes(request: Request, sides: Sides) -> tuple[AnalysedSamples, int]:
     samples, passes = _judged(request, surface_pass(request, sides, amount, share)), 1
     while (
         passes < effort.passes
-        and not samples.density.dense_enough
+        and (not samples.density.dense_enough or _are_worth_more(request, samples))
         and not _is_spent(request, samples)
     ):
         request.progress.begin_pass(passes + 1)
-        amount = next_amount(samples, effort.elsewhere, settings.budget)
+        amount = next_amount(samples, effort.elsewhere, effort.walls, settings.budget)
         found = surface_pass(request, sides, amount, 0.6, samples.spacing)
         samples, passes = _judged(request, found), passes + 1
     request.progress.begin_pass(1)
     return samples, passes
+
+
+def _are_worth_more(request: Request, samples: AnalysedSamples) -> bool:
+    """Whether the axis is missing between walls that are close, and the budget can do something about it."""
+    walls = samples.walls
+    return (
+        walls is not None
+        and walls.are_missed
+        and walls.are_reached_by(request.settings.budget, request.shape.area)
+    )
 
 
 def _is_spent(request: Request, samples: AnalysedSamples) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Form, Settings
+from ..settings import Form, Settings, Side
 from .axis_warnings import axis_warnings
 from .choose_samples import ChosenSamples, choose_samples
 from .extract import extract
@@ -66,6 +66,12 @@ class Computation:
         return self.chosen.samples.density
 
     @property
+    def missed(self) -> float | None:
+        """The share of the surface whose walls are too close for the samples; None where no faces tell."""
+        walls = self.chosen.samples.walls
+        return None if walls is None else walls.missed
+
+    @property
     def key(self) -> str:
         """Names the analysis for `refilter`."""
         return self.chosen.samples.key
@@ -115,6 +121,7 @@ def compute_axis(
     start = time.perf_counter()
     progress = progress or Progress()
     settings = settings.with_side()
+    limit = limit.used(faces=len(shape.triangles) > 0, both=settings.side is not Side.INNER)
     form, wanted = settings.form_of_side, settings.form
     progress.until(_ANALYSIS if form is not Form.PUBLISHED else 1.0)
     chosen = choose_samples(shape, settings, progress, limit)

@@ -70,8 +70,8 @@ class Density:
 
     @cached_property
     def share(self) -> float:
-        """Share of the samples above the limit, of those that are not at a sharp edge."""
-        return _mean(self.epsilon[~self.at_edge] > self.limit)
+        """Share of the samples above the limit, of those that are counted."""
+        return _mean(self._counted > self.limit)
 
     @cached_property
     def share_of_all(self) -> float:
@@ -84,12 +84,13 @@ class Density:
 
     @cached_property
     def p95(self) -> float:
-        """95 percent of the samples that are not at a sharp edge are below this."""
+        """95 percent of the samples that are counted are below this."""
         return self._quantile(0.95)
 
     @property
     def dense_enough(self) -> bool:
-        return self.share <= DENSE_ENOUGH
+        """Whether another pass would change little: at sharp edges it would not."""
+        return bool(self.at_edge.all()) or self.share <= DENSE_ENOUGH
 
     def is_improved_by(self, spacing: float) -> bool:
         """Whether even samples so far apart are denser where it matters; in noise they are not."""
@@ -115,12 +116,17 @@ class Density:
             f"Epsilon: median {_figure(self.median)}, 95 % below {_figure(self.p95)}, "
             f"{percent(self.share)} above {self.limit:g}"
         )
-        if self.at_edge.any():
+        if self.at_edge.any() and not self.at_edge.all():
             text += f"; with sharp edges {percent(self.share_of_all)}"
         return text
 
+    @property
+    def _counted(self) -> NDArray[np.float64]:
+        """The epsilon of the samples of which shares and medians speak: not at a sharp edge, or all where all are."""
+        return self.epsilon if self.at_edge.all() else self.epsilon[~self.at_edge]
+
     def _quantile(self, share: float) -> float:
-        counted = self.epsilon if self.at_edge.all() else self.epsilon[~self.at_edge]
+        counted = self._counted
         rank = math.ceil(share * (len(counted) - 1))  # no mean of two values, for some are infinite
         return float(np.partition(counted, rank)[rank])
 

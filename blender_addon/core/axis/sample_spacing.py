@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import SamplingMode, Settings
+from .nearness import near
 
 if TYPE_CHECKING:
     from .analysis import AnalysedSamples
@@ -49,17 +50,30 @@ def first_count(shape: Shape, settings: Settings) -> int:
     return round(2.0 * shape.area / (math.sqrt(3.0) * amount["spacing"] ** 2))
 
 
-def next_amount(samples: AnalysedSamples, finest: float, budget: int) -> dict[str, Any]:
+def next_amount(
+    samples: AnalysedSamples, finest: float, finest_walls: float, budget: int
+) -> dict[str, Any]:
     """Arguments of `_medial.sample_surface` for the next pass: spacings that the density of this one asks for.
+
+    Where walls are so close that the axis between them is missing, its feature size says nothing, and the walls ask.
 
     Parameters
     ----------
     samples : AnalysedSamples
     finest : float
         The smallest spacing away from sharp edges, as a share of the first one, which is the largest anywhere.
+    finest_walls : float
+        The same for close walls.
     budget : int
     """
-    density = samples.density
+    density, walls = samples.density, samples.walls
     least = np.where(density.at_edge, density.finest, finest * samples.spacing)
     spacings = np.clip(density.limit * density.feature_size, least, samples.spacing)
-    return {"sizing": (density.points, spacings), "count": budget}
+    sites = density.points
+    if walls is not None and walls.are_missed:
+        between, wanted = walls.wanted(finest_walls * samples.spacing)
+        # What asks for nothing beside them, as a sharp edge does, would keep its surroundings coarse.
+        left = (spacings < samples.spacing) | ~near(sites, between, samples.spacing)
+        sites = np.concatenate((sites[left], between))
+        spacings = np.concatenate((spacings[left], np.minimum(wanted, samples.spacing)))
+    return {"sizing": (sites, spacings), "count": budget}

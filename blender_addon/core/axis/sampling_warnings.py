@@ -33,6 +33,13 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
             f"{samples.buried:,} samples were left out because the surface there bounds nothing: "
             "overlapping parts, walls inside, or sheets without thickness"
         )
+    walls = samples.walls
+    if walls is not None and walls.are_missed:
+        yield Severe(
+            f"at {percent(walls.missed)} of the surface the walls are closer to each other, about "
+            f"{walls.thickness:.2g}, than the samples, so the inner axis is missing or torn there; "
+            "more samples, a smaller Spacing or a larger Budget help"
+        )
     if density.share > _SPARSE:
         yield Severe(
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "

@@ -26,6 +26,7 @@ _UNEVEN = 0.1
 _WIDE = 10.0
 # Where a larger share of the edges lies between faces that are turned against each other, their normals mean nothing.
 _TURNED = 0.01
+_CHUNK = 1 << 16  # triangles measured at once; bounds the memory
 # A smaller share of the faces that bounds the solid is that of a sheet: half of a wavy one does.
 _BOUNDING = 0.75
 
@@ -173,6 +174,9 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
 
 
 def _wide_triangles(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
-    corners = points[triangles]
-    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    edges = np.empty(len(triangles))
+    for start in range(0, len(triangles), _CHUNK):
+        corners = points[triangles[start : start + _CHUNK]]
+        sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+        edges[start : start + _CHUNK] = sides.max(axis=1)
     return int(np.count_nonzero(edges > _WIDE * np.median(edges)))

@@ -12,10 +12,11 @@ from ..errors import DegenerateInputError
 from ..machine import native
 from ..settings import SidesFrom
 from .analysis import AnalysedSamples, Request, analyse, betti_by_faces, kept_or_made
-from .buried_samples import find_bare
+from .buried_samples import find_bare, on_flat_faces
 from .closing_samples import closed_by_samples
 from .density import estimate
 from .sample_spacing import first_count, mean_spacing
+from .walls import Walls, find_walls
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 # Edges are sharp from so much above the angle: tubes of twelve sides are round, and bent ones have 30.1 degrees.
 _CLEARLY = 1.01
+# The radius of a sample's disc, in spacings.
+_DISC = 0.727
 
 
 def surface_pass(
@@ -78,9 +81,13 @@ def _sampled(
     spacing = mean_spacing(found.area, len(found.points))
     closing = request.gaps > 0 and sides.source is SidesFrom.SURFACE
     bare = np.ones(len(found.points), bool)
+    feet, outward = on_flat_faces(shape, found, spacing)
     if closing or not request.gaps:
-        bare = find_bare(shape, found, spacing)
+        bare = find_bare(shape, feet, outward, spacing)
     _check_some(bare)
+    walls = None
+    if sides.source is not SidesFrom.TIGHT_COCONE and shape.volume > 0:
+        walls = _walls(request, found, bare & _are_inside_faces(found.kind), feet, outward)
     points, normals, kinds = (x[bare] for x in (found.points, found.normals, found.kind))
     if closing:
         radius, progress = found.radius[bare], request.progress.part(0.1 * share)
@@ -92,11 +99,43 @@ def _sampled(
     on_edges = points[_are_on_edges(kinds, request.gaps, closing)]
     density = estimate(analysis, points, on_edges, first, settings.epsilon)
     buried = int(np.count_nonzero(~bare))
-    by_faces = betti_by_faces(request, sides)
-    faces = found.triangle[bare]
+    more = len(points) - int(np.count_nonzero(bare))
     return AnalysedSamples(
-        points, kinds, normals, analysis, density, first, buried, by_faces=by_faces, faces=faces
+        points,
+        kinds,
+        normals,
+        analysis,
+        density,
+        first,
+        buried,
+        closing=more,
+        walls=walls,
+        by_faces=betti_by_faces(request, sides),
+        faces=np.concatenate((found.triangle[bare], np.full(more, -1, np.int32))),
     )
+
+
+def _walls(
+    request: Request,
+    found: Any,
+    chosen: NDArray[np.bool_],
+    feet: NDArray[np.float64],
+    normals: NDArray[np.float64],
+) -> Walls:
+    radius, progress = found.radius[chosen], request.progress.part(0.01)
+    return find_walls(
+        request.shape, feet[chosen], normals[chosen], radius / _DISC, radius**2, progress
+    )
+
+
+def _are_inside_faces(kinds: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """(n,) True for samples that lie inside faces, where these are most; else for all.
+
+    What is behind a place on an edge depends on which of its faces one asks.
+    """
+    kind_of = native.load().SampleKind
+    inside = (kinds == int(kind_of.SURFACE)) | (kinds == int(kind_of.VERTEX))
+    return inside if 2 * np.count_nonzero(inside) > len(kinds) else np.ones(len(kinds), bool)
 
 
 def _sample_surface(shape: Shape, options: dict[str, Any], progress: Any) -> Any:

@@ -234,4 +234,4 @@ def _warnings(found: Measurement) -> Iterator[str]:
 def _nothing(found: Measurement) -> str:
     if found.settings.between is Between.GAP:
         return "no two walls face each other across a gap"
-    return "no two walls face each other, as in a pyramid; choose Edges Ball"
+    return "no ball is clear of the noise; choose Noise Clean, or scan more finely"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InvalidInputError, MemoryLimitError
-from ..machine.memory_limit import MemoryLimit, megabytes, memory_needed
+from ..machine.memory_limit import MemoryLimit, megabytes
 from ..settings import OPTIONS, AboveLimit, SamplingMode
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def thinned_rows(
     """
     rows = spread_rows(points, _most(limit, error))
     return rows, (
-        f"{error.points:,} points need about {_needed(error)}, more than {limit}: {len(rows):,} of "
+        f"{error.points:,} points need about {_needed(limit, error)}, more than {limit}: {len(rows):,} of "
         f"the {len(points):,} points, evenly spread, were kept"
     )
 
@@ -70,7 +70,7 @@ def fewer_samples(
     """
     most, vertices = min(_most(limit, error), OPTIONS["samples"].maximum), len(shape.points)
     sentence = (
-        f"{error.points:,} points need about {_needed(error)}, more than {limit}: at most {most:,} "
+        f"{error.points:,} points need about {_needed(limit, error)}, more than {limit}: at most {most:,} "
         "samples of the surface were taken"
     )
     if settings.sampling is SamplingMode.VERTICES or error.points == vertices > most:
@@ -111,5 +111,5 @@ def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
     return most
 
 
-def _needed(error: MemoryLimitError) -> str:
-    return megabytes(memory_needed(error.points))
+def _needed(limit: MemoryLimit, error: MemoryLimitError) -> str:
+    return megabytes(limit.needed(error.points))

@@ -57,5 +57,6 @@ class AxisWork:
             "radius": [float(axis.radius.min()), float(axis.radius.max())],
             "sampled": found.chosen.reason,
             "density": str(found.density),
+            "missed": found.missed,
             "inside": str(found.sides),
         }

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -16,7 +17,8 @@ from typing import Any, Protocol
 
 from ... import __version__
 from ..axis.shape import Shape
-from ..errors import ExportError
+from ..errors import ExportError, InvalidInputError, MedialAxisError, out_of_memory
+from ..files.names import LONGEST, bytes_of
 from ..files.whole_file import write_whole
 from ..machine.cache import CACHE, key_of
 from ..machine.job import Outcome, Task
@@ -96,9 +98,8 @@ class Begun:
     @property
     def task(self) -> Task:
         """What is left to compute."""
-        return Task(
-            self.item.name, lambda progress: self.work.compute(self.shape, self.limit, progress)
-        )
+        limit = self.limit.used(output=self.item.output.suffix.lower())
+        return Task(self.item.name, lambda progress: self.work.compute(self.shape, limit, progress))
 
     def stamp(self, thinned: bool) -> str:
         """A hash of all that the output depends on; where samples were thinned, of the memory limit, too."""
@@ -113,6 +114,7 @@ def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT
     ------
     MedialAxisError
     """
+    check_name(item.output)
     shape, warnings = item.read()
     begun = Begun(item, work, limit, shape, warnings, None)
     kept = None if force else finished(item.output, {begun.stamp(False), begun.stamp(True)})
@@ -147,14 +149,54 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
         "stamp": begun.stamp(thinned=bool(found.chosen.thinned)),
         "digest": _digest(output),
     }
-    text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
-    write_whole(report_path(output), lambda stream: stream.write(text.encode("utf-8")))
+    _write_report(report, output)
     return report
 
 
 def failure(item: Item, error: BaseException) -> dict[str, Any]:
-    """The report of an item that has no output."""
-    return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": str(error)}
+    """The report of an item that has no output, whatever the reason."""
+    return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": _said(error)}
+
+
+def check_name(output: Path) -> None:
+    """Check that the report beside an output can have its name.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+    if (length := bytes_of(report_path(output).name)) > LONGEST:
+        raise InvalidInputError(
+            f"Expected the name of an output of at most {LONGEST - len('.json')} bytes, so that its "
+            f"report fits beside it, found {length - len('.json')}; choose a shorter name"
+        )
+
+
+def _said(error: BaseException) -> str:
+    """One sentence; what should not have happened says where it did."""
+    if isinstance(error, MedialAxisError):
+        return str(error)
+    if isinstance(error, MemoryError):
+        return str(out_of_memory())
+    frame = traceback.extract_tb(error.__traceback__)[-1:]
+    place = "".join(f" in line {at.lineno} of {Path(at.filename).name}" for at in frame)
+    words = " ".join(str(error).split())
+    return (
+        f"Expected to finish this, found {type(error).__name__}{place}: '{words}'; "
+        "this is a fault of the program, please report it with the input"
+    )
+
+
+def _write_report(report: dict[str, Any], output: Path) -> None:
+    text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
+    data = text.encode("utf-8", "surrogateescape")  # names are bytes
+    try:
+        write_whole(report_path(output), lambda stream: stream.write(data))
+    except ExportError as error:
+        raise ExportError(
+            f"Expected to write the report of '{output}', which is written, but the system says "
+            f"'{getattr(error.__cause__, 'strerror', None) or error}'; run the command again"
+        ) from error
 
 
 def stamp_of(shape: Shape, settings: object, suffix: str, limit: MemoryLimit | None = None) -> str:
@@ -166,7 +208,7 @@ def stamp_of(shape: Shape, settings: object, suffix: str, limit: MemoryLimit | N
 def finished(output: Path, stamps: set[str]) -> dict[str, Any] | None:
     """The report of an output that is there and has one of these stamps."""
     try:
-        report = json.loads(report_path(output).read_text(encoding="utf-8"))
+        report = json.loads(report_path(output).read_text("utf-8", "surrogateescape"))
         right = report["stamp"] in stamps and report["digest"] == _digest(output)
     except (OSError, ValueError, LookupError, TypeError):
         return None

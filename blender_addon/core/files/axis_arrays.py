@@ -46,10 +46,11 @@ def from_arrays(arrays: Mapping[str, NDArray]) -> MedialAxis:
     fields["edges"] = arrays.get("edges", no_edges())
     if "shown" not in arrays:
         return MedialAxis(**fields)
+    pieces, loops, cavities = arrays["betti"].tolist()
     level = LevelValues(
         exact=arrays["vertices"],
         exact_radius=arrays["radius"],
-        betti=tuple(arrays["betti"].tolist()),
+        betti=(pieces, loops, cavities),
         **{name: arrays[name] for name in ("sheet", "erosion", "limb")},
     )
     fields |= {"vertices": arrays["shown"], "radius": arrays["shown_radius"], "level": level}

@@ -72,13 +72,14 @@ def checked(
     """
     if len(vertices) == 0:
         raise ReadError(f"Expected points, found none in '{name}'; choose another file")
+    vertices, normals = _as_float64(vertices), None if normals is None else _as_float64(normals)
     _check_finite(name, "point", vertices)
     _check_finite(name, "normal", vertices[:0] if normals is None else normals)
     sizes = np.zeros(0, np.int64) if sizes is None else sizes.astype(np.int64)
-    corners = np.zeros(0, np.int64) if corners is None else corners.astype(np.int64)
+    corners = np.zeros(0, np.int64) if corners is None else corners
     kept = sizes >= 3
     corners = corners[np.repeat(kept, sizes)]
-    bad = np.flatnonzero((corners < 0) | (corners >= len(vertices)))
+    bad = np.flatnonzero(~((corners >= 0) & (corners < len(vertices))))  # NaN, too
     if len(bad):
         raise ReadError(
             f"Expected corners from 0 to {len(vertices) - 1} in '{name}', found "
@@ -86,12 +87,18 @@ def checked(
         )
     left = int(np.count_nonzero(~kept))
     return ImportedPoints(
-        np.ascontiguousarray(vertices, np.float64),
-        None if normals is None else np.ascontiguousarray(normals, np.float64),
+        vertices,
+        normals,
         np.concatenate([[0], np.cumsum(sizes[kept])]).astype(np.int32),
         corners.astype(np.int32),
         (f"Left out faces of fewer than three corners: {left:,}",) if left else (),
     )
+
+
+def _as_float64(rows: NDArray) -> NDArray[np.float64]:
+    """What is too large for it becomes infinite."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.ascontiguousarray(rows, np.float64)
 
 
 def _check_finite(name: str, what: str, rows: NDArray) -> None:

@@ -13,6 +13,8 @@ from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import open_file
 
+_MOST = 1 << 31  # points that there can be
+
 
 def read_obj(path: str | os.PathLike) -> ImportedPoints:
     """Points and faces; normals only of points without faces, one each, as scans have them.
@@ -72,6 +74,8 @@ def _three(words: list[str]) -> list[float]:
 
 
 def _corner(word: str, points: int) -> int:
-    """'7/2/3' is the seventh point, '-1' the last one so far."""
+    """'7/2/3' is the seventh point, '-1' the last one so far; what no point can be is the one before the first."""
     corner = int(word.partition("/")[0])
+    if abs(corner) > _MOST:
+        return -1
     return corner - 1 if corner > 0 else points + corner if corner < 0 else -1

@@ -71,6 +71,11 @@ def read_ply(path: str | os.PathLike) -> ImportedPoints:
         )
         tables: dict[str, _Table] = {}
         for element in elements:
+            if element.name == "vertex" and element.lists:
+                raise ReadError(
+                    f"Expected no lists among the properties of 'vertex' in '{name}', found one; "
+                    "save it without"
+                )
             tables[element.name] = body.read(element)
             if {"vertex", "face"} <= tables.keys():
                 break
@@ -130,6 +135,8 @@ def _take(words: list[str], order: str | None, elements: list[_Element]) -> str 
     if words[0] == "format":
         return _ORDERS[words[1]]
     if words[0] == "element":
+        if words[1] in ("vertex", "face") and any(x.name == words[1] for x in elements):
+            raise ReadError(f"Expected one element '{words[1]}' in a PLY file, found two; split it")
         elements.append(_Element(words[1], int(words[2])))
         if elements[-1].rows < 0:
             raise ValueError
@@ -297,6 +304,11 @@ class _Binary:
                 if entry.count:
                     count = np.frombuffer(self._data, self._order + entry.count, 1, at)
                     length, at = int(count[0]), at + count.nbytes
+                    if length < 0:
+                        raise ReadError(
+                            f"Expected a number of corners in each row of '{element.name}' in "
+                            f"'{self._name}', found {length}; take the file from its source again"
+                        )
                 values = np.frombuffer(self._data, self._order + entry.type, max(length, 0), at)
                 at += values.nbytes
                 if entry.count:

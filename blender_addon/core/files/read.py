@@ -51,7 +51,7 @@ def import_points(path: str | os.PathLike) -> ImportedPoints:
     suffix = path.suffix.lower()
     if suffix not in READERS:
         raise ReadError(
-            f"Expected a file name that ends in {', '.join(READERS)}, found '{path.name}'; "
+            f"Expected a file name that ends in {', '.join(READERS)}, found '{path.name or path}'; "
             "choose another file"
         )
     try:

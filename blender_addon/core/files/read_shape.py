@@ -7,16 +7,29 @@ import os
 
 from ..axis.polygon_triangles import polygon_triangles
 from ..axis.shape import Shape
+from ..machine.memory_limit import MemoryLimit
+from ..settings import AboveLimit
+from .numpy_arrays import points_of_cloud
 from .read import import_points
 
 
-def read_shape(path: str | os.PathLike) -> tuple[Shape, tuple[str, ...]]:
+def read_shape(
+    path: str | os.PathLike, limit: MemoryLimit | None = None
+) -> tuple[Shape, tuple[str, ...]]:
     """What a file holds, and what was left in it, a sentence each.
+
+    Parameters
+    ----------
+    path : path of the file
+    limit : MemoryLimit, optional
+        What the analysis may need. A cloud that needs more, and is not to be thinned, is not even unpacked.
 
     Raises
     ------
     ReadError, NativeModuleError, OutOfMemoryError
     """
+    if limit is not None and limit.above_limit is AboveLimit.REFUSE:
+        limit.used(faces=False).check(points_of_cloud(path))
     found = import_points(path)
     triangles = polygon_triangles(found.vertices, found.face_offsets, found.face_vertices)
     return Shape(found.vertices, triangles, found.normals), found.warnings

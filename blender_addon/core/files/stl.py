@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _HEADER = 84  # bytes before the triangles of a binary file; the last four count them
+_BEGIN = 1024  # bytes by which text is told from binary files that begin with the same word
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("colour", "<u2")])
 _VERTEX = re.compile(rb"(?i)\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
 
@@ -30,7 +31,7 @@ def read_stl(path: str | os.PathLike) -> ImportedPoints:
     count = int.from_bytes(data[_HEADER - 4 : _HEADER], "little")
     if len(data) >= _HEADER and len(data) == _HEADER + count * _TRIANGLE.itemsize:
         corners = np.frombuffer(data, _TRIANGLE, count, _HEADER)["corners"].reshape(-1, 3)
-    elif data[:5].lower() == b"solid":
+    elif data[:_BEGIN].lstrip()[:5].lower() == b"solid" and b"\0" not in data[:_BEGIN]:
         corners = _read_text(data, name)
     else:
         raise ReadError(

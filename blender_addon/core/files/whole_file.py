@@ -32,12 +32,12 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
         The system refused; an old file is then unchanged.
     """
     target = Path(os.path.realpath(path))
-    if target.exists() and not target.is_file():
-        raise ExportError(
-            f"Expected the name of a file, found '{path}', which is not one; choose another name"
-        )
     temporary = target.parent / f".medial_axis_{secrets.token_hex(8)}.tmp"
     try:
+        if target.exists() and not target.is_file():
+            raise ExportError(
+                f"Expected the name of a file, found '{path}', which is not one; choose another name"
+            )
         try:
             with open(temporary, "xb") as stream:
                 write(stream)
@@ -47,6 +47,8 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
         except BaseException:
             temporary.unlink(missing_ok=True)
             raise
+    except ExportError:
+        raise
     except OSError as error:
         raise ExportError(
             f"Expected to write '{path}', but the system says '{error.strerror or error}'; "

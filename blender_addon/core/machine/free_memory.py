@@ -21,15 +21,15 @@ _FILES = (
 def free_memory() -> int | None:
     """The bytes that can be had now; None where the system does not say.
 
-    Linux: what is available, also in the containers round this process. Windows: the physical memory
-    that is available. Elsewhere: all memory of the machine.
+    Linux: what is available, also in the containers round this process and within its own limit. Windows: the
+    physical memory that is available. Elsewhere: all memory of the machine.
     """
     if sys.platform == "win32":
         return _of_windows()
     try:
         found = [_available(Path("/proc/meminfo").read_text(encoding="ascii"))]
         groups = Path("/proc/self/cgroup").read_text(encoding="utf-8")
-        return min([*found, *_left_in_groups(groups, _GROUPS)])
+        return min([*found, *_left_in_groups(groups, _GROUPS), *_left_of_addresses()])
     except (OSError, ValueError):
         return _installed()
 
@@ -66,6 +66,16 @@ def _left(folder: Path, limit: str, use: str, droppable: str) -> int | None:
         return None
     cached = re.search(rf"^{droppable} (\d+)$", stat, re.MULTILINE)
     return max(0, most - used + (int(cached[1]) if cached else 0))
+
+
+def _left_of_addresses() -> Iterator[int]:
+    """What the process may still map, where it has a limit, as by `ulimit -v`."""
+    import resource  # there is none on Windows
+
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if limit != resource.RLIM_INFINITY:
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+        yield max(0, limit - pages * resource.getpagesize())
 
 
 def _installed() -> int | None:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import Cancelled, MedialAxisError
+from ..errors import Cancelled, MedialAxisError, out_of_memory
 from .progress import Progress
 
 
@@ -37,6 +37,8 @@ def run_task(task: Task, progress: Progress | None = None) -> Outcome:
         raise
     except MedialAxisError as error:
         return Outcome(None, error)
+    except MemoryError:  # of NumPy, wherever it was
+        return Outcome(None, out_of_memory())
 
 
 class Job:
@@ -53,13 +55,17 @@ class Job:
         self._thread = threading.Thread(
             target=self._run, args=(tuple(tasks),), name="medial axis", daemon=True
         )
+        try:
+            self._thread.start()
+        except RuntimeError:  # the system has no thread to give: the work is done here and now
+            self._run(tuple(tasks))
+            return
         # A daemon thread inside the compiled module must not outlive the interpreter.
         atexit.register(self.stop)
-        self._thread.start()
 
     @property
     def done(self) -> bool:
-        return not self._thread.is_alive()
+        return self._ended.is_set() and not self._thread.is_alive()
 
     @property
     def cancelled(self) -> bool:
@@ -103,8 +109,7 @@ class Job:
     def stop(self) -> None:
         """Cancel and wait."""
         self.cancel()
-        self._thread.join()
-        atexit.unregister(self.stop)
+        self._join()
 
     def outcomes(self) -> list[Outcome]:
         """The outcome of each task, in order; it waits for the thread.
@@ -113,13 +118,17 @@ class Job:
         ------
         Cancelled
         """
-        self._thread.join()
-        atexit.unregister(self.stop)
+        self._join()
         if self._failure is not None:
             raise self._failure
         if self._cancelled:
             raise Cancelled("The computation was cancelled; nothing was changed")
         return self._outcomes
+
+    def _join(self) -> None:
+        if self._thread.ident is not None:  # it was started
+            self._thread.join()
+            atexit.unregister(self.stop)
 
     def _run(self, tasks: tuple[Task, ...]) -> None:
         try:

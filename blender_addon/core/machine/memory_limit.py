@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from ..errors import MemoryLimitError
 from ..settings import LIMITS, MEGABYTE, AboveLimit, check_ranges
@@ -12,10 +12,30 @@ from . import native
 from .cache import CACHE
 from .free_memory import free_memory
 
+OBJECT = "object"  # the output that is no file
 _MOST = 1 << 28  # points that one analysis can have
 # Binary digits that are kept of a number of points that follows from the free memory, so that a little more or less
 # free memory gives the same points.
 _DIGITS = 4
+
+
+@dataclass(frozen=True)
+class Use:
+    """What becomes of an analysis, on which the peak of the memory depends.
+
+    Parameters
+    ----------
+    faces : bool
+        The surface has faces, so that Tight Cocone is not needed.
+    both : bool
+        Facets of both sides are wanted, or of the outer one.
+    output : str
+        The extension of the file that is written, OBJECT in Blender, or "".
+    """
+
+    faces: bool = True
+    both: bool = False
+    output: str = ""
 
 
 @dataclass(frozen=True)
@@ -27,6 +47,8 @@ class MemoryLimit:
     memory_limit : int
         Megabytes. 0 means what is free on this machine; analyses that the cache keeps are dropped to make room.
     above_limit : AboveLimit
+    use : Use or None
+        What becomes of the analysis; None: it is all.
 
     Raises
     ------
@@ -36,9 +58,18 @@ class MemoryLimit:
 
     memory_limit: int = LIMITS["memory_limit"].default
     above_limit: AboveLimit = LIMITS["above_limit"].default
+    use: Use | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         check_ranges(self, LIMITS)
+
+    def used(self, **parts: object) -> MemoryLimit:
+        """The same limit, of which more is known for what; `parts` are fields of Use."""
+        return replace(self, use=replace(self.use or Use(), **parts))  # type: ignore[arg-type]
+
+    def needed(self, points: int) -> int:
+        """About how many bytes so many points need at the peak."""
+        return memory_needed(points, self.use)
 
     def check(self, points: int) -> None:
         """Check that so many points can be analysed; to be called before they are.
@@ -47,7 +78,7 @@ class MemoryLimit:
         ------
         MemoryLimitError
         """
-        room, needed = self._room(), memory_needed(points)
+        room, needed = self._room(), self.needed(points)
         if needed > room:
             raise MemoryLimitError(
                 f"Expected points whose analysis fits into {self}, found {points:,}, which need about "
@@ -61,7 +92,7 @@ class MemoryLimit:
     @property
     def points(self) -> int:
         """The largest number of points that can be analysed."""
-        most = max(0, bisect_right(range(_MOST), self._room(), key=memory_needed) - 1)
+        most = max(0, bisect_right(range(_MOST), self._room(), key=self.needed) - 1)
         if self.memory_limit:
             return most
         spare = max(0, most.bit_length() - _DIGITS)
@@ -76,14 +107,26 @@ class MemoryLimit:
         if self.memory_limit:
             return self.memory_limit * MEGABYTE
         free = free_memory()
-        return memory_needed(_MOST) if free is None else free + CACHE.bytes
+        return self.needed(_MOST) if free is None else free + CACHE.bytes
 
 
 WHAT_IS_FREE = MemoryLimit()
 
 
-def memory_needed(points: int) -> int:
-    """About how many bytes the analysis of so many points needs at most."""
+# Bytes per point at the peak of the process, as measured (docs/performance.md): {(faces, both): {output: bytes}}.
+_AT_PEAK = {
+    (False, False): {"": 1930, ".ply": 2050, ".ma": 2600, OBJECT: 2260},
+    (False, True): {"": 2030, ".ply": 2250, ".ma": 3160, OBJECT: 2740},
+    (True, False): {"": 1960, ".ply": 2050, ".ma": 2600, OBJECT: 2000},
+    (True, True): {"": 1970, ".ply": 2290, ".ma": 3060, OBJECT: 2520},
+}
+
+
+def memory_needed(points: int, use: Use | None = None) -> int:
+    """About how many bytes so many points need at most: to be analysed, and what becomes of that."""
+    if use is not None:
+        peaks = _AT_PEAK[use.faces, use.both]
+        return points * peaks.get(use.output, peaks[""])
     with native.own_errors() as module:
         return module.memory_needed(points)
 

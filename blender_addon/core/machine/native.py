@@ -18,7 +18,7 @@ from ..errors import (
     DegenerateInputError,
     InvalidInputError,
     NativeModuleError,
-    OutOfMemoryError,
+    out_of_memory,
 )
 
 LIB = Path(__file__).resolve().parents[2] / "lib"
@@ -102,9 +102,7 @@ def own_errors() -> Iterator[ModuleType]:
     except module.Cancelled as error:
         raise Cancelled(str(error)) from error
     except MemoryError as error:
-        raise OutOfMemoryError(
-            "Expected enough memory, found too little; close other programs or use fewer points"
-        ) from error
+        raise out_of_memory() from error
 
 
 def problem() -> str:

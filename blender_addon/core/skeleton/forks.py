@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..axis.nearness import nearest
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -119,5 +117,12 @@ def _straighten(net: Net, root: _Root, place: NDArray[np.float64]) -> None:
 
 
 def _room(points: NDArray[np.float64], samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n,) the distance to the nearest sample."""
-    return np.linalg.norm(points - samples[nearest(points, samples)], axis=1)
+    """(n,) the distance to the nearest sample; there are few points, and they are far from all samples."""
+    centred = samples - samples.mean(axis=0)
+    squares = np.einsum("ij,ij->i", centred, centred)
+    found = np.empty(len(points))
+    for start in range(0, len(points), 64):
+        some = points[start : start + 64]
+        row = (squares - 2.0 * (some - samples.mean(axis=0)) @ centred.T).argmin(axis=1)
+        found[start : start + 64] = np.linalg.norm(some - samples[row], axis=1)
+    return found

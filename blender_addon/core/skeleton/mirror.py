@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..axis.nearness import nearest
+from ..axis.nearness import near, nearest
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,8 +38,7 @@ def make_symmetric(net: Net, plane: float) -> bool:
     rows = np.unique(np.concatenate([*net.branches.values(), list(net.at)]).astype(np.int64))
     points = net.points[rows]
     allowed = SYMMETRIC * float(np.linalg.norm(np.ptp(points, axis=0)))
-    image = _image(points, plane)
-    if (np.linalg.norm(image - points[nearest(image, points)], axis=1) > allowed).any():
+    if not near(_image(points, plane), points, allowed).all():
         return False
     nodes = _images_of_nodes(net, plane, allowed)
     branches = None if nodes is None else _images_of_branches(net, nodes, plane, allowed)

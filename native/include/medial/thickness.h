@@ -14,10 +14,11 @@ namespace medial {
 // q) is what fits there.
 //   wall  of the balls whose two normals differ by 120 degrees or more, as those of walls that face
 //         each other do. Elsewhere, as next to an edge, where the ball shrinks to nothing, that of
-//         the nearest wall along the surface, but never less than the own ball.
+//         the nearest wall along the surface, or where none is near that of the largest ball, but
+//         never less than the own ball.
 //   ball  of all balls: zero at every convex edge.
-//   scan  the diameter of the ball that comes nearest to p, of those at the vertices of facets whose
-//         theta is above kScanTheta at both ends: noise lifts most samples off the balls. No normals
+//   scan  the diameter of the ball that comes nearest to p, of those at the vertices of facets with
+//         a theta above kScanTheta at both ends: noise lifts most samples off the balls. No normals
 //         are used. It reads what tapers too thick.
 enum class ThicknessMode : int32_t { wall = 0, ball = 1, scan = 2 };
 

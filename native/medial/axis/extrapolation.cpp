@@ -2,6 +2,9 @@
 #include "axis/extrapolation.h"
 
 #include <queue>
+#include <tuple>
+
+#include "base/csr.h"
 
 namespace medial {
 namespace {
@@ -31,43 +34,91 @@ struct Way {
   double length;
   int32_t to;
   double value;
+};
 
-  // Shortest first; of equally short ones, that to the lowest sample and with the lowest value.
-  friend bool operator<(const Way& a, const Way& b) {
+// The next way is the shortest one, or that of the largest value; what else tells them apart is
+// there for the same order on every machine.
+struct ByLength {
+  bool operator()(const Way& a, const Way& b) const {
     return std::tie(a.length, a.to, a.value) > std::tie(b.length, b.to, b.value);
   }
+};
+struct ByValue {
+  bool operator()(const Way& a, const Way& b) const {
+    return std::tie(b.value, a.length, a.to) > std::tie(a.value, b.length, b.to);
+  }
+};
+
+// The ways along the surface to samples without a value.
+class Spreading {
+ public:
+  Spreading(std::vector<double>& values, std::span<const Vec3> points, std::vector<Edge> ends,
+            const Run& run)
+      : values_(values),
+        points_(points),
+        ends_(std::move(ends)),
+        at_(rows_containing(std::span<const Edge>(ends_), static_cast<int32_t>(values.size()),
+                            {run.threads})),
+        run_(run) {}
+
+  // From the samples that have a value, the nearest first.
+  void spread() {
+    std::priority_queue<Way, std::vector<Way>, ByLength> ways;
+    std::vector<int32_t> known;
+    for (size_t p = 0; p < values_.size(); ++p) {
+      if (values_[p] < HUGE_VAL) known.push_back(static_cast<int32_t>(p));
+    }
+    for (const int32_t p : known) go_on({0, p, values_[p]}, ways);
+    finish(ways);
+  }
+  // From those that have none, with what they have of their own, the largest first.
+  void spread(std::span<const double> own) {
+    std::priority_queue<Way, std::vector<Way>, ByValue> ways;
+    for (size_t p = 0; p < values_.size(); ++p) {
+      if (!(values_[p] < HUGE_VAL) && own[p] < HUGE_VAL)
+        ways.push({0, static_cast<int32_t>(p), own[p]});
+    }
+    finish(ways);
+  }
+
+ private:
+  template <typename Ways>
+  void finish(Ways& ways) {
+    while (!ways.empty()) {
+      const Way way = ways.top();
+      ways.pop();
+      if (values_[way.to] < HUGE_VAL) continue;  // a better way came before
+      throw_if_cancelled(run_.progress);
+      values_[way.to] = way.value;
+      go_on(way, ways);
+    }
+  }
+  template <typename Ways>
+  void go_on(const Way& way, Ways& ways) const {
+    for (const int32_t e : at_[way.to]) {
+      const int32_t next = ends_[e][0] == way.to ? ends_[e][1] : ends_[e][0];
+      if (values_[next] < HUGE_VAL) continue;
+      const double length = way.length + distance(points_[way.to], points_[next]);
+      if (length <= kReach * way.value) ways.push({length, next, way.value});
+    }
+  }
+
+  std::vector<double>& values_;
+  std::span<const Vec3> points_;
+  std::vector<Edge> ends_;
+  Csr<int32_t> at_;
+  Run run_;
 };
 
 }  // namespace
 
-void extrapolate(std::vector<double>& values, std::span<const Vec3> points,
-                 const Tangents& tangents, const Edges& edges, const Significance& significance,
-                 const Run& run) {
-  const auto ends = paths(values, points, tangents, edges, significance, run);
-  const auto at = rows_containing(std::span<const Edge>(ends), static_cast<int32_t>(values.size()),
-                                  {run.threads});
-  std::vector<double> length(values.size(), HUGE_VAL);
-  std::priority_queue<Way> ways;
-  const auto go_on = [&](int32_t p) {
-    for (const int32_t e : at[p]) {
-      const int32_t q = ends[e][0] == p ? ends[e][1] : ends[e][0];
-      const double way = length[p] + distance(points[p], points[q]);
-      if (way < length[q]) ways.push({length[q] = way, q, values[p]});
-    }
-  };
-  std::vector<int32_t> known;
-  for (size_t p = 0; p < values.size(); ++p) {
-    if (values[p] < HUGE_VAL) length[p] = 0, known.push_back(static_cast<int32_t>(p));
-  }
-  for (const int32_t p : known) go_on(p);
-  while (!ways.empty()) {
-    const Way way = ways.top();
-    ways.pop();
-    if (values[way.to] < HUGE_VAL) continue;  // a shorter way came before
-    throw_if_cancelled(run.progress);
-    values[way.to] = way.value;
-    go_on(way.to);
-  }
+void extrapolate(std::vector<double>& values, std::span<const double> own,
+                 std::span<const Vec3> points, const Tangents& tangents, const Edges& edges,
+                 const Significance& significance, const Run& run) {
+  Spreading to_others(values, points, paths(values, points, tangents, edges, significance, run),
+                      run);
+  to_others.spread();
+  to_others.spread(own);
 }
 
 }  // namespace medial

@@ -5,9 +5,13 @@
 #include <bit>
 
 #include "base/nearest.h"
+#include "base/rows.h"
 
 namespace medial {
 namespace {
+
+// Less than 1 by more than the rounding of radii.
+constexpr double kFar = 0.99;
 
 // A cell of the grid whose width goes with the radius of the balls at the vertices in it.
 using GridCell = std::array<double, 4>;
@@ -38,13 +42,20 @@ class RecentCells {
   std::vector<GridCell> slots_{1 << 12, GridCell{HUGE_VAL}};
 };
 
-// The Voronoi vertices of facets, thinned to hardly more than one per cell of the grid: vertices
-// that share a grid cell lie close together along the surface, so mostly in one chunk, which
-// remembers them.
-std::vector<Vec3> sites(std::span<const Vec3> points, const Triangulation& t,
-                        const Voronoi& voronoi, std::span<const uint8_t> marked, const Run& run) {
+// Voronoi vertices. The far ones have balls larger than the extent of the samples, so no sample is
+// nearer to them than that. Flat faces may have many, so far away that boxes of a tree in which
+// they lay among the others would hold everything.
+struct Sites {
+  std::vector<Vec3> near, far;
+};
+
+// Those of facets, thinned to hardly more than one per cell of the grid: vertices that share a grid
+// cell lie close together along the surface, so mostly in one chunk, which remembers them.
+Sites sites(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
+            std::span<const uint8_t> marked, const Run& run) {
   constexpr int64_t kChunk = 1 << 15;
-  std::vector<std::vector<Vec3>> parts(static_cast<size_t>(t.finite_cells / kChunk + 1));
+  const double extent = length(box_of(points).extent());
+  std::vector<Sites> parts(static_cast<size_t>(t.finite_cells / kChunk + 1));
   const auto collect = [&](int64_t begin, int64_t end, int) {
     RecentCells seen;
     for (int64_t c = begin; c < end; ++c) {
@@ -52,13 +63,17 @@ std::vector<Vec3> sites(std::span<const Vec3> points, const Triangulation& t,
       const Vec3& centre = voronoi.centre[c];
       const double radius = distance(centre, points[t.cells[c][0]]);
       if (radius < HUGE_VAL && seen.insert(grid_cell(centre, radius))) {
-        parts[begin / kChunk].push_back(centre);
+        Sites& part = parts[begin / kChunk];
+        (radius <= extent ? part.near : part.far).push_back(centre);
       }
     }
   };
   parallel_chunks(t.finite_cells, run, collect, kChunk);
-  std::vector<Vec3> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  Sites all;
+  for (const auto& [near, far] : parts) {
+    all.near.insert(all.near.end(), near.begin(), near.end());
+    all.far.insert(all.far.end(), far.begin(), far.end());
+  }
   return all;
 }
 
@@ -68,13 +83,17 @@ std::vector<double> feature_size(std::span<const Vec3> points, std::span<const i
                                  const Triangulation& t, const Voronoi& voronoi, const Edges& edges,
                                  std::span<const int32_t> edge_ids, const Run& run) {
   const auto marked = cells_round(edge_ids, t, edges, run);
-  const Nearest nearest(sites(points, t, voronoi, marked, run));
+  const Sites all = sites(points, t, voronoi, marked, run);
+  const Nearest near(all.near), far(all.far);
+  const double extent = length(box_of(points).extent());
   // In the order of the points, which is spatial: neighbours meet the same part of the tree.
   std::vector<uint8_t> wanted(points.size(), 0);
   for (const int32_t p : at) wanted[p] = 1;
   std::vector<double> size(points.size());
   parallel_for(static_cast<int64_t>(points.size()), run, [&](int64_t p) {
-    if (wanted[p]) size[p] = nearest.distance(points[p]);
+    if (!wanted[p]) return;
+    size[p] = near.distance(points[p]);
+    if (size[p] > kFar * extent) size[p] = std::min(size[p], far.distance(points[p]));
   });
   std::vector<double> result;
   result.reserve(at.size());

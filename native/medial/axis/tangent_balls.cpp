@@ -16,13 +16,13 @@ struct Width {
 
 // `inward`: 1 where the balls lie against the normals, -1 where they lie along them.
 Width width(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& normal_q,
-            bool q_at_edge, double inward) {
+            bool q_at_edge, bool q_reflex, double inward) {
   const Vec3 apart = p - q;
   const double height = inward * dot(normal_p, apart);
   if (!(height > 0)) return {};
   Width found{squared_length(apart) / height};
   const double cosine = dot(normal_p, normal_q);
-  if (cosine > kWallCosine) return found;
+  if (cosine > kWallCosine || (q_at_edge && !q_reflex)) return found;
   // The ball touches the other wall beside q: it is tangent to the plane there, too, which leaves
   // an error smaller by the ratio of the wall's curvature to the ball's; none between planes.
   found.between = found.diameter;
@@ -39,7 +39,7 @@ std::vector<std::array<Width, 2>> widths(std::span<const Vec3> points, const Tan
   const auto at = [&](int32_t p, int32_t q) {
     if (tangents.edge[p]) return Width{};
     return width(points[p], points[q], tangents.normals[p], tangents.normals[q], tangents.edge[q],
-                 inward);
+                 tangents.reflex[q], inward);
   };
   parallel_for(static_cast<int64_t>(edge_ids.size()), run, [&](int64_t i) {
     const auto& [p, q] = edges.ends[edge_ids[i]];

@@ -14,8 +14,10 @@ inline constexpr double kWallCosine = -0.5;
 // What the surface is known to be at each sample.
 struct Tangents {
   std::vector<Vec3> normals;  // outward unit vectors; zero: not known
-  std::vector<uint8_t>
-      edge;  // on a sharp edge, where the normal is a mean that no ball is tangent to
+  // On a sharp edge, where the normal is a mean that no ball is tangent to.
+  std::vector<uint8_t> edge;
+  // Of these: the edge stands into the side of the balls, so that they can touch it.
+  std::vector<uint8_t> reflex;
 };
 
 // Per sample the diameter of the smallest such ball: of any, and of those between walls. Infinite

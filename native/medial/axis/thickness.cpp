@@ -33,6 +33,30 @@ Tangents tangents_of(const ThicknessInput& input, const Samples& samples) {
   return tangents;
 }
 
+// Of samples on sharp edges whether their neighbours on the surface lie towards the side of the
+// balls no more than away from it: then the edge stands into that side.
+std::vector<uint8_t> reflex_edges(const Tangents& tangents, const Facets& facets, Side side) {
+  std::vector<double> height(tangents.edge.size(), 0);
+  const auto add = [&](int32_t at, int32_t neighbour, double reach) {
+    const Vec3 away = facets.points[neighbour] - facets.points[at];
+    if (tangents.edge[at] && squared_length(away) <= reach * reach)
+      height[at] += dot(tangents.normals[at], away);
+  };
+  const auto& spacing = facets.significance.spacing;
+  for (const auto& [p, q] : facets.edges.ends) {
+    if (!tangents.edge[p] && !tangents.edge[q]) continue;
+    const double reach = 2 * std::min(spacing[p], spacing[q]);
+    add(p, q, reach);
+    add(q, p, reach);
+  }
+  std::vector<uint8_t> reflex;
+  reflex.reserve(height.size());
+  for (size_t p = 0; p < height.size(); ++p) {
+    reflex.push_back(tangents.edge[p] && (side == Side::inner ? height[p] > 0 : height[p] < 0));
+  }
+  return reflex;
+}
+
 std::vector<uint8_t> finite(const std::vector<double>& values) {
   std::vector<uint8_t> result;
   result.reserve(values.size());
@@ -50,13 +74,15 @@ double own_ball(const TangentBalls& balls, const Tangents& tangents, int32_t p, 
 
 Values by_tangent_balls(const ThicknessInput& input, const ThicknessOptions& options,
                         const Samples& samples, const Facets& facets, const Run& run) {
-  const Tangents tangents = tangents_of(input, samples);
+  Tangents tangents = tangents_of(input, samples);
+  tangents.reflex = reflex_edges(tangents, facets, options.side);
   const auto ids = selected_edges(options.thresholds, options.side, facets, run);
   TangentBalls balls = tangent_balls(facets.points, tangents, facets.edges, ids, options.side, run);
   const bool walls = options.mode == ThicknessMode::wall;
   Values found{walls ? balls.wall : balls.any, {}};
   found.measured = finite(found.lengths);
-  extrapolate(found.lengths, facets.points, tangents, facets.edges, facets.significance, run);
+  extrapolate(found.lengths, balls.any, facets.points, tangents, facets.edges, facets.significance,
+              run);
   for (int32_t p = 0; p < samples.count(); ++p) {
     if (found.measured[p]) continue;
     found.lengths[p] = std::max(found.lengths[p], own_ball(balls, tangents, p, options.side));

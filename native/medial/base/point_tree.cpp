@@ -53,6 +53,12 @@ PointTree::PointTree(std::span<const Vec3> points) : points_(points.begin(), poi
   }
 }
 
+size_t PointTree::bytes() const {
+  size_t boxes = 0;
+  for (const auto& level : levels_) boxes += level.size();
+  return points_.size() * sizeof(Vec3) + boxes * sizeof(Box);
+}
+
 template <typename Search>
 void PointTree::descend(size_t level, size_t box, const Vec3& query, Search& search) const {
   const auto [begin, end] = children(level, box);

@@ -22,6 +22,7 @@ class PointTree {
 
   const Vec3& operator[](int32_t id) const { return points_[id]; }
   int32_t size() const { return static_cast<int32_t>(points_.size()); }
+  size_t bytes() const;
 
   // Of equally near points the lowest one. There is one.
   Neighbour nearest(const Vec3& query) const;

@@ -8,13 +8,17 @@
 
 namespace medial {
 
-Samples make_samples(std::span<const Vec3> rows, const Run& run) {
-  Samples samples = distinct_rows(rows, "point", run);
+void require_extent(std::span<const Vec3> rows) {
   const double extent = max_abs(box_of(rows).extent());
   if (rows.size() >= 4 && extent > 0 && extent < kSmallestExtent) {
     throw InvalidInputError(
         "Expected points that spread over more than 1e-50, found less; scale them up.");
   }
+}
+
+Samples make_samples(std::span<const Vec3> rows, const Run& run) {
+  Samples samples = distinct_rows(rows, "point", run);
+  require_extent(rows);
   if (samples.count() < 4) {
     throw DegenerateInputError("Expected at least 4 distinct points, found " +
                                std::to_string(samples.count()) + "; add points.");

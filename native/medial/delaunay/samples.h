@@ -9,6 +9,9 @@ namespace medial {
 // The points are the samples, after which any auxiliary points may follow.
 using Samples = DistinctRows;
 
+// Throws InvalidInputError where rows lie closer together than the smallest extent.
+void require_extent(std::span<const Vec3> rows);
+
 // The distinct rows. Throws InvalidInputError as require_finite does and when the rows lie too
 // close together, DegenerateInputError for fewer than 4 distinct ones.
 Samples make_samples(std::span<const Vec3> rows, const Run& run);

@@ -11,10 +11,12 @@
 namespace medial {
 namespace {
 
-constexpr double kRough = 1e-2;  // how exactly the winding number is told at the lattice
-constexpr double kFine = 1e-6;   // and where a sample is to lie
-constexpr int kMostSteps = 8;    // of the secant method; two or three are usual
-constexpr int kBits = 21;        // of a lattice coordinate
+// How exactly the winding number is told at the lattice, as a share of what it falls in one step
+// across a round opening as wide as all of the triangles: by 1/2 over its radius.
+constexpr double kRough = 0.1;
+constexpr double kFine = 1e-6;  // and where a sample is to lie
+constexpr int kMostSteps = 8;   // of the secant method; two or three are usual
+constexpr int kBits = 21;       // of a lattice coordinate
 constexpr int64_t kCells = int64_t{1} << kBits;
 
 using LatticePoint = std::array<int64_t, 3>;
@@ -43,6 +45,7 @@ class Follower {
     // The lattice reaches beyond the box by its extent. Parts of a step that have nothing to do
     // with the numbers in which models are made keep it off their edges.
     step_ = std::max(step, 4 * max_abs(extent) / static_cast<double>(kCells));
+    rough_ = kRough * step_ / length(extent);
     origin_ = box.low - extent - step_ * Vec3{1.3819, 1.6367, 1.4562};
   }
 
@@ -116,7 +119,7 @@ class Follower {
       const Corner& near = corners_[static_cast<size_t>(corner.from)];
       corner.closed = winding.closed_from(near.at, near.closed, corner.at);
     }
-    corner.winding = winding.within(kRough, corner.at, corner.closed);
+    corner.winding = winding.within(rough_, corner.at, corner.closed);
   }
 
   void tell_edges(std::span<const LatticePoint> wave) {
@@ -179,7 +182,7 @@ class Follower {
 
   const OpenSurface& surface_;
   const Run& run_;
-  double step_;
+  double step_, rough_ = 0;
   Vec3 origin_;
   std::unordered_set<uint64_t> seen_;  // cubes
   std::vector<LatticePoint> next_;     // in the order in which they were come upon
@@ -234,7 +237,7 @@ Vec3 OpenSurface::normal(const Vec3& place) const {
     const Vec3 a = vertices_[from] - place, b = vertices_[to] - place;
     const double la = length(a), lb = length(b), both = la * lb;
     const double below = both * (both + dot(a, b));
-    if (below > 0) sum = sum + ((la + lb) / below) * cross(a, b);
+    if (below > 0) sum = sum + ((la + lb) / below) * cross(b, a);
   }
   return normalized(sum);
 }

@@ -83,11 +83,13 @@ int32_t RayCrossings::build(int32_t begin, int32_t end, const Progress* progress
   return id;
 }
 
-std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& direction,
-                                            double reach) const {
+// Visits the triangles whose boxes the ray meets, until one says false.
+template <typename Visit>
+void RayCrossings::visit(const Vec3& origin, const Vec3& direction, double reach,
+                         const Visit& visit) const {
   const Vec3 inverse_direction = inverse(direction);
   std::array<int32_t, 64> stack;  // halved at every level, the tree is less than 32 deep
-  int top = 0, sum = 0;
+  int top = 0;
   if (!nodes_.empty()) stack[top++] = 0;
   while (top > 0) {
     const int32_t id = stack[--top];
@@ -99,12 +101,38 @@ std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& dire
       continue;
     }
     for (int32_t i = node.begin; i < node.end; ++i) {
-      const auto found = crossing(corners_[i], origin, direction, reach);
-      if (!found) return std::nullopt;
-      sum += *found;
+      if (!visit(corners_[i])) return;
     }
   }
+}
+
+std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& direction,
+                                            double reach) const {
+  std::optional<int> sum = 0;
+  visit(origin, direction, reach, [&](const Corners& t) {
+    const auto found = crossing(t, origin, direction, reach);
+    sum = found ? std::optional(*sum + *found) : std::nullopt;
+    return sum.has_value();
+  });
   return sum;
+}
+
+void RayCrossings::hits(const Vec3& origin, const Vec3& direction, double reach,
+                        std::vector<Hit>& found) const {
+  found.clear();
+  visit(origin, direction, reach, [&](const Corners& t) {
+    const Vec3 a = t.a - origin, b = t.b - origin, c = t.c - origin;
+    const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)),
+                 w = dot(direction, cross(a, b)), flux = u + v + w;
+    const bool leaves = u >= 0 && v >= 0 && w >= 0, enters = u <= 0 && v <= 0 && w <= 0;
+    if (leaves == enters) return true;
+    const Vec3 normal = cross(t.b - t.a, t.c - t.a);
+    const double at = dot(a, normal) / flux, size = length(normal);
+    // A face that is entered where the ray starts is the one on which it starts.
+    const double start = enters ? 0x1p-20 * reach : 0;
+    if (at > start && at <= reach && size > 0) found.push_back({at, flux / size});
+    return true;
+  });
 }
 
 }  // namespace medial

@@ -19,6 +19,14 @@ class RayCrossings {
   // doubles cannot tell.
   std::optional<int> operator()(const Vec3& origin, const Vec3& direction,
                                 double reach = HUGE_VAL) const;
+  // Where a triangle is met, and the cosine between its normal and the ray: negative where it
+  // enters.
+  struct Hit {
+    double at, cosine;
+  };
+  // All triangles that the ray meets up to `reach`, in no order. The one on which it starts,
+  // against its normal, is not among them.
+  void hits(const Vec3& origin, const Vec3& direction, double reach, std::vector<Hit>& found) const;
   std::span<const Corners> triangles() const { return corners_; }
 
  private:
@@ -28,6 +36,8 @@ class RayCrossings {
     int32_t right = -1;  // the left child follows its parent; -1: a leaf
   };
 
+  template <typename Visit>
+  void visit(const Vec3& origin, const Vec3& direction, double reach, const Visit& visit) const;
   int32_t build(int32_t begin, int32_t end, const Progress* progress);
 
   std::vector<Corners> corners_;

@@ -12,8 +12,8 @@
 namespace medial {
 namespace {
 
-// Steps of the lattice in one radius: about five candidates for every disc that has room.
-constexpr double kSteps = 1.5;
+// Steps of the lattice in one radius: at least six candidates for every disc that has room.
+constexpr double kSteps = 2;
 
 double median_radius(std::span<const Disk> disks) {
   std::vector<double> radii;

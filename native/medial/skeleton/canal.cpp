@@ -120,6 +120,7 @@ class Fit {
     };
     canal.centre = from_.centre + (size > kFarthest ? kFarthest / size : 1) * part(3);
     canal.radius = from_.radius + f[0];
+    canal.slope = f[1] / half_width_;
     canal.tangent = normalized(from_.tangent + (1 / half_width_) * part(4));
     canal.bend = from_.bend + part(5);
     return canal;

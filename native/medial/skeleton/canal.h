@@ -10,12 +10,18 @@ namespace medial {
 
 struct Canal {
   Vec3 centre{};
-  double radius = 0;
-  Vec3 tangent{};  // of the axis
-  Vec3 bend{};     // how far the axis is away from the tangent, half a width on
+  double radius = 0;  // across the tangent
+  double slope = 0;   // of the radius along the axis
+  Vec3 tangent{};     // of the axis
+  Vec3 bend{};        // how far the axis is away from the tangent, half a width on
   // How much of it the samples tell: 1 where they lie all round, 0 where they do not.
   double trust = 0;
 };
+
+// Of the ball that touches the canal: less than its radius where that changes along the axis.
+inline double radius_of_ball(const Canal& canal) {
+  return canal.radius / std::hypot(1, canal.slope);
+}
 
 // One step from a canal that is nearly right. Uses samples up to `half_width` before and behind it.
 Canal fit_canal(const PointTree& samples, const Canal& from, double half_width);

@@ -145,7 +145,7 @@ Canal fitted(Canal canal, const PointTree& samples, double half_width) {
     if (change < kSettled * canal.radius) break;
   }
   const double empty = samples.nearest(canal.centre).distance;
-  canal.radius = canal.trust > 0 ? std::lerp(empty, canal.radius, canal.trust) : empty;
+  canal.radius = canal.trust > 0 ? std::lerp(empty, radius_of_ball(canal), canal.trust) : empty;
   return canal;
 }
 

@@ -111,15 +111,29 @@ void keep_significance(Hierarchy::Parts& made, const Significance& significance,
   });
 }
 
+void bring_outward(InnerComplex& complex, const Frame& frame) {
+  if (frame.is_plain()) return;
+  for (Vec3& p : complex.position) p = frame.outward(p);
+  for (double& r : complex.radius) r = frame.outward(r);
+  complex.diagonal = frame.outward(complex.diagonal);
+}
+
+PointTree outward_tree(std::span<const Vec3> points, const Frame& frame) {
+  if (frame.is_plain()) return PointTree(points);
+  std::vector<Vec3> placed;
+  for (const Vec3& p : points) placed.push_back(frame.outward(p));
+  return PointTree(placed);
+}
+
 }  // namespace
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                         const Run& run) {
+                         const Frame& frame, const Run& run) {
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
   made.row = samples.row;
-  made.samples = PointTree({samples.points.data(), samples.row.size()});
+  made.samples = outward_tree({samples.points.data(), samples.row.size()}, frame);
   Stopwatch watch(made.timings);
   const FacetWeights weight(facets, thresholds);
   begin_stage(run.progress, "Inner complex", 0, 0.2);
@@ -136,6 +150,7 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   find_values(made, burnt, facets.significance.spacing, run);
   made.partner = std::move(burnt.collapse.partner);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
+  bring_outward(made.complex, frame);
   made.complex.dual = {};  // it means nothing without the analysis
   watch.lap("values");
   advance(run.progress, 1);
@@ -157,7 +172,8 @@ size_t Hierarchy::bytes() const {
   const InnerComplex& c = p.complex;
   return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
                  c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row, p.outside,
-                 p.sine, p.rho);
+                 p.sine, p.rho) +
+         p.samples.bytes();
 }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 

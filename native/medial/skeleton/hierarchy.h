@@ -5,12 +5,14 @@
 #include <medial/hierarchy.h>
 
 #include "axis/selection.h"
+#include "base/frame.h"
 #include "delaunay/samples.h"
 
 namespace medial {
 
-// `facets` know their sides. Throws InvalidInputError for thresholds out of range.
+// `facets` know their sides and are seen in `frame`, the hierarchy is not. Throws InvalidInputError
+// for thresholds out of range.
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                         const Run& run);
+                         const Frame& frame, const Run& run);
 
 }  // namespace medial

@@ -12,10 +12,15 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 SIZE = (1280, 800)
-SIZES = {"first_glance": (1280, 720), "first_glance_large": (1920, 1080)}  # of other scenes
+SIZES = {
+    "tutorial": (1280, 720),
+    "first_glance": (1280, 720),
+    "first_glance_large": (1920, 1080),
+}  # of other scenes
 LIMIT = 240  # seconds for one scene, start of Blender included, on a machine that is not overloaded
 
 SCENES = {  # name -> whether the compiled module is installed
+    "tutorial": True,
     "first_glance": True,
     "first_glance_light": True,
     "first_glance_large": True,

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from mathutils import Euler, Matrix
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from scene import addon, analyses, attribute, link, medial_objects, on_ellipsoid, select
@@ -25,13 +26,13 @@ NAME, FOLDER = sys.argv[sys.argv.index("--") + 1 :][:2]
 PATIENCE = 90.0
 # (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 to 5.2 draw it.
 TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's own tab Animation
-THETA_LEFT, THETA_RIGHT = (120, 46), (50, 46)
 COMPUTE = (102, 50)
-RECONSTRUCT = (102, 269)
-CANCEL = (102, 260)
+CANCEL = (102, 71)
+RECONSTRUCT = (102, 81)  # where there are points without faces
+THETA_LEFT, THETA_RIGHT = (120, 127), (50, 127)
 GERMAN_TAB = (13, 270)
-SAMPLING = (102, 302)
-REPORT = (102, 515)
+SAMPLING = (102, 229)
+REPORT = (102, 442)
 
 
 # --- hands and eyes
@@ -157,8 +158,18 @@ def job():
     return addon("ui.current_job").job()
 
 
+def job_exists():
+    return job() is not None
+
+
+job_exists.patience = (
+    10.0  # a click begins a job at once; one that was refused has none to wait for
+)
+
+
 def job_runs():
-    return job() is not None and job().fraction > 0.02
+    assert job() is not None, "the job ended before it was seen to run; was it refused?"
+    return job().fraction > 0.02
 
 
 def no_job():
@@ -242,6 +253,7 @@ def start_long_run():
     """Click the button; returns when the job runs and the picture was taken."""
     yield from open_tab()
     yield from click(*at(COMPUTE))
+    yield job_exists
     yield job_runs
     assert medial_objects() == []
 
@@ -347,7 +359,7 @@ def scene_first_glance():
         kept = shading.type, shading.color_type
         yield from click(*at(COMPUTE))
         yield result_exists
-        yield 1.0
+        yield patience(1.0)
         look(f"{name}-2-computed")
         (result,) = medial_objects()
         assert bpy.context.selected_objects == [source] == [bpy.context.object]
@@ -369,6 +381,72 @@ def show_colours():
 
 
 scene_first_glance_light = scene_first_glance_large = scene_first_glance
+
+
+def scene_tutorial():
+    """The pictures of docs/tutorial.md, in their order."""
+    source, panel = monkey(), bpy.context.scene.medial_axis
+    source.modifiers["Subdivision"].levels = 2
+    turn_to_the_front()
+    yield from open_tab()
+    yield 0.5
+    look("01")  # where the panel is
+    bpy.context.preferences.addons[os.environ["MEDIAL_AXIS_MODULE"]].preferences.guided = True
+    yield 0.5
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield patience(1.5)
+    look("02")  # one click
+    show_colours()
+    yield patience(0.7)
+    look("03")
+    (result,) = medial_objects()
+    assert bpy.ops.object.medial_axis_source_as_wire(name=result.name) == {"FINISHED"}
+    yield patience(0.7)
+    look("04")
+    panel.simplify = 4.0
+    yield patience(1.5)
+    look("05")
+    assert bpy.ops.object.medial_axis_source_as_wire(name=result.name) == {"FINISHED"}
+    panel.form = "CURVE"
+    yield patience(1.5)
+    look("06")
+    source.rotation_euler.z += 0.8
+    source.location.x += 0.6
+    yield patience(1.5)
+    look("07")  # it follows
+    panel.form, panel.simplify = "CLEAN", 0.0
+    panel.side = "OUTER"
+    yield from click(*at(COMPUTE))
+    yield no_job
+    yield patience(1.5)
+    look("08")
+    panel.side = "AUTOMATIC"
+    bpy.data.batch_remove([*medial_objects(), source])
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        bpy.ops.mesh.primitive_torus_add(major_segments=192, minor_segments=64, minor_radius=0.35)
+    torus = bpy.context.object
+    torus.data.transform(uneven())
+    yield 0.7
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        assert bpy.ops.object.medial_axis_sampling_report() == {"FINISHED"}
+    yield patience(1.5)
+    look("09")
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield patience(1.5)
+    look("10")
+
+
+def uneven():
+    """A stretch that makes a ring flat, so that its rims are hard to sample."""
+    return Matrix(((1.2, 0, 0, 0), (0, 0.9, 0, 0), (0, 0, 0.4, 0), (0, 0, 0, 1)))
+
+
+def turn_to_the_front():
+    """The viewport looks at what is selected, a little from the side."""
+    viewport().spaces.active.region_3d.view_rotation = Euler((1.35, 0.0, 0.45)).to_quaternion()
+    frame_selected()
 
 
 def scene_sampling():
@@ -417,6 +495,7 @@ def scene_cancel_surface_with_escape():
     cloud()
     yield from open_tab()
     yield from click(*at(RECONSTRUCT))
+    yield job_exists
     yield job_runs
     look("running")
     yield from key("Escape")
@@ -577,6 +656,7 @@ def scene_window_closed_while_running():
     assert second != window()
     with bpy.context.temp_override(window=second):
         assert bpy.ops.object.medial_axis("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield job_exists
     yield job_runs
     with bpy.context.temp_override(window=second):
         bpy.ops.wm.window_close()
@@ -664,6 +744,7 @@ def scene_cancel_sequence_with_escape():
     folder = Path(FOLDER) / "cancelled sequence"
     yield from open_tab()
     start_sequence(folder)
+    yield job_exists
     yield job_runs
     look("running")
     yield from key("Escape")
@@ -732,7 +813,8 @@ def play(scene):
                 waiting = None
             wish = next(scene)
             if callable(wish):
-                waiting = (wish, time.monotonic() + patience(PATIENCE))
+                seconds = getattr(wish, "patience", PATIENCE)
+                waiting = (wish, time.monotonic() + patience(seconds))
                 return 0.05
             return wish
         except StopIteration:
@@ -767,6 +849,8 @@ def start():
     bpy.context.preferences.view.show_splash = False
     bpy.context.preferences.inputs.use_mouse_continuous = False  # else a drag warps the mouse
     bpy.ops.preferences.addon_enable(module=os.environ["MEDIAL_AXIS_MODULE"])
+    preferences = bpy.context.preferences.addons[os.environ["MEDIAL_AXIS_MODULE"]].preferences
+    preferences.guided = NAME != "tutorial"  # else its line moves what is below
     if NAME.endswith("_light"):
         light_theme()
     bpy.app.timers.register(play(globals()[f"scene_{NAME}"]()), first_interval=3.0, persistent=True)

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the command line says: results on standard output, all else on standard error.
+
+Names of files are bytes. What a stream cannot show of them, or of anything, is shown with backslashes; a stream that is
+closed or full does not end the work.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import sys
+from typing import Any, TextIO
+
+from .core.axis.density import percent
+from .core.files.names import shown
+
+
+class ClosedPipeError(Exception):
+    """Nobody reads the results any more."""
+
+
+class Console:
+    """Parameters
+    ----------
+    json_lines : bool
+        Results as one line of JSON each.
+    quiet : bool
+        No progress and no warnings.
+    new_lines : bool
+        Begin each line of JSON on a new line, where others may have left one unfinished.
+
+    Attributes
+    ----------
+    lost : bool
+        Results were made that could not be said, as on a full disk.
+    """
+
+    def __init__(self, json_lines: bool, quiet: bool, new_lines: bool) -> None:
+        self._json, self._quiet = json_lines, quiet
+        self._start = "\n" if new_lines else ""
+        self._terminal = sys.stderr.isatty() and not quiet
+        self.lost = False
+
+    def show(self, text: str) -> None:
+        """Progress, in one line of a terminal."""
+        if self._terminal:
+            self._write_aside(f"\r\x1b[K{text}")
+
+    def complain(self, text: str) -> None:
+        self._write_aside(f"medial_axis: {text}\n")
+
+    def tell(self, report: dict[str, Any]) -> None:
+        """A result, or why there is none.
+
+        Raises
+        ------
+        ClosedPipeError
+        """
+        if self._json:
+            self._write(self._start + _as_json(report, sys.stdout) + "\n")
+        name = report["object"] or os.path.basename(report["input"]) or report["input"]
+        if not self._quiet:
+            for warning in report.get("warnings", ()):
+                self.complain(f"{name}: {warning}")
+        if report["status"] in ("failed", "cancelled"):
+            self.complain(f"{name}: {report['error']}")
+        elif not self._json:
+            how = f"done in {report['seconds']:.2f} s" if report["status"] == "done" else "kept"
+            self._write(f"{report['output']}: {_said(report)}, {how}\n")
+
+    def _write(self, text: str) -> None:
+        try:
+            sys.stdout.write(shown(text, sys.stdout))
+            sys.stdout.flush()
+        except BrokenPipeError:
+            _turn_off("stdout")
+            raise ClosedPipeError from None
+        except OSError as error:
+            _turn_off("stdout")
+            self.lost = True
+            self.complain(
+                "Expected to write results to standard output, but the system says "
+                f"'{error.strerror or error}'; the files are written all the same"
+            )
+
+    def _write_aside(self, text: str) -> None:
+        try:
+            sys.stderr.write(shown(text, sys.stderr))
+            sys.stderr.flush()
+        except OSError:
+            _turn_off("stderr")
+
+
+def _said(report: dict[str, Any]) -> str:
+    """What is in an output, in a few words."""
+    if "facets" in report:
+        edges = f", {report['edges']:,} edges" if report.get("edges") else ""
+        return f"{report['facets']:,} facets{edges}"
+    unit = f" {report['unit']}" if report["unit"] else ""
+    if report["minimum"] is None:
+        return "no two walls face each other"
+    minimum = f"minimum {report['minimum']:.4g}{unit}"
+    if not report["limit"]:
+        return minimum
+    patches, share = len(report["patches"]), percent(report["share_below"])
+    where = f" in {patches:,} {'patch' if patches == 1 else 'patches'}" if patches else ""
+    return f"{minimum}, {share} below {report['limit']:g}{unit}{where}"
+
+
+def open_streams() -> None:
+    """Where the caller closed a standard stream, what is said there goes nowhere."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+
+
+def _turn_off(name: str) -> None:
+    """What a stream still holds, and all else, goes nowhere, so that Python can end without a complaint."""
+    stream = getattr(sys, name)
+    with open(os.devnull, "wb") as nowhere:
+        try:
+            os.dup2(nowhere.fileno(), stream.fileno())
+        except (OSError, ValueError, io.UnsupportedOperation):  # a stream without a file
+            setattr(sys, name, io.StringIO())
+
+
+def _as_json(report: dict[str, Any], stream: TextIO) -> str:
+    """In plain ASCII where the stream cannot show all of it; JSON knows other backslashes than terminals."""
+    text = json.dumps(report, ensure_ascii=False)
+    return text if shown(text, stream) == text else json.dumps(report)

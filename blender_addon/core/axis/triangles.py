@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flat triangles: their normals, and some of many."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+# Of more triangles only so many are looked at: they tell shares to a percent.
+_LOOKED_AT = 20_000
+
+
+def some_of(count: int) -> NDArray[np.intp]:
+    """Rows of a list that long, evenly spread; all of them where they are not many."""
+    return np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(np.intp))
+
+
+def unit_normals(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(n, 3) the unit normal of each triangle of (n, 3, 3) corners, zero where it has none, and (n,) twice its area."""
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1)
+    return normals / np.where(lengths > 0.0, lengths, 1.0)[:, None], lengths

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure Thickness: attributes on the source or on a copy, the live limit, thin places, and the feature size."""
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Vector
+from scene import addon, attribute, link, positions, refuse, scan, select, suzanne
+
+MEASURE = "medial_axis_thickness"
+
+
+def measure(source, **wanted):
+    """Run the operator on a source; what carries the thickness."""
+    select(source)
+    assert bpy.ops.object.medial_axis_thickness(**wanted) == {"FINISHED"}
+    return addon("bridge.thickness_object").carrier_of(source)
+
+
+def torus(name="Torus"):
+    """With as many vertices as it needs."""
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=96, minor_segments=48, major_radius=1.0, minor_radius=0.25
+    )
+    bpy.context.object.name = name
+    return bpy.context.object
+
+
+def box(size=(1.0, 0.7, 0.4)):
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    thing = bpy.context.object
+    thing.data.vertices.foreach_set("co", (positions(thing.data) * size).astype(np.float32).ravel())
+    thing.data.update()
+    return thing
+
+
+def grid_box(cuts=40):
+    """A box with as many vertices as samples."""
+    thing = box()
+    modifier = thing.modifiers.new("Subdivision", "SUBSURF")
+    modifier.subdivision_type, modifier.levels = "SIMPLE", 6
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    return thing
+
+
+def thin_faces(thing):
+    return attribute(thing.data, "ma_thin").astype(bool)
+
+
+def test_dense_source_carries_its_thickness_itself():
+    source = torus()
+    carrier = measure(source, limit=0.6)
+    assert carrier == source
+    mesh = source.data
+    values = attribute(mesh, "ma_thickness")
+    assert len(values) == len(mesh.vertices) and 0.4 < np.median(values) < 0.82
+    assert mesh.color_attributes.active_color.name == "ma_color"
+    assert len(thin_faces(source)) == len(mesh.polygons)
+    limits = addon("bridge.colours").colour_range(source)
+    assert limits == ("ma_thickness", pytest.approx(1.8), pytest.approx(-0.6))
+
+
+def test_coarse_source_has_a_copy_and_its_own_attributes():
+    source = box()
+    carrier = measure(source, limit=0.41)
+    assert carrier != source and carrier.name == source.name + " Thickness"
+    assert carrier["ma_source"] == source and len(carrier.data.vertices) > 10_000
+    assert attribute(source.data, "ma_thickness") == pytest.approx([0.4] * 8, rel=0.01)
+    assert thin_faces(source).all() and thin_faces(carrier).mean() > 0.999
+    assert "ma_color" not in source.data.attributes
+    assert carrier["ma_thickness_minimum"] == pytest.approx(0.4, rel=0.001)
+    assert carrier["ma_thickness_area"] == pytest.approx(2.76, rel=0.001)
+    assert measure(source, limit=0.39) == carrier, "it is updated in place"
+    assert not thin_faces(source).any() and not thin_faces(carrier).any()
+
+
+def test_modifiers_that_change_vertices_leave_the_source_alone():
+    source = suzanne(2)
+    carrier = measure(source, limit=0.2)
+    assert carrier != source and "ma_thickness" not in source.data.attributes
+
+
+def test_lengths_are_those_of_the_world():
+    source = box()
+    source.scale = (2.0, 2.0, -2.0)
+    source.rotation_euler = (0.3, 0.2, 0.1)
+    carrier = measure(source)
+    assert carrier["ma_thickness_minimum"] == pytest.approx(0.8, rel=0.01)
+    place = carrier.matrix_world @ Vector(carrier["ma_thickness_place"])
+    local = source.matrix_world.inverted() @ place
+    assert max(abs(local.x) / 0.5, abs(local.y) / 0.35, abs(local.z) / 0.2) == pytest.approx(
+        1, rel=0.01
+    )
+
+
+def test_limit_acts_at_once():
+    source = grid_box()
+    carrier = measure(source, limit=0.1)
+    panel = bpy.context.scene.medial_axis_thickness
+    assert carrier == source and not thin_faces(source).any()
+    panel.limit = 0.41
+    assert panel.note == "" and thin_faces(source).all()
+    assert source["ma_thickness_share"] == pytest.approx(1.0, abs=1e-3)
+    panel.limit = 0.4
+    assert not thin_faces(source).any(), "0.4 is not below 0.4"
+
+
+def test_limit_without_a_measurement_says_what_to_do():
+    source = torus()
+    measure(source, limit=0.1)
+    addon("core.machine.cache").CACHE.clear()
+    panel = bpy.context.scene.medial_axis_thickness
+    panel.limit = 0.7
+    assert "no longer in memory" in panel.note
+    assert source["ma_thickness_limit"] == pytest.approx(0.1)
+
+
+def test_places_are_selected():
+    source = grid_box()
+    measure(source, limit=0.41)
+    assert bpy.ops.object.medial_axis_thin_place(which="ALL") == {"FINISHED"}
+    assert all(polygon.select for polygon in source.data.polygons)
+    assert bpy.ops.object.medial_axis_thin_place(which="NEXT") == {"FINISHED"}
+    assert source["ma_thickness_current"] == 0
+    bpy.context.scene.medial_axis_thickness.limit = 0.39
+    assert bpy.ops.object.medial_axis_thin_place(which="NEXT") == {"CANCELLED"}
+    assert bpy.ops.object.medial_axis_thin_place(which="MINIMUM") == {"FINISHED"}
+    assert sum(polygon.select for polygon in source.data.polygons) == 1
+
+
+def test_thin_faces_are_selected_in_edit_mode():
+    source = grid_box()
+    measure(source, limit=0.41)
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        assert bpy.ops.object.medial_axis_thin_place(which="ALL") == {"FINISHED"}
+        assert source.mode == "EDIT" and source.data.total_face_sel == len(source.data.polygons)
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_edit_mode_and_places_without_a_measurement_are_refused():
+    source = torus()
+    select(source)
+    assert not bpy.ops.object.medial_axis_thin_place.poll()
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        refuse("in object mode", operator=MEASURE)
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_points_without_faces_get_a_copy():
+    source = scan()
+    carrier = measure(source, limit=0.1)
+    assert carrier != source and len(carrier.data.polygons) > 1000
+    assert "reconstructed surface" in carrier["ma_thickness_normals"]
+
+
+def test_gap_between_two_objects_in_one_mesh():
+    source = box()
+    lower = positions(source.data)
+    faces = [tuple(polygon.vertices) for polygon in source.data.polygons]
+    both = [*faces, *(tuple(corner + 8 for corner in face) for face in faces)]
+    pair = link("Pair", np.vstack([lower, np.add(lower, (0, 0, 0.45))]), both)
+    carrier = measure(pair, limit=0.06, between="GAP")
+    assert carrier["ma_thickness_minimum"] == pytest.approx(0.05, rel=0.01)
+    assert carrier["ma_thickness_patches"] == 2
+    assert np.count_nonzero(thin_faces(pair)) == 2
+
+
+def test_several_objects_each_have_their_own():
+    first, second = torus("First"), box()
+    select(first, second)
+    assert bpy.ops.object.medial_axis_thickness(limit=0.5) == {"FINISHED"}
+    carrier_of = addon("bridge.thickness_object").carrier_of
+    assert carrier_of(first) == first and carrier_of(second)["ma_source"] == second
+
+
+def test_copy_stands_for_its_source():
+    source = box()
+    carrier = measure(source, limit=0.41)
+    select(carrier)
+    assert bpy.ops.object.medial_axis_thickness(limit=0.3) == {"FINISHED"}
+    assert carrier["ma_thickness_limit"] == pytest.approx(0.3)
+
+
+def test_feature_size_on_the_source():
+    source = torus()
+    select(source)
+    assert bpy.ops.object.medial_axis_sampling_report(target="SOURCE") == {"FINISHED"}
+    sizes = attribute(source.data, "ma_feature_size")
+    group = source.vertex_groups["ma_feature_size"]
+    weights = np.array([group.weight(i) for i in range(len(sizes))])
+    assert weights.min() == 0.0 and weights.max() == 1.0
+    assert np.corrcoef(np.log(sizes), weights)[0, 1] < -0.9, "more weight where detail is"

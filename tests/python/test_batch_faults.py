@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A batch never ends early: names that are no text, streams that are closed, faults that nobody foresaw, signals."""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.batch import batch
+from medial_axis.core.files import read as read_module
+from medial_axis.core.machine import job as job_module
+from test_cli import egg, files, here, program, run, write_egg  # noqa: F401 - fixtures
+
+from tests.support.fuzz import repeats
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="names are bytes where files are POSIX's")
+BAD = os.fsdecode(b"caf\xe9")
+
+
+@pytest.fixture
+def folder(here):  # noqa: F811
+    """With two good inputs round one that is to fail, or has a bad name."""
+    write_egg(here / "last.xyz")
+    return here
+
+
+def outputs(folder):
+    return sorted(path.name for path in (folder / "out").iterdir() if path.suffix == ".ma")
+
+
+# --- names
+
+
+def test_a_name_that_is_no_text(folder, program):  # noqa: F811
+    os.rename("egg.xyz", f"{BAD}.xyz")
+    done = program(f"{BAD}.xyz", "last.xyz", "out/", text=False)
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert done.stdout.splitlines()[0].startswith(rb"out/caf\udce9.ma: ")
+    assert outputs(folder) == ["caf\udce9.ma", "last.ma"]
+    report = (folder / "out" / f"{BAD}.ma.json").read_bytes()
+    assert b'"output": "out/caf\xe9.ma"' in report
+    again = program(f"{BAD}.xyz", "last.xyz", "out/", "--json", text=False)
+    assert [json.loads(line)["status"] for line in again.stdout.splitlines()] == ["kept"] * 2
+    assert os.fsencode(json.loads(again.stdout.splitlines()[0])["input"]) == b"caf\xe9.xyz"
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
+@pytest.mark.parametrize("name", ["café", "骨", BAD])
+def test_a_terminal_that_cannot_show_a_name(folder, program, name, encoding):  # noqa: F811
+    os.rename("egg.xyz", f"{name}.xyz")
+    environment = {**program.environment, "PYTHONIOENCODING": encoding}
+    words = (f"{name}.xyz", "absent.xyz", "last.xyz", "out/")
+    done = program(*words, env=environment, text=False)
+    assert done.returncode == cli.INPUT and b"Traceback" not in done.stderr
+    assert outputs(folder) == sorted([f"{name}.ma", "last.ma"])
+    as_json = program(*words, "--json", env=environment, text=False)
+    reports = [json.loads(line.decode(encoding)) for line in as_json.stdout.splitlines()]
+    assert [report["status"] for report in reports] == ["kept", "failed", "kept"]
+    assert reports[0]["input"] == f"{name}.xyz"
+
+
+def test_a_locale_without_names(folder, program):  # noqa: F811
+    os.rename("egg.xyz", "café.xyz")
+    plain = {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
+    done = program("café.xyz", "last.xyz", "out/", env={**program.environment, **plain})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert outputs(folder) == ["café.ma", "last.ma"]
+    assert json.loads(Path("out/café.ma.json").read_text("utf-8"))["input"] == "café.xyz"
+
+
+@pytest.mark.parametrize("length", [248, 249, 252, 253])
+def test_a_name_whose_report_does_not_fit(folder, run, length):  # noqa: F811
+    name = length * "x"
+    os.rename("egg.xyz", "y.xyz")
+    code, _, said = run("y.xyz", f"{name[:-3]}.ma")
+    fits = length + len(".json") <= 255
+    assert code == (cli.DONE if fits else cli.INPUT)
+    assert fits or (
+        "Expected the name of an output" in said and files(folder) == ["last.xyz", "y.xyz"]
+    )
+
+
+@pytest.mark.parametrize(
+    "name", ["x" * 300 + ".ma", "y/" * 3000 + "a.ma", "absent/" + "z" * 300 + "/"]
+)
+def test_an_output_that_no_file_system_takes(folder, run, name):  # noqa: F811
+    code, (report,), _ = run("egg.xyz", name)
+    assert code in (cli.FAILED, cli.INPUT) and report["error"].startswith("Expected ")
+    assert files(folder) == ["egg.xyz", "last.xyz"] or (folder / "absent").is_dir()
+
+
+@pytest.mark.skipif(
+    os.name == "nt" or os.geteuid() == 0, reason="for those who may not do everything"
+)
+def test_a_folder_without_permission(folder, run):  # noqa: F811
+    (folder / "locked").mkdir(mode=0o000)
+    code, (report,), _ = run("egg.xyz", "locked/a.ma")
+    assert code == cli.FAILED and "Permission denied" in report["error"]
+
+
+def test_a_folder_whose_permission_the_system_denies(folder, run, monkeypatch):  # noqa: F811
+    """As it is for those who are not root."""
+
+    def denied(self, *rest, **options):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "is_dir", denied)
+    monkeypatch.setattr(Path, "exists", denied)
+    code, (report,), _ = run("egg.xyz", "locked/a.ma")
+    assert code == cli.FAILED and "Permission denied" in report["error"]
+
+
+def test_dashes_and_empty_words(folder):
+    os.rename("egg.xyz", "-a.xyz")
+    code = cli.main(["--theta", "30", "--", "-a.xyz", "last.xyz", "out/"])
+    assert code == cli.DONE and outputs(folder) == ["-a.ma", "last.ma"]
+    assert cli.main(["last.xyz", ""]) == cli.USAGE and cli.main(["", "a.ma"]) == cli.USAGE
+
+
+# --- faults
+
+
+@pytest.mark.parametrize(
+    "kind", [RuntimeError, OverflowError, MemoryError, RecursionError, OSError]
+)
+def test_a_fault_that_nobody_foresaw(folder, run, monkeypatch, kind):  # noqa: F811
+    def broken(path):
+        raise kind("what is this?")
+
+    monkeypatch.setitem(read_module.READERS, ".off", broken)
+    Path("broken.off").write_text("OFF")
+    code, reports, said = run("egg.xyz", "broken.off", "last.xyz", "out/")
+    assert code == cli.FAILED and [r["status"] for r in reports] == ["done", "failed", "done"]
+    assert reports[1]["error"].startswith("Expected ") and "\n" not in reports[1]["error"]
+    assert "Traceback" not in said and outputs(folder) == ["egg.ma", "last.ma"]
+
+
+def test_a_fault_while_it_is_computed(folder, run, monkeypatch):  # noqa: F811
+    compute_axis, shapes = batch.compute_axis, []
+
+    def broken(shape, *rest, **options):
+        shapes.append(shape)
+        if len(shapes) == 2:
+            raise np.core._exceptions._ArrayMemoryError((10**9, 3), np.dtype(float))
+        return compute_axis(shape, *rest, **options)
+
+    monkeypatch.setattr(batch, "compute_axis", broken)
+    write_egg(folder / "middle.xyz", 1.1)
+    code, reports, said = run("egg.xyz", "middle.xyz", "last.xyz", "out/")
+    assert code == cli.FAILED and [r["status"] for r in reports] == ["done", "failed", "done"]
+    assert reports[1]["kind"] == "OutOfMemoryError" and "Traceback" not in said
+
+
+def test_a_corner_that_no_number_holds(folder, run):  # noqa: F811
+    Path("huge.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 99999999999999999999 1 2\n")
+    code, reports, _ = run("huge.obj", "last.xyz", "out/")
+    assert code == cli.INPUT and [r["status"] for r in reports] == ["failed", "done"]
+    assert "Expected corners from 0 to 2" in reports[0]["error"]
+
+
+def test_a_report_that_cannot_be_written(folder, run):  # noqa: F811
+    (folder / "out" / "egg.ma.json").mkdir(parents=True)
+    code, reports, _ = run("egg.xyz", "last.xyz", "out/")
+    assert code == cli.FAILED and [r["status"] for r in reports] == ["failed", "done"]
+    assert "which is written" in reports[0]["error"]
+
+
+def test_a_system_without_threads(folder, run, monkeypatch):  # noqa: F811
+    def none(self):
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(job_module.threading.Thread, "start", none)
+    code, reports, said = run("egg.xyz", "last.xyz", "out/")
+    assert (code, said) == (cli.DONE, "") and [r["status"] for r in reports] == ["done", "done"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
+@pytest.mark.parametrize("megabytes", [300, 420, 520, 640, 800, 1000, 1300])
+def test_little_address_space(folder, program, megabytes):  # noqa: F811
+    """It goes on, or says in a sentence that memory is short; nothing else."""
+    rows = np.random.default_rng(1).normal(size=(60_000, 3))
+    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None])
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+
+    done = program("many.npy", "many.npz", "--side", "both", "--json", preexec_fn=limit)
+    if b"OpenBLAS" in done.stderr.encode() or done.returncode == -11:
+        pytest.skip("NumPy itself does not load in so little")
+    assert "Traceback" not in done.stderr and done.returncode in (cli.DONE, cli.FAILED), done.stderr
+    if done.returncode == cli.FAILED and done.stdout:
+        assert json.loads(done.stdout)["kind"] in ("OutOfMemoryError", "MemoryLimitError")
+    assert files(folder) == ["egg.xyz", "last.xyz", "many.npy"] or done.returncode == cli.DONE
+
+
+# --- streams
+
+
+def test_nobody_reads_the_results(folder, program):  # noqa: F811
+    """The pipe is closed before the first line: quiet, and the code by which shells know it."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = program("egg.xyz", "last.xyz", "out/", stdout=writing)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (cli.CLOSED_PIPE, "")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+def test_standard_output_is_full(folder, program):  # noqa: F811
+    with open("/dev/full", "wb") as full:
+        done = program("egg.xyz", "last.xyz", "out/", stdout=full)
+    assert done.returncode == cli.FAILED and outputs(folder) == ["egg.ma", "last.ma"]
+    assert done.stderr.count("\n") == 1 and "No space left" in done.stderr
+
+
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-"])
+def test_standard_streams_that_are_closed(folder, program, closed):  # noqa: F811
+    command = f"{sys.executable} -m medial_axis egg.xyz absent.xyz last.xyz out/ {closed}"
+    done = subprocess.run(["sh", "-c", command], env=program.environment, capture_output=True)
+    assert done.returncode == cli.INPUT and outputs(folder) == ["egg.ma", "last.ma"]
+    assert b"Traceback" not in done.stdout + done.stderr
+    wrong = subprocess.run(
+        ["sh", "-c", f"{sys.executable} -m medial_axis egg.xyz {closed}"],
+        env=program.environment,
+        capture_output=True,
+    )
+    assert wrong.returncode == cli.USAGE
+
+
+# --- signals
+
+
+@pytest.mark.parametrize("seed", repeats(6))
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_fuzzed_signals_from_the_first_instant(folder, program, number, seed):  # noqa: F811
+    """Wherever it is hit: cancelled, or all is done; never a traceback, also where a second signal follows."""
+    random = np.random.default_rng([seed, number])
+    np.save("many.npy", np.random.default_rng(1).normal(size=(20_000, 3)))
+    process = program("many.npy", "many.ma", "--side", "both", popen=True)
+    time.sleep(0.05 + float(random.uniform(0, 1.0)))
+    process.send_signal(number)
+    time.sleep(float(random.uniform(0, 0.2)))
+    process.send_signal(number)
+    _, said = process.communicate()
+    # Python itself has no handler in its first hundredths of a second.
+    assert process.returncode in (cli.CANCELLED, cli.DONE, -number) and "Traceback" not in said
+    assert process.returncode == cli.DONE or not Path("many.ma.json").exists()

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The solid of an open mesh: where its winding number is above one half, closed by samples of that level."""
+
+import re
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
+from support import meshes, reference
+
+BALL = meshes.icosphere(4)
+UP = BALL[0][BALL[1]].mean(axis=1)[:, 2]
+BOWL = BALL[0], np.ascontiguousarray(BALL[1][UP < 0.0])
+BOX = meshes.box((8, 8, 8), (1.0, 1.0, 1.0))
+TOP = BOX[0][BOX[1]].mean(axis=1)[:, 2]
+OPEN_BOX = BOX[0], np.ascontiguousarray(BOX[1][TOP.max() - 1e-9 > TOP])
+
+
+def part(ball, below):
+    return ball[0], np.ascontiguousarray(ball[1][below > UP])
+
+
+# Like Suzanne's eyes: an open ball that looks out of the opening of another one, its own opening inside.
+EYE = meshes.join(
+    part(BALL, 0.8), (0.5 * BALL[0] * (1, 1, -1) + (0, 0, 0.65), part(BALL, 0.8)[1][:, ::-1].copy())
+)
+
+
+def sampled(medial, mesh, count=4000):
+    found = medial.sample_surface(*mesh, count=count)
+    return found, medial.closing_samples(found.points, found.normals, found.radius, *mesh)
+
+
+@pytest.mark.parametrize("mesh, lid", [(BOWL, 0.0), (OPEN_BOX, TOP.max())], ids=["bowl", "box"])
+def test_a_plane_opening_gets_a_plane_lid(medial, mesh, lid):
+    """The solid angle of a bowl, and of a box without lid, is half of all from each place of the lid."""
+    found, (points, normals, _) = sampled(medial, mesh)
+    assert np.abs(points[:, 2] - lid).max() < (0.08 if lid == 0.0 else 1e-4)
+    assert (normals[:, 2] > 0.5).all() and np.median(normals[:, 2]) > 0.999
+    assert np.linalg.norm(normals, axis=1) == pytest.approx(1.0)
+    area = np.pi if lid == 0.0 else 4.0
+    expected = area / found.area * len(found.points)
+    assert 0.75 * expected < len(points) < 1.3 * expected
+
+
+@pytest.mark.parametrize("mesh", [BOWL, OPEN_BOX, EYE], ids=["bowl", "box", "eye"])
+def test_they_lie_where_the_winding_number_is_a_half_and_as_far_apart_as_the_others(medial, mesh):
+    found, (points, normals, radius) = sampled(medial, mesh)
+    assert len(points) > 20
+    winding = reference.winding_number(points, *mesh)
+    np.testing.assert_allclose(winding, 0.5, atol=3e-6)
+    step = 1e-3 * radius[:, None] * normals
+    falls = reference.winding_number(points + step, *mesh)
+    assert (falls < reference.winding_number(points - step, *mesh)).all()
+    assert radius == pytest.approx(found.radius[0])
+    apart = np.linalg.norm(points[:, None] - points, axis=2)
+    alike = (normals @ normals.T > 0) & ~np.eye(len(points), dtype=bool)
+    assert apart[alike].min() > 0.85 * radius[0]
+    away = np.linalg.norm(points[:, None] - found.points, axis=2)
+    assert away[normals @ found.normals.T > 0].min() > 0.85 * radius[0]
+
+
+def test_they_leave_no_hole(medial):
+    found, (points, _, radius) = sampled(medial, BOWL)
+    turn, out = np.meshgrid(np.linspace(0, 6.28, 90), np.linspace(0.0, 0.99, 40))
+    lid = np.column_stack([(out * f(turn)).ravel() for f in (np.cos, np.sin)] + [0 * out.ravel()])
+    all_points = np.concatenate((points, found.points))
+    away = np.linalg.norm(lid[:, None] - all_points, axis=2).min(axis=1)
+    assert away.max() < 1.7 * radius[0]
+
+
+def test_the_same_bytes_for_any_threads_and_others_for_another_seed(medial):
+    found = medial.sample_surface(*EYE, count=4000)
+    given = found.points, found.normals, found.radius, *EYE
+    one, three = (medial.closing_samples(*given, threads=n) for n in (1, 3))
+    assert all(a.tobytes() == b.tobytes() for a, b in zip(one, three, strict=True))
+    assert medial.closing_samples(*given, seed=1)[0].tobytes() != one[0].tobytes()
+
+
+@pytest.mark.parametrize("scale", [2.0**-40, 2.0**40])
+def test_a_power_of_two_scale_changes_nothing_else(medial, scale):
+    _, (points, normals, radius) = sampled(medial, BOWL)
+    _, (others, same, radii) = sampled(medial, (scale * BOWL[0], BOWL[1]))
+    assert (others / scale).tobytes() == points.tobytes()
+    assert (
+        same == pytest.approx(normals, abs=1e-12) and (radii / scale).tobytes() == radius.tobytes()
+    )
+
+
+def test_closed_triangles_need_none(medial):
+    _, (points, normals, radius) = sampled(medial, BALL)
+    assert points.shape == normals.shape == (0, 3) and radius.shape == (0,)
+    nothing = np.zeros((0, 3))
+    assert len(medial.closing_samples(nothing, nothing, np.zeros(0), *BOWL)[0]) == 0
+
+
+ONE, RADIUS = np.array([[0.0, 0.0, -1.0]]), np.array([0.1])
+
+
+@pytest.mark.parametrize(
+    "arguments, word",
+    [
+        ((ONE, ONE[:0], RADIUS, *BOWL), "one normal and one radius"),
+        ((ONE, ONE, RADIUS[:0], *BOWL), "one normal and one radius"),
+        ((ONE, ONE, -RADIUS, *BOWL), "positive radii"),
+        ((ONE, ONE, np.nan * RADIUS, *BOWL), "positive radii"),
+        ((np.nan * ONE, ONE, RADIUS, *BOWL), "finite coordinates"),
+        ((ONE, ONE, RADIUS, BOWL[0][:-90], BOWL[1]), "triangle corners below"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_closing_checks_its_input(medial, arguments, word):
+    with pytest.raises(medial.InvalidInputError, match=rf"^Expected .*{re.escape(word)}.*found.+;"):
+        medial.closing_samples(*arguments)
+
+
+def test_cancel(medial):
+    progress = medial.Progress()
+    found = medial.sample_surface(*BOWL, count=2000)
+    given = found.points, found.normals, found.radius, *BOWL
+    medial.closing_samples(*given, progress=progress)
+    assert progress.fraction == 1.0 and progress.stage == "Openings"
+    progress.cancel()
+    with pytest.raises(medial.Cancelled):
+        medial.closing_samples(*given, progress=progress)
+
+
+# ---- the whole way
+
+
+def surface(mesh, count=4000, **settings):
+    return compute(*mesh, Settings(sampling=SamplingMode.SURFACE, samples=count, **settings))
+
+
+@pytest.mark.parametrize("mesh", [BOWL, OPEN_BOX, EYE], ids=["bowl", "box", "eye"])
+def test_an_open_solid_is_one_piece_without_holes(medial, mesh):
+    found = surface(mesh)
+    samples = found.chosen.samples
+    assert found.settings.sides is SidesFrom.SURFACE and "winding number" in found.sides.reason
+    assert np.count_nonzero(samples.kinds == int(medial.SampleKind.OPENING)) > 20
+    assert any("close the openings" in text for text in found.warnings)
+    assert tuple(samples.analysis.hierarchy().betti) == (1, 0, 0)
+    assert (reference.winding_number(found.axis.vertices, *mesh) > 0.5).all()
+
+
+def test_what_lies_inside_is_left_out():
+    found = surface(EYE)
+    assert found.chosen.samples.buried > 100
+    assert any("bounds nothing" in text for text in found.warnings)
+
+
+def test_the_axis_of_a_bowl_is_that_of_the_half_ball():
+    """With its lid, as a closed mesh."""
+    found = surface(BOWL, 8000).axis
+    away = np.abs(np.linalg.norm(found.vertices, axis=1) - 1.0 + found.radius)
+    assert away.max() < 0.03  # equally far from the ball
+    high = found.radius > 0.2
+    assert np.abs(found.radius + found.vertices[:, 2])[high].max() < 0.03  # and from the lid
+    assert high.sum() > 1000
+
+
+def test_a_sheet_has_no_inside_and_keeps_its_normals():
+    """Half of a wavy sheet bounds a solid of lenses, which nobody means."""
+    flat, triangles = meshes.rectangle(30, 30)
+    waves = 0.1 * np.sin(12 * flat[:, 0]) * np.sin(11 * flat[:, 1])
+    found = surface((np.column_stack((flat, waves)), triangles))
+    assert found.settings.sides is SidesFrom.NORMALS and found.chosen.samples.buried == 0
+    assert found.sides.reason.startswith("those of the faces")
+
+
+def test_chosen_normals_are_kept(medial):
+    found = surface(BOWL, sides=SidesFrom.NORMALS)
+    samples = found.chosen.samples
+    assert samples.buried == 0 and samples.kinds.max() == int(medial.SampleKind.SURFACE)
+
+
+@pytest.mark.parametrize(
+    "name, most",
+    [("human_woman.obj", 7), ("elephant-with-holes.off", 3), ("stanford-bunny.obj", 0)],
+)
+def test_tunnels_of_real_meshes(data_file, name, most):
+    from medial_axis.core.axis.compute import compute_axis
+    from medial_axis.core.files.read_shape import read_shape
+
+    found = compute_axis(read_shape(data_file(name))[0], Settings())
+    _, tunnels, cavities = found.chosen.samples.analysis.hierarchy().betti
+    assert cavities == 0 and tunnels <= most

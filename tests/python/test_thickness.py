@@ -1,0 +1,445 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thickness and gaps of solids whose thickness is known, from coarse meshes, clouds and noise, judged by exact figures,
+by rays and by shrinking balls."""
+
+import csv
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.shape import Shape
+from medial_axis.core.axis.thickness import measure_thickness
+from medial_axis.core.axis.thin_parts import find_thin_parts
+from medial_axis.core.errors import ExportError, InvalidInputError
+from medial_axis.core.files.write_thickness import export_thickness
+from medial_axis.core.settings import (
+    Between,
+    Edges,
+    Noise,
+    SamplingMode,
+    Settings,
+    ThicknessSettings,
+)
+from support import inputs
+from support.thick_meshes import (
+    block,
+    ellipsoid,
+    joined,
+    lathe,
+    rays,
+    shell,
+    shrinking_ball,
+    stairs,
+)
+
+EVEN = Settings(sampling=SamplingMode.SURFACE)
+BOX = block(1.0, 0.7, 0.4)
+GAP = joined(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45)))
+
+
+def shape_of(mesh, normals=None):
+    vertices, triangles = mesh
+    return Shape(
+        np.ascontiguousarray(vertices, float), np.ascontiguousarray(triangles, np.int32), normals
+    )
+
+
+def measure(mesh, settings=EVEN, normals=None, **wanted):
+    return measure_thickness(shape_of(mesh, normals), settings, ThicknessSettings(**wanted))
+
+
+def errors(lengths, truth):
+    """1st, 5th, 50th and 95th percentile of the relative error."""
+    return np.percentile(lengths / truth - 1, [1, 5, 50, 95])
+
+
+def assert_bars(lengths, truth):
+    _, low, median, high = errors(lengths, truth)
+    assert abs(median) < 0.005 and low > -0.03 and high < 0.03
+
+
+def moved(mesh, scale, seed, mirror):
+    vertices, triangles = mesh
+    turn = inputs.rotation(seed) if seed else np.identity(3)
+    vertices = scale * vertices @ turn.T
+    if not mirror:
+        return vertices, triangles
+    return vertices * (-1, 1, 1), triangles[:, ::-1]
+
+
+# --- exact shapes
+
+
+@pytest.mark.parametrize("scale, seed, mirror", [(1, 0, 0), (1e-3, 1, 0), (1e3, 2, 1), (2, 0, 1)])
+@pytest.mark.parametrize("thickness", [0.4, 0.05, 0.02])
+def test_plates_from_eight_vertices(thickness, scale, seed, mirror):
+    found = measure(moved(block(1.0, 0.7, thickness), scale, seed, mirror), Settings())
+    assert_bars(found.lengths, thickness * scale)
+    assert errors(found.lengths, thickness * scale)[0] > -0.05
+    assert found.of_triangles.min() > 0.95 * thickness * scale
+
+
+def test_no_face_of_the_box_reads_below_its_thickness():
+    """Where a ball shrinks to nothing at every edge."""
+    found, ball = measure(BOX), measure(BOX, edges=Edges.BALL)
+    assert found.of_triangles.min() >= 0.35 and found.lengths.min() >= 0.35
+    assert ball.lengths.min() < 0.05 and np.mean(ball.lengths < 0.1) > 0.2
+
+
+def test_shell():
+    found = measure(shell())
+    assert found.measured.all()
+    assert_bars(found.lengths, 0.2)
+
+
+def cylinder(radius=0.5, height=2.0):
+    return lathe([(0, 0), (radius, 0), (radius, height), (0, height)])
+
+
+def test_cylinder():
+    found = measure(cylinder())
+    assert_bars(found.lengths, 1.0)
+
+
+def test_cone():
+    """A ball inside a cone with half-angle a, that touches it at radius r, has the diameter 2 r / cos(a)."""
+    angle, height = np.radians(20.0), 2.0
+    rings = np.linspace(0.0, height, 41)[:-1]
+    found = measure(
+        lathe([(0, 0), *((np.tan(angle) * (height - z), z) for z in rings), (0, height)])
+    )
+    radius = np.hypot(found.points[:, 0], found.points[:, 1])
+    truth = 2 * radius / np.cos(angle)
+    z = found.points[:, 2]
+    above = z - radius * np.tan(angle) - truth / 2 > 0.0  # the ball does not reach the base
+    some = above & (z > 0.02) & (radius > 0.1) & ~found.at_edge
+    assert some.sum() > 3000
+    assert_bars(found.lengths[some], truth[some])
+
+
+def dense_ellipsoid(axes, count=300_000):
+    directions = np.random.default_rng(5).normal(size=(count, 3))
+    return directions / np.linalg.norm(directions, axis=1)[:, None] * axes
+
+
+def test_ellipsoid_against_shrinking_balls():
+    """Balls everywhere; walls where the two normals of the ball differ by 120 degrees or more."""
+    axes = np.array([1.0, 0.7, 0.5])
+    surface = dense_ellipsoid(axes)
+    balls, walls = measure(ellipsoid(axes), edges=Edges.BALL), measure(ellipsoid(axes))
+    some = np.random.default_rng(1).choice(len(balls.points), 400, replace=False)
+    points = balls.points[some] / np.sqrt(((balls.points[some] / axes) ** 2).sum(axis=1))[:, None]
+    normals = points / axes**2
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    truth, touched = shrinking_ball(points, normals, surface)
+    assert_bars(balls.lengths[some], truth)
+    others = surface[touched] / axes**2
+    others /= np.linalg.norm(others, axis=1)[:, None]
+    wall = (normals * others).sum(axis=1) < -0.52
+    assert wall.sum() > 100
+    assert_bars(walls.lengths[some][wall], truth[wall])
+    assert (walls.lengths[some] > 0.99 * truth).all(), "what is filled is no less than the ball"
+
+
+def test_stairs_against_rays():
+    mesh = stairs()
+    found = measure(mesh, Settings())
+    assert found.chosen.gaps == 0 and found.shape.volume == pytest.approx(0.6)
+    x, z = found.points[:, 0], found.points[:, 2]
+    flat = (np.abs(x - np.round(x)) > 0.3) & (z < 1e-9)  # the middle of each step, from below
+    down = np.tile([0.0, 0.0, -1.0], (int(flat.sum()), 1))
+    truth = rays(found.points[flat], down, mesh)
+    assert set(np.round(truth, 6)) == {0.1, 0.2, 0.3}
+    assert_bars(found.lengths[flat], truth)
+    # top and bottom of the steps, and what of their sides is near
+    for limit, least, most in ((0.15, 2.0, 2.5), (0.25, 4.0, 5.2)):
+        parts = find_thin_parts(found, limit)
+        assert parts.patches[0].minimum == pytest.approx(0.1, rel=0.01)
+        assert least * 0.97 < parts.area < most
+
+
+def test_gap_between_two_boxes():
+    found = measure(GAP, between=Between.GAP)
+    facing = np.abs(np.abs(found.points[:, 2] - 0.225) - 0.025) < 1e-9
+    assert np.percentile(np.abs(found.lengths[facing] / 0.05 - 1), 99) < 0.01
+    parts = find_thin_parts(found, 0.06)
+    assert parts.area == pytest.approx(2 * 0.7, rel=0.01)
+    assert [p.minimum for p in parts.patches] == pytest.approx([0.05] * 2, rel=0.01)
+    assert np.isinf(found.lengths[np.abs(found.points[:, 2] - 0.65) < 1e-9]).mean() > 0.9
+
+
+def test_a_solid_that_faces_nothing_has_no_gap():
+    found = measure(BOX, between=Between.GAP)
+    assert found.minimum == np.inf and any("across a gap" in w for w in found.warnings)
+    assert find_thin_parts(found, 1e9).patches == ()
+
+
+def test_what_has_no_walls_is_as_thick_as_its_largest_ball():
+    """Of a tetrahedron and a cube no two places face each other, but for the middles of the cube."""
+    corners = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
+    found = measure((corners, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])))
+    for some, truth in ((found, 2 / np.sqrt(3)), (measure(block(1, 1, 1)), 1.0)):
+        assert np.median(some.lengths) == pytest.approx(truth, rel=0.01)
+        assert some.lengths.min() > 0.95 * truth
+    assert measure((corners, found.shape.triangles), edges=Edges.BALL).minimum < 0.5
+
+
+def test_a_fin_does_not_make_what_it_stands_on_thin():
+    mesh = joined(block(1, 1, 1), block(0.03, 0.8, 0.5, (0.0, 0.0, 0.749)))
+    found = measure(mesh, Settings(samples=30_000))
+    of_block = np.abs(found.points[:, 2] + 0.5) < 1e-9
+    assert np.percentile(found.lengths[of_block], 1) > 0.95
+
+
+# --- limits and patches
+
+
+@pytest.mark.parametrize("seed", [0, 4])
+def test_strictly_below_the_limit(seed):
+    """0.80 is not below 0.8, also as float32 and turned."""
+    vertices, triangles = moved(block(3.0, 2.0, 0.8), 1.0, seed, False)
+    found = measure((vertices.astype(np.float32), triangles))
+    assert find_thin_parts(found, 0.8).patches == ()
+    assert find_thin_parts(found, 0.8001).share == pytest.approx(1.0, abs=1e-3)
+
+
+def test_the_minimum_is_of_a_patch_and_not_of_a_point():
+    found = measure(BOX)
+    lengths = found.lengths.copy()
+    lengths[5000] = 0.001
+    spoiled = replace(found, lengths=lengths)
+    assert spoiled.minimum >= 0.35 and find_thin_parts(spoiled, 0.3).patches == ()
+
+
+def test_faces_are_thin_where_their_samples_are():
+    parts = find_thin_parts(measure(GAP, between=Between.GAP), 0.06)
+    normals = np.array([(0, 0, 1), (0, 0, -1)])
+    vertices, triangles = GAP
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    up = np.sign(np.round(np.cross(b - a, c - a)[:, 2], 9))
+    middle = (a + b + c)[:, 2] / 3
+    facing = ((np.abs(middle - 0.2) < 1e-9) & (up > 0)) | (
+        (np.abs(middle - 0.25) < 1e-9) & (up < 0)
+    )
+    assert len(normals) == 2 and facing.sum() == 4
+    np.testing.assert_array_equal(parts.patch_of_faces >= 0, facing)
+
+
+def test_patches_come_thinnest_first_and_small_ones_can_be_left_out():
+    mesh = joined(
+        block(1, 1, 0.2), block(0.5, 0.5, 0.05, (3, 0, 0)), block(0.2, 0.2, 0.03, (5, 0, 0))
+    )
+    found = measure(mesh, Settings(samples=60_000))
+    parts = find_thin_parts(found, 0.1)
+    assert [p.minimum for p in parts.patches] == pytest.approx([0.03, 0.05], rel=0.02)
+    assert [p.area for p in parts.patches] == pytest.approx([0.104, 0.6], rel=0.05)
+    assert parts.patches[0].place[0] > 4.8
+    assert parts.area == pytest.approx(sum(p.area for p in parts.patches))
+    few = find_thin_parts(found, 0.1, minimum_patch=10.0)
+    assert [p.minimum for p in few.patches] == pytest.approx([0.05], rel=0.02)
+    assert (few.patch_of_triangles >= 0).sum() < (parts.patch_of_triangles >= 0).sum()
+
+
+def test_grey_leaves_out_what_no_wall_faces():
+    found = measure(BOX, edges=Edges.GREY)
+    assert np.isfinite(found.lengths).mean() < 0.2
+    np.testing.assert_allclose(found.lengths[np.isfinite(found.lengths)], 0.4, rtol=0.01)
+
+
+def test_more_limits_need_no_other_measurement():
+    """Areas grow with the limit; what is thin at a limit is so at a larger one."""
+    found = measure(stairs(), Settings())
+    parts = [find_thin_parts(found, limit) for limit in (0.05, 0.15, 0.25, 0.35)]
+    assert np.all(np.diff([p.area for p in parts]) > 0)
+    assert parts[-1].share == pytest.approx(1.0, abs=1e-3)
+
+
+# --- clouds, noise, open meshes
+
+
+def cloud(count=8000, seed=0):
+    """Samples of the box with their normals, and their spacing."""
+    from medial_axis.core.machine import native
+
+    samples = native.load().sample_surface(*BOX, count=count, seed=seed)
+    return samples.points, samples.normals, np.sqrt(2 * samples.area / np.sqrt(3) / count)
+
+
+NO_FACES = np.empty((0, 3), np.int32)
+
+
+@pytest.mark.parametrize("given", [False, True])
+def test_points_without_faces(given):
+    points, normals, _ = cloud()
+    found = measure((points, NO_FACES), Settings(), normals if given else None)
+    assert ("the points" in found.normals) == given
+    assert_bars(found.lengths, 0.4)
+    assert find_thin_parts(found, 0.41).area == pytest.approx(2.76, rel=0.01)
+    assert len(find_thin_parts(found, 0.41).patch_of_faces) == 0
+
+
+NOISY = {"box": (BOX, 0.4), "plate": (block(1.0, 0.7, 0.05), 0.05), "shell": (shell(), 0.2)}
+
+
+@pytest.mark.parametrize("name", NOISY)
+def test_scan_with_noise_of_a_tenth_of_the_spacing(medial, name):
+    mesh, truth = NOISY[name]
+    count = 30_000 if name == "plate" else 16_000
+    samples = medial.sample_surface(*mesh, count=count, smooth=name == "shell")
+    spacing = np.sqrt(2 * samples.area / np.sqrt(3) / len(samples.points))
+    scatter = np.random.default_rng(3).normal(size=samples.points.shape)
+    points = samples.points + 0.1 * spacing * scatter
+    found = measure((points, NO_FACES), Settings(), samples.normals, noise=Noise.SCAN)
+    assert found.noise == pytest.approx(0.1, abs=0.015)
+    _, low, median, high = errors(found.lengths, truth)
+    assert abs(median) < 0.05 and low > -0.15 and high < 0.15
+    clean = measure((points, NO_FACES), Settings(), samples.normals)
+    assert any("choose Noise Scan" in warning for warning in clean.warnings)
+
+
+@pytest.mark.parametrize("given", [False, True])
+def test_in_too_much_noise_no_figure_is_called_honest(given):
+    points, normals, spacing = cloud()
+    scatter = np.random.default_rng(3).normal(size=points.shape)
+    wild = points + 0.26 * spacing * scatter
+    found = measure((wild, NO_FACES), Settings(), normals if given else None, noise=Noise.SCAN)
+    assert any("no figure is honest" in warning for warning in found.warnings)
+
+
+def test_clean_samples_have_no_noise():
+    for mesh in (BOX, shell(), cylinder()):
+        found = measure(mesh)
+        assert found.noise < 0.02 and not any("scatter" in warning for warning in found.warnings)
+
+
+def test_openings_are_closed():
+    """A box without its lid is as thick as with it."""
+    vertices, triangles = BOX
+    found = measure((vertices, triangles[:-2]))
+    assert found.chosen.gaps == 4
+    assert_bars(found.lengths, 0.4)
+
+
+def test_vertices_of_a_dense_mesh_are_measured_as_they_are():
+    vertices, triangles = ellipsoid(subdivisions=5)
+    found = measure((vertices, triangles), Settings(), edges=Edges.BALL)
+    assert found.triangles is found.shape.triangles and found.normals.endswith("the faces")
+    assert len(found.of_vertices) == len(vertices)
+    thin = find_thin_parts(found, 0.9)
+    np.testing.assert_array_equal(thin.patch_of_faces, thin.patch_of_triangles)
+
+
+# --- native arguments
+
+
+def test_arguments_are_checked(medial):
+    vertices = ellipsoid(subdivisions=3)[0]
+    analysis = medial.MedialAnalysis(vertices, sides=medial.SidesFrom.TIGHT_COCONE)
+    for bad in ({}, {"normals": vertices[:5]}, {"normals": vertices, "edges": np.zeros(3, bool)}):
+        with pytest.raises(medial.InvalidInputError):
+            analysis.thickness(**bad)
+    with pytest.raises(medial.InvalidInputError, match="INNER"):
+        analysis.thickness(vertices, side=medial.Side.BOTH)
+    found = analysis.thickness(vertices)
+    assert len(found.values) == len(found.measured) == len(analysis.samples)
+    assert found.measured.dtype == bool and not found.values.flags.writeable
+    progress = medial.Progress()
+    progress.cancel()
+    with pytest.raises(medial.Cancelled):
+        analysis.thickness(vertices, progress=progress)
+
+
+def test_length_of_normals_and_threads_do_not_matter(medial):
+    vertices, triangles = ellipsoid(subdivisions=4)
+    normals = vertices / np.square((1.0, 0.7, 0.5))
+    values = [
+        medial.MedialAnalysis(vertices, triangles, threads=threads)
+        .thickness(factor * normals)
+        .values
+        for threads, factor in ((1, 1.0), (2, 1.0), (2, 1024.0))
+    ]
+    assert values[0].tobytes() == values[1].tobytes() == values[2].tobytes()
+
+
+def test_nearest_and_patches(medial):
+    rng = np.random.default_rng(0)
+    sites, queries = rng.random((50, 3)), rng.random((20, 3))
+    wanted = np.linalg.norm(queries[:, None] - sites, axis=2).argmin(axis=1)
+    np.testing.assert_array_equal(medial.nearest(sites, queries), wanted)
+    assert (medial.nearest(np.empty((0, 3)), queries) == -1).all()
+    triangles = np.array([(0, 1, 2), (5, 6, 7), (2, 3, 4)], np.int32)
+    flags = np.ones(3, bool)
+    assert medial.patches(triangles, flags, 8).tolist() == [0, 1, 0]
+    for bad in ((triangles, flags[:2], 8), (triangles, flags, 7)):
+        with pytest.raises(medial.InvalidInputError):
+            medial.patches(*bad)
+
+
+def test_a_limit_is_no_negative_number():
+    with pytest.raises(InvalidInputError, match="limit"):
+        ThicknessSettings(limit=-1.0)
+
+
+# --- files
+
+
+def test_csv_has_a_row_per_vertex(tmp_path):
+    found = measure(BOX)
+    path = export_thickness(found, find_thin_parts(found, 0.41), tmp_path / "box.csv")
+    with open(path, newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [int(row["vertex"]) for row in rows] == list(range(8))
+    places = np.array([[float(row[axis]) for axis in "xyz"] for row in rows])
+    np.testing.assert_array_equal(places, BOX[0])
+    assert [float(row["thickness"]) for row in rows] == pytest.approx([0.4] * 8, rel=0.01)
+
+
+def test_json_says_where(tmp_path):
+    frame = np.identity(4)
+    frame[:3, 3] = 10, 0, 0
+    shape = replace(shape_of(GAP), frame=frame)
+    found = measure_thickness(shape, EVEN, ThicknessSettings(between=Between.GAP))
+    path = export_thickness(found, find_thin_parts(found, 0.06), tmp_path / "gap.json", "mm")
+    said = json.loads(path.read_text())
+    assert said["unit"] == "mm" and said["limit"] == 0.06 and said["between"] == "gap"
+    assert said["minimum"] == pytest.approx(0.05, rel=0.01)
+    assert said["area_below"] == pytest.approx(1.4, rel=0.01)
+    assert said["share_below"] == pytest.approx(1.4 / 5.52, rel=0.01)
+    for patch in said["patches"]:
+        assert set(patch) == {"place", "area", "minimum", "lowest"}
+        assert 9.5 <= patch["place"][0] <= 10.5 and patch["place"][2] == pytest.approx(
+            0.225, abs=0.03
+        )
+
+
+def test_json_has_null_where_there_is_no_length(tmp_path):
+    found = measure(BOX, between=Between.GAP)
+    path = export_thickness(found, find_thin_parts(found, 1.0), tmp_path / "none.json")
+    assert json.loads(path.read_text())["minimum"] is None
+
+
+def test_ply_is_the_measured_surface(tmp_path):
+    found = measure(GAP, between=Between.GAP)
+    parts = find_thin_parts(found, 0.06)
+    data = export_thickness(found, parts, tmp_path / "gap.ply").read_bytes()
+    head, _, body = data.partition(b"end_header\n")
+    assert f"element vertex {len(found.points)}\n".encode() in head
+    kind = np.dtype([("place", "<f8", 3), ("thickness", "<f8"), ("colour", "u1", 3)])
+    vertices = np.frombuffer(body, kind, len(found.points))
+    np.testing.assert_array_equal(vertices["place"], found.points)
+    np.testing.assert_array_equal(vertices["thickness"], found.lengths)
+    faces = np.frombuffer(
+        body[vertices.nbytes :], [("n", "u1"), ("corners", "<i4", 3), ("patch", "<i4")]
+    )
+    np.testing.assert_array_equal(faces["corners"], found.triangles)
+    np.testing.assert_array_equal(faces["patch"], parts.patch_of_triangles)
+    thin, none = np.isfinite(found.lengths), np.isinf(found.lengths)
+    red = vertices["colour"][thin].astype(int)
+    assert (red[:, 0] > 200).all() and len(np.unique(vertices["colour"][none], axis=0)) == 1
+
+
+def test_other_formats_are_refused(tmp_path):
+    found = measure(BOX)
+    with pytest.raises(ExportError, match=r"\.csv, \.json or \.ply"):
+        export_thickness(found, find_thin_parts(found, 0.1), tmp_path / "box.obj")

@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""No wrong axis in silence: walls closer than the samples are told by the faces, refined, and said."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.axis.walls import Walls
+from medial_axis.core.settings import SamplingMode, Settings
+from support import meshes
+
+AREA = 1.0  # of the sheet of a plate
+TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+TURN[:, 0] *= np.sign(np.linalg.det(TURN))
+
+
+def plate(thickness, turned=False):
+    vertices, triangles = meshes.box((1, 1, 1), (0.5, 0.5, thickness / 2))
+    if turned:
+        vertices = (vertices @ TURN.T).astype(np.float32).astype(np.float64)
+    return vertices, triangles
+
+
+def sheet_area(axis, turned=False):
+    """Of the facets, as seen along the plate's normal."""
+    where = axis.vertices @ TURN if turned else axis.vertices
+    corners, ends = where[axis.face_vertices], axis.face_offsets[1:]
+    after = np.arange(1, len(corners) + 1)
+    after[ends - 1] = axis.face_offsets[:-1]
+    doubled = corners[:, 0] * corners[after, 1] - corners[:, 1] * corners[after, 0]
+    facet = np.repeat(np.arange(axis.facets), np.diff(axis.face_offsets))
+    return np.abs(np.bincount(facet, doubled, axis.facets)).sum() / 2
+
+
+def computed(mesh, sampling=SamplingMode.AUTOMATIC, **settings):
+    settings = {"samples": 2000, "budget": 12_000, **settings}
+    return compute(*mesh, Settings(sampling=sampling, **settings))
+
+
+def said(found):
+    return [text for text in found.warnings if "closer to each other" in text]
+
+
+@pytest.mark.parametrize("turned", [False, True], ids=["straight", "turned, float32"])
+@pytest.mark.parametrize("thickness", [0.02, 0.01, 0.005, 0.0015, 0.001, 0.0002])
+@pytest.mark.parametrize("sampling", ["AUTOMATIC", "ADAPTIVE", "SURFACE"])
+def test_what_is_missing_of_a_plate_is_said(sampling, thickness, turned):
+    found = computed(plate(thickness, turned), SamplingMode[sampling])
+    there = sheet_area(found.axis, turned) / AREA
+    assert there + found.missed > 0.85
+    assert said(found) or there > 0.85
+    if there < 0.5:
+        assert found.missed > 0.8
+
+
+@pytest.mark.parametrize("sampling", [SamplingMode.AUTOMATIC, SamplingMode.ADAPTIVE])
+def test_close_walls_are_refined_within_the_budget(sampling):
+    """2,000 samples are 0.034 apart, 20,000 are 0.011."""
+    hows = SamplingMode.SURFACE, sampling
+    even, fine = (computed(plate(0.015), how, budget=20_000) for how in hows)
+    assert said(even) and sheet_area(even.axis) < 0.3
+    assert fine.missed < 0.05 and sheet_area(fine.axis) > 0.85
+    assert fine.points < 21_000
+
+
+def test_no_samples_are_spent_on_walls_that_stay_too_close():
+    found = computed(plate(0.0002))
+    assert found.points < 2_500 and found.missed > 0.8
+
+
+def test_dense_vertices_of_a_thin_plate_are_not_trusted():
+    mesh = meshes.box((20, 20, 1), (0.5, 0.5, 0.0075))
+    found = computed(mesh)
+    assert found.chosen.sampling is not SamplingMode.VERTICES
+    assert sheet_area(found.axis) > 0.85 and not said(found)
+    (text,) = said(computed(mesh, SamplingMode.VERTICES))
+    assert "missing or torn" in text
+
+
+def test_a_thin_shell():
+    ball = meshes.icosphere(4)
+    shell = meshes.join(ball, meshes.flip((0.99 * ball[0], ball[1])))
+    (text,) = said(computed(shell, SamplingMode.SURFACE))
+    assert text.startswith("at ") and "about 0.01" in text
+    assert computed(shell, SamplingMode.SURFACE).missed > 0.95
+
+
+def ring(radius, width, sides, around=64):
+    """A thin tube of so many flat sides along a circle."""
+    turn = np.arange(around) / around * 2 * np.pi
+    tube = (np.arange(sides) + 0.5) / sides * 2 * np.pi
+    out = radius + width * np.cos(tube)
+    x, y = (np.outer(f(turn), out).ravel() for f in (np.cos, np.sin))
+    z = np.tile(width * np.sin(tube), around)
+    i, j = np.meshgrid(np.arange(around), np.arange(sides), indexing="ij")
+    a, b = i * sides + j, (i + 1) % around * sides + j
+    c, d = (i + 1) % around * sides + (j + 1) % sides, i * sides + (j + 1) % sides
+    quads = [np.column_stack([x.ravel() for x in t]) for t in ((a, b, c), (a, c, d))]
+    return np.column_stack((x, y, z)), np.concatenate(quads).astype(np.int32)
+
+
+def test_two_linked_thin_tubes():
+    """All of them is sharp; what is said of shares and of medians speaks of the same samples."""
+    one = ring(1.0, 0.008, 4)
+    two = one[0][:, [0, 2, 1]] * (1, -1, 1) + (1, 0, 0), one[1]
+    found = computed(meshes.join(one, two), SamplingMode.SURFACE, samples=1000)
+    assert said(found)
+    density = found.density
+    assert (density.median > density.limit) == (density.share > 0.5)
+
+
+def holed_block(count):
+    """A flat block with a grid of square holes, count along each side: a surface of genus count squared."""
+    ticks = np.linspace(-1, 1, 2 * count + 2)
+    solid = np.ones((2 * count + 1,) * 2, bool)
+    solid[1::2, 1::2] = False
+    quads = []
+    for i, j in np.argwhere(solid):
+        p, q, r, s = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
+        quads += [[(*c, 1) for c in (p, q, r, s)], [(*c, 0) for c in (s, r, q, p)]]
+        for (di, dj), (a, b) in {
+            (-1, 0): (s, p),
+            (1, 0): (q, r),
+            (0, -1): (p, q),
+            (0, 1): (r, s),
+        }.items():
+            k, m = i + di, j + dj
+            if not (0 <= k < len(solid) and 0 <= m < len(solid) and solid[k, m]):
+                quads.append([(*a, 0), (*b, 0), (*b, 1), (*a, 1)])
+    corners = np.array(quads).reshape(-1, 3)
+    rows, index = np.unique(corners, axis=0, return_inverse=True)
+    quad = index.reshape(-1, 4)
+    vertices = np.column_stack((ticks[rows[:, 0]], ticks[rows[:, 1]], 0.02 * rows[:, 2]))
+    return vertices, np.concatenate((quad[:, :3], quad[:, [0, 2, 3]])).astype(np.int32)
+
+
+def test_a_block_with_many_tunnels(medial):
+    mesh = holed_block(11)
+    assert medial.open_edges(*mesh) == 0
+    edges = len(np.unique(np.sort(mesh[1][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0))
+    assert len(mesh[0]) - edges + len(mesh[1]) == 2 - 2 * 121
+    found = computed(mesh, SamplingMode.SURFACE, samples=4000)
+    assert said(found) and found.missed > 0.5
+    density = found.density
+    assert (density.median > density.limit) == (density.share > 0.5)
+
+
+@pytest.mark.parametrize("name", ["ball", "box", "ellipsoid"])
+def test_nothing_is_said_of_thick_shapes(name):
+    ball = meshes.icosphere(4)
+    mesh = {
+        "ball": ball,
+        "box": meshes.box((1, 1, 1)),
+        "ellipsoid": (ball[0] * (1.0, 0.7, 0.4), ball[1]),
+    }[name]
+    found = computed(mesh)
+    assert not said(found) and found.missed == 0.0
+
+
+def test_a_wedge_is_not_thin_at_its_edge():
+    vertices = np.array([[x, y, z] for y in (0.0, 1.0) for x, z in ((0, 0), (1, 0), (1, 0.8))])
+    sides = [(0, 2, 1), (3, 4, 5), (0, 1, 4), (0, 4, 3), (1, 2, 5), (1, 5, 4), (2, 0, 3), (2, 3, 5)]
+    found = computed((vertices, np.array(sides, np.int32)[:, ::-1].copy()), SamplingMode.SURFACE)
+    if found.axis.facets == 0:
+        found = computed((vertices, np.array(sides, np.int32)), SamplingMode.SURFACE)
+    assert found.axis.facets > 100 and found.missed == 0.0
+
+
+def test_the_report_has_the_share(tmp_path, capsys):
+    vertices, triangles = plate(0.01)
+    lines = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
+    lines += [" ".join(map(repr, map(float, row))) for row in vertices]
+    lines += [" ".join(map(str, (3, *row))) for row in triangles.tolist()]
+    (tmp_path / "plate.off").write_text("\n".join(lines))
+    words = [str(tmp_path / "plate.off"), str(tmp_path / "plate.ma")]
+    assert cli.main([*words, "--samples", "2000", "--budget", "4000", "--json"]) == 0
+    report = json.loads(capsys.readouterr().out.splitlines()[-1])
+    assert report["missed"] > 0.8
+    assert any("missing or torn" in text for text in report["warnings"])
+
+
+# ---- distances
+
+
+def test_distances_are_those_of_a_box(medial):
+    mesh = meshes.box((3, 3, 3), (1.0, 0.7, 0.4))
+    points = np.array([[0.1, 0.2, 0.4], [1.0, 0.1, 0.05], [0.3, -0.7, 0.1], [0.1, 0.2, 0.4]])
+    normals = np.array([[0, 0, 1.0], [1, 0, 0], [0, -1, 0], [0, 0, 0]])
+    found = medial.wall_distances(points, normals, np.full(4, 5.0), *mesh)
+    np.testing.assert_allclose(found, [0.8, 2.0, 1.4, np.inf])
+    short = medial.wall_distances(points, normals, np.full(4, 1.0), *mesh, threads=1)
+    np.testing.assert_allclose(short, [0.8, np.inf, np.inf, np.inf])
+
+
+def test_other_parts_of_the_solid_are_passed_through(medial):
+    box = meshes.box((2, 2, 2), (1.0, 1.0, 1.0))
+    both = meshes.join(box, (0.5 * box[0] + (0, 0, -1.2), box[1]))
+    point, normal = np.array([[0.1, 0.2, 1.0]]), np.array([[0, 0, 1.0]])
+    assert medial.wall_distances(point, normal, np.array([9.0]), *both) == pytest.approx(2.7)
+
+
+@pytest.mark.parametrize(
+    "change, word",
+    [
+        ({"reach": np.array([-1.0])}, "positive reaches"),
+        ({"reach": np.array([1.0, 1.0])}, "one normal and one reach"),
+        ({"points": np.array([[np.nan, 0, 0]])}, "finite coordinates"),
+        ({"triangles": np.array([[0, 1, 99]], np.int32)}, "triangle corners below"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_distances_check_their_input(medial, change, word):
+    vertices, triangles = meshes.box((1, 1, 1))
+    given = {"points": np.zeros((1, 3)), "normals": np.eye(3)[:1], "reach": np.ones(1)}
+    given = {**given, "vertices": vertices, "triangles": triangles, **change}
+    with pytest.raises(medial.InvalidInputError, match=rf"^Expected .*{re.escape(word)}.*found.+;"):
+        medial.wall_distances(*given.values())
+
+
+def test_wanted_spacings_show_what_is_missed():
+    walls = Walls(np.eye(3), np.array([0.1, 1.5, 9.0]), np.ones(3), np.array([1.0, 2.0, 1.0]))
+    assert walls.missed == 0.25 and walls.thickness == 0.1
+    points, spacings = walls.wanted(0.01)
+    assert points.tolist() == np.eye(3)[:2].tolist() and spacings.tolist() == [0.05, 0.75]
+    assert walls.wanted(0.2)[1].tolist() == [0.2, 0.75]

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Coarse meshes of solids whose thickness is known, and judges of it that are plain loops over points or rays.
+
+Each judge is written from the definition and shares nothing with the add-on.
+"""
+
+import numpy as np
+
+from .meshes import Mesh, icosphere
+
+_CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) - 0.5
+_FACES = np.array(
+    [
+        *((0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5)),
+        *((0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6)),
+        *((0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)),
+    ],
+    np.int32,
+)
+
+
+def block(x: float, y: float, z: float, centre: tuple = (0.0, 0.0, 0.0)) -> Mesh:
+    """A box of eight vertices."""
+    return _CORNERS * (x, y, z) + centre, _FACES
+
+
+def joined(*meshes: Mesh) -> Mesh:
+    """Several meshes as one."""
+    starts = np.cumsum([0, *(len(vertices) for vertices, _ in meshes)])
+    faces = [triangles + start for (_, triangles), start in zip(meshes, starts, strict=False)]
+    return np.vstack([vertices for vertices, _ in meshes]), np.vstack(faces).astype(np.int32)
+
+
+def shell(outer: float = 1.0, inner: float = 0.8, subdivisions: int = 4) -> Mesh:
+    vertices, triangles = icosphere(subdivisions)
+    return joined((outer * vertices, triangles), (inner * vertices, triangles[:, ::-1]))
+
+
+def ellipsoid(axes: tuple = (1.0, 0.7, 0.5), subdivisions: int = 5) -> Mesh:
+    vertices, triangles = icosphere(subdivisions)
+    return vertices * axes, triangles
+
+
+def lathe(profile: list[tuple[float, float]], around: int = 96) -> Mesh:
+    """Turned about z: the profile is (radius, z) upwards, from the axis to the axis."""
+    turn = 2 * np.pi * np.arange(around) / around
+    rings = [
+        np.column_stack((r * np.cos(turn), r * np.sin(turn), np.full(around, z)))
+        for r, z in profile[1:-1]
+    ]
+    low, high = (0.0, 0.0, profile[0][1]), (0.0, 0.0, profile[-1][1])
+    vertices = np.vstack([[low], *rings, [high]])
+    i = np.arange(around)
+    j, last = (i + 1) % around, 1 + (len(rings) - 1) * around
+    triangles = [np.column_stack((np.zeros_like(i), 1 + j, 1 + i))]
+    for ring in range(len(rings) - 1):
+        a, b = 1 + ring * around, 1 + (ring + 1) * around
+        triangles += [
+            np.column_stack((a + i, a + j, b + j)),
+            np.column_stack((a + i, b + j, b + i)),
+        ]
+    triangles.append(np.column_stack((last + i, last + j, np.full_like(i, len(vertices) - 1))))
+    return vertices, np.vstack(triangles).astype(np.int32)
+
+
+def stairs(heights: tuple = (0.1, 0.2, 0.3), length: float = 1.0, width: float = 1.0) -> Mesh:
+    """A wedge of steps, along x."""
+    count = len(heights)
+    floor = [(k * length, 0.0) for k in range(count + 1)]
+    tops = [((k + d) * length, heights[k]) for k in range(count) for d in (0, 1)]
+    outline = np.array(floor + tops[::-1])
+    n = len(outline)
+    vertices = np.vstack(
+        [np.column_stack((outline[:, 0], np.full(n, y), outline[:, 1])) for y in (0.0, width)]
+    )
+    top = {point: n - 1 - k for k, point in enumerate(tops)}
+    front = []
+    for k in range(count):
+        a, b = k, k + 1
+        c, d = top[tops[2 * k + 1]], top[tops[2 * k]]
+        front += [(a, b, c), (a, c, d)]
+    if count > 1:  # the corner of a step lies on the side of the next one
+        for k in range(1, count):
+            d, below = top[tops[2 * k]], top[tops[2 * k - 1]]
+            front = [f for f in front if f != (k, top[tops[2 * k + 1]], d)]
+            c = top[tops[2 * k + 1]]
+            front += [(k, c, below), (below, c, d)]
+    sides = []
+    for i in range(n):
+        j = (i + 1) % n
+        sides += [(i, j + n, j), (i, i + n, j + n)]
+    back = [(a + n, c + n, b + n) for a, b, c in front]
+    return vertices, np.array(front + back + sides, np.int32)
+
+
+def shrinking_ball(points: np.ndarray, normals: np.ndarray, surface: np.ndarray) -> tuple:
+    """Diameters of the largest balls that are tangent at points from inside and contain nothing of a dense cloud of the
+    surface, and (n,) which of it each touches."""
+    diameters, touched = np.empty(len(points)), np.empty(len(points), int)
+    for i, (p, n) in enumerate(zip(points, normals, strict=True)):
+        away = p - surface
+        height = away @ n
+        square = (away * away).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            balls = np.where(height > 1e-3 * np.sqrt(square), square / height, np.inf)
+        touched[i] = balls.argmin()
+        diameters[i] = balls[touched[i]]
+    return diameters, touched
+
+
+def rays(points: np.ndarray, normals: np.ndarray, mesh: Mesh) -> np.ndarray:
+    """Length of the ray from each point against its normal to the next triangle (Moeller and Trumbore)."""
+    vertices, triangles = mesh
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    u, v = b - a, c - a
+    lengths = np.empty(len(points))
+    for i, (p, n) in enumerate(zip(points, normals, strict=True)):
+        cross = np.cross(-n, v)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            inverse = 1 / (u * cross).sum(axis=1)
+            s = ((p - a) * cross).sum(axis=1) * inverse
+            q = np.cross(p - a, u)
+            t = (q @ -n) * inverse
+            length = (v * q).sum(axis=1) * inverse
+        hit = (s >= -1e-9) & (t >= -1e-9) & (s + t <= 1 + 1e-9) & (length > 1e-9)
+        lengths[i] = length[hit].min(initial=np.inf)
+    return lengths
