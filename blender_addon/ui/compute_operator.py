@@ -140,6 +140,7 @@ class ComputeOperator(FromSelection):
         made = [thing for thing in made if thing is not None]
         if self.select_result:
             _select(context, made)
+        current_job.settle()
         return {"FINISHED"} if made else {"CANCELLED"}
 
     def _write_one(self, context, source, outcome):

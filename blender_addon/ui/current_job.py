@@ -36,9 +36,7 @@ def finish(ended: Job) -> None:
         _job = None
         for workspace in bpy.data.workspaces:
             workspace.status_text_set(None)
-        redraw()
-        if not bpy.app.background:
-            bpy.app.timers.register(_Settling(), first_interval=_A_MOMENT)
+        settle()
 
 
 def stop() -> None:
@@ -68,9 +66,15 @@ def redraw() -> None:
                         region.tag_redraw()
 
 
+def settle() -> None:
+    """Draw the sidebars now and a few times more: something was made, and panels appear or grow."""
+    redraw()
+    if not bpy.app.background:
+        bpy.app.timers.register(_Settling(), first_interval=_A_MOMENT)
+
+
 class _Settling:
-    """A timer that draws the sidebars a few times more: panels that have appeared or grown take more than one drawing
-    until none of them overlaps another."""
+    """A timer for that; panels take more than one drawing until none of them overlaps another."""
 
     def __init__(self) -> None:
         self._left = 30

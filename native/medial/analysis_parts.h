@@ -18,7 +18,7 @@ struct MedialAnalysis::Parts {
 
   int threads = 1;
   std::unique_ptr<Arena> arena;  // goes after all that lies in it
-  Frame frame;  // in which all places and lengths below are
+  Frame frame;                   // in which all places and lengths below are
   Samples samples;
   Triangulation triangulation;
   Voronoi voronoi;

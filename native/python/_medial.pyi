@@ -425,12 +425,12 @@ class Hierarchy:
 class ThicknessMode:
     """What `MedialAnalysis.thickness` measures."""
 
-    # Balls between walls, whose normals differ by 120 degrees or more. Elsewhere, as next to an edge, what the nearest wall
-    # along the surface has, or the largest ball that is near, but never less than the ball at the sample itself.
+    # Balls between walls, whose normals differ by 120 degrees or more. Elsewhere, as next to an edge, what the nearest
+    # wall along the surface has, or the largest ball that is near, but never less than the ball at the sample itself.
     WALL: ThicknessMode  # 0
     BALL: ThicknessMode  # 1: all balls; zero at every convex edge
-    # The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No normals are
-    # used; what tapers reads too thick.
+    # The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No normals
+    # are used; what tapers reads too thick.
     SCAN: ThicknessMode  # 2
 
 @final

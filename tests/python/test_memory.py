@@ -27,7 +27,7 @@ from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)
 THIN = AboveLimit.THIN
-CLOUD, MESH = Use(faces=False), Use(faces=True)
+CLOUD, MESH = Use(faces=False, levels=True), Use(faces=True, levels=True)
 NO_FACES = np.empty((0, 3), np.int32)
 
 
@@ -514,5 +514,5 @@ def test_the_peak_is_what_was_told(tmp_path, faces, suffix, side):
     words = [os.path.dirname(__file__), tmp_path / "in.npz", tmp_path / f"out{suffix}", side]
     command = [sys.executable, "-c", PEAK, *map(str, words)]
     said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
-    told = memory_needed(len(shape.points), Use(faces, side == "both", suffix))
+    told = memory_needed(len(shape.points), Use(faces, side == "both", output=suffix))
     assert said[-2] == "0" and int(said[-1]) == pytest.approx(told, rel=0.15)

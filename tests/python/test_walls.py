@@ -226,3 +226,4 @@ def test_wanted_spacings_show_what_is_missed():
     points, spacings = walls.wanted(0.01)
     assert points.tolist() == np.eye(3)[:2].tolist() and spacings.tolist() == [0.05, 0.75]
     assert walls.wanted(0.2)[1].tolist() == [0.2, 0.75]
+    assert walls.wanted(0.3)[1].tolist() == [0.75]  # the first stays too close

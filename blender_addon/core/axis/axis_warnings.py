@@ -40,7 +40,7 @@ def axis_warnings(
 
 def _open_surface(chosen: ChosenSamples) -> str:
     closing = chosen.samples.closing
-    if chosen.samples.kinds is None:
+    if not closing:
         return (
             f"the surface is open at {chosen.gaps:,} edges: inside was taken to be where the "
             "winding number of the open surface is above one half"

@@ -121,8 +121,12 @@ def compute_axis(
     start = time.perf_counter()
     progress = progress or Progress()
     settings = settings.with_side()
-    limit = limit.used(faces=len(shape.triangles) > 0, both=settings.side is not Side.INNER)
     form, wanted = settings.form_of_side, settings.form
+    limit = limit.used(
+        faces=len(shape.triangles) > 0,
+        both=settings.side is not Side.INNER,
+        levels=form is not Form.PUBLISHED,
+    )
     progress.until(_ANALYSIS if form is not Form.PUBLISHED else 1.0)
     chosen = choose_samples(shape, settings, progress, limit)
     progress.until(1.0)

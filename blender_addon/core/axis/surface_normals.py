@@ -61,14 +61,15 @@ def surface_normals(
         Where faces differ by more than this from their mean there is an edge, radians.
     """
     samples = chosen.samples
+    given = samples.normals
     if chosen.sides.source is SidesFrom.TIGHT_COCONE:
         return _of_triangles(samples.points, surface, sharp_angle, "the reconstructed surface")
-    if samples.kinds is not None:
+    if samples.kinds is not None and given is not None:
         at_edge = samples.kinds <= int(native.load().SampleKind.SHARP)
-        return SurfaceNormals(samples.normals, at_edge, _sentence("the samples of the faces"))
-    if chosen.sides.source is SidesFrom.NORMALS:
+        return SurfaceNormals(given, at_edge, _sentence("the samples of the faces"))
+    if chosen.sides.source is SidesFrom.NORMALS and given is not None:
         nowhere = np.zeros(len(samples.points), bool)
-        return SurfaceNormals(samples.normals, nowhere, _sentence("the points"))
+        return SurfaceNormals(given, nowhere, _sentence("the points"))
     return _of_triangles(samples.points, surface, sharp_angle, "the faces")
 
 

@@ -126,7 +126,13 @@ class Measurement:
 
     @property
     def bytes(self) -> int:
-        arrays = (self.triangles, self.lengths, self.measured, self.points, self.shape.points)
+        arrays: tuple[NDArray, ...] = (
+            self.triangles,
+            self.lengths,
+            self.measured,
+            self.points,
+            self.shape.points,
+        )
         return sum(x.nbytes for x in arrays) + 40 * len(self.triangles)
 
 

@@ -81,8 +81,9 @@ def find_thin_parts(
     with native.own_errors() as module:
         numbers = module.patches(found.triangles, thin, len(found.points))
     total = float(found.areas.sum())
-    areas = np.bincount(numbers[thin], found.areas[thin], int(numbers.max(initial=-1)) + 1)
-    numbers, areas = _kept(numbers, areas, least / 100.0 * total)
+    count = int(numbers.max(initial=-1)) + 1
+    all_areas = np.bincount(numbers[thin], found.areas[thin], count).astype(np.float64)
+    numbers, areas = _kept(numbers, all_areas, least / 100.0 * total)
     numbers, patches = _described(found, numbers, areas)
     faces = found.triangle_of_faces
     of_faces = np.where(faces >= 0, numbers[faces], -1).astype(np.int32) if len(numbers) else faces
@@ -113,10 +114,10 @@ def _described(
     new[order[rank]] = np.arange(len(rank))
     lowest = np.full(len(areas), np.inf)
     np.minimum.at(lowest, numbers[inside], found.lengths[found.triangles[inside]].min(axis=1))
-    places = found.points[found.triangles[thinnest]].mean(axis=1)
+    places = found.points[found.triangles[thinnest]].mean(axis=1).tolist()
     patches = tuple(
         Patch(
-            place=tuple(places[i].tolist()),
+            place=(places[i][0], places[i][1], places[i][2]),
             area=float(areas[i]),
             minimum=float(found.of_triangles[thinnest[i]]),
             lowest=float(lowest[i]),

@@ -70,6 +70,7 @@ class Walls:
     def wanted(self, finest: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(k, 3) places between close walls, and (k,) the spacings that would show the axis there, if not too fine."""
         close = self.distance < _WANTED * self.spacing
+        close &= self.distance >= _HOPELESS * finest
         return self.points[close], np.maximum(self.distance[close] / _WANTED, finest)
 
     def are_reached_by(self, budget: int, area: float) -> bool:

@@ -80,11 +80,7 @@ def _tree(skeleton: Skeleton) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         neighbours[a].append(b)
         neighbours[b].append(a)
     order: list[int] = []
-    parent, seen = (
-        np.full(len(neighbours), -1, np.int64),
-        [],
-        np.zeros(len(neighbours), bool),
-    )
+    parent, seen = np.full(len(neighbours), -1, np.int64), np.zeros(len(neighbours), bool)
     for root in np.argsort(-skeleton.radius, kind="stable").tolist():
         if seen[root]:
             continue

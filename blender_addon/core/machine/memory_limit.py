@@ -29,12 +29,15 @@ class Use:
         The surface has faces, so that Tight Cocone is not needed.
     both : bool
         Facets of both sides are wanted, or of the outer one.
+    levels : bool
+        A level of the hierarchy is wanted, not the facets as published.
     output : str
         The extension of the file that is written, OBJECT in Blender, or "".
     """
 
     faces: bool = True
     both: bool = False
+    levels: bool = False
     output: str = ""
 
 
@@ -113,8 +116,12 @@ class MemoryLimit:
 WHAT_IS_FREE = MemoryLimit()
 
 
-# Bytes per point at the peak of the process, as measured (docs/performance.md): {(faces, both): {output: bytes}}.
-_AT_PEAK = {
+# Bytes per point at the peak of the process, as measured (docs/performance.md). Levels are of the inner side.
+_OF_LEVELS = {
+    False: {"": 3200, ".ma": 3950},
+    True: {"": 3000, ".ma": 3850},
+}  # {faces: {output: bytes}}
+_AT_PEAK = {  # {(faces, both): {output: bytes}}
     (False, False): {"": 1930, ".ply": 2050, ".ma": 2600, OBJECT: 2260},
     (False, True): {"": 2030, ".ply": 2250, ".ma": 3160, OBJECT: 2740},
     (True, False): {"": 1960, ".ply": 2050, ".ma": 2600, OBJECT: 2000},
@@ -125,7 +132,7 @@ _AT_PEAK = {
 def memory_needed(points: int, use: Use | None = None) -> int:
     """About how many bytes so many points need at most: to be analysed, and what becomes of that."""
     if use is not None:
-        peaks = _AT_PEAK[use.faces, use.both]
+        peaks = _OF_LEVELS[use.faces] if use.levels else _AT_PEAK[use.faces, use.both]
         return points * peaks.get(use.output, peaks[""])
     with native.own_errors() as module:
         return module.memory_needed(points)

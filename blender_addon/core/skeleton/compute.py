@@ -193,5 +193,8 @@ def _thinned(net: Net, names: list[int], simplify: float) -> Skeleton:
 
 def _samples_of_vertices(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int64]:
     """(v,) the sample nearest to each vertex of the shape."""
-    distinct = chosen.samples.analysis.samples
-    return distinct[nearest(shape.points, chosen.samples.points[distinct])]
+    samples = chosen.samples
+    distinct = samples.analysis.samples
+    if samples.kinds is None and len(distinct) == len(shape.points):  # they are the vertices
+        return np.arange(len(distinct))
+    return distinct[nearest(shape.points, samples.points[distinct])]

@@ -65,7 +65,7 @@ def places(net: Net, names: list[int]) -> Places:
         chain = net.branches[name]
         steps = np.linalg.norm(np.diff(net.points[chain], axis=0), axis=1)
         branch[chain] = number
-        total = max(float(steps.sum()), np.finfo(float).tiny)
+        total = max(float(steps.sum()), float(np.finfo(float).tiny))
         along[chain] = np.concatenate(([0.0], np.cumsum(steps))) / total
     return Places(branch, np.minimum(along, 1.0))
 

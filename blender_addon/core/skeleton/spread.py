@@ -26,10 +26,11 @@ class Graph:
 
 def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
     """The graph of (e, 2) edges between (n, 3) points, as long as they are in space."""
-    ends = np.concatenate((edges, edges[:, ::-1])).astype(np.int64)
-    ends = ends[np.lexsort((ends[:, 1], ends[:, 0]))]
+    ends = np.concatenate((edges, edges[:, ::-1]))
+    ends = ends[np.argsort(ends[:, 0], kind="stable")].astype(np.int64)
     length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
-    first = np.concatenate(([0], np.cumsum(np.bincount(ends[:, 0], minlength=len(points)))))
+    first = np.zeros(len(points) + 1, np.int64)
+    np.cumsum(np.bincount(ends[:, 0], minlength=len(points)), out=first[1:])
     return Graph(first, ends[:, 1], length)
 
 
@@ -95,5 +96,4 @@ def _edges_of(
     """The rows of the edges of vertices, one vertex after the other, and how many each has."""
     start, count = graph.first[vertices], graph.first[vertices + 1] - graph.first[vertices]
     before = np.cumsum(count) - count
-    rows: NDArray[np.int64] = np.repeat(start - before, count) + np.arange(count.sum())
-    return rows, count
+    return np.arange(int(count.sum()), dtype=np.int64) + np.repeat(start - before, count), count

@@ -2,8 +2,8 @@
 """Which bones move which vertex, and how much: those of the branch that owns the vertex' ball.
 
 A vertex follows the bone beside it. Round a joint within a chain its two bones share. Where a limb begins it shares
-with the bone that the limb hangs on, and where two limbs meet both share with that: so the weights are continuous, and no
-limb moves the skin of another one.
+with the bone that the limb hangs on, and where two limbs meet both share with that: so the weights are continuous, and
+no limb moves the skin of another one.
 """
 
 from __future__ import annotations

@@ -534,7 +534,7 @@ def scene_cancel_with_button():
     cloud()
     yield from start_long_run()
     yield from click(*at(CANCEL))
-    yield 0.5
+    yield patience(0.5)
     assert no_job(), "the button was missed, or the run does not end"
     nothing_is_left()
     yield 0.3
