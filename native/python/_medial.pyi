@@ -1023,6 +1023,31 @@ def winding_number(
         Sum of the solid angles over 4 pi, up to rounding.
     """
 
+def surface_distances(
+    queries: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> NDArray[np.float64]:
+    """(q,) float64: how far each query is from the nearest triangle.
+
+    Parameters
+    ----------
+    queries : (q, 3) float64
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        One at least; they may be without area.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
 def buried(
     points: NDArray[np.float64],
     normals: NDArray[np.float64],
