@@ -35,8 +35,9 @@ from tests.demo import show
 
 def build(arguments: argparse.Namespace) -> None:
     needs.require({**needs.BUILD, **(needs.WINDOWS if arguments.windows else {})})
-    modules.build_modules(find_blender(arguments.blender), arguments.local, arguments.windows)
-    archive = paths.shown(pack.pack())
+    blender = find_blender(arguments.blender)
+    modules.build_modules(blender, arguments.local, arguments.windows)
+    archive = paths.shown(pack.pack(blender))
     print(f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {archive}")
 
 
@@ -45,7 +46,7 @@ def demo(arguments: argparse.Namespace) -> None:
     blender = find_blender(arguments.blender)
     meshes = show.existing(arguments.meshes)
     modules.build_modules(blender)
-    show.show_models(blender, pack.pack(), meshes, Path(arguments.output).resolve())
+    show.show_models(blender, pack.pack(blender), meshes, Path(arguments.output).resolve())
 
 
 def test(arguments: argparse.Namespace) -> None:

@@ -128,7 +128,7 @@ def run_part(name: str, part: Part, blender: Path) -> tuple[str, float]:
 
 def build(blender: Path, **options: bool) -> None:
     build_modules(blender, **options)
-    pack.pack()
+    pack.pack(blender)
 
 
 def native(blender: Path) -> None:

@@ -15,6 +15,9 @@ _PAGES = {
 # What Blender calls operators and properties, in lower case, and where the manual speaks of them.
 _PLACES = (
     ("bpy.ops.object.medial_axis_sampling_report*", "user_guide.html#report-sampling"),
+    ("bpy.ops.object.medial_axis_nodes*", "user_guide.html#live-in-geometry-nodes"),
+    ("bpy.ops.object.medial_axis_rebuild*", "user_guide.html#rebuild-solid"),
+    ("bpy.ops.wm.medial_axis_asset_library*", "user_guide.html#live-in-geometry-nodes"),
     ("bpy.ops.object.medial_axis_sequence*", "user_guide.html#animation"),
     ("bpy.ops.import_scene.medial_axis_sequence*", "user_guide.html#animation"),
     ("bpy.types.scene.medial_axis_folder*", "user_guide.html#animation"),

@@ -12,6 +12,7 @@ from ..core.machine.cache import CACHE
 from ..core.machine.memory_limit import OBJECT, MemoryLimit
 from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
 from . import self_test_operator
+from .asset_library import draw_library
 from .manual import draw_manual
 from .properties import choice_of, integer_of
 from .translation import say
@@ -55,6 +56,7 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
     def draw(self, context):
         _draw_start(context, self.layout)
         _draw_memory(self.layout.box().column(), self)
+        draw_library(self.layout.box().column())
         box = self.layout.box().column()
         arrow = "DISCLOSURE_TRI_DOWN" if self.show_installed else "DISCLOSURE_TRI_RIGHT"
         box.prop(self, "show_installed", icon=arrow, emboss=False)

@@ -9,7 +9,7 @@ import zipfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import licences, paths
+from . import licences, node_groups, paths
 from .terminal import python_that, run, say
 
 MODULES = "lib/_medial."  # how the names of compiled modules begin
@@ -18,12 +18,13 @@ PLATFORMS = {"linux-x64": ".so", "windows-x64": ".pyd"}
 _SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".js", ".yaml"}
 
 
-def pack() -> Path:
+def pack(blender: Path | str = "blender") -> Path:
     """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension), and those for the extensions
-    platform, which wants one per system and the files at its top. Same files, same bytes. Returns the first."""
+    platform, which wants one per system and the files at its top. Same files, same bytes. `blender` writes the library of
+    node groups. Returns the first."""
     say("Packing the add-on")
     paths.DIST.mkdir(exist_ok=True)
-    files = contents()
+    files = contents(blender)
     archive = archive_for()
     write_zip(archive, inside_folder(files))
     print(f"{paths.shown(archive)}: {archive.stat().st_size / 1e6:.1f} MB")
@@ -41,7 +42,7 @@ def archive_for(platform: str = "") -> Path:
     return paths.DIST / f"{paths.PACKAGE}-{paths.version()}{'-' * bool(platform)}{platform}.zip"
 
 
-def contents() -> dict[str, bytes]:
+def contents(blender: Path | str = "blender") -> dict[str, bytes]:
     """All that the add-on is made of: name below its top folder -> bytes."""
     files = _read(paths.ADDON, _sources())
     files["LICENSE"] = (paths.ROOT / "LICENSE").read_bytes()
@@ -50,6 +51,10 @@ def contents() -> dict[str, bytes]:
         _make_manual(made / "manual")
         _make_presets(made / "presets" / paths.PACKAGE)
         files.update(_read(made, made.rglob("*")))
+    library = node_groups.library(blender)
+    if library is not None:
+        found = _read(library, library.iterdir())
+        files.update({f"nodes/{name}": content for name, content in found.items()})
     modules = [name for name in files if name.startswith(MODULES)]
     files["THIRD_PARTY_LICENSES"] = licences.text(modules).encode()
     return files

@@ -698,7 +698,7 @@ class SampleKind:
     BOUNDARY: SampleKind  # 2: an edge of one triangle
     VERTEX: SampleKind  # 3: a kept vertex away from creases
     SURFACE: SampleKind  # 4: anywhere
-    OPENING: SampleKind  # 5: off the triangles, where `closing_samples` lie; `sample_surface` makes none
+    OPENING: SampleKind  # 5: off the triangles; only `closing_samples` makes them
 
 @final
 class SurfaceSamples:
@@ -1021,6 +1021,31 @@ def winding_number(
     -------
     winding : (q,) float64
         Sum of the solid angles over 4 pi, up to rounding.
+    """
+
+def surface_distances(
+    queries: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> NDArray[np.float64]:
+    """(q,) float64: how far each query is from the nearest triangle.
+
+    Parameters
+    ----------
+    queries : (q, 3) float64
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        One at least; they may be without area.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
     """
 
 def buried(

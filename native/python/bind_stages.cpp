@@ -4,6 +4,8 @@
 #include "arrays.h"
 #include "axis/umbrellas.h"
 #include "base/polygon_edges.h"
+#include "base/rows.h"
+#include "base/triangle_tree.h"
 #include "bindings.h"
 #include "cocone/cocone.h"
 #include "delaunay/polygon_triangles.h"
@@ -86,6 +88,14 @@ constexpr const char* kBuriedDoc =
     "triangles : (m, 3) int32\nprogress : Progress, optional\nthreads : int\n\n"
     "Returns\n-------\nburied : (n,) bool\n    The winding number is above 1/2 on both sides of "
     "the surface, at points +- offset * normals, or on\n    neither. False for a zero normal.\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+constexpr const char* kSurfaceDistanceDoc =
+    "(q,) float64: how far each query is from the nearest triangle.\n\n"
+    "Parameters\n----------\nqueries : (q, 3) float64\nvertices : (v, 3) float64\n"
+    "triangles : (m, 3) int32\n    One at least; they may be without area.\n"
+    "progress : Progress, optional\nthreads : int\n"
+    "    0: as many as the machine has. The result does not depend on it.\n\n"
     "Raises\n------\nInvalidInputError, Cancelled";
 
 constexpr const char* kWallsDoc =
@@ -330,6 +340,29 @@ py::array buried_points(const py::object& points, const py::object& normals, dou
   return array_of<uint8_t>(std::move(result)).attr("view")("bool");
 }
 
+py::array surface_distances(const py::object& queries, const py::object& vertices,
+                            const py::object& triangles, Progress* progress, int threads) {
+  const Points asked(queries, "queries"), corners(vertices, "vertices");
+  const Triangles faces(triangles);
+  const Run run{thread_count(thread_argument(threads)), progress};
+  const auto at = asked.span(), rows = corners.span();
+  const auto face_span = faces.span();
+  require_finite(at, "queries");
+  require_finite(rows, "vertices");
+  require_corners(face_span, rows.size());
+  if (face_span.empty()) {
+    throw InvalidInputError("Expected at least one triangle, found none; pass a surface.");
+  }
+  std::vector<double> result(at.size());
+  {
+    const py::gil_scoped_release release;
+    const TriangleTree tree(rows, face_span);
+    parallel_for(static_cast<int64_t>(at.size()), run,
+                 [&](int64_t i) { result[i] = tree.distance(at[i]); });
+  }
+  return array_of<double>(std::move(result));
+}
+
 py::array distances_of_walls(const py::object& points, const py::object& normals,
                              const py::array_t<double, py::array::c_style>& reach,
                              const py::object& vertices, const py::object& triangles,
@@ -365,6 +398,9 @@ void bind_stages(py::module_& m) {
         py::arg("face_offsets"), py::arg("face_vertices"));
   m.def("winding_number", &winding_numbers, kWindingDoc, py::arg("queries"), py::arg("vertices"),
         py::arg("triangles"));
+  m.def("surface_distances", &surface_distances, kSurfaceDistanceDoc, py::arg("queries"),
+        py::arg("vertices"), py::arg("triangles"), py::kw_only(), py::arg("progress") = nullptr,
+        py::arg("threads") = 0);
   m.def("buried", &buried_points, kBuriedDoc, py::arg("points"), py::arg("normals"),
         py::arg("offset"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
         py::arg("progress") = nullptr, py::arg("threads") = 0);

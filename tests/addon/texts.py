@@ -36,6 +36,9 @@ DATA = {
     "Medial Axis Self-Test",
     "Medial Axis Armature",
     "the arrays of a mesh contradict each other",
+    "VERSION 1",
+    "{}:Medial Axis:Medial Axis",
+    "Voxel Size",
 }
 # Parts of sentences that stand in a source as a single word, or inside of another sentence.
 PARTS = {"Preparing", "unknown", "arrays that contradict each other"}

@@ -29,8 +29,9 @@ MAY_IMPORT = {
     "core/skeleton": {"core", "core/machine", "core/axis"},
     "core/files": {"core", "core/machine", "core/axis", "core/skeleton"},
     "core/batch": {"core", "core/machine", "core/axis", "core/skeleton", "core/files", ""},
-    "bridge": {*CORE, ""},
-    "ui": {*CORE, "bridge", ""},
+    "bridge": {*CORE, "bridge/nodes", ""},
+    "bridge/nodes": {"core/axis", "bridge"},
+    "ui": {*CORE, "bridge", "bridge/nodes", ""},
 }
 ON_TOP = {"core.known_box"}  # of core; the rooms below do not see it
 

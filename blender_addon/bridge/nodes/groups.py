@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The groups by name: made once per file, as modifiers, and as assets of a library."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+
+from . import balls, filter, rebuild, thickness_colour
+
+FILE = "medial_axis_nodes.blend"
+CATALOGUE_FILE = "blender_assets.cats.txt"
+CATALOGUE = "0d5dd5d2-6c05-4d0c-8a7a-6d1f5a0c6c1e"  # any UUID, always the same
+_BUILT_BY = "ma_nodes"  # how groups are known again when someone renamed them
+
+
+@dataclass(frozen=True)
+class Group:
+    """A group: how it is called, and what it is for."""
+
+    name: str
+    about: str
+    build: Callable[[str], bpy.types.GeometryNodeTree]
+
+
+GROUPS = {
+    "FILTER": Group(
+        "Medial Axis Filter", "Leave out facets by angle, ratio, radius and sheet", filter.build
+    ),
+    "BALLS": Group("Medial Axis Balls", "A sphere at each vertex, as large as there", balls.build),
+    "REBUILD": Group(
+        "Medial Axis Rebuild", "The solid again, thicker, thinner or simpler", rebuild.build
+    ),
+    "COLOUR": Group(
+        "Medial Axis Thickness Colour",
+        "Colour by radius, or by another number",
+        thickness_colour.build,
+    ),
+}
+
+
+def is_group(tree: bpy.types.NodeTree | None, key: str) -> bool:
+    """Whether this is one of our groups, by whatever name."""
+    return tree is not None and tree.get(_BUILT_BY) == key
+
+
+def group(key: str) -> bpy.types.GeometryNodeTree:
+    """The group of this file, built when it has none; what someone changed in it stays."""
+    for found in bpy.data.node_groups:
+        if found.library is None and is_group(found, key):
+            return found
+    made = GROUPS[key].build(GROUPS[key].name)
+    made[_BUILT_BY] = key
+    return made
+
+
+def add_modifier(thing: bpy.types.Object, key: str) -> bpy.types.NodesModifier:
+    """A modifier with a group, after those that an object has."""
+    modifier = thing.modifiers.new(GROUPS[key].name, "NODES")
+    modifier.node_group = group(key)
+    return modifier
+
+
+def write_library(folder: Path) -> None:
+    """All groups as assets: a .blend file and the catalogue that Blender's asset browser reads."""
+    made = {group(key) for key in GROUPS}
+    for one, about in zip(map(group, GROUPS), GROUPS.values(), strict=True):
+        one.asset_mark()
+        one.asset_data.description = about.about
+        one.asset_data.catalog_id = CATALOGUE
+    folder.mkdir(parents=True, exist_ok=True)
+    bpy.data.libraries.write(str(folder / FILE), made, fake_user=True, compress=True)
+    lines = ("VERSION 1", "", f"{CATALOGUE}:Medial Axis:Medial Axis", "")
+    (folder / CATALOGUE_FILE).write_text("\n".join(lines), encoding="utf-8")

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Medial Axis Rebuild: the solid of an axis and its radii, as a mesh."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..attributes import RADIUS
+from .radii import points_with_radii
+from .tree import Tree
+
+if TYPE_CHECKING:
+    from bpy.types import NodeSocket
+
+# Grids of distances came with 4.x, behind an experimental option, and are there for all from 5.0.
+HAS_DISTANCE_GRIDS = bpy.app.version >= (5, 0, 0)
+
+
+def build(name: str) -> bpy.types.GeometryNodeTree:
+    """The group. Where this Blender has grids of signed distances, the surface is smooth; else it is that of a fog of
+    voxels, which has terraces, of which one pass of smoothing takes the edges."""
+    tree = Tree(name)
+    voxel = _voxel(tree)
+    merge = tree.number("Merge", 1.0, "Of vertices closer than this only one counts; voxels")
+    points, radius = points_with_radii(tree, tree.math("MULTIPLY", voxel, merge))
+    surface = _from_distances if HAS_DISTANCE_GRIDS else _from_fog
+    mesh = surface(tree, points, radius, voxel)
+    return tree.output(tree.node("GeometryNodeSetShadeSmooth", mesh))
+
+
+def _voxel(tree: Tree) -> NodeSocket:
+    """The size of voxels: what is asked for, or 1/128 of the diagonal of the axis and its largest ball.
+
+    Without the ball a solid that is one, whose axis is a point, would get as many voxels as memory holds.
+    """
+    asked = tree.number(
+        "Voxel", 0.0, "Size of voxels; 0: a 128th of the diagonal of the solid", "DISTANCE"
+    )
+    box = tree.node("GeometryNodeBoundBox", tree.geometry).node
+    across = tree.node(
+        "ShaderNodeVectorMath", box.outputs["Max"], box.outputs["Min"], operation="SUBTRACT"
+    )
+    length = tree.node("ShaderNodeVectorMath", across, operation="LENGTH")
+    found = tree.node(
+        "GeometryNodeAttributeStatistic",
+        named={"Geometry": tree.geometry, "Attribute": tree.attribute(RADIUS.name)},
+        data_type="FLOAT",
+        domain="POINT",
+    ).node
+    largest = next(s for s in found.outputs if s.enabled and s.name == "Max")
+    whole = tree.math("MULTIPLY_ADD", largest, 2.0, length)
+    return tree.choose(
+        tree.compare("GREATER_THAN", asked, 0.0), tree.math("DIVIDE", whole, 128.0), asked
+    )
+
+
+def _from_distances(
+    tree: Tree, points: NodeSocket, radius: NodeSocket, voxel: NodeSocket
+) -> NodeSocket:
+    grid = tree.node(
+        "GeometryNodePointsToSDFGrid",
+        named={"Points": points, "Radius": radius, "Voxel Size": voxel},
+    )
+    return tree.node("GeometryNodeGridToMesh", named={"Grid": grid, "Threshold": 0.0})
+
+
+def _from_fog(tree: Tree, points: NodeSocket, radius: NodeSocket, voxel: NodeSocket) -> NodeSocket:
+    fog = tree.node(
+        "GeometryNodePointsToVolume",
+        named={"Points": points, "Radius": radius, "Voxel Size": voxel, "Density": 1.0},
+        resolution_mode="VOXEL_SIZE",
+    )
+    mesh = tree.node("GeometryNodeVolumeToMesh", named={"Volume": fog})
+    # The dual of the dual has the same faces, and each vertex is the mean of what is round it.
+    return tree.node("GeometryNodeDualMesh", tree.node("GeometryNodeDualMesh", mesh))

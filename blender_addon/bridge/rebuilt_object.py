@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The solid of a medial axis as an object: the mesh of the axis under the modifier *Rebuild*, so it is live.
+
+It shares its mesh with the result, and so follows a new computation. How far it is from what the axis was computed of
+is measured and remembered.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..core.axis.solid_difference import SolidDifference, solid_difference
+from ..core.errors import InvalidInputError
+from ..core.settings import Side
+from .axis_object import radius_range, settings_of
+from .nodes.groups import add_modifier, is_group
+from .nodes.inputs import set_inputs
+from .output_object import SOURCE, is_gone, new_object, output_of, source_of
+from .read_object import read_object
+
+if TYPE_CHECKING:
+    from ..core.axis.shape import Shape
+
+SUFFIX = " Rebuilt"
+REBUILT = "ma_rebuilt"  # marks the object
+MEAN, LARGEST, VOLUME = "ma_rebuilt_mean", "ma_rebuilt_largest", "ma_rebuilt_volume"
+_PARTS = 256  # voxels along the diagonal
+
+
+def is_rebuilt(thing: bpy.types.Object) -> bool:
+    return thing.type == "MESH" and REBUILT in thing
+
+
+def rebuilt_of(result: bpy.types.Object) -> bpy.types.Object | None:
+    """The solid that was rebuilt of a result."""
+    return output_of(result, is_rebuilt)
+
+
+def modifier_of(rebuilt: bpy.types.Object) -> bpy.types.NodesModifier | None:
+    """The modifier that makes the solid; None when someone has removed it."""
+    found = (
+        m for m in rebuilt.modifiers if m.type == "NODES" and is_group(m.node_group, "REBUILD")
+    )
+    return next(found, None)
+
+
+def rebuild(result: bpy.types.Object) -> bpy.types.Object:
+    """The solid of a result: the one there is, or a new one.
+
+    Raises
+    ------
+    InvalidInputError
+        The axis is not of the inside.
+    """
+    side = settings_of(result).side
+    if side is not Side.INNER:
+        raise InvalidInputError(
+            f"Expected a medial axis of the inside, found side {side.name.title()}; compute it with side Inner"
+        )
+    found = rebuilt_of(result)
+    if found is not None:
+        return found
+    made = new_object(result, SUFFIX, result.data)
+    made.matrix_world = result.matrix_world
+    made[REBUILT], made[SOURCE] = True, result
+    set_inputs(add_modifier(made, "REBUILD"), {"Voxel": _diagonal(result) / _PARTS})
+    return made
+
+
+def _diagonal(result: bpy.types.Object) -> float:
+    """Of the box round an axis, in its own frame, and the largest ball: the axis of a ball is a point."""
+    corners = [tuple(corner) for corner in result.bound_box]
+    sides = (max(values) - min(values) for values in zip(*corners, strict=True))
+    return sum(side * side for side in sides) ** 0.5 + 2 * radius_range(result)[1]
+
+
+def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidDifference | None:
+    """How far the solid is from what its axis was computed of, remembered on it; None when that is gone.
+
+    Raises
+    ------
+    InvalidInputError
+        One of the two has no faces.
+    NativeModuleError, OutOfMemoryError
+    """
+    result = source_of(rebuilt)
+    source = None if is_gone(result) else source_of(result)
+    if is_gone(source):
+        return None
+    shapes = [_in_the_world(read_object(thing, depsgraph)) for thing in (source, rebuilt)]
+    found = solid_difference(*shapes)
+    rebuilt[MEAN], rebuilt[LARGEST] = found.mean, found.largest
+    rebuilt[VOLUME] = found.volume
+    return found
+
+
+def _in_the_world(shape: Shape) -> Shape:
+    frame = shape.frame
+    return replace(shape, points=shape.points @ frame[:3, :3].T + frame[:3, 3])

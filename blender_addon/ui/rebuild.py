@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rebuild Solid, and its panel: how thick, and how far from the source."""
+
+import bpy
+
+from ..bridge.nodes.inputs import row_of
+from ..bridge.output_object import is_gone, source_of
+from ..bridge.read_axis import find_axis
+from ..bridge.rebuilt_object import (
+    LARGEST,
+    MEAN,
+    VOLUME,
+    is_rebuilt,
+    measure,
+    modifier_of,
+    rebuild,
+    rebuilt_of,
+)
+from ..core.errors import MedialAxisError
+from .translation import say
+
+_INPUTS = ("Voxel", "Factor", "Offset", "Min Radius", "Merge")
+
+
+def _axis(context):
+    """The axis that the active object is, has, or was rebuilt of."""
+    thing = context.active_object
+    if thing is not None and is_rebuilt(thing):
+        thing = source_of(thing)
+    return None if is_gone(thing) else find_axis(thing)
+
+
+class OBJECT_OT_medial_axis_rebuild(bpy.types.Operator):
+    bl_idname = "object.medial_axis_rebuild"
+    bl_label = "Rebuild Solid"
+    bl_description = (
+        "Make the solid again from the medial axis and its radii, live, and measure how far it is "
+        "from the object"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        if _axis(context) is None:
+            cls.poll_message_set(
+                say("Select a medial axis, or an object whose medial axis was computed before")
+            )
+            return False
+        return True
+
+    def execute(self, context):
+        try:
+            made = rebuild(_axis(context))
+            context.view_layer.update()
+            found = measure(made, context.evaluated_depsgraph_get())
+        except MedialAxisError as error:
+            self.report({"ERROR"}, say(error))
+            return {"CANCELLED"}
+        if found is not None:
+            self.report({"INFO"}, say(_sentence(made.name, found)))
+        return {"FINISHED"}
+
+
+def _sentence(name, found):
+    return (
+        f"'{name}' is {100 * found.mean:.3f} % of the diagonal away (mean), at most "
+        f"{100 * found.largest:.2f} %, and has {100 * found.volume:.1f} % of the volume"
+    )
+
+
+class VIEW3D_PT_medial_axis_rebuild(bpy.types.Panel):
+    """The solid again"""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Medial Axis"
+    bl_label = "Rebuild"
+    bl_idname = "VIEW3D_PT_medial_axis_rebuild"
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return _axis(context) is not None
+
+    def draw(self, context):
+        layout = self.layout
+        made = rebuilt_of(_axis(context))
+        label = "Rebuild Solid" if made is None else "Measure Again"
+        layout.operator("object.medial_axis_rebuild", text=label, icon="MESH_ICOSPHERE")
+        if made is not None:
+            _draw_inputs(layout, made)
+            _draw_difference(layout, made)
+
+
+def _draw_inputs(layout, made):
+    modifier = modifier_of(made)
+    if modifier is None:
+        return
+    column = layout.column()
+    column.use_property_split = True
+    column.use_property_decorate = False
+    for name in _INPUTS:
+        owner, path = row_of(modifier, name)
+        column.prop(owner, path, text=name)
+
+
+def _draw_difference(layout, made):
+    if MEAN not in made:
+        return
+    column = layout.column(align=True)
+    figures = {
+        "Mean Distance": f"{100 * made[MEAN]:.3f} %",
+        "Max Distance": f"{100 * made[LARGEST]:.2f} %",
+        "Volume": f"{100 * made[VOLUME]:.1f} %",
+    }
+    for label, text in figures.items():
+        row = column.split(factor=0.45)
+        row.label(text=say(label), translate=False)
+        row.label(text=text, translate=False)
+
+
+CLASSES = (OBJECT_OT_medial_axis_rebuild, VIEW3D_PT_medial_axis_rebuild)
+
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

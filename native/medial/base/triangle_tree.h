@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Distances to triangles, by a tree of boxes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace medial {
+
+// Safe to use from several threads.
+class TriangleTree {
+ public:
+  // Keeps a copy. Triangles may be without area. There is one at least.
+  TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+  // From a point to the nearest of the triangles.
+  double distance(const Vec3& query) const;
+
+ private:
+  struct Corners {
+    Vec3 a, b, c;
+  };
+  struct Node {
+    Box box;
+    int32_t begin = 0, end = 0;
+    int32_t right = -1;  // the left child follows its parent; -1: a leaf
+  };
+
+  int32_t build(int32_t begin, int32_t end);
+  void search(int32_t node, const Vec3& query, double& squared) const;
+  static double bound(const Node& node, const Vec3& query);
+  static double squared_distance(const Corners& triangle, const Vec3& query);
+
+  std::vector<Corners> triangles_;  // leaf after leaf
+  std::vector<Node> nodes_;
+};
+
+}  // namespace medial

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rebuild Solid: what stands in the panel is what can be measured by hand."""
+
+import re
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, compute, contents, ellipsoid, positions, reports, result_of, select, torus
+from test_nodes import ball_volume, evaluated, volume
+
+
+def rebuilt(thing):
+    return addon("bridge.rebuilt_object").rebuilt_of(result_of(thing))
+
+
+def rebuild(thing, **values):
+    """The rebuilt solid of a source, with values of the inputs of its modifier."""
+    assert bpy.ops.object.medial_axis_rebuild() == {"FINISHED"}
+    made = rebuilt(thing)
+    modifier = addon("bridge.rebuilt_object").modifier_of(made)
+    named = {name.replace("_", " "): value for name, value in values.items()}
+    addon("bridge.nodes.inputs").set_inputs(modifier, named)
+    return made
+
+
+def test_an_ellipsoid_comes_back(capfd):
+    source = ellipsoid(segments=4)
+    source.location, source.rotation_euler = (3, 1, 2), (0.3, 0.2, 0.1)
+    compute(form="CLEAN", side="INNER")
+    select(source)
+    reports(capfd)
+    made = rebuild(source)
+    figures = [float(x) for x in re.findall(r"([\d.]+) %", reports(capfd)[-1][1])]
+    assert figures[0] < 0.2 and figures[1] < 1.5 and abs(figures[2] - 100) < 2
+    assert volume(evaluated(made)) / volume(source.data) == pytest.approx(
+        figures[2] / 100, abs=1e-3
+    )
+    assert made["ma_rebuilt_mean"] == pytest.approx(figures[0] / 100, abs=1e-5)
+    assert np.allclose(made.matrix_world, result_of(source).matrix_world)
+
+
+def test_it_is_made_once_and_follows_the_axis():
+    source = ellipsoid()
+    compute(side="INNER")
+    select(source)
+    made = rebuild(source)
+    before = contents()
+    select(made)
+    assert bpy.ops.object.medial_axis_rebuild() == {"FINISHED"}
+    assert contents() == before
+    assert made.data == result_of(source).data
+    volume_before = volume(evaluated(made))
+    source.data.vertices.foreach_set("co", (2 * positions(source.data)).astype(np.float32).ravel())
+    source.data.update()
+    select(source)
+    compute(side="INNER")
+    assert made.data == result_of(source).data
+    assert volume(evaluated(made)) == pytest.approx(8 * volume_before, rel=0.02)
+
+
+@pytest.mark.parametrize("offset", [0.1, -0.1])
+def test_offset_of_a_torus_is_a_thicker_or_thinner_torus(offset):
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=96, minor_segments=48, major_radius=1.0, minor_radius=0.4
+    )
+    source = bpy.context.object
+    compute(form="CLEAN", side="INNER")
+    made = rebuild(source, Offset=offset)
+    exact = 2 * np.pi**2 * (0.4 + offset) ** 2
+    assert volume(evaluated(made)) == pytest.approx(exact, rel=0.02)
+
+
+@pytest.mark.parametrize("offset", [0.2, -0.2])
+def test_offset_of_a_sphere(offset):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5, radius=1.0)
+    source = bpy.context.object
+    compute(side="INNER", theta=0.0, rho=0.0)
+    made = rebuild(source, Offset=offset, Voxel=0.03)
+    assert volume(evaluated(made)) == pytest.approx(ball_volume(1 + offset), rel=0.02)
+
+
+def test_offset_of_a_box():
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    source = bpy.context.object
+    compute(form="CLEAN", side="INNER", sampling="ADAPTIVE")
+    made = rebuild(source, Offset=0.2)
+    # Faces, quarters of cylinders along the edges, eighths of balls at the corners.
+    exact = 8 + 24 * 0.2 + 12 * 2 * np.pi / 4 * 0.04 + ball_volume(0.2)
+    assert volume(evaluated(made)) == pytest.approx(exact, rel=0.02)
+
+
+def test_an_outer_axis_is_refused():
+    torus()
+    compute(side="OUTER")
+    before = contents()
+    with pytest.raises(RuntimeError, match="Expected a medial axis of the inside"):
+        bpy.ops.object.medial_axis_rebuild()
+    assert contents() == before
