@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The fuzzes, ten times as long as in every run of the tests; once before a release: python3 tests/fuzz.py [times].
 
-Prints a table of how many inputs each had, how many of its tests failed and the processor time, for docs/performance.md.
+Prints a table of how many inputs each had, how many of its tests failed and the processor time, for the docs.
 """
 
 import os

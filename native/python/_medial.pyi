@@ -698,7 +698,7 @@ class SampleKind:
     BOUNDARY: SampleKind  # 2: an edge of one triangle
     VERTEX: SampleKind  # 3: a kept vertex away from creases
     SURFACE: SampleKind  # 4: anywhere
-    OPENING: SampleKind  # 5: off the triangles, where `closing_samples` lie; `sample_surface` makes none
+    OPENING: SampleKind  # 5: off the triangles; only `closing_samples` makes them
 
 @final
 class SurfaceSamples:

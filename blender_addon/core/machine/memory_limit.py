@@ -68,7 +68,7 @@ class MemoryLimit:
 
     def used(self, **parts: object) -> MemoryLimit:
         """The same limit, of which more is known for what; `parts` are fields of Use."""
-        return replace(self, use=replace(self.use or Use(), **parts))  # type: ignore[arg-type]
+        return replace(self, use=replace(self.use or Use(), **parts))
 
     def needed(self, points: int) -> int:
         """About how many bytes so many points need at the peak."""
