@@ -2,7 +2,7 @@
 """The asset library of the add-on's groups of nodes, written by a Blender.
 
 Blender never writes the same file twice: addresses in its memory are in it. So a library is kept in the build folder as
-long as its sources do not change, and the same sources make the same zip. A library opens in Blenders that are not older
+long as its sources do not change, and the same sources make the same zip. A library opens in Blenders not older
 than the one that wrote it.
 """
 

@@ -20,8 +20,8 @@ _SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".js", ".yaml
 
 def pack(blender: Path | str = "blender") -> Path:
     """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension), and those for the extensions
-    platform, which wants one per system and the files at its top. Same files, same bytes. `blender` writes the library of
-    node groups. Returns the first."""
+    platform, which wants one per system and the files at its top. Same files, same bytes. `blender` writes the library
+    of node groups. Returns the first."""
     say("Packing the add-on")
     paths.DIST.mkdir(exist_ok=True)
     files = contents(blender)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import bpy
 
+from ..wires import wires_of
 from . import balls, filter, rebuild, thickness_colour
 
 FILE = "medial_axis_nodes.blend"
@@ -58,10 +59,18 @@ def group(key: str) -> bpy.types.GeometryNodeTree:
 
 
 def add_modifier(thing: bpy.types.Object, key: str) -> bpy.types.NodesModifier:
-    """A modifier with a group, after those that an object has."""
+    """A modifier with a group, after those that an object has, but before the tubes that show its wires."""
     modifier = thing.modifiers.new(GROUPS[key].name, "NODES")
     modifier.node_group = group(key)
-    return modifier
+    wires = wires_of(thing)
+    if wires is None:
+        return modifier
+    name = modifier.name
+    with bpy.context.temp_override(object=thing):
+        bpy.ops.object.modifier_move_to_index(
+            modifier=name, index=list(thing.modifiers).index(wires)
+        )
+    return thing.modifiers[name]
 
 
 def write_library(folder: Path) -> None:
