@@ -247,8 +247,8 @@ std::optional<Ring> corner_at_place(std::span<const Vec3> corners, const Ring& r
   return result;
 }
 
-// The triangles of what a polygon bounds; nothing where it crosses itself, or touches itself so
-// that its edges are broken.
+// The triangles of what a polygon bounds; nothing where it crosses itself, touches itself so that
+// its edges are broken, or winds round some of it more than once.
 std::optional<std::vector<Triangle>> region(std::span<const Vec3> corners,
                                             std::span<const Point2> points, const Ring& ring,
                                             const Places& places) {
@@ -261,6 +261,7 @@ std::optional<std::vector<Triangle>> region(std::span<const Vec3> corners,
     if (plane.dimension() < 2 || !wind(plane, Runs(ring, places))) return std::nullopt;
     for (const auto face : plane.finite_face_handles()) {
       if (face->info() == 0) continue;
+      if (std::abs(face->info()) > 1) return std::nullopt;
       Triangle t{};
       for (int i = 0; i < 3; ++i) t[i] = (*corner)[face->vertex(i)->info()];
       if (face->info() < 0) std::swap(t[1], t[2]);
