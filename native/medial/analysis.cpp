@@ -318,6 +318,7 @@ WallThickness MedialAnalysis::thickness(const ThicknessInput& input,
   begin_stage(progress, "Thickness", 0, 1);
   auto found = medial::thickness(input, options, parts_->samples, facets_of(*parts_),
                                  {parts_->threads, progress});
+  found.values = outward_lengths(std::move(found.values), parts_->frame);
   advance(progress, 1);
   return found;
 }

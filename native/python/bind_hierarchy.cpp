@@ -49,6 +49,19 @@ auto part_property(const Part& part) {
   };
 }
 
+// The same of places or lengths, which are copied where the hierarchy sees them in another frame.
+template <typename Part>
+auto framed_property(const Part& part) {
+  return [part](const py::object& self) -> py::array {
+    const auto& h = self.cast<const Hierarchy&>();
+    const Frame& frame = h.parts().frame;
+    if (frame.is_plain()) return view_of<double>(part(h), self);
+    std::vector values(part(h).begin(), part(h).end());
+    for (auto& value : values) value = frame.outward(value);
+    return array_of<double>(std::move(values));
+  };
+}
+
 py::array generator_rows(const Hierarchy& h) {
   std::vector<Edge> rows;
   for (const auto& [p, q] : h.parts().complex.generators) {
@@ -192,11 +205,11 @@ void bind_hierarchy(py::module_& m) {
           }),
           "(v,) int32: cell of each vertex, the lowest of several in one place, as numbered by "
           "`delaunay` (without a\nbounding sphere).")
-      .def_property_readonly("vertices", part_property<double>([](const Hierarchy& h) -> auto& {
+      .def_property_readonly("vertices", framed_property([](const Hierarchy& h) -> auto& {
                                return h.parts().complex.position;
                              }),
                              "(v, 3) float64: where they are.")
-      .def_property_readonly("radius", part_property<double>([](const Hierarchy& h) -> auto& {
+      .def_property_readonly("radius", framed_property([](const Hierarchy& h) -> auto& {
                                return h.parts().complex.radius;
                              }),
                              "(v,) float64: radius of each vertex' empty ball.")

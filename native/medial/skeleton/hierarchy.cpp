@@ -111,18 +111,14 @@ void keep_significance(Hierarchy::Parts& made, const Significance& significance,
   });
 }
 
-void bring_outward(InnerComplex& complex, const Frame& frame) {
+void bring_outward(Level& level, const Frame& frame) {
   if (frame.is_plain()) return;
-  for (Vec3& p : complex.position) p = frame.outward(p);
-  for (double& r : complex.radius) r = frame.outward(r);
-  complex.diagonal = frame.outward(complex.diagonal);
-}
-
-PointTree outward_tree(std::span<const Vec3> points, const Frame& frame) {
-  if (frame.is_plain()) return PointTree(points);
-  std::vector<Vec3> placed;
-  for (const Vec3& p : points) placed.push_back(frame.outward(p));
-  return PointTree(placed);
+  for (auto* places : {&level.vertices, &level.exact}) {
+    for (Vec3& p : *places) p = frame.outward(p);
+  }
+  for (auto* radii : {&level.radius, &level.exact_radius}) {
+    for (double& r : *radii) r = frame.outward(r);
+  }
 }
 
 }  // namespace
@@ -133,7 +129,8 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
   made.row = samples.row;
-  made.samples = outward_tree({samples.points.data(), samples.row.size()}, frame);
+  made.frame = frame;
+  made.samples = PointTree(std::span(samples.points.data(), samples.row.size()));
   Stopwatch watch(made.timings);
   const FacetWeights weight(facets, thresholds);
   begin_stage(run.progress, "Inner complex", 0, 0.2);
@@ -150,7 +147,6 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   find_values(made, burnt, facets.significance.spacing, run);
   made.partner = std::move(burnt.collapse.partner);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
-  bring_outward(made.complex, frame);
   made.complex.dual = {};  // it means nothing without the analysis
   watch.lap("values");
   advance(run.progress, 1);
@@ -163,7 +159,7 @@ Hierarchy::Hierarchy(Hierarchy&&) noexcept = default;
 Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;
 
 const Betti& Hierarchy::betti() const { return parts_->betti; }
-double Hierarchy::diagonal() const { return parts_->complex.diagonal; }
+double Hierarchy::diagonal() const { return parts_->frame.outward(parts_->complex.diagonal); }
 size_t Hierarchy::bytes() const {
   const auto size_of = [](const auto&... arrays) {
     return (... + (arrays.size() * sizeof(arrays[0])));
@@ -178,7 +174,9 @@ size_t Hierarchy::bytes() const {
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 
 Level Hierarchy::extract(const LevelOptions& options, Progress* progress) const {
-  return level(*parts_, options, {parts_->threads, progress});
+  Level found = level(*parts_, options, {parts_->threads, progress});
+  bring_outward(found, parts_->frame);
+  return found;
 }
 
 }  // namespace medial

@@ -10,8 +10,8 @@
 
 namespace medial {
 
-// `facets` know their sides and are seen in `frame`, the hierarchy is not. Throws InvalidInputError
-// for thresholds out of range.
+// `facets` know their sides; they and the samples are seen in `frame`, which the hierarchy keeps.
+// Throws InvalidInputError for thresholds out of range.
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
                          const Frame& frame, const Run& run);
 

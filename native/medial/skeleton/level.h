@@ -4,6 +4,7 @@
 
 #include <medial/hierarchy.h>
 
+#include "base/frame.h"
 #include "base/point_tree.h"
 #include "base/stopwatch.h"
 #include "skeleton/values.h"
@@ -12,6 +13,7 @@ namespace medial {
 
 // What the levels are made from.
 struct Hierarchy::Parts {
+  Frame frame;  // in which all places and lengths below are, those of levels, too
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
   Values values;
