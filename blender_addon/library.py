@@ -183,6 +183,7 @@ def write(
     path : path of the file; its folder must exist
     triangles : bool
         Write .ply, .obj and .off as triangles in text, which more programs read; the others are as ever.
+        In .ply and .off they are without edges that have no facet; an axis of these alone is refused.
 
     Returns
     -------

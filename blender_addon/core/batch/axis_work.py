@@ -12,7 +12,7 @@ import numpy as np
 from ..axis.compute import Computation, compute_axis
 from ..axis.shape import Shape
 from ..errors import MedialAxisError
-from ..files.write import export_axis
+from ..files.write import export_axis, left_out
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings
@@ -34,8 +34,11 @@ class AxisWork:
         if found.axis.is_empty:
             raise MedialAxisError(found.warnings[-1])
 
-    def write(self, found: Computation, path: Path, frame: np.ndarray) -> None:
+    def write(self, found: Computation, path: Path, frame: np.ndarray) -> tuple[str, ...]:
+        """Returns warnings: what the file does not hold."""
         export_axis(found.axis, path, frame, self.triangles)
+        left = left_out(found.axis, path, self.triangles)
+        return (left,) if left else ()
 
     def words(self) -> dict[str, Any]:
         """The settings, as one would write them."""

@@ -36,7 +36,9 @@ class Work(Protocol):
     def check(self, found: Any) -> None:
         """Raise MedialAxisError where there is nothing to write."""
 
-    def write(self, found: Any, path: Path, frame: Any) -> None: ...
+    def write(self, found: Any, path: Path, frame: Any) -> tuple[str, ...]:
+        """Returns warnings: what the file does not hold."""
+
     def words(self) -> dict[str, Any]:
         """The settings, for the report."""
 
@@ -137,13 +139,13 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
     found, output = outcome.value, begun.item.output
     begun.work.check(found)
     _make_folder(output)
-    begun.work.write(found, output, begun.shape.frame)
+    left_out = begun.work.write(found, output, begun.shape.frame)
     report = {
         "status": "done",
         **_place(begun.item),
         **begun.work.figures(found),
         "settings": begun.work.words(),
-        "warnings": [*begun.warnings, *found.warnings],
+        "warnings": [*begun.warnings, *found.warnings, *left_out],
         "seconds": round(found.seconds, 3),
         "version": __version__,
         "stamp": begun.stamp(thinned=bool(found.chosen.thinned)),

@@ -33,8 +33,9 @@ class ThicknessWork:
     def check(self, found: Measurement) -> None:
         """A shape without walls is a result, too."""
 
-    def write(self, found: Measurement, path: Path, _frame: np.ndarray) -> None:
+    def write(self, found: Measurement, path: Path, _frame: np.ndarray) -> tuple[str, ...]:
         export_thickness(found, find_thin_parts(found, self.wanted.limit), path, self.unit)
+        return ()
 
     def words(self) -> dict[str, Any]:
         """The settings, as one would write them."""

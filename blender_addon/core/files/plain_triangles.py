@@ -4,6 +4,9 @@
 Some take the first face of a binary PLY for the size of all, some know no numbers beside the corners there, some tear
 polygons (docs/formats.md has the table). What they all read are triangles in text. Each has the values of its facet,
 and the facet's number, by which the polygons can be put together again.
+
+Edges without a facet are lines of the `.obj`, which all of them read or pass over. In `.ply` and `.off` some refuse
+them and some take them for faces, so these files leave them out, and `left_out` says so.
 """
 
 from __future__ import annotations
@@ -12,6 +15,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from ..errors import ExportError
 from .facet_triangles import triangulate_facets
 from .rows_of_text import write_rows
 
@@ -38,7 +42,36 @@ end_header
 """
 
 
+def left_out(axis: Any) -> str:
+    """What `.ply` and `.off` do not hold, for a warning; "" where that is nothing."""
+    edges, alone = len(axis.edges), len(lone_vertices(axis))
+    if not edges and not alone:
+        return ""
+    parts = (
+        f"{edges:,} edges without a facet" if edges else "",
+        f"{alone:,} lone vertices" if alone else "",
+    )
+    return (
+        f"Triangles in .ply and .off have no place for {' and '.join(filter(None, parts))}, which are left out; "
+        "write .obj, or leave out --triangles"
+    )
+
+
+def lone_vertices(axis: Any) -> NDArray[np.intp]:
+    """(k,) the vertices without a facet and without an edge."""
+    alone = np.ones(len(axis.vertices), bool)
+    alone[axis.face_vertices] = alone[axis.edges.ravel()] = False
+    return np.flatnonzero(alone)
+
+
+def write_lines(axis: Any, stream: BinaryIO) -> None:
+    """What of an axis OBJ has beside faces: edges without a facet, and lone vertices."""
+    write_rows(stream, "l %d %d\n", axis.edges + 1)
+    write_rows(stream, "p %d\n", lone_vertices(axis) + 1)
+
+
 def write_ply(axis: Any, stream: BinaryIO) -> None:
+    _require_facets(axis)
     triangles, facet = _triangles(axis)
     header = _HEADER.format(vertices=len(axis.vertices), triangles=len(triangles))
     stream.write(header.encode("ascii"))
@@ -51,13 +84,23 @@ def write_ply(axis: Any, stream: BinaryIO) -> None:
 def write_obj(axis: Any, stream: BinaryIO) -> None:
     write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
     write_rows(stream, "f %d %d %d\n", _triangles(axis)[0] + 1)  # OBJ counts from 1
+    write_lines(axis, stream)
 
 
 def write_off(axis: Any, stream: BinaryIO) -> None:
+    _require_facets(axis)
     triangles, _ = _triangles(axis)
     stream.write(b"OFF\n%d %d 0\n" % (len(axis.vertices), len(triangles)))
     write_rows(stream, "%.17g %.17g %.17g\n", axis.vertices)
     write_rows(stream, "3 %d %d %d\n", triangles)
+
+
+def _require_facets(axis: Any) -> None:
+    if len(axis.face_offsets) == 1 and len(axis.vertices):
+        raise ExportError(
+            f"Expected facets to write as triangles, found {len(axis.edges):,} edges and "
+            f"{len(lone_vertices(axis)):,} lone vertices alone; write .obj, or leave out --triangles"
+        )
 
 
 def _triangles(axis: Any) -> tuple[NDArray[np.int32], NDArray[np.int64]]:

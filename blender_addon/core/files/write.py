@@ -42,11 +42,14 @@ class Format:
         Takes the axis and a binary stream.
     write_triangles : callable or None
         The same as triangles in text; None where the format is what it is.
+    holds_edges : bool
+        Triangles in text hold edges without a facet, too.
     """
 
     label: str
     write: Callable[[Any, BinaryIO], None]
     write_triangles: Callable[[Any, BinaryIO], None] | None = None
+    holds_edges: bool = True
 
 
 def export_axis(
@@ -66,6 +69,7 @@ def export_axis(
         stay balls; the radii are scaled with it.
     triangles : bool
         Write .ply, .obj and .off as triangles in text, which more programs read; the others are as ever.
+        In .ply and .off they are without edges that have no facet: `left_out` says how many.
 
     Returns
     -------
@@ -75,12 +79,20 @@ def export_axis(
     Raises
     ------
     ExportError
-        Unknown extension, unfit transform, or the system refused to write; an old file is then unchanged.
+        Unknown extension, unfit transform, edges alone for a file of triangles that cannot hold them, or the
+        system refused to write; an old file is then unchanged.
     """
     known = format_of(path)
     write = (triangles and known.write_triangles) or known.write
     placed = axis if transform is None else _place(axis, np.asarray(transform, np.float64))
     return write_whole(path, lambda stream: write(placed, stream))
+
+
+def left_out(axis: MedialAxis, path: str | os.PathLike, triangles: bool) -> str:
+    """What `export_axis` does not write of an axis, in a sentence; "" where it writes all."""
+    known = format_of(path)
+    left = triangles and known.write_triangles and not known.holds_edges
+    return plain_triangles.left_out(axis) if left else ""
 
 
 def format_of(path: str | os.PathLike) -> Format:
@@ -198,15 +210,7 @@ def _write_obj(axis: MedialAxis, stream: BinaryIO) -> None:
         np.diff(axis.face_offsets),
         axis.face_vertices + 1,  # OBJ counts from 1
     )
-    _write_rows(stream, "l %d %d\n", axis.edges + 1)
-    _write_rows(stream, "p %d\n", _lone_vertices(axis) + 1)
-
-
-def _lone_vertices(axis: MedialAxis) -> NDArray[np.intp]:
-    """(k,) the vertices without a face and without an edge."""
-    alone = np.ones(len(axis.vertices), bool)
-    alone[axis.face_vertices] = alone[axis.edges.ravel()] = False
-    return np.flatnonzero(alone)
+    plain_triangles.write_lines(axis, stream)
 
 
 def _write_off(axis: MedialAxis, stream: BinaryIO) -> None:
@@ -315,8 +319,11 @@ FORMATS: dict[str, Format] = {
         "PLY, polygons with radius, theta, rho, side and generators",
         _write_ply,
         plain_triangles.write_ply,
+        holds_edges=False,
     ),
     ".obj": Format("Wavefront OBJ, polygons and lines", _write_obj, plain_triangles.write_obj),
-    ".off": Format("OFF, polygons and lines", _write_off, plain_triangles.write_off),
+    ".off": Format(
+        "OFF, polygons and lines", _write_off, plain_triangles.write_off, holds_edges=False
+    ),
     ".npz": Format("NumPy arrays, everything", _write_npz),
 }
