@@ -218,6 +218,15 @@ def test_failed_write_raises_and_leaves_the_old_file(result, tmp_path, monkeypat
     assert [p.name for p in tmp_path.iterdir()] == ["axis.ply"] and path.read_bytes() == b"precious"
 
 
+@pytest.mark.skipif(os.name == "nt", reason="names are bytes where files are POSIX's")
+def test_name_that_is_no_text(result, tmp_path, capfd):
+    """Blender takes text alone in what operators report."""
+    reports(capfd)
+    path = os.fsencode(tmp_path) + b"/caf\xe9.ma"
+    assert export(os.fsdecode(path)) == {"FINISHED"} and os.path.getsize(path) > 1000
+    assert [(kind, "caf\\udce9.ma" in text) for kind, text in reports(capfd)] == [("Info", True)]
+
+
 @pytest.mark.filterwarnings("error:.*blend relative:RuntimeWarning")
 def test_path_beside_the_blend_file(result, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
