@@ -783,7 +783,7 @@ def sample_surface(
         Samples lie on PN triangles (Vlachos et al. 2001): cubic patches whose normals are averages over smooth fans,
         weighted by angle. Sharp edges are curves tangent to both sides, so there are no cracks. Default: flat.
     keep_vertices : bool
-        Every used vertex is a sample, too.
+        Every vertex of a triangle is a sample, too; triangles that use one twice are none.
     mirrored_rows : int
         So many rows of samples along each sharp edge of two triangles, 0.75, 1.6, 2.45, ... spacings from it, are
         the same on both sides of the edge, where there is room: their Voronoi facets lie in the bisector of the

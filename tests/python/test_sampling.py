@@ -470,6 +470,47 @@ def test_a_wire_needs_memory_for_its_samples_only(medial):
     assert 50_000 < int(done.stdout) < 250_000
 
 
+FAR = """
+import importlib.util, resource, sys
+import numpy as np
+resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+spec = importlib.util.spec_from_file_location("_medial", sys.argv[1])
+medial = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(medial)
+size = float(sys.argv[2])
+vertices, triangle = size * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]])
+sizing = np.zeros((1, 3)), np.array([0.01])
+print(len(medial.sample_surface(vertices, triangle, sizing=sizing, count=3000).points))
+"""
+
+
+@pytest.mark.parametrize("size", [1.0, 100.0, 10_000.0])
+def test_a_count_bounds_the_memory_too(medial, size):
+    """Up to 5 x 10^11 samples would be needed by the spacing alone."""
+    from medial_axis.core.machine import native
+
+    command = [sys.executable, "-c", FAR, str(native.file()), str(size)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert 2800 < int(done.stdout) <= 3000
+
+
+@pytest.mark.parametrize("keep", [False, True])
+def test_vertices_of_no_triangle_are_no_samples(medial, keep):
+    """One that uses a vertex twice is none."""
+    vertices, triangles = meshes.box((1, 1, 1), (1.0, 1.0, 1.0))
+    more = np.array([(2, 0, 0), (3, 0, 0), (3, 1, 0)], float)
+    n = len(vertices)
+    all_triangles = np.concatenate([triangles, [(n, n, n + 1), (n, n + 1, n + 1), (n + 2,) * 3]])
+    options = {"count": 300, "keep_vertices": keep}
+    found = medial.sample_surface(np.concatenate([vertices, more]), all_triangles, **options)
+    assert 0 <= found.triangle.min() <= found.triangle.max() < len(triangles)
+    corners = vertices[triangles[found.triangle]]
+    places = np.einsum("ij,ijk->ik", found.barycentric, corners)
+    np.testing.assert_allclose(places, found.points, atol=1e-6)
+    assert not keep or cKDTree(found.points).query(vertices)[0].max() == 0
+
+
 def soup(seed):
     rng = np.random.default_rng(seed)
     n, m = rng.integers(3, 60), rng.integers(1, 120)

@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "base/atomic.h"
+
 namespace medial {
 namespace {
 
@@ -34,14 +36,16 @@ double area_of(const std::array<Vec3, 3>& p) {
 class Cutter {
  public:
   Cutter(const CurvedSurface& surface, int cuts, const Spacing& spacing, std::vector<Piece>& out,
-         int32_t triangle)
+         int32_t triangle, size_t most)
       : patch_(surface.patch(triangle)),
         cuts_(cuts),
         spacing_(spacing),
         out_(out),
-        triangle_(triangle) {}
+        triangle_(triangle),
+        most_(most) {}
 
   void cut(uint32_t path, const std::array<Barycentric, 3>& corners, int depth) {
+    if (out_.size() > most_) return;
     if (depth < cuts_) return cut_into_quarters(path, corners, depth);
     const double spacing =
         spacing_.field ? spacing_(patch_.point(centre(corners))) : spacing_.scale;
@@ -81,6 +85,7 @@ class Cutter {
   const Spacing& spacing_;
   std::vector<Piece>& out_;
   int32_t triangle_;
+  size_t most_;  // in `out_`
 };
 
 }  // namespace
@@ -94,13 +99,18 @@ std::array<Barycentric, 3> Piece::corners() const {
 }
 
 std::vector<Piece> cut_into_pieces(const CurvedSurface& surface, int cuts, const Spacing& spacing,
-                                   const Run& run) {
+                                   const Run& run, int64_t most) {
   const auto count = static_cast<int64_t>(surface.mesh().triangles.size());
+  int64_t made = 0;
   return parallel_append<Piece>(
       count, run,
       [&](int64_t t, std::vector<Piece>& out, int) {
-        Cutter(surface, cuts, spacing, out, static_cast<int32_t>(t))
+        if (shared_load(made) > most) return;
+        const size_t before = out.size();
+        Cutter(surface, cuts, spacing, out, static_cast<int32_t>(t),
+               before + static_cast<size_t>(most))
             .cut(1, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, 0);
+        if (most < INT64_MAX) shared_add(made, static_cast<int64_t>(out.size() - before));
       },
       64);
 }

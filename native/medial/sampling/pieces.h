@@ -28,9 +28,9 @@ struct Piece {
 
 // Cuts every triangle `cuts` times, and, where the spacing comes from a field, on while a piece is
 // wider than two spacings. Pieces without area are left out; they come in the order of their
-// triangles.
+// triangles. Where there are more than `most`, they are not cut to the end: some more are returned.
 std::vector<Piece> cut_into_pieces(const CurvedSurface& surface, int cuts, const Spacing& spacing,
-                                   const Run& run);
+                                   const Run& run, int64_t most = INT64_MAX);
 
 // The k-th of `count` well spread places in a piece; `shift` in [0, 1)^2 moves them all.
 Place place_in(const Piece& piece, const std::array<Barycentric, 3>& corners, int64_t k,

@@ -249,6 +249,7 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
   auto samples = parallel_append<FixedSample>(
       static_cast<int64_t>(model.mesh.points.size()), run,
       [&](int64_t p, std::vector<FixedSample>& out, int) {
+        if (model.mesh.fans[p].empty()) return;  // only of triangles that are none
         if (keep_vertices || model.creases.corner[p]) {
           out.push_back(at_vertex(model, static_cast<int32_t>(p), spacing));
         }
@@ -340,9 +341,10 @@ struct Expected {
   std::vector<Piece> pieces;
 };
 
-Expected expected_of(const Model& model, const Spacing& spacing, const Run& run) {
+Expected expected_of(const Model& model, const Spacing& spacing, const Run& run,
+                     int64_t most_pieces = INT64_MAX) {
   if (!spacing.field) return {kHexagonal * model.area / (spacing.scale * spacing.scale), {}};
-  Expected expected{0, cut_into_pieces(*model.surface, 0, spacing, run)};
+  Expected expected{0, cut_into_pieces(*model.surface, 0, spacing, run, most_pieces)};
   for (const Piece& p : expected.pieces) {
     expected.count += kHexagonal * p.area / (p.spacing * p.spacing);
   }
@@ -392,6 +394,20 @@ Turn sample_count(const Model& model, const SamplingOptions& options, const Run&
   return best;
 }
 
+// Spacings far too small for a count are made larger before there are so many pieces that to cut
+// them takes longer than all else.
+Expected bounded(const Model& model, int64_t count, Spacing& spacing, const Run& run) {
+  constexpr int64_t kPerSample = 64;
+  const auto triangles = static_cast<int64_t>(model.mesh.triangles.size());
+  const int64_t most = static_cast<int64_t>(kManyPieces) + kPerSample * (count + triangles);
+  Expected expected = expected_of(model, spacing, run, most);
+  while (static_cast<int64_t>(expected.pieces.size()) > most) {
+    spacing.scale *= 2;
+    expected = expected_of(model, spacing, run, most);
+  }
+  return expected;
+}
+
 // Samples by the spacings of the sites, all of which are made larger by one factor until no more
 // samples than allowed are needed.
 Turn sample_sized(const Model& model, const SamplingOptions& options, const Run& run) {
@@ -400,7 +416,7 @@ Turn sample_sized(const Model& model, const SamplingOptions& options, const Run&
   Spacing spacing{1, &field};
   if (!options.count) return sample_once(model, options, spacing, run);
   const auto most = static_cast<double>(*options.count);
-  Expected expected = expected_of(model, spacing, run);
+  Expected expected = bounded(model, *options.count, spacing, run);
   for (int i = 0; i < 2 && expected.count > most; ++i) {
     spacing.scale *= std::sqrt(expected.count / most);
     expected = expected_of(model, spacing, run);
