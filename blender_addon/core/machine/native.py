@@ -49,6 +49,8 @@ def load() -> ModuleType:
         try:
             _module = _imported(f"{_package}.lib.{NAME}")
         except ImportError as error:
+            if isinstance(error.__cause__, KeyboardInterrupt):  # the file has no fault
+                raise error.__cause__ from None
             _failure = (
                 f"Expected a compiled module for {expected_abi()} that loads, but the system says "
                 f"'{error}'; install the add-on's zip made for this system"
