@@ -7,10 +7,12 @@ in every version, and `python3 -m medial_axis` without Blender.
 
 from __future__ import annotations
 
+import _thread
 import argparse
 import shlex
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -387,7 +389,11 @@ def _watch(task: Task, show: Callable[[str], None]) -> Outcome:
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """The first Ctrl-C or polite kill raises KeyboardInterrupt, inside Blender, too; more are ignored."""
+    """The first Ctrl-C or polite kill raises KeyboardInterrupt, inside Blender, too; more are ignored.
+
+    Python drops what is raised while a weak reference dies, so there it is raised again a moment later.
+    """
+    hook, again = sys.unraisablehook, threading.Timer(0.05, _thread.interrupt_main)
     kept = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
 
     def stop(_number: int, _frame: object) -> None:
@@ -395,10 +401,19 @@ def _interruptible() -> Iterator[None]:
             signal.signal(number, signal.SIG_IGN)
         raise KeyboardInterrupt
 
+    def dropped(what: sys.UnraisableHookArgs) -> None:
+        if what.exc_type is not KeyboardInterrupt:
+            return hook(what)
+        signal.signal(signal.SIGINT, stop)
+        again.start()
+
     for number in kept:
         signal.signal(number, stop)
+    sys.unraisablehook = dropped
     try:
         yield
     finally:
+        again.cancel()
+        sys.unraisablehook = hook
         for number, handler in kept.items():
             signal.signal(number, signal.SIG_DFL if handler is None else handler)
