@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -235,7 +236,42 @@ def test_standard_streams_that_are_closed(folder, program, closed):  # noqa: F81
     assert wrong.returncode == cli.USAGE
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
+@pytest.mark.parametrize("megabytes", [348, 409])
+def test_little_address_space_has_an_end(folder, program, megabytes):  # noqa: F811
+    """OpenBLAS asks again and again for what it does not get; we do not call it for frames that change nothing."""
+    rows = np.random.default_rng(1).normal(size=(15_000, 3))
+    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None] * (1, 0.8, 0.6))
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+
+    done = program("many.npy", "many.ma", "--side", "both", preexec_fn=limit, timeout=60)
+    if done.returncode == -11 or "OpenBLAS" in done.stderr:
+        pytest.skip("NumPy itself does not load in so little")
+    assert "Traceback" not in done.stderr and done.returncode in (cli.DONE, cli.FAILED)
+
+
 # --- signals
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_while_a_weak_reference_dies(folder, monkeypatch, capsys, number):
+    """What is raised there, Python drops, and says so; it is raised again."""
+
+    class Thing:
+        pass
+
+    def finish(*rest):
+        thing = Thing()
+        reference = weakref.ref(thing, lambda _: os.kill(os.getpid(), number))
+        del thing
+        time.sleep(5)
+        pytest.fail(f"{reference} was in vain")
+
+    monkeypatch.setattr(cli, "finish", finish)
+    assert cli.main(["egg.xyz", "egg.ma"]) == cli.CANCELLED
+    assert "Exception ignored" not in capsys.readouterr().err
 
 
 def test_ctrl_c_while_the_compiled_module_is_loaded(folder, monkeypatch, capsys):

@@ -84,7 +84,7 @@ def export_axis(
     """
     known = format_of(path)
     write = (triangles and known.write_triangles) or known.write
-    placed = axis if transform is None else _place(axis, np.asarray(transform, np.float64))
+    placed = axis if transform is None else _placed(axis, np.asarray(transform, np.float64))
     return write_whole(path, lambda stream: write(placed, stream))
 
 
@@ -115,8 +115,10 @@ def known_extensions() -> str:
 # --- placing
 
 
-def _place(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
+def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
     """The same axis, seen in the world."""
+    if np.array_equal(transform[:3], np.eye(3, 4)):
+        return axis  # without LAPACK, whose OpenBLAS waits for memory without end where addresses are few
     if transform.shape not in ((3, 4), (4, 4)) or not np.isfinite(transform).all():
         raise ExportError(
             f"Expected a finite 3x4 or 4x4 transform, found shape {transform.shape}; pass a world matrix"
