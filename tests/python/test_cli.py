@@ -16,7 +16,7 @@ import pytest
 from conftest import PACKAGE
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute
-from medial_axis.core.batch import batch, option_words
+from medial_axis.core.batch import axis_work, batch, option_words
 from medial_axis.core.batch.frames import at_frame, output_path, parse_frames
 from medial_axis.core.errors import ExportError, InvalidInputError
 from medial_axis.core.files.axis_arrays import as_arrays
@@ -243,7 +243,7 @@ def test_what_fails_without_fault_of_the_input_is_another_code(here, run, monkey
     def refuse(*_):
         raise ExportError("Expected room, found none; make some")
 
-    monkeypatch.setattr(batch, "export_axis", refuse)
+    monkeypatch.setattr(axis_work, "export_axis", refuse)
     assert run("egg.xyz", "none.off", "out/")[0] == cli.FAILED
     assert run("none.off", "egg.xyz", "out/")[0] == cli.FAILED
 
