@@ -11,6 +11,7 @@ import numpy as np
 from .. import __version__
 from .axis.compute import Computation, compute
 from .axis.medial_axis import MedialAxis
+from .axis.topology import betti_words
 from .machine import native
 from .settings import SamplingMode, Settings
 
@@ -28,7 +29,7 @@ _TRIANGLES = np.array(
     ],
     np.int32,
 )
-_TOPOLOGY = "1 piece, no loop, no cavity, as the solid"
+_TOPOLOGY = f"{betti_words((1, 0, 0))}, as the solid"
 
 
 @dataclass(frozen=True)

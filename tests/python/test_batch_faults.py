@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.batch import batch
+from medial_axis.core.batch import axis_work
 from medial_axis.core.files import read as read_module
 from medial_axis.core.machine import job as job_module
 from medial_axis.core.machine import native
@@ -145,7 +145,7 @@ def test_a_fault_that_nobody_foresaw(folder, run, monkeypatch, kind):  # noqa: F
 
 
 def test_a_fault_while_it_is_computed(folder, run, monkeypatch):  # noqa: F811
-    compute_axis, shapes = batch.compute_axis, []
+    compute_axis, shapes = axis_work.compute_axis, []
 
     def broken(shape, *rest, **options):
         shapes.append(shape)
@@ -153,7 +153,7 @@ def test_a_fault_while_it_is_computed(folder, run, monkeypatch):  # noqa: F811
             raise np.core._exceptions._ArrayMemoryError((10**9, 3), np.dtype(float))
         return compute_axis(shape, *rest, **options)
 
-    monkeypatch.setattr(batch, "compute_axis", broken)
+    monkeypatch.setattr(axis_work, "compute_axis", broken)
     write_egg(folder / "middle.xyz", 1.1)
     code, reports, said = run("egg.xyz", "middle.xyz", "last.xyz", "out/")
     assert code == cli.FAILED and [r["status"] for r in reports] == ["done", "failed", "done"]

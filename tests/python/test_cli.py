@@ -16,9 +16,10 @@ import pytest
 from conftest import PACKAGE
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute
-from medial_axis.core.batch import batch, option_words
+from medial_axis.core.batch import axis_work, batch, option_words
 from medial_axis.core.batch.frames import at_frame, output_path, parse_frames
 from medial_axis.core.errors import ExportError, InvalidInputError
+from medial_axis.core.files.axis_arrays import as_arrays
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.read import import_points
 from medial_axis.core.files.write import export_axis
@@ -114,9 +115,11 @@ def test_npz_comes_back(here, run):
     _, (report,), _ = run("egg.xyz", "egg.npz")
     axis = load_axis("egg.npz")
     assert axis.facets == report["facets"] and len(axis.radius) == report["vertices"]
+    again = as_arrays(axis)
     with np.load("egg.npz") as arrays:
+        assert set(arrays) == set(again)
         for name in arrays:
-            np.testing.assert_array_equal(getattr(axis, name), arrays[name])
+            np.testing.assert_array_equal(again[name], arrays[name])
 
 
 def test_lines_for_people(here, capsys):
@@ -139,7 +142,7 @@ def test_options_are_those_of_settings(capsys):
 
 def test_defaults_are_those_of_settings():
     wanted = cli._parse(["a.off", "a.ma"])
-    assert wanted.settings == Settings()
+    assert wanted.work.settings == Settings()
 
 
 @pytest.mark.parametrize("name", OPTIONS)
@@ -157,7 +160,7 @@ def test_every_option_arrives(name):
         words = {key: [f"--{name}".replace("_", "-"), key] for key in members}
         values = members
     for key, value in values.items():
-        settings = cli._parse(["a.off", *words[key], "a.ma"]).settings
+        settings = cli._parse(["a.off", *words[key], "a.ma"]).work.settings
         assert getattr(settings, name) == value
         assert getattr(option_words.settings_from(argparse_of(settings)), name) == value
 
@@ -171,13 +174,17 @@ def argparse_of(settings):
 
 def test_options_in_one_word():
     wanted = cli._parse(["a.off", "--options", "--rho 9 --side 'both' --json", "a.ma", "--rho=7"])
-    assert (wanted.settings.rho, wanted.settings.side, wanted.json) == (9.0, Side.BOTH, True)
-    assert cli._parse(["a.off", "a.ma", "--options="]).settings == Settings()
+    assert (wanted.work.settings.rho, wanted.work.settings.side, wanted.json) == (
+        9.0,
+        Side.BOTH,
+        True,
+    )
+    assert cli._parse(["a.off", "a.ma", "--options="]).work.settings == Settings()
 
 
 def test_degrees_are_exact_where_it_matters():
     for degrees, radians in ((22.5, np.pi / 8), (90, np.pi / 2), (0, 0.0)):
-        assert cli._parse(["a.off", "a.ma", f"--theta={degrees}"]).settings.theta == radians
+        assert cli._parse(["a.off", "a.ma", f"--theta={degrees}"]).work.settings.theta == radians
 
 
 @pytest.mark.parametrize(
@@ -227,14 +234,16 @@ def test_a_failing_item_does_not_stop_the_others(here, run):
 
 
 def test_what_fails_without_fault_of_the_input_is_another_code(here, run, monkeypatch):
-    code, (report,), _ = run("egg.xyz", "egg.ma", "--criteria", "ratio", "--rho", "1e9")
+    code, (report,), _ = run(
+        "egg.xyz", "egg.ma", "--form", "published", "--rho", "1e9", "--criteria", "ratio"
+    )
     assert code == cli.FAILED and "no facet passes" in report["error"]
     assert files(here) == ["egg.xyz"]
 
     def refuse(*_):
         raise ExportError("Expected room, found none; make some")
 
-    monkeypatch.setattr(batch, "export_axis", refuse)
+    monkeypatch.setattr(axis_work, "export_axis", refuse)
     assert run("egg.xyz", "none.off", "out/")[0] == cli.FAILED
     assert run("none.off", "egg.xyz", "out/")[0] == cli.FAILED
 

@@ -71,6 +71,18 @@ def test_no_samples_are_spent_on_walls_that_stay_too_close():
     assert found.points < 2_500 and found.missed > 0.8
 
 
+def test_close_walls_of_overlapping_parts_are_said_but_not_refined():
+    """The closest walls of overlapping parts are slivers between them."""
+    thin, block = plate(0.015), meshes.box((1, 1, 1), (0.2, 0.2, 0.2))
+    both = (
+        np.concatenate((thin[0], block[0] + (0.41, 0.41, 0.0))),
+        np.concatenate((thin[1], block[1] + len(thin[0]))),
+    )
+    found = computed(both, budget=20_000)
+    assert found.chosen.samples.buried > 0
+    assert said(found) and found.points < 5_000
+
+
 def test_dense_vertices_of_a_thin_plate_are_not_trusted():
     mesh = meshes.box((20, 20, 1), (0.5, 0.5, 0.0075))
     found = computed(mesh)

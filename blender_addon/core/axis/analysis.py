@@ -73,6 +73,12 @@ class AnalysedSamples:
     faces: NDArray[np.int32] | None = None
 
     @property
+    def walls_to_show(self) -> Walls | None:
+        """The walls between which samples may be closer together. Where parts overlap there are none: the closest walls
+        are slivers between parts, and the finer they are sampled the more crumbs of an axis come out of them."""
+        return None if self.buried else self.walls
+
+    @property
     def bytes(self) -> int:
         """The memory that these samples, their analysis and its hierarchy hold."""
         density = self.density

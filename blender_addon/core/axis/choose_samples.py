@@ -257,7 +257,7 @@ def _passes(request: Request, sides: Sides) -> tuple[AnalysedSamples, int]:
 
 def _are_worth_more(request: Request, samples: AnalysedSamples) -> bool:
     """Whether the axis is missing between walls that are close, and the budget can do something about it."""
-    walls = samples.walls
+    walls = samples.walls_to_show
     return (
         walls is not None
         and walls.are_missed

@@ -66,7 +66,7 @@ def next_amount(
         The same for close walls.
     budget : int
     """
-    density, walls = samples.density, samples.walls
+    density, walls = samples.density, samples.walls_to_show
     least = np.where(density.at_edge, density.finest, finest * samples.spacing)
     spacings = np.clip(density.limit * density.feature_size, least, samples.spacing)
     sites = density.points

@@ -27,7 +27,7 @@ class NearestBall {
 
  private:
   struct Node {
-    Box box;  // of the centres
+    Box box = {};  // of the centres
     double largest = 0;
     int32_t begin = 0, end = 0;
     int32_t right = -1;  // the left child follows its parent; -1: a leaf
@@ -38,7 +38,7 @@ class NearestBall {
   };
 
   int32_t build(int32_t begin, int32_t end);
-  void search(int32_t node, const Vec3& query, Best& best) const;
+  void search(int32_t id, const Vec3& query, Best& best) const;
   static double bound(const Node& node, const Vec3& query);
 
   std::vector<Ball> balls_;

@@ -24,13 +24,13 @@ class TriangleTree {
     Vec3 a, b, c;
   };
   struct Node {
-    Box box;
+    Box box = {};
     int32_t begin = 0, end = 0;
     int32_t right = -1;  // the left child follows its parent; -1: a leaf
   };
 
   int32_t build(int32_t begin, int32_t end);
-  void search(int32_t node, const Vec3& query, double& squared) const;
+  void search(int32_t id, const Vec3& query, double& squared) const;
   static double bound(const Node& node, const Vec3& query);
   static double squared_distance(const Corners& triangle, const Vec3& query);
 

@@ -7,6 +7,9 @@
 namespace medial {
 namespace {
 
+// Instead of std::hypot, for which a module would need a newer C library than it may.
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 constexpr double kBand = 0.1;  // of the radius: samples nearer to it or farther are other walls
 constexpr double kFarthest = 0.05;  // of the radius: more it does not move at once
 constexpr double kTooFar = 0.15;    // of the radius: who wants to move so far sees something else
@@ -113,7 +116,7 @@ class Fit {
       return canal;
     }
     const auto& f = *found;
-    const double size = std::hypot(f[3], f[6]) / from_.radius;
+    const double size = length(f[3], f[6]) / from_.radius;
     canal.trust *= 1 - smoothstep((size - kFarthest) / (kTooFar - kFarthest));
     const auto part = [&](int i) {
       return canal.trust * (f[i] * basis_[0] + f[i + 3] * basis_[1]);
@@ -142,8 +145,7 @@ class Fit {
     const double s = dot(to, from_.tangent) / half_width_;
     if (!(std::abs(s) < 1)) return;
     const Vec3 beside = to - s * s * from_.bend;
-    const double x = dot(beside, basis_[0]), y = dot(beside, basis_[1]),
-                 d = std::sqrt(x * x + y * y);
+    const double x = dot(beside, basis_[0]), y = dot(beside, basis_[1]), d = length(x, y);
     if (!(std::abs(d - from_.radius) < kBand * from_.radius)) return;
     const double rest = 1 - s * s;
     normals_.add(s, x / d, y / d, d - from_.radius, rest * rest);
@@ -154,8 +156,8 @@ class Fit {
   // the lesser principal moment (1/2 on a circle), or all on one side, by their mean.
   double all_round() const {
     const double xx = normals_.mean(3), xy = normals_.mean(4), yy = normals_.mean(5),
-                 least = 0.5 * (xx + yy) - std::hypot(0.5 * (xx - yy), xy),
-                 aside = std::hypot(normals_.mean(1), normals_.mean(2));
+                 least = 0.5 * (xx + yy) - length(0.5 * (xx - yy), xy),
+                 aside = length(normals_.mean(1), normals_.mean(2));
     return smoothstep((2 * least - 0.3) / 0.4) * (1 - smoothstep((aside - 0.2) / 0.4));
   }
 

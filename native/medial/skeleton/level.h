@@ -34,7 +34,7 @@ struct Hierarchy::Parts {
 };
 
 // Whether thresholds leave a cell with this value.
-bool exceeds(const Thickness& value, const LevelOptions& options);
+bool exceeds(const Thickness& value, const LevelOptions& t);
 
 // Throws InvalidInputError for thresholds below 0.
 Level level(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);
