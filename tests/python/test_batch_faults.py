@@ -188,7 +188,7 @@ def test_a_system_without_threads(folder, run, monkeypatch):  # noqa: F811
 def test_little_address_space(folder, program, megabytes):  # noqa: F811
     """It goes on, or says in a sentence that memory is short; nothing else."""
     rows = np.random.default_rng(1).normal(size=(60_000, 3))
-    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None])
+    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None] * (1.0, 0.7, 0.5))
 
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
@@ -198,7 +198,8 @@ def test_little_address_space(folder, program, megabytes):  # noqa: F811
         pytest.skip("NumPy itself does not load in so little")
     assert "Traceback" not in done.stderr and done.returncode in (cli.DONE, cli.FAILED), done.stderr
     if done.returncode == cli.FAILED and done.stdout:
-        assert json.loads(done.stdout)["kind"] in ("OutOfMemoryError", "MemoryLimitError")
+        report = json.loads(done.stdout)
+        assert report["kind"] in ("OutOfMemoryError", "MemoryLimitError"), report["error"]
     assert files(folder) == ["egg.xyz", "last.xyz", "many.npy"] or done.returncode == cli.DONE
 
 

@@ -17,7 +17,13 @@ from typing import Any, Protocol
 
 from ... import __version__
 from ..axis.shape import Shape
-from ..errors import ExportError, InvalidInputError, MedialAxisError, out_of_memory
+from ..errors import (
+    ExportError,
+    InvalidInputError,
+    MedialAxisError,
+    OutOfMemoryError,
+    out_of_memory,
+)
 from ..files.names import LONGEST, bytes_of
 from ..files.whole_file import write_whole
 from ..machine.cache import CACHE, key_of
@@ -157,6 +163,8 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
 
 def failure(item: Item, error: BaseException) -> dict[str, Any]:
     """The report of an item that has no output, whatever the reason."""
+    if isinstance(error, MemoryError) and not isinstance(error, OutOfMemoryError):
+        error = out_of_memory()  # of Python or NumPy, while files are read and written
     return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": _said(error)}
 
 
@@ -178,8 +186,6 @@ def _said(error: BaseException) -> str:
     """One sentence; what should not have happened says where it did."""
     if isinstance(error, MedialAxisError):
         return str(error)
-    if isinstance(error, MemoryError):
-        return str(out_of_memory())
     frame = traceback.extract_tb(error.__traceback__)[-1:]
     place = "".join(f" in line {at.lineno} of {Path(at.filename).name}" for at in frame)
     words = " ".join(str(error).split())
