@@ -145,7 +145,7 @@ def test_disabling_the_addon_stops_the_job():
 def test_source_deleted_before_the_result_is_written(capfd):
     source = ellipsoid()
     found = addon("ui.selected_sources").Source(
-        source.name, getattr(source, "session_uid", None), None
+        source.name, getattr(source, "session_uid", None), None, None
     )
     assert found.find() == source
     bpy.data.objects.remove(source)

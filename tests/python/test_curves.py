@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 import pytest
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.settings import Settings
 from support import messy, resampled
 from support.levels import betti_of_mesh
 from support.shapes import SHAPES
@@ -271,3 +273,14 @@ def test_tips_of_curves(data_file, name, fewest, most):
         assert fewest <= tips(level) <= most, limb
         assert tips(raw) == tips(level)
     assert lengths(level, level.vertices).sum() < 0.95 * lengths(raw, raw.vertices).sum()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_wires_far_from_samples_that_nearly_coincide_are_not_divided_without_end(seed):
+    """Triangles at random that pass through each other: where samples nearly coincide, their spacing is next to
+    nothing, and the wires beside them are long."""
+    vertices = np.random.default_rng(seed).normal(size=(54, 3))
+    triangles = np.arange(54, dtype=np.int32).reshape(-1, 3)
+    settings = Settings(samples=253, budget=1394, keep_vertices=True)
+    axis = compute(vertices, triangles, settings).axis
+    assert np.isfinite(axis.vertices).all() and len(axis.vertices) < 100_000

@@ -56,18 +56,21 @@ std::vector<double> spacings_along(std::span<const Vec3> line, const PointTree& 
   return spacing;
 }
 
-// Steps along a line up to each vertex; by vertices if it has no length.
+// Steps along a line up to each vertex; by vertices if it has no length, or no spacing somewhere.
 std::vector<double> steps_along(std::span<const Vec3> line, std::span<const double> spacing) {
   std::vector<double> steps(line.size(), 0);
   for (size_t k = 1; k < line.size(); ++k) {
     const double density = 0.5 / kStep * (1 / spacing[k - 1] + 1 / spacing[k]);
     steps[k] = steps[k - 1] + distance(line[k - 1], line[k]) * density;
   }
-  if (!(steps.back() > 0)) {
+  if (!(steps.back() > 0 && steps.back() < HUGE_VAL)) {
     for (size_t k = 0; k < steps.size(); ++k) steps[k] = static_cast<double>(k);
   }
   return steps;
 }
+
+// Where samples nearly coincide, their spacing says nothing about a line far away from them.
+constexpr double kMostPerEdge = 64;  // steps, on average
 
 // Fewer would fall on other wires, or on facets, with the same ends.
 size_t fewest_steps(const Chain& chain) {
@@ -79,8 +82,9 @@ Curve divided(const Chain& chain, std::span<const Vec3> places, const PointTree&
   const auto line = smoothed(chain, places);
   const auto spacing = spacings_along(line, samples);
   const auto steps = steps_along(line, spacing);
-  const size_t count =
-      std::max(fewest_steps(chain), static_cast<size_t>(std::llround(steps.back())));
+  const double most = kMostPerEdge * static_cast<double>(chain.size());
+  const size_t count = std::max(fewest_steps(chain),
+                                static_cast<size_t>(std::llround(std::min(steps.back(), most))));
   Curve curve;
   for (size_t i = 0, k = 0; i <= count; ++i) {
     const double step = steps.back() * static_cast<double>(i) / static_cast<double>(count);
