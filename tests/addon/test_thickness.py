@@ -169,6 +169,20 @@ def test_gap_between_two_objects_in_one_mesh():
     assert np.count_nonzero(thin_faces(pair)) == 2
 
 
+def test_one_undo_takes_the_measurement_away():
+    bpy.context.preferences.edit.use_global_undo = True
+    name, before = torus().name, len(bpy.data.objects)
+    bpy.ops.ed.undo_push(message="Scene is set")
+    select(bpy.data.objects[name])
+    assert bpy.ops.object.medial_axis_thickness("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert "ma_thickness" in bpy.data.objects[name].data.attributes
+    bpy.ops.ed.undo()
+    assert len(bpy.data.objects) == before
+    assert "ma_thickness" not in bpy.data.objects[name].data.attributes
+    bpy.ops.ed.redo()
+    assert "ma_thickness" in bpy.data.objects[name].data.attributes
+
+
 def test_several_objects_each_have_their_own():
     first, second = torus("First"), box()
     select(first, second)
