@@ -20,7 +20,15 @@ VERSION = re.search(
     r'^version = "(.+)"', (ADDON / "blender_manifest.toml").read_text(), re.MULTILINE
 ).group(1)
 CORE = {path.relative_to(ADDON).as_posix() for path in (ADDON / "core").rglob("*.py")}
-FRONT = {"__init__.py", "__main__.py", "cli.py", "cli_skeleton.py", "library.py", "py.typed"}
+FRONT = {
+    "__init__.py",
+    "__main__.py",
+    "cli.py",
+    "cli_skeleton.py",
+    "console.py",
+    "library.py",
+    "py.typed",
+}
 
 pytestmark = pytest.mark.slow
 
