@@ -87,28 +87,26 @@ class Triangles {
   py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
 };
 
-// A view of the caller's ids. Others than int32, contiguous, would need a copy, and have no use.
-inline std::span<const int32_t> ids_of(const py::object& ids, const char* name) {
-  using Ids = py::array_t<int32_t, py::array::c_style>;
-  if (!py::isinstance<Ids>(ids) || py::cast<Ids>(ids).ndim() != 1) {
-    throw InvalidInputError("Expected " + std::string(name) +
-                            " as a contiguous (m,) int32 array, found " + describe(ids) +
-                            "; convert it.");
+// A view of the caller's column. Others than of this type, contiguous, would need a copy, and have
+// no use. `expected` says it in NumPy's words.
+template <typename T>
+std::span<const T> column_of(const py::object& column, const char* name, const char* expected) {
+  using Column = py::array_t<T, py::array::c_style>;
+  if (!py::isinstance<Column>(column) || py::cast<Column>(column).ndim() != 1) {
+    throw InvalidInputError("Expected " + std::string(name) + " as a contiguous " + expected +
+                            " array, found " + describe(column) + "; convert it.");
   }
-  const auto view = py::reinterpret_borrow<Ids>(ids);
+  const auto view = py::reinterpret_borrow<Column>(column);
   return {view.data(), static_cast<size_t>(view.size())};
 }
 
-// A view of the caller's flags.
+inline std::span<const int32_t> ids_of(const py::object& ids, const char* name) {
+  return column_of<int32_t>(ids, name, "(m,) int32");
+}
+
 inline std::span<const uint8_t> flags_of(const py::object& flags, const char* name) {
-  using Flags = py::array_t<bool, py::array::c_style>;
-  if (!py::isinstance<Flags>(flags) || py::cast<Flags>(flags).ndim() != 1) {
-    throw InvalidInputError("Expected " + std::string(name) +
-                            " as a contiguous (n,) bool array, found " + describe(flags) +
-                            "; convert it.");
-  }
-  const auto view = py::reinterpret_borrow<Flags>(flags);
-  return {reinterpret_cast<const uint8_t*>(view.data()), static_cast<size_t>(view.size())};
+  const auto view = column_of<bool>(flags, name, "(n,) bool");
+  return {reinterpret_cast<const uint8_t*>(view.data()), view.size()};
 }
 
 // Rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis for

@@ -9,13 +9,6 @@ namespace {
 
 constexpr int32_t kLeaf = 8;
 
-double coordinate(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-int longest_axis(const Vec3& extent) {
-  if (extent.x >= extent.y && extent.x >= extent.z) return 0;
-  return extent.y >= extent.z ? 1 : 2;
-}
-
 }  // namespace
 
 NearestBall::NearestBall(std::span<const Ball> balls)
@@ -71,13 +64,7 @@ void NearestBall::search(int32_t id, const Vec3& query, Best& best) const {
 
 // No ball of the node comes nearer, but for rounding.
 double NearestBall::bound(const Node& node, const Vec3& query) {
-  const auto beside = [](double low, double x, double high) {
-    return std::max({low - x, x - high, 0.0});
-  };
-  const Vec3 away{beside(node.box.low.x, query.x, node.box.high.x),
-                  beside(node.box.low.y, query.y, node.box.high.y),
-                  beside(node.box.low.z, query.z, node.box.high.z)};
-  return length(away) - node.largest;
+  return std::sqrt(squared_distance(node.box, query)) - node.largest;
 }
 
 }  // namespace medial

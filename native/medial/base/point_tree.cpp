@@ -4,14 +4,6 @@
 namespace medial {
 namespace {
 
-double squared_distance(const Box& box, const Vec3& x) {
-  const auto beyond = [](double low, double at, double high) {
-    return std::max({low - at, 0.0, at - high});
-  };
-  return squared_length({beyond(box.low.x, x.x, box.high.x), beyond(box.low.y, x.y, box.high.y),
-                         beyond(box.low.z, x.z, box.high.z)});
-}
-
 struct NearestOne {
   Neighbour best{HUGE_VAL, -1};  // by squared distance
 

@@ -6,13 +6,6 @@ namespace {
 
 constexpr int32_t kLeaf = 4;
 
-double coordinate(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-int longest_axis(const Vec3& extent) {
-  if (extent.x >= extent.y && extent.x >= extent.z) return 0;
-  return extent.y >= extent.z ? 1 : 2;
-}
-
 double squared_distance_to_segment(const Vec3& a, const Vec3& b, const Vec3& query) {
   const Vec3 along = b - a, away = query - a;
   const double whole = squared_length(along);
@@ -62,7 +55,8 @@ double TriangleTree::distance(const Vec3& query) const {
 
 void TriangleTree::search(int32_t id, const Vec3& query, double& squared) const {
   const Node& node = nodes_[id];
-  if (bound(node, query) > squared) return;
+  // No triangle of the node comes nearer than its box, but for rounding.
+  if (medial::squared_distance(node.box, query) > squared) return;
   if (node.right < 0) {
     for (int32_t i = node.begin; i < node.end; ++i) {
       squared = std::min(squared, squared_distance(triangles_[i], query));
@@ -70,19 +64,12 @@ void TriangleTree::search(int32_t id, const Vec3& query, double& squared) const 
     return;
   }
   int32_t near = id + 1, far = node.right;
-  if (bound(nodes_[far], query) < bound(nodes_[near], query)) std::swap(near, far);
+  const auto away = [&](int32_t child) {
+    return medial::squared_distance(nodes_[child].box, query);
+  };
+  if (away(far) < away(near)) std::swap(near, far);
   search(near, query, squared);
   search(far, query, squared);
-}
-
-// The square of what no triangle of the node comes nearer than, but for rounding.
-double TriangleTree::bound(const Node& node, const Vec3& query) {
-  const auto beside = [](double low, double x, double high) {
-    return std::max({low - x, x - high, 0.0});
-  };
-  return squared_length({beside(node.box.low.x, query.x, node.box.high.x),
-                         beside(node.box.low.y, query.y, node.box.high.y),
-                         beside(node.box.low.z, query.z, node.box.high.z)});
 }
 
 // To the plane where the query is above the triangle, else to the nearest of its sides.

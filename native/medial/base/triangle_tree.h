@@ -31,7 +31,6 @@ class TriangleTree {
 
   int32_t build(int32_t begin, int32_t end);
   void search(int32_t id, const Vec3& query, double& squared) const;
-  static double bound(const Node& node, const Vec3& query);
   static double squared_distance(const Corners& triangle, const Vec3& query);
 
   std::vector<Corners> triangles_;  // leaf after leaf

@@ -30,6 +30,14 @@ inline Vec3 normalized(const Vec3& a) {
   return l > 0 ? (1 / l) * a : a;
 }
 
+inline double coordinate(const Vec3& v, int axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+inline int longest_axis(const Vec3& extent) {
+  if (extent.x >= extent.y && extent.x >= extent.z) return 0;
+  return extent.y >= extent.z ? 1 : 2;
+}
+
 struct Box {
   Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
@@ -40,5 +48,14 @@ struct Box {
   Vec3 centre() const { return 0.5 * low + 0.5 * high; }
   Vec3 extent() const { return high - low; }
 };
+
+// From a point to the nearest place of a box; 0 inside.
+inline double squared_distance(const Box& box, const Vec3& x) {
+  const auto beyond = [](double low, double at, double high) {
+    return std::max({low - at, 0.0, at - high});
+  };
+  return squared_length({beyond(box.low.x, x.x, box.high.x), beyond(box.low.y, x.y, box.high.y),
+                         beyond(box.low.z, x.z, box.high.z)});
+}
 
 }  // namespace medial
