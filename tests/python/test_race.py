@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The race's solids, judge and rivals against brute force, and what makes its page. No test looks at seconds."""
+
+import math
+import sys
+from itertools import combinations
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+sys.path.insert(0, str(ROOT))
+
+from tests.benchmarks.race import betti, judge, read_axis, solids
+
+NO_EDGES = np.empty((0, 2), int)
+
+
+def complex_of(vertices, polygons=(), edges=NO_EDGES):
+    return read_axis.complex_of(np.array(vertices, float), [np.array(p) for p in polygons], edges)
+
+
+# --- the solids: brute force over dense random points of the surface
+
+
+@pytest.fixture(scope="module")
+def clouds():
+    return {name: x.shape.random_sample(60_000, 5) for name, x in solids.SOLIDS.items()}
+
+
+def nearest_two(points, cloud, apart):
+    """Distance to the nearest of a cloud, and to the nearest one that is `apart` away from it."""
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(cloud)
+    first, row = tree.query(points)
+    second = np.empty(len(points))
+    for i, p in enumerate(points):
+        away = np.linalg.norm(cloud - p, axis=1)
+        other = np.linalg.norm(cloud - cloud[row[i]], axis=1) > apart[i]
+        second[i] = away[other].min()
+    return first, second
+
+
+@pytest.mark.parametrize("name", solids.SOLIDS)
+def test_points_of_the_inner_axis_have_two_nearest_places_of_the_surface(name, clouds):
+    solid = solids.SOLIDS[name]
+    points = solid.shape.axis_points(25, 3)
+    assert np.allclose(solid.shape.axis_distance(points), 0.0, atol=1e-6)
+    assert solid.shape.inside(points).all()
+    first, second = nearest_two(points, clouds[name], 0.2 * solid.shape.axis_radius(points))
+    step = 2 * solid.spacing(60_000)
+    exact = solid.shape.axis_radius(points)
+    assert (np.abs(first - exact) < step).all()
+    assert (second - first < step).mean() > 0.9  # at rims and in sharp edges the two places come together
+
+
+@pytest.mark.parametrize("name", solids.SOLIDS)
+def test_points_off_the_inner_axis_have_one_nearest_place(name, clouds):
+    """A ball round a point off the axis touches the surface in one place: what is as near lies round it."""
+    solid, rng = solids.SOLIDS[name], np.random.default_rng(7)
+    cloud = clouds[name]
+    mixed = cloud[rng.integers(len(cloud), size=4000)] * rng.random((4000, 1)) ** 0.5
+    mixed = mixed[solid.shape.inside(mixed)]
+    step = solid.spacing(60_000)
+    mixed = mixed[solid.shape.axis_distance(mixed) > 0.02][:40]
+    assert len(mixed) == 40
+    for p in mixed:
+        away = np.linalg.norm(cloud - p, axis=1)
+        near = cloud[away < away.min() + 0.3 * step]
+        assert np.linalg.norm(near - near[0], axis=1).max() < 0.5
+
+
+@pytest.mark.parametrize("name", ["torus", "holed plate", "cyclide", "shell", "eccentric shell"])
+def test_points_of_the_outer_axis_have_two_nearest_places_of_the_surface(name, clouds):
+    points = solids.outer_points(name, 15, 2)
+    assert not solids.SOLIDS[name].shape.inside(points).any()
+    assert np.allclose(solids.outer_distance(name, points), 0.0, atol=1e-6)
+    first, _ = nearest_two(points, clouds[name], np.zeros(len(points)))
+    _, second = nearest_two(points, clouds[name], 0.2 * first)
+    assert (second - first < 2 * solids.SOLIDS[name].spacing(60_000)).mean() > 0.9
+
+
+@pytest.mark.parametrize("name", ["round cone", "eccentric shell", "cyclide", "holed plate"])
+def test_areas_normals_and_insides_of_the_new_solids(name, clouds):
+    """By counting: the share of random places that are inside one step under the surface and outside one above it, and
+    the volume by the divergence theorem and by counting."""
+    shape, cloud = solids.SOLIDS[name].shape, clouds[name]
+    normals = shape.normals(cloud)
+    assert np.allclose(np.linalg.norm(normals, axis=1), 1.0)
+    assert shape.inside(cloud - 1e-4 * normals).all()
+    assert not shape.inside(cloud + 1e-4 * normals).any()
+    flux = shape.area * np.einsum("ij,ij->i", cloud, normals).mean() / 3
+    low, high = cloud.min(axis=0), cloud.max(axis=0)
+    thrown = np.random.default_rng(1).uniform(low, high, (400_000, 3))
+    counted = shape.inside(thrown).mean() * np.prod(high - low)
+    assert flux == pytest.approx(counted, rel=0.02)
+
+
+def test_measures_of_axes():
+    """Areas and lengths by other ways: uniform points in a known rectangle, circles and segments."""
+    plate = solids.SOLIDS["holed plate"]
+    flat = np.random.default_rng(0).uniform((-1.2, -0.7), (1.2, 0.7), (200_000, 2))
+    on = plate.shape.axis_distance(np.column_stack((flat, np.zeros(len(flat))))) == 0.0
+    assert plate.area == pytest.approx(on.mean() * 2.4 * 1.4, rel=0.01)
+    assert solids.SOLIDS["box"].area == pytest.approx(_area_by_projection(), rel=0.01)
+    assert solids.SOLIDS["cylinder"].length == pytest.approx(1.0)
+    assert solids.SOLIDS["cylinder"].area == pytest.approx(2 * math.pi * 0.5**2 * math.sqrt(2))
+    assert solids.SOLIDS["torus"].length == pytest.approx(2 * math.pi)
+
+
+def _area_by_projection():
+    """The box's axis: the middle rectangle, and parts of planes at 45 degrees over what they project to."""
+    x, y, z = 1.0, 0.7, 0.4
+    middle = 4 * (x - z) * (y - z)
+    along = 8 * math.sqrt(2) * z * ((x - z) + (y - z))
+    corners = 12 * math.sqrt(2) * z * z
+    return middle + along + corners
+
+
+# --- the judge
+
+
+def test_distances_are_those_of_a_loop():
+    rng = np.random.default_rng(2)
+    found = complex_of(
+        rng.random((60, 3)),
+        [rng.choice(50, 3, replace=False) for _ in range(40)],
+        rng.integers(0, 60, (15, 2)),
+    )
+    points = rng.random((50, 3)) * 2 - 0.5
+    exact = [min(_to_simplex(p, s) for s in judge.simplices_of(found)) for p in points]
+    assert np.allclose(judge.distance_to(points, found), exact)
+
+
+def _to_simplex(p, corners):
+    """Least squares on every face of the simplex whose solution lies in it."""
+    best = np.inf
+    for size in (1, 2, 3):
+        for rows in combinations(range(3), size):
+            a, spans = corners[rows[0]], corners[list(rows[1:])] - corners[rows[0]]
+            share = np.linalg.lstsq(spans.T, p - a, rcond=None)[0] if size > 1 else np.empty(0)
+            if (share >= 0).all() and share.sum() <= 1:
+                best = min(best, np.linalg.norm(a + share @ spans - p))
+    return best
+
+
+def test_betti_numbers_are_those_of_dense_elimination():
+    rng = np.random.default_rng(3)
+    for _ in range(40):
+        found = complex_of(
+            rng.random((9, 3)),
+            [rng.choice(9, 3, replace=False) for _ in range(rng.integers(0, 40))],
+            rng.integers(0, 9, (4, 2)),
+        )
+        assert betti.betti(found) == _by_elimination(found)
+
+
+def _by_elimination(found):
+    pairs = found.corner_edges.tolist() if found.faces else []
+    edges = sorted({tuple(pair) for pair in pairs} | {tuple(pair) for pair in found.edges.tolist()})
+    face = np.repeat(np.arange(found.faces), np.diff(found.offsets))
+    second = np.zeros((len(edges), found.faces), int)
+    for f, pair in zip(face, pairs, strict=True):
+        second[edges.index(tuple(pair)), f] ^= 1
+    first = np.zeros((len(found.vertices), len(edges)), int)
+    for e, (p, q) in enumerate(edges):
+        first[p, e] = first[q, e] = 1
+    one, two = _dense_rank(first), _dense_rank(second)
+    return len(found.vertices) - one, len(edges) - one - two, found.faces - two
+
+
+def _dense_rank(matrix):
+    matrix, rank = matrix.copy(), 0
+    for column in range(matrix.shape[1]):
+        rows = np.flatnonzero(matrix[rank:, column]) + rank
+        if len(rows):
+            matrix[[rank, rows[0]]] = matrix[[rows[0], rank]]
+            others = np.flatnonzero(matrix[:, column])
+            matrix[others[others != rank]] ^= matrix[rank]
+            rank += 1
+    return rank
+
+
+def test_betti_numbers_of_known_surfaces():
+    cube = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    assert betti.betti(complex_of(corners, cube)) == (1, 0, 1)
+    assert betti.betti(complex_of(corners, cube[1:])) == (1, 0, 0)
+    assert betti.betti(complex_of(corners, cube[2:])) == (1, 1, 0)
+    assert betti.betti(complex_of(corners, [], np.array([(0, 1), (1, 2), (2, 0)]))) == (6, 1, 0)
+
+
+def test_points_fall_by_area_and_strips(clouds):
+    """A unit square, an edge of length 1 and a point far from each other, and a width of 1/2."""
+    square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    found = complex_of([*square, (5, 0, 0), (6, 0, 0), (9, 0, 0)], [(0, 1, 2, 3)], np.array([(4, 5)]))
+    points = judge.points_of(found, 0.5, 40_000)
+    shares = [np.mean((points[:, 0] >= a) & (points[:, 0] <= b)) for a, b in ((0, 1), (5, 6), (9, 9))]
+    assert shares == pytest.approx(np.array([1.0, 0.5, 0.25]) / 1.75, abs=0.01)
+    on_edge = points[(points[:, 0] >= 5) & (points[:, 0] <= 6), 0] - 5
+    assert on_edge.mean() == pytest.approx(0.5, abs=0.01) and on_edge.std() == pytest.approx(
+        12**-0.5, abs=0.01
+    )
+
+
+def test_exact_axes_have_no_error():
+    """The core circle as edges; the rectangle as two triangles, and half of it."""
+    turn = np.arange(20_000) * 2 * math.pi / 20_000
+    circle = np.column_stack((np.cos(turn), np.sin(turn), 0 * turn))
+    rows = np.arange(len(turn))
+    score = judge.judge("torus", complex_of(circle, [], np.column_stack((rows, np.roll(rows, -1)))), 2000)
+    assert score.largest < 1e-6 and score.missed_largest < 1e-6 and score.betti == (1, 1, 0)
+    assert score.length == pytest.approx(solids.SOLIDS["torus"].length, rel=1e-6)
+    corners = np.array([(-1, -0.7, 0), (1, -0.7, 0), (1, 0.7, 0), (-1, 0.7, 0)])
+    whole = judge.judge("slab", complex_of(corners, [(0, 1, 2, 3)]), 2000)
+    assert whole.largest < 1e-12 and whole.missed_largest < 1e-12
+    assert whole.area == pytest.approx(solids.SOLIDS["slab"].area)
+    half = judge.judge("slab", complex_of(corners * (0.5, 1, 1) - (0.5, 0, 0), [(0, 1, 2, 3)]), 2000)
+    assert half.largest < 1e-12 and half.missed_largest == pytest.approx(1.0, abs=0.01)
+    assert half.missed_mean == pytest.approx(0.25, abs=0.02)
+    lifted = judge.judge("slab", complex_of(corners + (0, 0, 0.1), [(0, 1, 2, 3)]), 2000)
+    assert lifted.mean == pytest.approx(0.1) and lifted.largest == pytest.approx(0.1)
+
+
+# --- files of anybody
+
+VERTICES = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 5\n"
+FILES = {
+    "a.off": f"OFF\n5 2 0\n{VERTICES}4 0 1 2 3 255 0 0\n2 0 4\n",
+    "b.off": f"COFF # coloured\n# text\n5 2 0\n{VERTICES}4 0 1 2 3\n2 4 0\n",
+    "c.obj": "".join(f"v {row}\n" for row in VERTICES.splitlines())
+    + "vn 0 0 1\nf 1//1 2//1 3//1 4//1\nl -5 -1\n",
+    "d.ma": "5 2 2\n"
+    + "".join(f"v {row} 0.5\n" for row in VERTICES.splitlines())
+    + "e 0 1\ne 0 4\nf 0 1 2\nf 0 2 3\n",
+    "e.ply": "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nproperty uchar red\n"
+    f"element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n{VERTICES}"
+    "4 0 1 2 3 200\n0 4\n",
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_files_of_anybody_are_read(name, tmp_path):
+    path = tmp_path / name
+    path.write_text(FILES[name])
+    found = read_axis.read(path)
+    assert judge.areas(judge.triangles_of(found)).sum() == pytest.approx(1.0)
+    assert found.vertices[found.edges[:, 0]].tolist() == [[0, 0, 0]]
+    assert found.vertices[found.edges[:, 1]].tolist() == [[0, 0, 5]]
+    assert len(found.points) == 0 and betti.betti(found) == (1, 0, 0)
+
+
+@pytest.mark.parametrize("suffix", [".ma", ".ply", ".obj", ".off"])
+@pytest.mark.parametrize("form", ["clean", "published"])
+def test_our_files_are_read(suffix, form, tmp_path):
+    import medial_axis
+
+    points = solids.SOLIDS["cylinder"].shape.random_sample(600, 1)
+    axis = medial_axis.compute(points, form=form).axis
+    found = read_axis.read(medial_axis.write(axis, tmp_path / f"a{suffix}"))
+    first = read_axis.read(medial_axis.write(axis, tmp_path / "b.obj"))
+    places = [judge.areas(judge.triangles_of(x)).sum() for x in (found, first)]
+    assert places[0] == pytest.approx(places[1], rel=0.2 if suffix == ".ma" else 1e-9)
+    assert len(found.edges) == len(first.edges)
+    assert betti.betti(found)[0] == betti.betti(first)[0]
+
+
+@pytest.mark.parametrize("text", ["", "OFF\n3 1 0\n0 0 0\n", "OFF\n1 0 0\nnan 0 0\n"])
+def test_what_is_no_axis_is_refused(text, tmp_path):
+    (tmp_path / "a.off").write_text(text)
+    with pytest.raises(read_axis.Unreadable):
+        read_axis.read(tmp_path / "a.off")
