@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The power shape (Amenta, Choi & Kolluri 2001): power_shape BALLS OUTPUT.off
-// BALLS is a file of doubles x y z radius inner ...; inner is 1 or 0. Written are the triangles and edges of CGAL's
-// regular triangulation of all balls whose corners are inner balls: that is where power cells of these meet.
+// BALLS is a file of doubles x y z radius inner ...; inner is 1 or 0. Written are the triangles and
+// edges of CGAL's regular triangulation of all balls whose corners are inner balls: that is where
+// power cells of these meet. Balls without a cell are left out.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Regular_triangulation_cell_base_3.h>
@@ -17,10 +18,11 @@
 #include <vector>
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Vertex = CGAL::Triangulation_vertex_base_with_info_3<
-    int, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
-using Data = CGAL::Triangulation_data_structure_3<Vertex,
-                                                  CGAL::Regular_triangulation_cell_base_3<Kernel>>;
+using Vertex =
+    CGAL::Triangulation_vertex_base_with_info_3<int, Kernel,
+                                                CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using Data =
+    CGAL::Triangulation_data_structure_3<Vertex, CGAL::Regular_triangulation_cell_base_3<Kernel>>;
 using Regular = CGAL::Regular_triangulation_3<Kernel, Data>;
 
 namespace {
@@ -57,13 +59,24 @@ void keep(std::array<Regular::Vertex_handle, Size> corners, const std::vector<bo
 }
 
 template <std::size_t Size>
-void write(std::ofstream& file, std::vector<std::array<int, Size>>& simplices) {
+void write(std::ofstream& file, std::vector<std::array<int, Size>>& simplices,
+           const std::vector<int>& row) {
   std::sort(simplices.begin(), simplices.end());
   for (const auto& simplex : simplices) {
     file << Size;
-    for (const int id : simplex) file << ' ' << id;
+    for (const int id : simplex) file << ' ' << row[static_cast<std::size_t>(id)];
     file << '\n';
   }
+}
+
+// Row in the file of each inner ball that has a cell; -1: of none.
+std::vector<int> rows_of(const Regular& regular, const Balls& balls) {
+  std::vector<int> row(balls.inner.size(), -1);
+  for (const auto vertex : regular.finite_vertex_handles())
+    row[static_cast<std::size_t>(vertex->info())] = 0;
+  int next = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) row[i] = row[i] == 0 && balls.inner[i] ? next++ : -1;
+  return row;
 }
 
 }  // namespace
@@ -82,11 +95,15 @@ int main(int count, char** arguments) {
             balls.inner, triangles);
   for (const auto& [cell, i, j] : regular.finite_edges())
     keep<2>({cell->vertex(i), cell->vertex(j)}, balls.inner, edges);
+  const std::vector<int> row = rows_of(regular, balls);
   std::ofstream file(arguments[2]);
-  file << "OFF\n" << balls.places.size() << ' ' << triangles.size() + edges.size() << " 0\n";
-  file << std::setprecision(17);
-  for (const auto& place : balls.places) file << place.first.point() << '\n';
-  write(file, triangles);
-  write(file, edges);
+  file << "OFF\n"
+       << 1 + *std::max_element(row.begin(), row.end()) << ' ' << triangles.size() + edges.size()
+       << " 0\n"
+       << std::setprecision(17);
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (row[i] >= 0) file << balls.places[i].first.point() << '\n';
+  write(file, triangles, row);
+  write(file, edges, row);
   return file.flush() ? 0 : 1;
 }
