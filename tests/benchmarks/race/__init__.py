@@ -3,8 +3,8 @@
 
     python3 -m tests.benchmarks.race
 
-`solids` says what is known, `read_axis` and `betti` read and count what a program wrote, `judge` scores it; `recipes.toml`
-lists the programs, `run` runs them, `page` makes docs/benchmark.md.
+`solids` says what is known, `read_axis` and `betti` read and count what a program wrote, `judge` scores it;
+`recipes.toml` lists the programs, `run` runs them, `compare` and `page` make docs/benchmark.md.
 """
 
 import sys

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The race in one command; rows that are there already are not run again.
 
-    python3 -m tests.benchmarks.race                       2,000 to 20,000 samples, clean and noisy; the page and plots
-    python3 -m tests.benchmarks.race --sizes 100000 --solids ellipsoid torus
-    python3 -m tests.benchmarks.race --programs "Power Crust" --page table.md
+python3 -m tests.benchmarks.race                       2,000 to 20,000 samples, clean and noisy; the page and plots
+python3 -m tests.benchmarks.race --sizes 100000 --solids ellipsoid torus
+python3 -m tests.benchmarks.race --programs "Power Crust" --page table.md
 """
 
 from __future__ import annotations

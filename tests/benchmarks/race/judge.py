@@ -100,7 +100,9 @@ def _sizes(found: Complex) -> tuple[float, float, int, int, int]:
 
 
 def _some(rows: Array, most: int) -> Array:
-    return rows if len(rows) <= most else rows[np.random.default_rng(0).permutation(len(rows))[:most]]
+    return (
+        rows if len(rows) <= most else rows[np.random.default_rng(0).permutation(len(rows))[:most]]
+    )
 
 
 # --- geometry of a complex
@@ -157,7 +159,9 @@ def main() -> None:
     parser.add_argument("--samples", type=int, default=8000, help="how many the program was given")
     parser.add_argument("--outer", action="store_true")
     options = parser.parse_args()
-    print(json.dumps(asdict(judge(options.solid, read(options.file), options.samples, options.outer))))
+    print(
+        json.dumps(asdict(judge(options.solid, read(options.file), options.samples, options.outer)))
+    )
 
 
 if __name__ == "__main__":

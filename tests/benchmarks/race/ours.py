@@ -18,7 +18,9 @@ def main() -> None:
     settings = dict(word.split("=", 1) for word in words)
     given = medial_axis.read(source)
     triangles = given.triangles if len(given.triangles) else None
-    medial_axis.write(medial_axis.compute(given.points, triangles, given.normals, **settings), target)
+    medial_axis.write(
+        medial_axis.compute(given.points, triangles, given.normals, **settings), target
+    )
 
 
 if __name__ == "__main__":

@@ -52,15 +52,19 @@ def _better(rows: list[Row]) -> str:
     return "\n".join(
         [
             "## Where somebody is better\n",
-            f"Of {_cells(rows)} places in the tables (a solid, a number of samples, clean or noisy, a measure) the best of "
-            f"the others is more than a tenth better than our default in {len(plain)} and worse in no other measure, "
-            f"and in {len(paid)} at a price. Why stands [above](#why-they-are-better).\n",
+            f"Of {_cells(rows)} places in the tables (a solid, a number of samples, clean or noisy, a measure) the "
+            f"best of the others is more than a tenth better than our default in {len(plain)} and worse in no other "
+            f"measure, and in {len(paid)} at a price. Why stands [above](#why-they-are-better).\n",
             table([*LOST, "why"], [[*_loss(loss), reason(loss)] for loss in plain]),
             "<details><summary>At a price: every row</summary>\n",
             table([*LOST, "its price"], [[*_loss(loss), loss.pays] for loss in paid]),
             "</details>\n",
-            "Others have the topology of the solid where ours, clean, has not:\n" if topology else "",
-            table(["solid", "samples", "theirs", "ours", "the solid"], topology) if topology else "",
+            "Others have the topology of the solid where ours, clean, has not:\n"
+            if topology
+            else "",
+            table(["solid", "samples", "theirs", "ours", "the solid"], topology)
+            if topology
+            else "",
         ]
     )
 
@@ -141,12 +145,17 @@ def _betti(row: Row) -> str:
 
 def _overview(rows: list[Row]) -> str:
     """Mean accuracy and coverage of every program at every size."""
-    parts = ["## Accuracy and coverage\n", "Mean distance off the exact axis / of the exact axis missed.\n"]
+    parts = [
+        "## Accuracy and coverage\n",
+        "Mean distance off the exact axis / of the exact axis missed.\n",
+    ]
     scored = [row for row in compare.scored(rows) if not row["outer"]]
     for noisy in (False, True):
         for size in sorted({row["size"] for row in scored if row["noisy"] == noisy}):
             chosen = [r for r in scored if r["size"] == size and r["noisy"] == noisy]
-            programs = list(dict.fromkeys(sorted((r["program"] for r in chosen), key=_rank(chosen))))
+            programs = list(
+                dict.fromkeys(sorted((r["program"] for r in chosen), key=_rank(chosen)))
+            )
             solids = [name for name in SOLIDS if any(r["solid"] == name for r in chosen)]
             cells = {(r["program"], r["solid"]): r for r in chosen}
             body = [
@@ -185,7 +194,11 @@ def _wholes(rows: list[Row]) -> str:
                 truth = f"axis: {solid.parts}, Betti {_numbers(solid.shape.betti)}, "
                 truth += f"area {solid.area:.3f}, length {solid.length:.3f}"
                 parts.append(f"<details><summary>{name}{', noisy' if noisy else ''}</summary>\n")
-                parts += [truth + "\n", table(header, [_whole(row) for row in chosen]), "</details>\n"]
+                parts += [
+                    truth + "\n",
+                    table(header, [_whole(row) for row in chosen]),
+                    "</details>\n",
+                ]
     return "\n".join(parts)
 
 
@@ -216,8 +229,7 @@ def _cost(rows: list[Row]) -> str:
         cells = [name]
         for size in sizes:
             found = [r for r in chosen if r["program"] == name and r["size"] == size]
-            middle = lambda what: sorted(r[what] for r in found)[len(found) // 2]  # noqa: E731
-            cells.append(f"{middle('cpu'):.2f} s, {middle('bytes') / 1e6:.0f} MB" if found else "—")
+            cells.append(_middle(found))
         body.append(cells)
     words = (
         "Processor time and memory of the whole process, the start of Python included where it is one; median over the "
@@ -226,12 +238,19 @@ def _cost(rows: list[Row]) -> str:
     return f"## Cost\n\n{words}\n{table(['program', *(f'{s:,}' for s in sizes)], body)}"
 
 
+def _middle(rows: list[Row]) -> str:
+    if not rows:
+        return "—"
+    cpu, memory = (sorted(row[what] for row in rows)[len(rows) // 2] for what in ("cpu", "bytes"))
+    return f"{cpu:.2f} s, {memory / 1e6:.0f} MB"
+
+
 def _failures(rows: list[Row], skipped: dict[str, list[str]]) -> str:
-    failed = [
-        [r["solid"], _samples(r), r["program"], r["failed"]] for r in rows if "failed" in r
-    ]
+    failed = [[r["solid"], _samples(r), r["program"], r["failed"]] for r in rows if "failed" in r]
     parts = ["## Without a result\n"]
-    parts.append(table(["solid", "samples", "program", "what happened"], failed) if failed else "None.\n")
+    parts.append(
+        table(["solid", "samples", "program", "what happened"], failed) if failed else "None.\n"
+    )
     for name, missing in skipped.items():
         parts.append(f"- {name} was skipped: `{', '.join(missing)}` is not on the machine.")
     return "\n".join(parts) + "\n"

@@ -40,7 +40,9 @@ def wavefront(source: Path, target: Path) -> None:
     mesh = trimesh.Trimesh(*read_mesh(source), process=False)
     table = skeletor.skeletonize.by_wavefront(mesh, waves=1, step_size=1, progress=False).swc
     row = {node: i for i, node in enumerate(table.node_id)}
-    pairs = [(row[n], row[p]) for n, p in zip(table.node_id, table.parent_id, strict=True) if p >= 0]
+    pairs = [
+        (row[n], row[p]) for n, p in zip(table.node_id, table.parent_id, strict=True) if p >= 0
+    ]
     write_segments(table[["x", "y", "z"]].to_numpy(), np.array(pairs), target)
 
 
@@ -58,7 +60,9 @@ def thinning(source: Path, target: Path) -> None:
     places = low + (np.indices(shape).reshape(3, -1).T - 0.5) * size
     inside = product.load().winding_number(places, vertices, triangles) > 0.5
     thin = np.argwhere(skeletonize(inside.reshape(shape)))
-    write_segments(low + (thin - 0.5) * size, cKDTree(thin).query_pairs(1.8, output_type="ndarray"), target)
+    write_segments(
+        low + (thin - 0.5) * size, cKDTree(thin).query_pairs(1.8, output_type="ndarray"), target
+    )
 
 
 def read_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,7 @@ from . import ROOT
 
 sys.path.insert(0, str(ROOT / "tests" / "benchmarks"))
 
-import _module  # noqa: E402  (found through the line above)
+import _module
 
 load = _module.load
 load()

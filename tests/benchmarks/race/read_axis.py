@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-class Unreadable(ValueError):
+class UnreadableError(ValueError):
     """A file that is not what its extension says."""
 
 
@@ -57,11 +58,11 @@ class Complex:
 
 def read(path: Path) -> Complex:
     if path.suffix not in READERS:
-        raise Unreadable(f"Expected .ma, .ply, .obj or .off, found {path.name}")
+        raise UnreadableError(f"Expected .ma, .ply, .obj or .off, found {path.name}")
     try:
         return complex_of(*READERS[path.suffix](path))
     except (ValueError, IndexError, StopIteration) as error:
-        raise Unreadable(f"Expected an axis in {path.name}, found {error}") from error
+        raise UnreadableError(f"Expected an axis in {path.name}, found {error}") from error
 
 
 def complex_of(vertices: Array, polygons: Iterable[Ints], edges: Ints) -> Complex:
@@ -69,7 +70,7 @@ def complex_of(vertices: Array, polygons: Iterable[Ints], edges: Ints) -> Comple
     edge has is left out. Vertices that nothing uses are points."""
     vertices = np.asarray(vertices, float).reshape(-1, 3)
     if not len(vertices) or not np.isfinite(vertices).all():
-        raise Unreadable("no vertices, or some that are not finite")
+        raise UnreadableError("no vertices, or some that are not finite")
     distinct, place = np.unique(vertices, axis=0, return_inverse=True)
     place = place.reshape(-1)
     found: dict[tuple[int, ...], list[int]] = {}
@@ -130,7 +131,7 @@ def _obj(path: Path) -> tuple[Array, list[Ints], Ints]:
             if word == "f":
                 polygons.append(np.array(ids))
             else:
-                edges += zip(ids[:-1], ids[1:], strict=True)
+                edges += pairwise(ids)
     return np.array(vertices), polygons, np.array(edges, np.int64).reshape(-1, 2)
 
 

@@ -5,11 +5,13 @@
 
 INPUT is .xyz or .xyzn. Inside is what Tight Cocone says, as it is for ours from bare points.
 
-poles            the farthest Voronoi vertices of the cells, on either side (Amenta & Bern 1998; Boissonnat & Cazals 2001)
+poles            the farthest Voronoi vertices of the cells, on either side (Amenta & Bern 1998; Boissonnat &
+                 Cazals 2001)
 power-shape      where power cells of inner poles meet, by CGAL (Amenta, Choi & Kolluri 2001)
 angle-length     facets whose balls see pq under an angle at least `angle` degrees, with |pq| at least `length`
                  diagonals (after Attali & Lachaud 2001)
-lambda           facets and edges whose nearest samples fit in no ball smaller than `radius` diagonals (Chazal & Lieutier 2005)
+lambda           facets and edges whose nearest samples fit in no ball smaller than `radius` diagonals (Chazal &
+                 Lieutier 2005)
 pole-normal      MEDIAL with the pole vector in place of the normals of the umbrella (the paper's Remark)
 polygon-width    MEDIAL with the reach of the tangent polygon in place of the circumradii of the umbrella (the same)
 pole-and-width   both
@@ -133,19 +135,22 @@ def _points(places: Array) -> Found:
     return Found(places, np.zeros(1, np.int64), nothing, nothing.reshape(0, 2))
 
 
-def write_power_shape(samples: Samples, output: Path) -> None:
-    """With the corners of a box five times as large among the points, as in the paper: so every sample has an outer
-    pole."""
+def polar_balls(samples: Samples) -> Array:
+    """(k, 5) centre and radius of every pole, and 1 where it is on the side. With the corners of a box five times as
+    large among the points, as in the paper: so every sample has an outer pole."""
     low, high = samples.points.min(axis=0), samples.points.max(axis=0)
     unit = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    corners = (low + high) / 2 + 2.5 * unit * (high - low)
-    samples = Samples(np.concatenate((samples.points, corners)), None, samples.side == medial.Side.OUTER)
-    _, centres, radii, there = samples.cells
-    rows = pole_cells(samples)
-    balls = np.column_stack((centres[rows], radii[rows], there[rows]))
+    points = np.concatenate((samples.points, (low + high) / 2 + 2.5 * unit * (high - low)))
+    boxed = Samples(points, None, samples.side == medial.Side.OUTER)
+    _, centres, radii, there = boxed.cells
+    rows = pole_cells(boxed)
+    return np.column_stack((centres[rows], radii[rows], there[rows]))
+
+
+def write_power_shape(samples: Samples, output: Path) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "balls")
-        np.ascontiguousarray(balls).tofile(path)
+        np.ascontiguousarray(polar_balls(samples)).tofile(path)
         subprocess.run([POWER_SHAPE, path, output], check=True)
 
 
@@ -166,7 +171,9 @@ def lambda_axis(samples: Samples, radius: float = 0.025) -> Found:
     triangle is as large; vertices are those of edges."""
     wanted, mesh = radius * samples.diagonal, samples.facets
     facets = samples.lengths >= 2 * wanted
-    edges, of_corner = medial.polygon_edges(mesh.face_offsets, mesh.face_vertices, len(mesh.vertices))
+    edges, of_corner = medial.polygon_edges(
+        mesh.face_offsets, mesh.face_vertices, len(mesh.vertices)
+    )
     face = np.repeat(np.arange(len(facets)), np.diff(mesh.face_offsets))
     order = np.argsort(of_corner, kind="stable")
     whole = np.bincount(of_corner, minlength=len(edges)) == 3

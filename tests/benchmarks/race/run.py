@@ -82,7 +82,7 @@ def run(recipe: Recipe, case: Case, inputs: Inputs, limit: int = 300, outer: boo
         try:
             found = read_axis.read(output)
             return row | asdict(judge.judge(case.solid, found, case.size, outer))
-        except read_axis.Unreadable as error:
+        except read_axis.UnreadableError as error:
             return row | {"failed": str(error)}
 
 

@@ -6,7 +6,8 @@ inner axis), `axis_points(m, seed)` (uniform points of the inner axis) and `axis
 Truth: oblate and triaxial ellipsoid: a disc or solid ellipse with semi-axes (a^2 - c^2)/a and (b^2 - c^2)/b;
 prolate: a segment; rounded slab: the rectangle; shell: the middle surface; convex polytope: for each pair of faces the
 polygon where both are nearest; convex profile turned round the z axis: the profile's axis, turned; tube: the curve.
-Some give `outer_axis_distance(x)`, too. Varying thickness: `RoundCone`, `EccentricShell`, `Cyclide`; handles: `HoledPlate`.
+Some give `outer_axis_distance(x)`, too. Thickness varies in `RoundCone`, `EccentricShell` and `Cyclide`; `HoledPlate`
+has handles.
 """
 
 from .base import Array, Rng, Shape
