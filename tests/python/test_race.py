@@ -545,7 +545,7 @@ def test_the_page_keeps_what_people_wrote_and_shows_losses_first(tmp_path):
     from tests.benchmarks.race import page
 
     path = tmp_path / "page.md"
-    path.write_text(f"words\n\n{page.MARK}\nold\n")
+    path.write_text(f"words\n\n{page.MARK}\nold\n{page.END}\nmore words\n")
     failed = {**rows_of()[0], "program": "y", "group": "peer", "failed": "exit code 3"}
     page.write([*rows_of(mean=1e-4), failed], {"z": ["zz"]}, path)
     text = path.read_text()

@@ -11,15 +11,17 @@ from .compare import WORDS, Row
 from .solids import SOLIDS
 
 MARK = "<!-- Below this line stands what `python3 -m tests.benchmarks.race` measured. -->"
+END = "<!-- Above this line stands what was measured. -->"
 FULL = 8000
 """The size whose rows are shown whole."""
 
 
 def write(rows: list[Row], skipped: dict[str, list[str]], path: Path) -> None:
-    """The tables, into a page that has the mark, else into a new one; the plots beside it."""
+    """The tables, into a page that has the marks, else into a new one; the plots beside it."""
     rows = sorted(rows, key=_order)
-    text = path.read_text(encoding="utf-8") if path.exists() else f"# The race\n\n{MARK}\n"
-    above, mark, _ = text.partition(MARK)
+    text = path.read_text(encoding="utf-8") if path.exists() else f"# The race\n\n{MARK}\n{END}\n"
+    above, mark, rest = text.partition(MARK)
+    below = rest.partition(END)[2]
     if not mark:
         raise SystemExit(f"Expected the line '{MARK}' in {path}, found none; add it")
     pictures = path.parent / "pictures"
@@ -27,7 +29,7 @@ def write(rows: list[Row], skipped: dict[str, list[str]], path: Path) -> None:
     plots = "\n".join(_plot(rows, measure, pictures) for measure in ("mean", "missed_mean"))
     parts = [_better(rows), plots, _overview(rows), _wholes(rows), _outer(rows), _cost(rows)]
     parts.append(_failures(rows, skipped))
-    path.write_text(f"{above}{MARK}\n\n" + "\n".join(parts), encoding="utf-8")
+    path.write_text(f"{above}{MARK}\n\n" + "\n".join(parts) + f"\n{END}{below}", encoding="utf-8")
 
 
 def _order(row: Row) -> tuple:
