@@ -5,8 +5,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
+from . import recipes
 from .solids import SOLIDS
 
 Row = dict[str, Any]
@@ -51,11 +53,15 @@ def scored(rows: Iterable[Row]) -> list[Row]:
 
 def rival_of(row: Row, ours: dict[tuple, list[Row]]) -> Row | None:
     """Ours from the same input: the default form; outside, the only one; from normals where they were given."""
-    given = row["program"] == "shrinking ball" or row["program"] == "masbcpp"
-    name = "ours, clean, normals" if given else "ours, clean"
+    name = "ours, clean, normals" if row["program"] in _with_normals() else "ours, clean"
     name = "ours, as published" if row["outer"] else name
     found = [x for x in ours.get(key(row), []) if x["program"] == name]
     return found[0] if found else None
+
+
+@cache
+def _with_normals() -> frozenset[str]:
+    return frozenset(recipe.name for recipe in recipes.read() if recipe.gets == "normals")
 
 
 def losses(rows: list[Row]) -> list[Loss]:
