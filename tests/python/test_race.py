@@ -573,3 +573,15 @@ def test_the_page_of_the_docs_explains_every_letter():
     }
     for letter in letters:
         assert f"\n- **{letter}**" in above
+
+
+def test_outer_axes_are_judged_in_the_box():
+    """The line through the torus, far beyond it, and a huge sheet far away that does not count."""
+    sheet = [(x, y, 50.0) for x in (-90, 90) for y in (-90, 90)]
+    steps = np.linspace(-0.9, 0.9, 40)
+    line = [(0.1, 0.0, z) for z in steps]
+    rows = np.arange(4, 43)
+    found = complex_of([*sheet, *line], [(0, 1, 3, 2)], np.column_stack((rows, rows + 1)))
+    score = judge.judge("torus", found, 2000, outer=True)
+    assert [score.mean, score.largest, score.missed_largest] == pytest.approx([0.1, 0.1, 0.1])
+    assert score.betti is None

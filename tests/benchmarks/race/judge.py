@@ -68,24 +68,24 @@ def judge(name: str, found: Complex, samples: int, outer: bool = False) -> Score
 
 
 def _outer(name: str, found: Complex, samples: int) -> Score:
-    """What of the output lies in the box of the surface; coverage of what of the exact axis does."""
-    box = box_of(SOLIDS[name].shape)
-    off, truth = (lambda x: outer_distance(name, x)), outer_points(name, TRUTH)
-    drawn = points_of(found, SOLIDS[name].spacing(samples), 4 * POINTS)
+    """Points are drawn from what lies in a box twice as large as that of the surface, so that what is far away does not
+    take them all; those in the box count, and of the exact axis what lies there."""
+    low, high = box = box_of(SOLIDS[name].shape)
+    twice = low - (high - low) / 2, high + (high - low) / 2
+    simplices, weight = simplices_of(found), weights_of(found, SOLIDS[name].spacing(samples))
+    weight[~within(simplices.reshape(-1, 3), twice).reshape(-1, 3).all(axis=1)] = 0.0
+    truth = outer_points(name, TRUTH)
+    drawn = _drawn(simplices, weight, 4 * POINTS) if weight.any() else np.empty((0, 3))
     drawn = drawn[within(drawn, box)][:POINTS]
-    vertices = found.vertices[within(found.vertices, box)]
-    if len(drawn) == 0 or len(truth) == 0:
-        nothing = float("nan")
-        return Score(*(nothing,) * 5, None, *_sizes(found))
     missed = distance_to(truth, found)
-    corners = off(_some(vertices, 40_000)) if len(vertices) else np.zeros(0)
-    return Score(
-        *_three(off(drawn), corners),
-        float(missed.mean()),
-        float(missed.max()),
-        None,
-        *_sizes(found),
-    )
+    three = _NOTHING
+    if len(drawn):
+        vertices = found.vertices[within(found.vertices, box)]
+        three = _three(outer_distance(name, drawn), outer_distance(name, _some(vertices, 40_000)))
+    return Score(*three, float(missed.mean()), float(missed.max()), None, *_sizes(found))
+
+
+_NOTHING = (float("nan"),) * 3
 
 
 def _three(away: Array, corners: Array) -> tuple[float, float, float]:
@@ -132,12 +132,21 @@ def areas(triangles: Array) -> Array:
 
 def points_of(found: Complex, width: float, count: int = POINTS, seed: int = 0) -> Array:
     """(count, 3) random points of it by area; edges are strips of that width, points squares."""
-    rng, simplices = np.random.default_rng(seed), simplices_of(found)
-    lengths = np.linalg.norm(simplices[:, 1] - simplices[:, 0], axis=1)
+    return _drawn(simplices_of(found), weights_of(found, width), count, seed)
+
+
+def weights_of(found: Complex, width: float) -> Array:
+    """(s,) of each simplex its area, for edges and points that of the strip or square."""
+    simplices = simplices_of(found)
     weight = areas(simplices)
-    faces = len(weight) - len(found.edges) - len(found.points)
-    weight[faces:] = width * lengths[faces:]
+    edges = slice(len(weight) - len(found.edges) - len(found.points), len(weight))
+    weight[edges] = width * np.linalg.norm(simplices[edges, 1] - simplices[edges, 0], axis=1)
     weight[len(weight) - len(found.points) :] = width * width
+    return weight
+
+
+def _drawn(simplices: Array, weight: Array, count: int, seed: int = 0) -> Array:
+    rng = np.random.default_rng(seed)
     chosen = simplices[rng.choice(len(weight), size=count, p=weight / weight.sum())]
     u, v = rng.random((2, count))
     u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)

@@ -213,12 +213,16 @@ def _whole(row: Row) -> list[str]:
 def _outer(rows: list[Row]) -> str:
     chosen = [row for row in compare.scored(rows) if row["outer"]]
     body = [
-        [row["solid"], row["program"], *(f"{row[m]:.1e}" for m in WORDS)]
+        [row["solid"], row["program"], *(_number(row[m]) for m in WORDS)]
         for row in sorted(chosen, key=lambda r: list(SOLIDS).index(r["solid"]))
     ]
     words = "In the box of the surface; convex solids have none, that of the knot is not known.\n"
     header = ["solid", "program", *WORDS.values()]
     return f"## Outer axes, {FULL:,} samples\n\n{words}\n{table(header, body)}" if body else ""
+
+
+def _number(value: float) -> str:
+    return "—" if value != value else f"{value:.1e}"
 
 
 def _cost(rows: list[Row]) -> str:
