@@ -59,7 +59,7 @@ def _better(rows: list[Row]) -> str:
             f"measure, and in {len(paid)} at a price. Why stands [above](#why-they-are-better).\n",
             table([*LOST, "why"], [[*_loss(loss), reason(loss)] for loss in plain]),
             "<details><summary>At a price: every row</summary>\n",
-            table([*LOST, "its price"], [[*_loss(loss), loss.pays] for loss in paid]),
+            table([*LOST, "its price", "why"], [[*_loss(x), x.pays, reason(x)] for x in paid]),
             "</details>\n",
             "Others have the topology of the solid where ours, clean, has not:\n"
             if topology
