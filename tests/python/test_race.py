@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from conftest import ROOT
 
+pytest.importorskip("tomllib", reason="Python has tomllib from 3.11 on")
+
 sys.path.insert(0, str(ROOT))
 
 from tests.benchmarks.race import betti, judge, read_axis, solids
@@ -585,3 +587,33 @@ def test_outer_axes_are_judged_in_the_box():
     score = judge.judge("torus", found, 2000, outer=True)
     assert [score.mean, score.largest, score.missed_largest] == pytest.approx([0.1, 0.1, 0.1])
     assert score.betti is None
+
+
+def test_the_commands_of_the_page(tmp_path):
+    """The race itself, small; then the judge and a rival on what it made."""
+    import json
+    import subprocess
+
+    def python(*words):
+        command = [sys.executable, "-m", *map(str, words)]
+        return subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+
+    few = (
+        "--sizes",
+        200,
+        "--solids",
+        "torus",
+        "--clean",
+        "--programs",
+        "ours, clean",
+        "poles alone",
+    )
+    where = ("--folder", tmp_path, "--page", tmp_path / "page.md")
+    python("tests.benchmarks.race", *few, *where)
+    assert "| poles alone |" in (tmp_path / "page.md").read_text()
+    assert len((tmp_path / "rows.jsonl").read_text().splitlines()) == 2
+    assert python("tests.benchmarks.race", *few, *where) == ""  # nothing is run again
+    samples, axis = tmp_path / "inputs" / "torus_200.xyz", tmp_path / "axis.off"
+    python("tests.benchmarks.race.rivals", "lambda", samples, axis, "radius=0.05")
+    told = json.loads(python("tests.benchmarks.race.judge", "torus", axis, "--samples", 200))
+    assert told["faces"] > 0 and 0 < told["mean"] < 0.4
