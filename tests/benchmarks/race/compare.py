@@ -26,6 +26,8 @@ MARGIN = 1.1
 """What is nearer than a tenth is no difference: other seeds give as much."""
 FLOOR = 1e-6
 """Below this share of the solids' size everybody is exact."""
+PRICE = 1e-5
+"""What is smaller is no price: we are stricter with ourselves."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +98,8 @@ def better(a: float | None, b: float | None) -> bool:
 
 def _paid(theirs: Row, own: Row, measure: str) -> str:
     """Where ours is better by the largest factor; or what else is wrong with theirs."""
-    worse = [m for m in (*ACCURACY, *COVERAGE) if m != measure and better(own[m], theirs[m])]
+    others = [m for m in (*ACCURACY, *COVERAGE) if m != measure]
+    worse = [m for m in others if theirs[m] > PRICE and better(own[m], theirs[m])]
     if worse:
         most = max(worse, key=lambda m: theirs[m] / max(own[m], FLOOR))
         return f"{WORDS[most]}: {theirs[most]:.1e}, ours {own[most]:.1e}"
