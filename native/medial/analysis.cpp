@@ -6,7 +6,7 @@
 #include "axis/medial_mesh.h"
 #include "axis/thickness.h"
 #include "cocone/watertight_surface.h"
-#include "inside/labelled_poles.h"
+#include "cocone/labelled_poles.h"
 #include "skeleton/hierarchy.h"
 
 namespace medial {

@@ -523,8 +523,8 @@ class MedialAnalysis:
         """What told inside from outside; never AUTOMATIC."""
     @property
     def pole_disagreement(self) -> float | None:
-        """Of the samples whose labelled poles lie on two sides, the share for which Tight Cocone says otherwise; None
-        unless AUTOMATIC had to choose between the two."""
+        """float: of the samples whose labelled poles lie on two sides, the share for which Tight Cocone says otherwise;
+        None unless AUTOMATIC had to choose between the two."""
     @property
     def tight_cocone(self) -> TightCocone | None:
         """The surface that told inside from outside; None unless `sides_from` is TIGHT_COCONE. Its `cell_side` is

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "inside/labelled_poles.h"
+#include "cocone/labelled_poles.h"
 
 #include <queue>
 
@@ -89,6 +89,9 @@ class Nodes {
 struct Link {
   std::array<int32_t, 2> nodes;
   float weight;
+
+  auto begin() const { return nodes.begin(); }
+  auto end() const { return nodes.end(); }
 };
 
 // The cosine of the angle between two balls where their spheres meet.
@@ -165,11 +168,11 @@ class Links {
 // Labels nodes in the order of how surely they are known, as Power Crust does.
 class Labelling {
  public:
-  Labelling(std::span<const Link> links, const Csr<int32_t>& at)
+  Labelling(std::span<const Link> links, Csr<int32_t> at)
       : links_(links),
-        at_(at),
-        label_(static_cast<size_t>(at.size())),
-        sure_(static_cast<size_t>(at.size())) {}
+        at_(std::move(at)),
+        label_(static_cast<size_t>(at_.size())),
+        sure_(static_cast<size_t>(at_.size())) {}
 
   std::vector<Label> operator()() {
     sure_[kAtInfinity].outer = 1;
@@ -211,19 +214,14 @@ class Labelling {
   }
 
   std::span<const Link> links_;
-  const Csr<int32_t>& at_;  // links at each node
+  Csr<int32_t> at_;  // links at each node
   std::vector<Label> label_;
   std::vector<Sure> sure_;
   std::priority_queue<std::pair<float, int32_t>> queue_;  // of equally sure ones the lowest node
 };
 
 std::vector<Label> labels(std::span<const Link> links, int32_t nodes, const Run& run) {
-  std::vector<std::array<int32_t, 2>> ends;
-  ends.reserve(links.size());
-  for (const Link& link : links) ends.push_back(link.nodes);
-  const auto at = rows_containing(std::span<const std::array<int32_t, 2>>(ends), nodes, run);
-  ends = {};
-  return Labelling(links, at)();
+  return Labelling(links, rows_containing(links, nodes, run))();
 }
 
 }  // namespace
@@ -234,7 +232,7 @@ LabelledPoles labelled_poles(std::span<const Vec3> points, const Triangulation& 
                              const Run& run) {
   begin_stage(run.progress, "Labels of poles", 0.9, 0.99);
   const PolesInput s{points, t, voronoi, incident, poles};
-  const Run quiet{run.threads, nullptr, run.arena};
+  const Run quiet{run.threads, nullptr};  // what it makes goes again
   const auto samples = static_cast<size_t>(incident.size());
   std::vector<TwoPoles> two(samples);
   parallel_for(incident.size(), quiet,
