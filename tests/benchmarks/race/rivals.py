@@ -3,7 +3,7 @@
 
     python3 -m tests.benchmarks.race.rivals METHOD INPUT OUTPUT.off [--side OUTER] [option=value ...]
 
-INPUT is .xyz or .xyzn. Inside is what Tight Cocone says, as it is for ours from bare points.
+INPUT is .xyz or .xyzn. Inside is what Tight Cocone says.
 
 poles            the farthest Voronoi vertices of the cells, on either side (Amenta & Bern 1998; Boissonnat &
                  Cazals 2001)
