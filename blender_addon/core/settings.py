@@ -436,7 +436,8 @@ LOOKS: dict[str, Any] = {
     ),
     "parent": Switch(
         label="Parent to Source",
-        description="Results move and turn with the object that they were made of",
+        description="Results move and turn with the object that they were made of, and a medial axis is hidden "
+        "with it",
         default=True,
     ),
     "within": Number(
