@@ -21,7 +21,7 @@ def _after_frame(_scene, depsgraph):
 
 
 def _follow(depsgraph):
-    if depsgraph.mode == "VIEWPORT":  # a render runs beside the user interface, and may change nothing
+    if depsgraph.mode == "VIEWPORT":  # a render runs beside the window, and may change nothing
         hide_with_sources(depsgraph.scene, depsgraph.view_layer)
 
 

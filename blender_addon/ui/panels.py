@@ -55,6 +55,9 @@ class VIEW3D_PT_medial_axis_sampling(Closed, bpy.types.Panel):
     bl_label = "Sampling"
     bl_idname = "VIEW3D_PT_medial_axis_sampling"
 
+    def draw_header_preset(self, context):  # where it is seen when the panel is closed, too
+        self.layout.prop(context.scene.medial_axis, "sampling", text="")
+
     def draw(self, context):
         settings = context.scene.medial_axis
         draw_sampling(settings_column(self.layout), settings)
@@ -178,7 +181,6 @@ def _draw_settings(context, layout):
     column.prop(settings, "side")
     if Side[settings.side] in (Side.OUTER, Side.BOTH):
         column.prop(settings, "within")
-    column.prop(settings, "sampling")
 
 
 def _draw_what_binds(context, layout, result):
