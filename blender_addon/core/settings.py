@@ -718,7 +718,7 @@ THICKNESS_OPTIONS: dict[str, Any] = {
         },
     ),
     "minimum_patch": Number(
-        label="Minimum Patch",
+        label="Min. Patch",
         description="Thin patches with less than this share of the surface are left out, in percent",
         default=0.0,
         minimum=0.0,

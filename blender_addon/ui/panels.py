@@ -52,11 +52,14 @@ class VIEW3D_PT_medial_axis(Tab, bpy.types.Panel):
 class VIEW3D_PT_medial_axis_sampling(Closed, bpy.types.Panel):
     """How faces are sampled, and the report"""
 
-    bl_label = "Sampling"
+    bl_label = ""  # it stands in the header, before the choice, which is seen when the panel is closed, too
     bl_idname = "VIEW3D_PT_medial_axis_sampling"
 
-    def draw_header_preset(self, context):  # where it is seen when the panel is closed, too
-        self.layout.prop(context.scene.medial_axis, "sampling", text="")
+    def draw_header(self, context):
+        self.layout.label(text="Sampling")
+        choice = self.layout.row()
+        choice.ui_units_x = 4.5
+        choice.prop(context.scene.medial_axis, "sampling", text="")
 
     def draw(self, context):
         settings = context.scene.medial_axis

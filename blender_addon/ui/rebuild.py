@@ -109,7 +109,7 @@ def _draw_difference(layout, made):
         "Volume": f"{100 * made[VOLUME]:.1f} %",
     }
     for label, text in figures.items():
-        row = column.split(factor=0.45)
+        row = column.split(factor=0.6)
         row.label(text=say(label), translate=False)
         row.label(text=text, translate=False)
 

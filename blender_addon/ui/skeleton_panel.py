@@ -22,8 +22,9 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
         column.enabled = current_job.job() is None
         for name in (*SKELETON_OPTIONS, "bind"):
             column.prop(context.scene.medial_axis_skeleton, name)
-        for operator, icon in SKELETON_OPERATORS.items():
-            copy_all(context, self.layout.operator(operator, icon=icon))
+        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
+            for operator, icon in SKELETON_OPERATORS.items():
+                copy_all(context, self.layout.operator(operator, icon=icon))
         for thing in _shown(context):
             _draw_figures(context, self.layout.column(), thing)
 
