@@ -26,6 +26,7 @@ from .tab import MAIN, Closed, Inside, Tab, settings_column
 from .translation import say
 from .wrapped_text import draw_wrapped
 
+_drawn = {}  # a sidebar -> what its panels were drawn for
 _BINDS = 0.5  # a condition that keeps a larger share of the facets alone is why the other one does little
 
 
@@ -40,6 +41,7 @@ class VIEW3D_PT_medial_axis(Tab, bpy.types.Panel):
 
     def draw(self, context):
         layout = self.layout
+        _settle_when_changed(context)
         if problem := native.problem():
             draw_wrapped(context, layout.box(), problem, "ERROR")
         _draw_compute(context, layout)
@@ -161,6 +163,23 @@ class VIEW3D_PT_medial_axis_surface(Inside, bpy.types.Panel):
 
     def draw(self, context):
         draw_surface(context, self.layout, shown_surface(context))
+
+
+def _settle_when_changed(context):
+    """Have the sidebar drawn again where the panels will be taller or shorter than they were: Blender leaves those
+    below where they were at first, over what has grown."""
+    active, space = context.object, context.space_data
+    now = (
+        active and active.name,
+        obstacle(context),
+        context.scene.medial_axis.note,
+        current_job.job() is None,
+        space is not None and shows_colours(space),
+    )
+    sidebar = context.region.as_pointer()
+    if _drawn.get(sidebar) != now:
+        _drawn[sidebar] = now
+        current_job.settle()
 
 
 def _frame(context):
