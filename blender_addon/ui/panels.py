@@ -236,10 +236,7 @@ def _draw_compute(context, layout):
 
 
 def _draw_progress(context, layout, job):
-    if bpy.app.version >= (
-        5,
-        0,
-    ):  # 4.3 draws the next label as such a bar, full, when the bar has gone
+    if bpy.app.version >= (5, 0):  # after such a bar, 4.3 draws the next label as a full one
         layout.progress(factor=job.fraction, text=f"{say(job.stage)}, {100 * job.fraction:.0f} %")
     else:
         row = layout.row()
