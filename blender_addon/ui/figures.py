@@ -150,8 +150,8 @@ def _draw_legend(context, layout, thing):
 
 def _range_text(context, smallest, largest):
     """Two lengths, or one where they read the same."""
-    ends = dict.fromkeys(length_text(context, value) for value in (smallest, largest))
-    return " to ".join(ends)
+    start, end = (length_text(context, value) for value in (smallest, largest))
+    return start if start == end else f"{start} to {end}"
 
 
 def length_text(context, value):
