@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.axis.nearness import nearest
 from ..core.errors import InvalidInputError
+from .attributes import set_attribute
 from .output_object import check_mode, new_object, output_of, place, remember
 from .read_object import split_transform
 
@@ -140,10 +141,7 @@ def write_parts(source: bpy.types.Object, found: Skeletonization) -> None:
     sizes = np.empty(len(mesh.polygons), np.int32)
     mesh.polygons.foreach_get("loop_total", sizes)
     values = _most_frequent(np.repeat(np.arange(len(sizes)), sizes), part[corners], len(sizes))
-    old = mesh.attributes.get(PART)
-    if old is not None:
-        mesh.attributes.remove(old)
-    mesh.attributes.new(PART, "INT", "FACE").data.foreach_set("value", values)
+    set_attribute(mesh, PART, "INT", "FACE", values)
     mesh.update()
 
 
