@@ -72,10 +72,8 @@ def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
     best = np.flatnonzero(radius == largest[facet])[::-1]  # so that the first of several stays
     of_facet = np.empty(len(largest), np.int64)
     of_facet[facet[best]] = corners[best]
-    sample = hierarchy.generators.T.ravel()
-    order = np.lexsort((np.tile(largest, 2), sample))
-    last = np.append(sample[order][1:] != sample[order][:-1], True)
-    ball[sample[order][last]] = np.tile(of_facet, 2)[order][last]
+    order = np.argsort(largest, kind="stable")
+    ball[hierarchy.generators[order].ravel()] = np.repeat(of_facet[order], 2)  # the last of several stays
     return ball
 
 
