@@ -16,7 +16,6 @@ import bpy
 import numpy as np
 
 from ..core.axis.colours import radius_range
-from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from ..core.files.load_axis import load_axis
 from ..core.files.load_skeleton import load_skeleton

@@ -38,7 +38,11 @@ def _of():
         description="What is computed at every frame",
         items=(
             ("AXES", "Medial Axes", "Those of the settings above, as .npz"),
-            ("SKELETONS", "Skeletons", "Those of the panel Skeleton, as .json; bones are not tracked"),
+            (
+                "SKELETONS",
+                "Skeletons",
+                "Those of the panel Skeleton, as .json; bones are not tracked",
+            ),
         ),
         default="AXES",
         **IN_CONTEXT,

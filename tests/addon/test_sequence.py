@@ -263,7 +263,9 @@ def test_skeletons_again_beside_axes_and_by_the_command_line(bending, tmp_path, 
     bpy.ops.object.medial_axis_sequence(of="SKELETONS", **words)
     assert ("Info", "2 of 2 frames are there, 2 were before") in reports(capfd)
     assert counts == [len(d) for d in (bpy.data.objects, bpy.data.curves, bpy.data.actions)]
-    assert addon("cli").main(["skeleton", f"{tmp_path}/", "--object", "Arm", "--frames", "1-2"]) == 0
+    assert (
+        addon("cli").main(["skeleton", f"{tmp_path}/", "--object", "Arm", "--frames", "1-2"]) == 0
+    )
     assert capfd.readouterr().out.count("1 branches, 2 ends, 0 loops, kept\n") == 2
 
 
@@ -275,7 +277,9 @@ def test_files_of_skeletons_are_imported_and_reports_passed_over(bending, tmp_pa
     assert len(files) == 4
     bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)
     assert [thing.name for thing in play("Arm").objects] == ["Arm 0001", "Arm 0002"]
-    (tmp_path / "Arm_0002.json").write_text('{"nodes": [], "edges": 3, "parts": [{"nodes": [0, 9]}]}')
+    (tmp_path / "Arm_0002.json").write_text(
+        '{"nodes": [], "edges": 3, "parts": [{"nodes": [0, 9]}]}'
+    )
     counts = [len(data) for data in (bpy.data.objects, bpy.data.curves, bpy.data.collections)]
     with pytest.raises(RuntimeError, match="Expected nodes and parts of a skeleton"):
         bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)

@@ -9,8 +9,8 @@ here it gets ours, with our radii, makes its armature of them, and automatic wei
 
 ends, loops, pieces: of the graph. outside: the share of places along it that lie outside of the surface. off-centre: at
 places inside, away from ends and forks, 24 rays go out across the line; how far the mean of what they hit is from the
-line, in mean lengths of a ray; median and 95th percentile. radius: median at these of the distance to the nearest sample
-of the surface over the radius that is said. Seconds are of the processor. skeletor's clusters are
+line, in mean lengths of a ray; median and 95th percentile. radius: median at these of the distance to the nearest
+sample of the surface over the radius that is said. Seconds are of the processor. skeletor's clusters are
 as wide as 2 % of the diagonal. Needs the optional data folder (MEDIAL_AXIS_TEST_DATA).
 """
 
@@ -180,7 +180,7 @@ class Truth:
         return np.array([np.isfinite(self._hits(p, way)).sum() % 2 == 1 for p in points])
 
     def off_centre(self, place: np.ndarray, along: np.ndarray) -> float:
-        """Of a place inside: how far the mean of what rays across the line meet is from it, in mean lengths of a ray."""
+        """Of a place inside: how far the mean of what rays across the line meet is from it, in mean rays."""
         across = np.linalg.svd(along[None])[2][1:]
         turn = np.linspace(0.0, 2 * np.pi, RAYS, endpoint=False)
         rays = np.column_stack((np.cos(turn), np.sin(turn))) @ across

@@ -17,9 +17,7 @@ if TYPE_CHECKING:
     from ..axis.analysis import AnalysedSamples
 
 
-def owners(
-    samples: AnalysedSamples, hierarchy: Any, level: Any
-) -> tuple[NDArray[np.int64], Balls]:
+def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArray[np.int64], Balls]:
     """The point that owns each sample, and the balls of the samples that each point owns.
 
     Parameters
@@ -73,7 +71,9 @@ def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
     of_facet = np.empty(len(largest), np.int64)
     of_facet[facet[best]] = corners[best]
     order = np.argsort(largest, kind="stable")
-    ball[hierarchy.generators[order].ravel()] = np.repeat(of_facet[order], 2)  # the last of several stays
+    ball[hierarchy.generators[order].ravel()] = np.repeat(
+        of_facet[order], 2
+    )  # the last of several stays
     return ball
 
 

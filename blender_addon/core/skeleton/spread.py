@@ -35,7 +35,9 @@ def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
     to, far = np.empty(2 * len(edges), np.int64), np.empty(2 * len(edges))
     start = first[:-1]
     for here, there, count in zip(ends, ends[::-1], counts, strict=True):
-        order = np.argsort(here, kind="stable")  # half of the rows at a time: lists of edges are sorted in part
+        order = np.argsort(
+            here, kind="stable"
+        )  # half of the rows at a time: lists of edges are sorted in part
         row = np.arange(len(edges)) + np.repeat(start - (np.cumsum(count) - count), count)
         to[row], far[row] = there[order], length[order]
         start = start + count

@@ -128,7 +128,9 @@ def _share_with_parents(
     Those that hang on others come first: so what they leave to a chain fades out with it.
     """
     first = _first_bones(bones)
-    for name in range(len(first) - 1, -1, -1):  # a chain has a higher number than that which it hangs on
+    for name in range(
+        len(first) - 1, -1, -1
+    ):  # a chain has a higher number than that which it hangs on
         hangs_on = bones.parent[first[name]]
         if hangs_on < 0:
             continue
