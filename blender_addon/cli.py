@@ -43,10 +43,11 @@ from .core.errors import (
     MedialAxisError,
     ReadError,
 )
+from .core.files.extensions import extension_of
 from .core.files.names import is_folder
 from .core.files.read import READERS
 from .core.files.read_shape import read_shape
-from .core.files.write import FORMATS, format_of
+from .core.files.write import FORMATS
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 
@@ -171,7 +172,7 @@ def _axis_parser() -> argparse.ArgumentParser:
         action="store_true",
         help="write .ply, .obj and .off as triangles in text, which more programs read",
     )
-    parser.set_defaults(check_output=format_of, work_from=_axis_work)
+    parser.set_defaults(known=(*FORMATS,), work_from=_axis_work)
     return parser
 
 
@@ -180,7 +181,7 @@ def _axis_work(wanted: argparse.Namespace) -> Work:
 
 
 def _thickness_parser() -> argparse.ArgumentParser:
-    from .core.files.write_thickness import THICKNESS_FORMATS, thickness_suffix
+    from .core.files.write_thickness import THICKNESS_FORMATS
 
     parser = _parser(
         "medial_axis thickness",
@@ -194,7 +195,7 @@ def _thickness_parser() -> argparse.ArgumentParser:
     )
     add_sampling(parser.add_argument_group("method"))
     _add_files(parser, [suffix[1:] for suffix in THICKNESS_FORMATS], "json")
-    parser.set_defaults(check_output=thickness_suffix, work_from=_thickness_work)
+    parser.set_defaults(known=(*THICKNESS_FORMATS,), work_from=_thickness_work)
     return parser
 
 
@@ -205,7 +206,7 @@ def _thickness_work(wanted: argparse.Namespace) -> Work:
 
 
 def _skeleton_parser() -> argparse.ArgumentParser:
-    from .core.files.write_skeleton import SKELETON_FORMATS, skeleton_format
+    from .core.files.write_skeleton import SKELETON_FORMATS
 
     parser = _parser(
         "medial_axis skeleton",
@@ -215,7 +216,7 @@ def _skeleton_parser() -> argparse.ArgumentParser:
     add_skeleton_options(parser.add_argument_group("skeleton"))
     add_sampling(parser.add_argument_group("method"))
     _add_files(parser, [suffix[1:] for suffix in SKELETON_FORMATS], "json")
-    parser.set_defaults(check_output=skeleton_format, work_from=_skeleton_work)
+    parser.set_defaults(known=(*SKELETON_FORMATS,), work_from=_skeleton_work)
     return parser
 
 
@@ -294,7 +295,7 @@ def _complete(wanted: argparse.Namespace) -> None:
     if output.endswith(("/", "\\")) or is_folder(output):
         number = "" if wanted.frames is None else "_####"
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
-    wanted.check_output(output)
+    extension_of(output, wanted.known)
     wanted.output = output
     first = wanted.frames[0] if wanted.frames else None
     output_path(output, "name", "file", first)  # it raises what is wrong
