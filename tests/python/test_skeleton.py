@@ -8,7 +8,8 @@ import pytest
 from medial_axis.cli import main
 from medial_axis.core.axis.nearness import nearest
 from medial_axis.core.axis.shape import Shape
-from medial_axis.core.errors import DegenerateInputError, ExportError
+from medial_axis.core.errors import DegenerateInputError, ExportError, ReadError
+from medial_axis.core.files.load_skeleton import load_skeleton
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.files.write_skeleton import export_skeleton
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
@@ -165,9 +166,13 @@ def ends_of(skeleton):
     [
         ("hand_closed.obj", 6, 0, 1.0),
         ("spot_low.obj", 8, 0, 1.0),
-        ("dilo.off", 7, 0, 2.0),  # a leg ends in one or the other of its toes
-        ("rocker-arm.off", 3, 1, 1.5),  # an arm that is cut flat
-        ("knot1.off", 0, 1, 1.0),
+        pytest.param(
+            "dilo.off", 7, 0, 2.0, marks=pytest.mark.slow
+        ),  # a leg ends in one or the other of its toes
+        pytest.param(
+            "rocker-arm.off", 3, 1, 1.5, marks=pytest.mark.slow
+        ),  # an arm that is cut flat
+        pytest.param("knot1.off", 0, 1, 1.0, marks=pytest.mark.slow),
     ],
 )
 def test_the_same_ends_at_every_density_and_however_turned(data_file, name, tips, loops, radii_off):
@@ -187,6 +192,36 @@ def test_the_same_ends_at_every_density_and_however_turned(data_file, name, tips
             away, which = cKDTree(points @ frame).query(first[0])
             assert len(set(which)) == tips
             assert (away <= radii_off * np.maximum(first[1], np.median(first[1]))).all()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_limb_that_is_cut_flat_ends_in_the_ball_that_touches_its_end(seed):
+    """And in no corner of it: a rod of radius 0.2 from -1 to 1."""
+    points, triangles = rod()
+    frame = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    frame *= np.sign(np.linalg.det(frame))
+    shape = Shape(points @ frame.T, triangles)
+    points, _ = ends_of(compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton)
+    points = (points @ frame)[np.argsort((points @ frame)[:, 0])]
+    np.testing.assert_allclose(points, [(-0.8, 0, 0), (0.8, 0, 0)], atol=0.1)
+
+
+def rod(around=24, along=31):
+    turn = np.linspace(0.0, 2 * np.pi, around, endpoint=False)
+    side = np.column_stack((np.zeros(around), 0.2 * np.cos(turn), 0.2 * np.sin(turn)))
+    rings = [side + np.array([x, 0.0, 0.0]) for x in np.linspace(-1.0, 1.0, along)]
+    points = np.concatenate((*rings, [(-1.0, 0, 0), (1.0, 0, 0)]))
+    k = np.arange(around)
+    after, last = (k + 1) % around, around * (along - 1)
+    triangles = []
+    for a in range(0, last, around):
+        b = a + around
+        triangles += [np.column_stack((a + k, a + after, b + after))]
+        triangles += [np.column_stack((a + k, b + after, b + k))]
+    middle = len(points) - 2
+    triangles += [np.column_stack((np.full(around, middle), after, k))]
+    triangles += [np.column_stack((np.full(around, middle + 1), last + k, last + after))]
+    return points, np.concatenate(triangles).astype(np.int32)
 
 
 # --- symmetry
@@ -376,6 +411,46 @@ def test_command_line(tmp_path, capsys):
     assert main(["skeleton", str(source), str(tmp_path / "ring.fbx")]) == 2
     assert main(["skeleton", str(tmp_path / "no.obj"), str(target)]) == 3
     assert main(["skeleton", str(source), str(target), "--detail", "2"]) == 2
+
+
+def test_command_line_takes_frames_and_folders(tmp_path, capsys):
+    vertices, triangles = meshes.torus()
+    for frame, size in ((1, 1.0), (2, 2.0)):
+        np.savez(tmp_path / f"ring_{frame:02d}.npz", points=size * vertices, triangles=triangles)
+    words = ["skeleton", str(tmp_path / "ring_##.npz"), f"{tmp_path}/lines/", "--frames", "1-2"]
+    assert main(words) == 0
+    found = [load_skeleton(tmp_path / "lines" / f"ring_{frame:04d}.json") for frame in (1, 2)]
+    assert found[1].length == pytest.approx(2 * found[0].length, rel=1e-6)
+    report = json.loads((tmp_path / "lines" / "ring_0002.json.json").read_text())
+    assert (report["frame"], report["ends"], report["loops"]) == (2, 0, 1)
+    assert main(words) == 0
+    assert capsys.readouterr().out.count("1 branches, 0 ends, 1 loops, kept") == 2
+
+
+def test_json_is_read_back(two_rings_and_a_y, tmp_path):
+    for found in two_rings_and_a_y:
+        path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.json")
+        back = load_skeleton(path)
+        for name in ("points", "radius", "branch_offsets", "branch_points", "nodes"):
+            np.testing.assert_array_equal(getattr(back, name), getattr(found.skeleton, name))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "no json",
+        "{}",
+        "[]",
+        '{"nodes": [{"position": [0, 0], "radius": 1}], "parts": []}',
+        '{"nodes": [{"position": [0, 0, NaN], "radius": 1}], "parts": []}',
+        '{"nodes": [{"position": [0, 0, 0], "radius": 1}], "parts": [{"nodes": [0, 1]}]}',
+    ],
+)
+def test_files_that_are_no_skeletons_are_refused(tmp_path, text):
+    path = tmp_path / "a.json"
+    path.write_text(text)
+    with pytest.raises(ReadError, match=r"Expected nodes and parts of a skeleton in 'a\.json'"):
+        load_skeleton(path)
 
 
 # --- parts of it
