@@ -147,12 +147,16 @@ def _share_with_parents(
 def _rim(
     here: NDArray[np.bool_], vertices: NDArray[np.float64], edges: NDArray[np.int32], width: float
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """The vertices of a part of the surface that are nearer to its rim than a width, and how much they follow it."""
+    """The vertices of a part of the surface that are nearer to its rim than a width, and how much they follow it.
+
+    What is farthest from the rim of a short part follows it whole: there the width is half of that distance.
+    """
     inside = here[edges]
     apart = inside[:, 0] != inside[:, 1]
     rim = np.unique(edges[apart][inside[apart]]).astype(np.int64)
     inner = graph_of(vertices, edges[inside.all(axis=1)])
-    _, away = spread(inner, rim, np.zeros(len(rim), np.int64), width)
+    _, away = spread(inner, rim, np.zeros(len(rim), np.int64))
+    width = min(width, float(away[np.isfinite(away)].max(initial=0.0)) / 2)
     rows = np.flatnonzero(here & (away < width))
     return rows, _smoothstep(away[rows] / width)
 
