@@ -33,6 +33,7 @@ DATA = {
     "Fill Caps",
     "step {}",
     " Medial Axis Sequence",
+    " Skeleton Sequence",
     "Medial Axis Self-Test",
     "Medial Axis Armature",
     "the arrays of a mesh contradict each other",
