@@ -6,6 +6,7 @@
 #include "axis/medial_mesh.h"
 #include "axis/thickness.h"
 #include "cocone/watertight_surface.h"
+#include "inside/pockets.h"
 #include "skeleton/hierarchy.h"
 
 namespace medial {
@@ -92,9 +93,14 @@ void tell_sides(Parts& made, const Surface& surface, std::span<const Vec3> verti
                 std::span<const Vec3> normals, const Csr<int32_t>& incident,
                 const CoconeOptions& options, const Run& run) {
   const std::vector<Vec3>& points = made.samples.points;
+  const auto find_pockets = [&](std::span<const Vec3> corners, const Surface& of_solid) {
+    made.pockets = pockets(points, made.significance.spacing, corners, of_solid, made.triangulation,
+                           made.voronoi, made.sides, run);
+  };
   if (made.sides_from == SidesFrom::surface) {
     made.sides =
         sides_from_surface(points, vertices, surface, made.triangulation, made.voronoi, run);
+    find_pockets(vertices, surface);
   } else if (made.sides_from == SidesFrom::normals) {
     made.sides = sides_from_normals(points, unit_normals(normals, made.samples), made.triangulation,
                                     made.voronoi, run);
@@ -105,6 +111,7 @@ void tell_sides(Parts& made, const Surface& surface, std::span<const Vec3> verti
     SolidBoundary boundary = solid_boundary(made.triangulation, incident, found.sides, run);
     made.sides = sides_in_solid(points, found.sides, boundary.triangles, made.triangulation,
                                 made.voronoi, run);
+    find_pockets(points, {boundary.triangles, {}});
     found.sides = {};
     made.tight_cocone = std::make_shared<WatertightSurface>(
         describe(std::move(found), std::move(boundary), made.samples, run));
@@ -201,10 +208,12 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
   return kept;
 }
 
-Facets facets_of(const Parts& made) {
+Facets facets_of(const Parts& made, const CellSides& sides) {
   return {made.samples.points, made.triangulation, made.voronoi,
-          made.edges,          made.significance,  made.sides};
+          made.edges,          made.significance,  sides};
 }
+
+Facets facets_of(const Parts& made) { return facets_of(made, made.sides); }
 
 Selection selection(const Parts& made, const Extraction& x) {
   const Selection selection(x, facets_of(made));
@@ -263,7 +272,10 @@ Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
         "where fire has no rim to start from.");
   }
   require_solid(parts_->sides_from, parts_->tight_cocone.get());
-  return make_hierarchy(parts_->samples, facets_of(*parts_), thresholds, parts_->frame,
+  CellSides in_parts;
+  if (!parts_->pockets.empty()) in_parts = without(parts_->pockets, parts_->sides);
+  const CellSides& sides = parts_->pockets.empty() ? parts_->sides : in_parts;
+  return make_hierarchy(parts_->samples, facets_of(*parts_, sides), thresholds, parts_->frame,
                         parts_->run(progress));
 }
 
