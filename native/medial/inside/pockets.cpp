@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inside/pockets.h"
 
+#include <array>
 #include <unordered_map>
 
 #include "inside/winding_number.h"
@@ -105,6 +106,20 @@ struct Way {
   auto operator<=>(const Way&) const = default;
 };
 
+constexpr double kWidth = 0.01;  // half of that of a way, as a share of its length
+
+// Bodies that touch in an edge or in a corner leave no width between them.
+bool is_wide_way(const Vec3& from, const Vec3& to, const WindingNumber& winding) {
+  const Vec3 way = to - from;
+  const Vec3 across = std::abs(way.x) < std::abs(way.y) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const double width = kWidth * length(way);
+  const Vec3 u = width * normalized(cross(way, across)), v = width * normalized(cross(way, u));
+  const std::array<Vec3, 5> beside{Vec3{}, u, -u, v, -v};
+  return std::all_of(beside.begin(), beside.end(), [&](const Vec3& offset) {
+    return winding.is_inside_along(from + offset, to + offset);
+  });
+}
+
 }  // namespace
 
 std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const double> spacing,
@@ -132,7 +147,7 @@ std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const doubl
     }
     std::sort(ways.begin(), ways.end());  // the shortest are the likeliest
     return std::any_of(ways.begin(), ways.end(), [&](const Way& way) {
-      return winding.is_inside_along(voronoi.centre[way.from], voronoi.centre[way.to]);
+      return is_wide_way(voronoi.centre[way.from], voronoi.centre[way.to], winding);
     });
   };
   std::vector<int32_t> cells;

@@ -10,10 +10,10 @@ namespace medial {
 // The cells of pockets, ascending. A pocket is a part of the inner cells that hang together through
 // their triangles with two properties: none of its balls is larger than the hole between the
 // samples at it (`spacing` is the radius of the hole round each sample), so that they cannot tell
-// its shape; and from one of its Voronoi vertices a straight way through the solid, the places
-// where the winding number of `surface` exceeds 1/2, leads to one of a larger part that shares a
-// sample with it. So no way leads from a pocket to another body: bodies of their own, however
-// small, are none. `vertices` are those of the surface.
+// its shape; and from one of its Voronoi vertices a straight way of some width leads through the
+// solid, where the winding number of `surface` exceeds 1/2, to one of a larger part that shares a
+// sample with it. So bodies of their own, however small, and those that touch in an edge, are none.
+// `vertices` are those of the surface.
 std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const double> spacing,
                              std::span<const Vec3> vertices, const Surface& surface,
                              const Triangulation& triangulation, const Voronoi& voronoi,

@@ -100,6 +100,7 @@ bool WindingNumber::is_inside_along(const Vec3& from, const Vec3& to) const {
   for (int i = 0; i <= kPlaces; ++i) cuts.push_back(i / double{kPlaces});
   std::sort(cuts.begin(), cuts.end());
   for (size_t i = 1; i < cuts.size(); ++i) {
+    if (cuts[i - 1] == cuts[i]) continue;
     const Vec3 middle = from + 0.5 * (cuts[i - 1] + cuts[i]) * way;
     if (!is_inside(middle, closed_from(from, closed_there, middle))) return false;
   }
