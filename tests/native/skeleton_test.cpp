@@ -300,6 +300,33 @@ TEST(Rims, RelaxAndNeverFold) {
   }
 }
 
+TEST(Hierarchy, ARelaxedTorusIsOneClosedCurve) {
+  const Level circle =
+      hierarchy_of(test::torus(60, 30), 2).extract({.sheet = 1, .limb = 1, .relaxed = true});
+  std::vector<int> wires_at(circle.vertices.size(), 0);
+  for (const Edge& wire : circle.wires) {
+    for (const int32_t v : wire) ++wires_at[v];
+  }
+  EXPECT_GT(wires_at.size(), 50u);
+  for (const int count : wires_at) EXPECT_EQ(count, 2);
+}
+
+TEST(Hierarchy, BallsOfRelaxedSheetsEndAtTheSamples) {
+  const auto points = test::ellipsoid(1500, 3);
+  const Level level = MedialAnalysis({points}, {.threads = 2}, nullptr)
+                          .hierarchy({})
+                          .extract({.limb = 1, .relaxed = true});
+  ASSERT_FALSE(level.vertices.empty());
+  int moved = 0;
+  for (size_t v = 0; v < level.vertices.size(); ++v) {
+    double nearest = HUGE_VAL;
+    for (const Vec3& p : points) nearest = std::min(nearest, distance(p, level.vertices[v]));
+    EXPECT_NEAR(level.radius[v], nearest, 1e-9);
+    moved += level.vertices[v] != level.exact[v];
+  }
+  EXPECT_GT(moved, 50);
+}
+
 TEST(Hierarchy, RelaxedLevelsAreTheSameForEveryThreadCount) {
   const auto points = test::ellipsoid(5000, 3);
   for (const LevelOptions& options :

@@ -164,5 +164,14 @@ TEST(Pockets, OfAWedgeAreNoPiecesAndABodyBesideItIs) {
   }
 }
 
+TEST(Pockets, AreNoBodiesThatTouchALargerOneInAnEdge) {
+  const test::Mesh mesh = joined(box({0, 0, 0}, {1, 1, 1}), box({1, 1, 0.4}, {1.05, 1.05, 0.45}));
+  const auto points = sample_surface(mesh.vertices, mesh.triangles, {.count = 1000}, 2).points;
+  const MedialAnalysis analysis(
+      {.points = points, .triangles = mesh.triangles, .vertices = mesh.vertices}, {.threads = 2},
+      nullptr);
+  EXPECT_TRUE(analysis.parts().pockets.empty());
+}
+
 }  // namespace
 }  // namespace medial
