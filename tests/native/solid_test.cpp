@@ -118,6 +118,27 @@ TEST(LevelSet, ClosesABoxWithoutItsLidInThePlaneOfThatAndNoOtherOpening) {
   EXPECT_LT(aside, 1e-4);
 }
 
+TEST(LevelSet, OfABentOpeningIsNoneOfItsCaps) {
+  test::Mesh mesh = box({-1, -1, -1}, {1, 1, 1});
+  mesh.triangles.erase(mesh.triangles.begin() + 10, mesh.triangles.end());
+  mesh.triangles.erase(mesh.triangles.begin() + 2, mesh.triangles.begin() + 4);
+  const auto fans = rows_containing(std::span<const Triangle>(mesh.triangles), 8);
+  const auto boundary = boundary_edges(mesh.triangles, fans, {});
+  const OpenSurface open(mesh.vertices, mesh.triangles, boundary, nullptr);
+  const auto falls = open.falls(0.1, {2});
+  EXPECT_GT(falls.size(), 300u);
+  std::vector<Corners> corners;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    corners.push_back({mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]});
+  }
+  for (const auto& fall : falls) {
+    const auto place = open.place(fall);
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(solid_angle_sum(corners, *place), 0.5, 3e-6);
+    EXPECT_LT(distance(*place, fall.middle()), 0.05);
+  }
+}
+
 TEST(LevelSet, IsTheSameForEveryThreadCount) {
   test::Mesh mesh = test::torus(24, 12);
   mesh.triangles.resize(mesh.triangles.size() - 30);
