@@ -132,6 +132,8 @@ TEST(LevelSet, OfABentOpeningIsNoneOfItsCaps) {
     corners.push_back({mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]});
   }
   for (const auto& fall : falls) {
+    EXPECT_GT(solid_angle_sum(corners, fall.inside), 0.5);
+    EXPECT_LT(solid_angle_sum(corners, fall.outside), 0.5);
     const auto place = open.place(fall);
     ASSERT_TRUE(place);
     EXPECT_NEAR(solid_angle_sum(corners, *place), 0.5, 3e-6);

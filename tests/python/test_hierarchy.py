@@ -6,6 +6,11 @@ import math
 
 import numpy as np
 import pytest
+from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.files.read_shape import read_shape
+from medial_axis.core.settings import Settings
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 from support import collapse_reference, measure, meshes
 from support.accuracy import BARS
@@ -430,3 +435,34 @@ def test_cancel(medial):
     done = medial.Progress()
     analysis.hierarchy(progress=done)
     assert done.fraction == 1
+
+
+# --- real meshes, as one click samples them
+
+MESHES = {
+    "3holes.off": (1, 3, 0),
+    "rocker-arm.off": (1, 1, 0),
+    "knot1.off": (1, 1, 0),
+    "hand_closed.obj": (1, 0, 0),
+    "spot_low.obj": (1, 0, 0),
+    "mannequin.off": (1, 0, 0),
+    "fandisk_large.off": (1, 0, 0),
+}
+
+
+def sheets(level):
+    """The number of components of the facets, across edges and corners."""
+    sizes = np.diff(level.face_offsets)
+    facet = np.repeat(np.arange(len(sizes)), sizes)
+    shape = len(sizes), len(level.vertices)
+    at = csr_array((np.ones(len(facet)), (facet, level.face_vertices)), shape=shape)
+    return connected_components(at @ at.T, directed=False)[0] if len(sizes) else 0
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_real_meshes_have_their_topology_and_one_sheet_of_two_spacings(data_file, name):
+    samples = compute_axis(read_shape(data_file(name))[0], Settings()).chosen.samples
+    hierarchy = samples.analysis.hierarchy()
+    assert tuple(hierarchy.betti) == MESHES[name]
+    assert_levels_hold(hierarchy, samples.analysis, THRESHOLDS[1:9:3])
+    assert sheets(hierarchy.extract(spacings=2.0)) <= 1
