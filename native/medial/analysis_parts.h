@@ -27,6 +27,7 @@ struct MedialAnalysis::Parts {
   CellSides sides;
   std::vector<int32_t> pockets;  // inner cells that the hierarchy leaves out
   SidesFrom sides_from = SidesFrom::none;
+  std::optional<double> pole_disagreement;
   std::shared_ptr<const WatertightSurface> tight_cocone;
   int64_t duplicates = 0, boundary_edges = 0;
   bool closed = false;

@@ -300,6 +300,17 @@ TEST(Rims, RelaxAndNeverFold) {
   }
 }
 
+TEST(Rims, DoNotPassTheHubOfAFan) {
+  // The middle of the first vertex's neighbours lies far beyond the hub.
+  std::vector<Vec3> places{{0, 0, 0}, {1, 0, 0}, {-2.6, 1.5, 0}, {-2.6, -1.5, 0}};
+  const std::vector<int32_t> corners{0, 1, 2, 0, 2, 3, 0, 3, 1}, offsets{0, 3, 6, 9};
+  const std::vector<Edge> rims{{1, 2}, {2, 3}, {3, 1}};
+  relax_rims({offsets, corners}, rims, places, {2});
+  for (int f = 0; f < 3; ++f) {
+    EXPECT_GT(cross(places[corners[3 * f + 1]], places[corners[3 * f + 2]]).z, 0);
+  }
+}
+
 TEST(Hierarchy, ARelaxedTorusIsOneClosedCurve) {
   const Level circle =
       hierarchy_of(test::torus(60, 30), 2).extract({.sheet = 1, .limb = 1, .relaxed = true});
