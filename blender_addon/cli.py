@@ -19,7 +19,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from . import __version__, cli_skeleton
+from . import __version__, cli_balls, cli_skeleton
 from .console import ClosedPipeError, Console, open_streams
 from .core.batch.axis_work import AxisWork
 from .core.batch.batch import Item, begin, failure, finish
@@ -52,6 +52,7 @@ from .core.machine.job import Job, Outcome, Task
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
 CLOSED_PIPE = 128 + 13  # as shells say of a program that SIGPIPE ended
 THICKNESS = "thickness"  # the first word, where lengths are wanted and no axes
+_OTHERS = {"balls": cli_balls.main, "skeleton": cli_skeleton.main}  # likewise
 
 _EXAMPLES = """\
 INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend and what Blender imports.
@@ -67,6 +68,7 @@ examples:
   medial_axis cloth_####.obj axes/cloth_####.npz --frames 1-250
   medial_axis walk.blend axes/{name}_####.npz --frames 1-250 --object Body --json
   medial_axis skeleton neuron.ply neuron.swc
+  medial_axis balls robot.stl robot.json --count 64 --mode around
 
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
@@ -95,8 +97,8 @@ exit codes:
 def main(words: Sequence[str]) -> int:
     """Run a command line; returns its exit code."""
     open_streams()
-    if words and words[0] == "skeleton":
-        return cli_skeleton.main(words[1:])
+    if words and words[0] in _OTHERS:
+        return _OTHERS[words[0]](words[1:])
     try:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why
