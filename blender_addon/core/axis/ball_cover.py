@@ -37,7 +37,8 @@ class Balls:
     radii : (n,) float64
     mode : CoverMode
     covered : float
-        Share of the volume of the solid that they hold: around, all that was looked at.
+        Share of the volume of the solid that they hold: around, all that was looked at. This and the next two are
+        NaN where nobody knows, for the balls were changed.
     outside : float
         No place in a ball is farther from the solid.
     farthest : float
@@ -155,9 +156,7 @@ def cover_by_balls(
     )
 
 
-def _surface(
-    shape: Shape, chosen: ChosenSamples
-) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def _surface(shape: Shape, chosen: ChosenSamples) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """What bounds the solid: the faces where these told inside from outside, else the boundary of the inner cells."""
     if chosen.sides.source is SidesFrom.SURFACE:
         return shape.points, shape.triangles

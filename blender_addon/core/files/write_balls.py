@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Callable
 from dataclasses import replace
@@ -80,17 +81,21 @@ def _write_ma(balls: Balls, stream: BinaryIO) -> None:
 
 
 def _write_json(balls: Balls, stream: BinaryIO) -> None:
-    """Everything."""
+    """Everything; null is a figure that nobody knows."""
     rows = zip(balls.centres.tolist(), balls.radii.tolist(), strict=True)
     found = {
         "mode": balls.mode.name.lower(),
-        "covered": balls.covered,
-        "outside": balls.outside,
-        "farthest": balls.farthest,
+        "covered": _known(balls.covered),
+        "outside": _known(balls.outside),
+        "farthest": _known(balls.farthest),
         "balls": [{"centre": centre, "radius": radius} for centre, radius in rows],
     }
     stream.write(json.dumps(found, separators=(",", ":"), allow_nan=False).encode("ascii"))
     stream.write(b"\n")
+
+
+def _known(figure: float) -> float | None:
+    return figure if math.isfinite(figure) else None
 
 
 BALL_FORMATS: dict[str, Callable[[Balls, BinaryIO], None]] = {
