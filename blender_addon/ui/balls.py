@@ -61,7 +61,6 @@ class OBJECT_OT_medial_axis_balls(
     product = "balls"
     check_writable = staticmethod(check_balls_writable)
 
-    form: choice("form")
     theta: number("theta")
     rho: number("rho")
     sides: choice("sides")

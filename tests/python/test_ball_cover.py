@@ -155,12 +155,11 @@ def test_figures_bound_what_is_measured(medial, mode):
 
 
 def test_an_independent_lattice_counts_the_same_volume(medial):
-    """Places of NumPy's own, of a torus by its formula."""
+    """Random places, inside by the sum of solid angles."""
     case = torus_case()
     found = cover(medial, case, 20, places=50_000)
     places = np.random.default_rng(3).uniform((-1.4, -1.4, -0.4), (1.4, 1.4, 0.4), (200_000, 3))
-    core = np.hypot(np.hypot(places[:, 0], places[:, 1]) - 1.0, places[:, 2])
-    solid = places[core < 0.4]
+    solid = places[medial.winding_number(places, *TORUS) > 0.5]
     held = (distances(solid, (case[1][found.chosen], found.radii)) <= 0).any(axis=1).mean()
     assert held == pytest.approx(found.covered[-1], abs=0.01)
 
@@ -290,7 +289,7 @@ def test_two_balls_are_two_balls():
 
 
 def test_a_capsule():
-    """The best n balls of its axis hold so much of it, by integrals; greedy ones at least 1 - 1/e of that."""
+    """Balls of one size along its axis."""
     shape = SHAPES["capsule"]
     found = covered(of_capsule(shape), count=16)
     assert (np.abs(found.balls.radii / found.balls.radii[0] - 1) < 0.03).all()

@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine import native
+from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..settings import BallSettings, CoverMode, Form, Settings, Side, SidesFrom
+from ..settings import BallSettings, CoverMode, Settings, Side, SidesFrom
 from .choose_samples import ChosenSamples, choose_samples
-from .extract import extract
 from .sampling_warnings import sampling_warnings
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .medial_axis import MedialAxis
+    from .analysis import AnalysedSamples
     from .shape import Shape
 
 # The shares of the work before the axis begins, and before the balls are chosen.
@@ -119,12 +119,11 @@ def cover_by_balls(
     start = time.perf_counter()
     progress = progress or Progress()
     settings = replace(settings, side=Side.INNER)
-    levels = settings.form is not Form.PUBLISHED
-    limit = limit.used(faces=len(shape.triangles) > 0, both=False, levels=levels)
+    limit = limit.used(faces=len(shape.triangles) > 0, both=False, levels=True)
     progress.until(_ANALYSIS)
     chosen = choose_samples(shape, settings, progress, limit)
     progress.until(_AXIS)
-    centres, radii = _balls_of(extract(chosen.samples, settings, progress))
+    centres, radii = _balls_of(chosen.samples, settings, progress)
     progress.until(1.0)
     points, triangles = _surface(shape, chosen)
     with native.own_errors() as module:
@@ -164,10 +163,10 @@ def _surface(shape: Shape, chosen: ChosenSamples) -> tuple[NDArray[np.float64], 
         return chosen.samples.points, chosen.samples.analysis.solid_triangles()
 
 
-def _balls_of(axis: MedialAxis) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(m, 3), (m,): the empty balls that an axis is made of."""
-    exact = (axis.vertices, axis.radius)
-    if axis.level is not None:
-        exact = (axis.level.exact, axis.level.exact_radius)
-    centres, radii = (np.ascontiguousarray(column, np.float64) for column in exact)
-    return centres, radii
+def _balls_of(
+    samples: AnalysedSamples, settings: Settings, progress: Progress
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(m, 3), (m,): the empty balls of all inner cells, whatever is shown of the axis."""
+    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress.part())
+    CACHE.resize(samples.key, samples.bytes)
+    return hierarchy.vertices, hierarchy.radius

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int64_t kFirst = 32;  // places along the longest side of the box, to begin with
 constexpr int64_t kRows = 64;   // of one piece of work
+constexpr double kEmpty = 1e6;  // a lattice with more places, none of them inside, is believed
+constexpr double kLeast = 1.05, kLargest = 8;
 // Where in its cell of the lattice a place lies: nowhere in a plane of symmetry, where models have
 // edges.
 constexpr Vec3 kShift{0.4142, 0.5303, 0.4641};
@@ -24,11 +26,13 @@ double lattice_size(const Box& box, double step) {
   return (e.x / step + 1) * (e.y / step + 1) * (e.z / step + 1);
 }
 
-// The finest step, down to an eighth, that leaves no more than `most` places.
+// A step that is finer by the ratio, but by a factor of kLeast to kLargest, and as coarse as `most`
+// places take; the same where that is none.
 double finer(const Box& box, double step, double ratio, int64_t most) {
-  double factor = std::clamp(ratio, 1.05, 8.0);
-  while (factor > 1 && lattice_size(box, step / factor) > static_cast<double>(most)) factor -= 0.05;
-  return factor > 1 ? step / factor : step;
+  for (double factor = std::clamp(ratio, kLeast, kLargest); factor >= kLeast; factor *= 0.9) {
+    if (lattice_size(box, step / factor) <= static_cast<double>(most)) return step / factor;
+  }
+  return step;
 }
 
 }  // namespace
@@ -39,7 +43,7 @@ SolidLattice::SolidLattice(const WindingNumber& winding, const Box& box, int64_t
   if (!(step > 0)) return;
   for (;;) {
     fill(winding, box, step, run);
-    if (2 * count_ >= places) return;
+    if (2 * count_ >= places || (count_ == 0 && lattice_size(box, step) > kEmpty)) return;
     const double wanted = static_cast<double>(places);
     const double ratio = std::cbrt(wanted / static_cast<double>(std::max<int64_t>(count_, 1)));
     const double next = finer(box, step, ratio, most);
