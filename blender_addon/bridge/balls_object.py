@@ -94,10 +94,9 @@ def read_balls(thing: bpy.types.Object) -> Balls:
     Raises
     ------
     InvalidInputError
-        The radii are gone, or no ball is left.
+        The radii are gone, or no ball is left, or somebody is editing them.
     """
-    if thing.is_editmode:
-        thing.update_from_editmode()
+    check_mode(thing)
     centres, radii = _rows(thing)
     known = thing.get(_WRITTEN) == _name_of(centres, radii)
     covered, outside, farthest = (
