@@ -61,8 +61,7 @@ void bind_balls(py::module_& m) {
       .def_property_readonly("covered", view_property<double>(&BallCover::covered),
                              "(n,) float64: share of the places in the solid that the first 1, 2, "
                              "... n balls hold, before they grow.")
-      .def_readonly("outside", &BallCover::outside,
-                    "No place in a ball is farther from the solid.")
+      .def_readonly("outside", &BallCover::outside, "No place in a ball is farther from the solid.")
       .def_readonly("farthest", &BallCover::farthest,
                     "No place on the surface is farther from the balls.")
       .def_readonly("places", &BallCover::places, "Of the lattice in the solid.")

@@ -86,8 +86,8 @@ std::vector<Ball> inner_balls(const BallCoverInput& input, const Solid& solid,
   balls.reserve(depth.size());
   for (size_t i = 0; i < depth.size(); ++i) {
     const double radius = std::scalbn(input.radii[i], -solid.frame.exponent);
-    balls.push_back({solid.frame.inward(input.centres[i]),
-                     std::clamp(radius, 0.0, std::max(depth[i], 0.0))});
+    balls.push_back(
+        {solid.frame.inward(input.centres[i]), std::clamp(radius, 0.0, std::max(depth[i], 0.0))});
   }
   return balls;
 }
@@ -103,10 +103,28 @@ SolidLattice lattice_of(const Solid& solid, int64_t places, const Run& run) {
   return lattice;
 }
 
+// The radii of the chosen balls, grown to hold what is nearest to each if they are to be `around`;
+// and how far off they and the surface then are.
+void set_reach(BallCover& cover, std::span<const Ball> balls, std::span<const double> depth,
+               bool around, const Solid& solid, const SolidLattice& left, const Run& run) {
+  std::vector<Ball> kept;
+  for (const int32_t ball : cover.chosen) kept.push_back(balls[ball]);
+  const auto places = around ? left.places() : std::vector<Vec3>{};
+  const auto needed = needed_radii(kept, solid.vertices.points, solid.surface.triangles, places,
+                                   kPiece * left.step(), run);
+  for (size_t i = 0; i < kept.size(); ++i) {
+    const double radius = around ? std::max(kept[i].radius, needed[i]) : kept[i].radius;
+    cover.farthest = std::max(cover.farthest, needed[i] - radius);
+    cover.outside = std::max(cover.outside, radius - depth[cover.chosen[i]]);
+    cover.radii.push_back(solid.frame.outward(radius));
+  }
+  cover.farthest = solid.frame.outward(cover.farthest);
+  cover.outside = solid.frame.outward(cover.outside);
+}
+
 }  // namespace
 
-BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& options,
-                     const Run& run) {
+BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& options, const Run& run) {
   begin_stage(run.progress, "Lattice", 0, 0.3);
   check(input, options);
   const Solid solid(input, run);
@@ -130,20 +148,7 @@ BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& option
   cover.step = solid.frame.outward(left.step());
 
   begin_stage(run.progress, "Reach of balls", 0.8, 1);
-  std::vector<Ball> kept;
-  for (const int32_t ball : cover.chosen) kept.push_back(balls[ball]);
-  const auto needed = needed_radii(kept, solid.vertices.points, solid.surface.triangles,
-                                   around ? left.places() : std::vector<Vec3>{},
-                                   kPiece * left.step(), run);
-  for (size_t i = 0; i < kept.size(); ++i) {
-    double& radius = kept[i].radius;
-    if (around) radius = std::max(radius, needed[i]);
-    cover.farthest = std::max(cover.farthest, needed[i] - radius);
-    cover.outside = std::max(cover.outside, radius - depth[cover.chosen[i]]);
-    cover.radii.push_back(solid.frame.outward(radius));
-  }
-  cover.farthest = solid.frame.outward(cover.farthest);
-  cover.outside = solid.frame.outward(cover.outside);
+  set_reach(cover, balls, depth, around, solid, left, run);
   advance(run.progress, 1);
   return cover;
 }

@@ -66,7 +66,8 @@ std::vector<double> needed_radii(std::span<const Ball> balls, std::span<const Ve
                                  std::span<const Triangle> triangles, std::span<const Vec3> places,
                                  double piece, const Run& run) {
   const NearestBall nearest(balls);
-  std::vector<Needs> needs(static_cast<size_t>(run.threads), Needs(balls, nearest, piece, run.progress));
+  std::vector<Needs> needs(static_cast<size_t>(run.threads),
+                           Needs(balls, nearest, piece, run.progress));
   parallel_chunks(
       static_cast<int64_t>(triangles.size()), run,
       [&](int64_t begin, int64_t end, int worker) {

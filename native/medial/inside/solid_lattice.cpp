@@ -52,8 +52,7 @@ SolidLattice::SolidLattice(const WindingNumber& winding, const Box& box, int64_t
   }
 }
 
-void SolidLattice::fill(const WindingNumber& winding, const Box& box, double step,
-                        const Run& run) {
+void SolidLattice::fill(const WindingNumber& winding, const Box& box, double step, const Run& run) {
   const Vec3 extent = box.extent();
   step_ = step;
   size_ = {steps_along(extent.x, step), steps_along(extent.y, step), steps_along(extent.z, step)};
@@ -131,9 +130,8 @@ void SolidLattice::visit_words(const Vec3& centre, double radius, const Visit& v
 
 int64_t SolidLattice::count(const Vec3& centre, double radius) const {
   int64_t sum = 0;
-  visit_words(centre, radius, [&](int64_t word, uint64_t mask) {
-    sum += std::popcount(bits_[word] & mask);
-  });
+  visit_words(centre, radius,
+              [&](int64_t word, uint64_t mask) { sum += std::popcount(bits_[word] & mask); });
   return sum;
 }
 
