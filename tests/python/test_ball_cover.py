@@ -356,7 +356,7 @@ def test_files_say_the_same(tmp_path):
     assert known["outside"] == 0.0 and known["farthest"] == balls.farthest
     assert [ball["radius"] for ball in known["balls"]] == balls.radii.tolist()
     assert [ball["centre"] for ball in known["balls"]] == balls.centres.tolist()
-    with pytest.raises(ExportError, match=r"ends in .ma or .json for balls, found 'a.ply'"):
+    with pytest.raises(ExportError, match=r"ends in .ma or .json, found 'a.ply'"):
         medial_axis.write_balls(balls, tmp_path / "a.ply")
     assert not (tmp_path / "a.ply").exists()
 

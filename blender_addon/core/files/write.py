@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ..axis.medial_axis import MedialAxis
-from ..errors import ExportError
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
 from .extensions import extension_of

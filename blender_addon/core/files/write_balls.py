@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
 from ..axis.ball_cover import Balls
-from ..errors import ExportError
+from .extensions import extension_of
 from .placing import is_identity, parts_of
 from .rows_of_text import write_rows
 from .whole_file import write_whole
@@ -51,13 +51,7 @@ def export_balls(
 
 def ball_format(path: str | os.PathLike) -> Callable[[Balls, BinaryIO], None]:
     """What writes the format that the extension of `path` names."""
-    suffix = Path(path).suffix.lower()
-    if suffix not in BALL_FORMATS:
-        raise ExportError(
-            f"Expected a file name that ends in .ma or .json for balls, found '{Path(path).name}'; "
-            "add one of these extensions"
-        )
-    return BALL_FORMATS[suffix]
+    return BALL_FORMATS[extension_of(path, BALL_FORMATS)]
 
 
 def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
