@@ -345,7 +345,7 @@ def test_flat_points_are_refused():
 
 
 def test_files_say_the_same(tmp_path):
-    found = covered(TORUS, count=9)
+    found = covered(TORUS, count=9, sampling="vertices")
     balls = found.balls
     text = medial_axis.write_balls(found, tmp_path / "a.ma").read_text().split("\n")
     assert text[0] == "9 0 0" and text[-1] == ""
@@ -364,7 +364,7 @@ def test_files_say_the_same(tmp_path):
 def test_placed_balls_scale(tmp_path):
     from medial_axis.core.files.write_balls import export_balls
 
-    balls = covered(TORUS, count=5, mode="around").balls
+    balls = covered(TORUS, count=5, mode="around", sampling="vertices").balls
     world = np.array([(0, -2.0, 0, 1), (2.0, 0, 0, 2), (0, 0, 2.0, 3), (0, 0, 0, 1)])
     known = json.loads(export_balls(balls, tmp_path / "a.json", world).read_text())
     assert known["outside"] == 2 * balls.outside
@@ -385,9 +385,10 @@ def test_the_command_line_writes_the_same(tmp_path, capsys):
     lines += ["3 {} {} {}".format(*row) for row in triangles.tolist()]
     source.write_text("\n".join(lines))
     output = tmp_path / "torus.json"
-    assert run(["balls", str(source), str(output), "--count", "6", "--mode", "around"]) == 0
+    words = ["--count", "6", "--mode", "around", "--sampling", "vertices"]
+    assert run(["balls", str(source), str(output), *words]) == 0
     assert "6 balls, 100.0 % of the volume" in capsys.readouterr().out
-    balls = covered(TORUS, count=6, mode="around").balls
+    balls = covered(TORUS, count=6, mode="around", sampling="vertices").balls
     assert json.loads(output.read_text())["balls"][5]["radius"] == balls.radii[5]
     assert run(["balls", str(source), str(tmp_path / "x.ply")]) == 2
     assert run(["balls", str(source), str(output), "--count", "0"]) == 2
