@@ -313,6 +313,7 @@ def test_an_open_surface_has_balls():
     assert found.balls.covered > 0.9
 
 
+@pytest.mark.slow
 def test_the_hand(data_file):
     shape = medial_axis.read(data_file("hand_closed.obj"))
     balls = covered((shape.points, shape.triangles), count=64).balls
