@@ -24,8 +24,11 @@ __version__ = ".".join(str(part) for part in bl_info["version"])
 
 # What library.py offers; a test compares.
 __all__ = [
+    "BallCover",
+    "Balls",
     "Cancelled",
     "Computation",
+    "CoverMode",
     "Criteria",
     "DegenerateInputError",
     "ExportError",
@@ -45,11 +48,13 @@ __all__ = [
     "Side",
     "SidesFrom",
     "compute",
+    "cover_by_balls",
     "extract",
     "read",
     "read_axis",
     "reconstruct",
     "write",
+    "write_balls",
 ]
 
 if TYPE_CHECKING:

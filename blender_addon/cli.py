@@ -68,6 +68,7 @@ examples:
   medial_axis cloth_####.obj axes/cloth_####.npz --frames 1-250
   medial_axis walk.blend axes/{name}_####.npz --frames 1-250 --object Body --json
   medial_axis skeleton neuron.ply neuron.swc
+  medial_axis balls robot.stl robot.json --count 64 --mode around
 
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
@@ -113,6 +114,10 @@ exit codes:
 def main(words: Sequence[str]) -> int:
     """Run a command line; returns its exit code."""
     open_streams()
+    if words and words[0] == "balls":
+        from .cli_balls import main as balls  # it costs others nothing
+
+        return balls(words[1:])
     try:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why

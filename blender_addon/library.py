@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .core.axis import ball_cover, reconstruction
 from .core.axis import compute as axis
-from .core.axis import reconstruction
+from .core.axis.ball_cover import BallCover, Balls
 from .core.axis.compute import Computation
 from .core.axis.medial_axis import MedialAxis
 from .core.axis.reconstruction import Reconstruction
@@ -36,12 +37,16 @@ from .core.errors import (
 from .core.files.load_axis import load_axis
 from .core.files.read_shape import read_shape
 from .core.files.write import export_axis
+from .core.files.write_balls import export_balls
 from .core.machine.progress import Progress
 from .core.settings import (
     ANALYSED,
+    BALL_OPTIONS,
     OPTIONS,
     SAMPLING_OPTIONS,
+    BallSettings,
     Choice,
+    CoverMode,
     Criteria,
     Form,
     Rule,
@@ -56,8 +61,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = [
+    "BallCover",
+    "Balls",
     "Cancelled",
     "Computation",
+    "CoverMode",
     "Criteria",
     "DegenerateInputError",
     "ExportError",
@@ -77,11 +85,13 @@ __all__ = [
     "Side",
     "SidesFrom",
     "compute",
+    "cover_by_balls",
     "extract",
     "read",
     "read_axis",
     "reconstruct",
     "write",
+    "write_balls",
 ]
 
 # What selects facets of an analysis that is there.
@@ -144,6 +154,48 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     return axis.extract_axis(computation, settings)
 
 
+def cover_by_balls(
+    points: ArrayLike,
+    triangles: ArrayLike | None = None,
+    normals: ArrayLike | None = None,
+    *,
+    count: int = BALL_OPTIONS["count"].default,
+    mode: CoverMode | str = BALL_OPTIONS["mode"].default,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> BallCover:
+    """A solid as few balls of its medial axis.
+
+    Parameters
+    ----------
+    points, triangles, normals
+        As of `compute`.
+    count : int
+        Balls at most.
+    mode : CoverMode or its name
+        "inside": no ball reaches out of the solid. "around": the balls hold the whole surface.
+    progress : Progress, optional
+    **settings
+        As of `compute`; the side is always the inner one.
+
+    Returns
+    -------
+    cover : BallCover
+        `balls` has centres, radii, and three figures: the share of the volume that is covered, how far balls reach
+        out of the solid, and how far its surface is from them.
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
+    """
+    wanted = BallSettings(
+        count=_value(count, "count", BALL_OPTIONS["count"]),
+        mode=_value(mode, "mode", BALL_OPTIONS["mode"]),
+    )
+    chosen = Settings(**_checked(settings, list(OPTIONS)))
+    return ball_cover.cover_by_balls(_shape(points, triangles, normals), chosen, wanted, progress)
+
+
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:
     """The watertight surface through points that lie densely on a closed one (Tight Cocone).
 
@@ -196,6 +248,26 @@ def write(
     """
     axis = found.axis if isinstance(found, Computation) else found
     return export_axis(axis, path, triangles=triangles)
+
+
+def write_balls(found: Balls | BallCover, path: str | os.PathLike[str]) -> Path:
+    """Write balls; the extension says how: .ma .json (docs/balls.md).
+
+    Parameters
+    ----------
+    found : Balls or BallCover
+    path : path of the file; its folder must exist
+
+    Returns
+    -------
+    path : Path
+        The file that was written. It is whole, or the old one is unchanged.
+
+    Raises
+    ------
+    ExportError
+    """
+    return export_balls(found.balls if isinstance(found, BallCover) else found, path)
 
 
 def read_axis(path: str | os.PathLike[str]) -> MedialAxis:
@@ -263,11 +335,10 @@ def _checked(given: dict[str, Any], names: list[str]) -> dict[str, Any]:
         raise InvalidInputError(
             f"Expected settings among {', '.join(names)}, found '{unknown}'{what}"
         )
-    return {name: _value(name, value) for name, value in given.items()}
+    return {name: _value(value, name, OPTIONS[name]) for name, value in given.items()}
 
 
-def _value(name: str, value: Any) -> Any:
-    option = OPTIONS[name]
+def _value(value: Any, name: str, option: Any) -> Any:
     if isinstance(option, Choice):
         return _member(name, option, value)
     wanted: Any = bool if isinstance(option, Switch) else type(option.default)

@@ -770,3 +770,63 @@ class ThicknessSettings:
 
     def __post_init__(self) -> None:
         check_ranges(self, THICKNESS_OPTIONS)
+
+
+# --- balls
+
+
+class CoverMode(Enum):
+    """What few balls promise."""
+
+    INSIDE = "INSIDE"
+    AROUND = "AROUND"
+
+
+BALL_OPTIONS: dict[str, Any] = {
+    "count": Integer(
+        label="Balls",
+        description="How many balls there are at most",
+        default=64,
+        minimum=1,
+        maximum=100_000,
+        soft_minimum=4,
+        soft_maximum=1_000,
+    ),
+    "mode": Choice(
+        label="Cover",
+        description="What the balls promise",
+        default=CoverMode.INSIDE,
+        items={
+            CoverMode.INSIDE: (
+                "Inside",
+                "No ball reaches out of the solid; each holds as much as it can of what the others leave",
+            ),
+            CoverMode.AROUND: (
+                "Around",
+                "The balls hold the whole surface, and so reach out of the solid",
+            ),
+        },
+    ),
+}
+
+
+@dataclass(frozen=True)
+class BallSettings:
+    """How many balls, and what they promise.
+
+    Parameters
+    ----------
+    count : int
+    mode : CoverMode
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+
+    count: int = BALL_OPTIONS["count"].default
+    mode: CoverMode = BALL_OPTIONS["mode"].default
+
+    def __post_init__(self) -> None:
+        check_ranges(self, BALL_OPTIONS)

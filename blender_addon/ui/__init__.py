@@ -11,6 +11,7 @@ from ..core.machine import native
 def _modules() -> tuple[ModuleType, ...]:
     from . import (
         asset_library,
+        balls,
         command,
         compute_sequence,
         current_job,
@@ -58,6 +59,7 @@ def _modules() -> tuple[ModuleType, ...]:
         skeleton_panel,
         thickness_panel,
         rebuild,
+        balls,
         compute_sequence,
         menus,
         node_groups,

@@ -8,14 +8,26 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
+from ..bridge.axis_object import settings_of
+from ..bridge.balls_object import is_balls, read_balls
+from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis, read_axis, world_matrix
+from ..bridge.read_object import read_object
+from ..core.axis.ball_cover import cover_by_balls
 from ..core.axis.medial_axis import MedialAxis
-from ..core.errors import MedialAxisError
+from ..core.errors import InvalidInputError, MedialAxisError
 from ..core.files.write import FORMATS, export_axis
+from ..core.files.write_balls import export_balls
+from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode
 from .paths import RELATIVE
+from .preferences import memory_limit
+from .properties import choice_of
 from .translation import say
 
-_EXTENSIONS = {suffix[1:].upper(): suffix for suffix in FORMATS}
+_LABELS = {suffix: known.label for suffix, known in FORMATS.items()} | {
+    ".json": "JSON, balls and their figures"
+}
+_EXTENSIONS = {suffix[1:].upper(): suffix for suffix in _LABELS}
 
 
 class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
@@ -28,18 +40,27 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
 
     filepath: StringProperty(name="File Path", subtype="FILE_PATH", options=RELATIVE)
     filter_glob: StringProperty(
-        default=";".join(f"*{suffix}" for suffix in FORMATS), options={"HIDDEN"}
+        default=";".join(f"*{suffix}" for suffix in _LABELS), options={"HIDDEN"}
     )
     file_format: EnumProperty(
         name="Format",
         description="Kind of file, where the file name does not say it",
-        items=[(name, suffix, FORMATS[suffix].label) for name, suffix in _EXTENSIONS.items()],
+        items=[(name, suffix, _LABELS[suffix]) for name, suffix in _EXTENSIONS.items()],
         default="MA",
     )
+    balls: bpy.props.IntProperty(
+        name="Balls",
+        description="At most so many balls instead of the axis, as .ma or .json; 0: the axis",
+        default=0,
+        min=0,
+        soft_max=BALL_OPTIONS["count"].soft_maximum,
+        max=BALL_OPTIONS["count"].maximum,
+    )
+    mode: choice_of(BALL_OPTIONS["mode"])
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if find_axis(context.active_object) is None:
+        if _thing(context) is None:
             cls.poll_message_set(
                 say("Select a medial axis, or an object whose medial axis was computed before")
             )
@@ -53,7 +74,7 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if not self.filepath:
             folder = os.path.dirname(bpy.data.filepath)
-            name = bpy.path.clean_name(find_axis(context.active_object).name)
+            name = bpy.path.clean_name(_thing(context).name)
             self.filepath = os.path.join(folder, name + self.filename_ext)
         self._shown_format = self.file_format
         return super().invoke(context, event)
@@ -63,26 +84,53 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
         # Not a Path, which takes Blender's // for a network folder of Windows
         path, (stem, suffix) = self.filepath, os.path.splitext(self.filepath)
         chosen, self._shown_format = self.file_format != self._shown_format, self.file_format
-        if not chosen and suffix.lower() in FORMATS:
+        if not chosen and suffix.lower() in _LABELS:
             self.file_format = self._shown_format = suffix[1:].upper()
             return False
-        self.filepath = (stem if suffix.lower() in FORMATS else path) + self.filename_ext
+        self.filepath = (stem if suffix.lower() in _LABELS else path) + self.filename_ext
         return self.filepath != path
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()  # scripts may have moved the object
-        result = find_axis(context.active_object)
         path = bpy.path.abspath(self.filepath)
         if not Path(path).suffix:
             path += self.filename_ext
         try:
-            axis = read_axis(result)
-            written = export_axis(axis, path, world_matrix(result))
+            size, written = self._write(context, _thing(context), path)
         except MedialAxisError as error:
             self.report({"ERROR"}, say(error))
             return {"CANCELLED"}
-        self.report({"INFO"}, say(f"Wrote {_size(axis)} to '{written.name}'"))
+        self.report({"INFO"}, say(f"Wrote {size} to '{written.name}'"))
         return {"FINISHED"}
+
+    def _write(self, context, thing, path):
+        """How much was written, for people, and to which file."""
+        if is_balls(thing):
+            balls, world = read_balls(thing), world_matrix(thing)
+        elif self.balls:
+            balls, world = self._cover(context, thing)
+        else:
+            axis = read_axis(thing)
+            return _size(axis), export_axis(axis, path, world_matrix(thing))
+        return f"{len(balls.radii):,} balls", export_balls(balls, path, world)
+
+    def _cover(self, context, result):
+        """Balls of what an axis was computed of, with its settings, and where they lie in the world."""
+        source = source_of(result)
+        if is_gone(source):
+            raise InvalidInputError(
+                f"Expected the object that '{result.name}' was computed of, found that it is gone; set Balls to 0"
+            )
+        shape = read_object(source, context.evaluated_depsgraph_get())
+        wanted = BallSettings(self.balls, CoverMode[self.mode])
+        found = cover_by_balls(shape, settings_of(result), wanted, limit=memory_limit())
+        return found.balls, shape.frame
+
+
+def _thing(context: bpy.types.Context) -> bpy.types.Object | None:
+    """What is written: the active object's medial axis, or the balls that it is."""
+    active = context.active_object
+    return active if not is_gone(active) and is_balls(active) else find_axis(active)
 
 
 def _size(axis: MedialAxis) -> str:

@@ -14,6 +14,8 @@ def _compute(self, context):
     button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
     copy_settings(context.scene.medial_axis, button)
     self.layout.operator("object.tight_cocone_surface", icon="MESH_ICOSPHERE")
+    button = self.layout.operator("object.medial_axis_balls", icon="META_BALL")
+    copy_settings(context.scene.medial_axis, button)
     for operator, icon in SKELETON_OPERATORS.items():
         copy_all(context, self.layout.operator(operator, icon=icon))
 

@@ -7,6 +7,7 @@ import bpy
 
 from ..bridge.armature_object import is_armature
 from ..bridge.axis_object import is_result
+from ..bridge.balls_object import is_balls
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import is_report
@@ -24,6 +25,7 @@ _MADE = {
     is_copy: "a report",
     is_skeleton: "a skeleton",
     is_armature: "an armature",
+    is_balls: "balls",
 }
 
 
@@ -51,7 +53,7 @@ class Source:
 
 def sources(context) -> list:
     """The selected objects that have a surface or points, and those in edit mode; instead of a medial axis, a report
-    of samples, a skeleton or an armature, what it was made of."""
+    of samples, a skeleton, an armature or balls, what it was made of."""
     found = []
     for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
         source = source_of(thing) if _is_made(thing) else thing

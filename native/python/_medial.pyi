@@ -425,6 +425,39 @@ class Hierarchy:
         InvalidInputError, Cancelled
         """
 
+class CoverMode:
+    """What `cover_by_balls` promises."""
+
+    INSIDE: CoverMode  # 0: no ball reaches out of the solid
+    AROUND: CoverMode  # 1: the balls hold all of the surface, and all places of the lattice in the solid
+
+@final
+class BallCover:
+    """Few balls; made by `cover_by_balls`."""
+
+    @property
+    def chosen(self) -> NDArray[np.int32]:
+        """(n,) int32: rows of the balls to choose from, in the order in which they were chosen, which does not depend
+        on their number. Fewer than asked for: more of them would not add anything."""
+    @property
+    def radii(self) -> NDArray[np.float64]:
+        """(n,) float64: inside no longer than to the surface, around grown."""
+    @property
+    def covered(self) -> NDArray[np.float64]:
+        """(n,) float64: share of the places in the solid that the first 1, 2, ... n balls hold, before they grow."""
+    @property
+    def outside(self) -> float:
+        """No place in a ball is farther from the solid."""
+    @property
+    def farthest(self) -> float:
+        """No place on the surface is farther from the balls."""
+    @property
+    def places(self) -> int:
+        """Of the lattice in the solid."""
+    @property
+    def step(self) -> float:
+        """Of the lattice."""
+
 class ThicknessMode:
     """What `MedialAnalysis.thickness` measures."""
 
@@ -1130,4 +1163,48 @@ def wall_distances(
     Raises
     ------
     InvalidInputError, Cancelled
+    """
+
+def cover_by_balls(
+    centres: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    count: int = 64,
+    mode: CoverMode = ...,
+    places: int = 100_000,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> BallCover:
+    """A solid as few balls, chosen greedily among those of its inner axis, by the volume that each adds.
+
+    The solid is where the winding number of its faces exceeds 1/2, and a volume the number of places of a cubic
+    lattice in it. INSIDE, each ball is the one that holds most of what those before it left, of equal ones the first:
+    the first n hold at least 1 - 1/e of the places that any n of the candidates hold. AROUND, it is one that comes near
+    to the place farthest from those before it; each then grows until it holds what is nearest to it.
+
+    Parameters
+    ----------
+    centres : (m, 3) float64
+    radii : (m,) float64
+        Of the balls to choose from.
+    vertices : (v, 3) float64
+    triangles : (f, 3) int32
+        The surface of the solid: outward, rows of `vertices`.
+    count : int
+        Balls at most.
+    mode : CoverMode
+    places : int
+        Of the lattice in the solid; at least half as many, where a lattice of 16 million places in the box of the solid
+        has them, a million where the surface is open.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    DegenerateInputError
+        The faces enclose no place, or none of the balls holds one.
     """

@@ -12,5 +12,6 @@ void bind_hierarchy(pybind11::module_& module);  // after the progress, before t
 void bind_tight_cocone(pybind11::module_& module);
 void bind_sampling(pybind11::module_& module);
 void bind_stages(pybind11::module_& module);
+void bind_balls(pybind11::module_& module);
 
 }  // namespace medial::python

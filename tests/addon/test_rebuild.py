@@ -90,6 +90,25 @@ def test_offset_of_a_box():
     assert volume(evaluated(made)) == pytest.approx(exact, rel=0.02)
 
 
+def test_a_torus_is_hollowed_out():
+    """The source minus its rebuilt inside: a wall of the offset's thickness, and the surface as it was."""
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=64, minor_segments=32, major_radius=1.0, minor_radius=0.4
+    )
+    source = bpy.context.object
+    compute(form="CLEAN", side="INNER")
+    made = rebuild(source, Offset=-0.1, Voxel=0.05)
+    inside = volume(evaluated(made))
+    whole = volume(evaluated(source))
+    hollow = source.modifiers.new("Hollow", "BOOLEAN")
+    hollow.operation, hollow.object = "DIFFERENCE", made
+    walls = volume(evaluated(source))
+    assert walls == pytest.approx(whole - inside, rel=1e-3)
+    assert walls == pytest.approx(2 * np.pi**2 * (0.4**2 - 0.3**2), rel=0.04)
+    corners = {tuple(x) for x in np.round(positions(evaluated(source)), 4)}
+    assert {tuple(x) for x in np.round(positions(source.data), 4)} <= corners
+
+
 def test_an_outer_axis_is_refused():
     torus()
     compute(side="OUTER")

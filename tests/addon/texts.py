@@ -205,6 +205,8 @@ def said(expression):
 # How errors begin that follow from what a user chose or imported; the others are met by programs only.
 MET = (
     "Expected at least 4 distinct points",
+    "Expected balls in the solid",
+    "Expected faces that enclose a volume",
     "Expected fewer than 2^31 facet corners",
     "Expected finite coordinates below 1e50",
     "Expected outward normals",

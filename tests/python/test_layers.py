@@ -184,6 +184,7 @@ PUBLIC = {
     "watertight_surface.h": {"cocone"},
     "hierarchy.h": {"skeleton"},
     "thickness.h": {"axis"},
+    "ball_cover.h": {"axis"},
     "sampling.h": {"sampling"},
     "analysis.h": {"."},
 }

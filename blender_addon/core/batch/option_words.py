@@ -10,11 +10,13 @@ from typing import Any
 
 from ..machine.memory_limit import MemoryLimit
 from ..settings import (
+    BALL_OPTIONS,
     LIMITS,
     OPTIONS,
     SAMPLING_OPTIONS,
     SKELETON_OPTIONS,
     THICKNESS_OPTIONS,
+    BallSettings,
     Between,
     Choice,
     Settings,
@@ -41,6 +43,11 @@ def add_limits(parser: argparse._ArgumentGroup) -> None:
 def add_skeleton_options(parser: argparse._ArgumentGroup) -> None:
     """As `add_options`, for SkeletonSettings."""
     _add(parser, SKELETON_OPTIONS)
+
+
+def add_ball_options(parser: argparse._ArgumentGroup) -> None:
+    """As `add_options`, for BallSettings."""
+    _add(parser, BALL_OPTIONS)
 
 
 def add_thickness(parser: argparse._ArgumentGroup) -> None:
@@ -122,6 +129,17 @@ def skeleton_settings_from(words: argparse.Namespace) -> SkeletonSettings:
         A number out of its range.
     """
     return SkeletonSettings(**_given(words, SKELETON_OPTIONS))
+
+
+def ball_settings_from(words: argparse.Namespace) -> BallSettings:
+    """The balls that a parsed command line means.
+
+    Raises
+    ------
+    InvalidInputError
+        A number out of its range.
+    """
+    return BallSettings(**_given(words, BALL_OPTIONS))
 
 
 def sampling_from(words: argparse.Namespace) -> Settings:

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ..axis.medial_axis import MedialAxis
-from ..errors import ExportError
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
 from .extensions import extension_of
 from .facet_triangles import triangulate_facets
+from .placing import is_identity, parts_of
 from .rows_of_text import write_rows as _write_rows
 from .whole_file import write_whole
 
@@ -106,14 +106,9 @@ def format_of(path: str | os.PathLike) -> Format:
 
 def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
     """The same axis, seen in the world."""
-    if np.array_equal(transform[:3], np.eye(3, 4)):
-        return axis  # without LAPACK, whose OpenBLAS waits for memory without end where addresses are few
-    if transform.shape not in ((3, 4), (4, 4)) or not np.isfinite(transform).all():
-        raise ExportError(
-            f"Expected a finite 3x4 or 4x4 transform, found shape {transform.shape}; pass a world matrix"
-        )
-    linear, offset = transform[:3, :3], transform[:3, 3]
-    scale = _even_scale(linear)
+    if is_identity(transform):
+        return axis
+    linear, offset, scale = parts_of(transform)
     corners = axis.face_vertices
     if np.linalg.det(linear) < 0:
         corners = _turned(axis.face_offsets, corners)
@@ -128,21 +123,6 @@ def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
     radius = level.exact_radius if scale == 1.0 else level.exact_radius * scale
     exact = level.exact @ linear.T + offset
     return replace(placed, level=replace(level, exact=exact, exact_radius=radius))
-
-
-def _even_scale(linear: NDArray[np.float64]) -> float:
-    """The factor by which `linear` scales all lengths; exactly 1 for a rigid frame in float32."""
-    stretches = np.linalg.svd(linear, compute_uv=False)
-    rounding = (
-        16 * np.finfo(np.float32).eps
-    )  # world matrices are products of a few float32 matrices
-    if stretches[0] == 0.0 or stretches[0] - stretches[2] > rounding * stretches[0]:
-        raise ExportError(
-            "Expected a medial axis that is scaled evenly, found scales from "
-            f"{stretches[2]:.6g} to {stretches[0]:.6g}; scale the source instead and compute its axis again"
-        )
-    scale = float(stretches.mean())
-    return 1.0 if abs(scale - 1.0) <= rounding else scale
 
 
 def _turned(face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]) -> NDArray[np.int32]:

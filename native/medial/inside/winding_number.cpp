@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inside/winding_number.h"
 
+#include <algorithm>
 #include <unordered_map>
 
 #include "base/union_find.h"
@@ -77,6 +78,26 @@ int WindingNumber::closed_from(const Vec3& known, int closed_there, const Vec3& 
   if (!(reach < HUGE_VAL)) return closed(query);
   const auto drop = crossings_(known, (1 / reach) * way, reach);
   return drop ? closed_there - *drop : closed(query);
+}
+
+// One ray for all of them. Where it meets edges, it may count triangles twice or not at all; then
+// it does not end with the number at the last place, and each is asked for by itself.
+void WindingNumber::closed_along(const Vec3& first, double step, std::span<int> result) const {
+  if (result.empty()) return;
+  const auto place = [&](size_t i) { return first + Vec3{step * static_cast<double>(i), 0, 0}; };
+  const Vec3 origin = first - Vec3{step, 0, 0};
+  std::vector<RayCrossings::Hit> hits;
+  crossings_.hits(origin, {1, 0, 0}, step * static_cast<double>(result.size()), hits);
+  std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+  int number = closed(origin);
+  auto hit = hits.begin();
+  for (size_t i = 0; i < result.size(); ++i) {
+    const double at = step * static_cast<double>(i + 1);
+    for (; hit != hits.end() && hit->at < at; ++hit) number += hit->cosine < 0 ? 1 : -1;
+    result[i] = number;
+  }
+  if (number == closed(place(result.size() - 1))) return;
+  for (size_t i = 0; i < result.size(); ++i) result[i] = closed(place(i));
 }
 
 double WindingNumber::operator()(const Vec3& query) const {

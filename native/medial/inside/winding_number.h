@@ -29,6 +29,8 @@ class WindingNumber {
   int closed(const Vec3& query) const;
   // The same, told by what lies between `query` and a point where it is known.
   int closed_from(const Vec3& known, int closed_there, const Vec3& query) const;
+  // The same at places in a row, each `step` behind the one before in the direction of x.
+  void closed_along(const Vec3& first, double step, std::span<int> result) const;
   // Whether the winding number of the soup itself exceeds 1/2; the caps are summed only as far as
   // it takes to tell.
   bool is_inside(const Vec3& query, int closed_here) const;

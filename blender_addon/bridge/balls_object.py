@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Few balls as an object: a vertex with a radius for each, shown as spheres by the modifier *Balls*."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..core.axis.ball_cover import Balls
+from ..core.errors import InvalidInputError
+from ..core.machine.cache import key_of
+from ..core.settings import CoverMode
+from .attributes import RADIUS, read_vectors
+from .nodes.groups import add_modifier
+from .output_object import check_mode, new_object, output_of, place, remember, replace_mesh
+from .write_mesh import new_mesh
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..core.axis.ball_cover import BallCover
+
+SUFFIX = " Balls"
+MODE, COVERED = "ma_balls_mode", "ma_balls_covered"
+OUTSIDE, FARTHEST = "ma_balls_outside", "ma_balls_farthest"
+_WRITTEN = "ma_balls_written"  # names the balls that the figures are of
+
+
+@dataclass(frozen=True)
+class _Vertices:
+    """Polygons of a mesh that has none, with a radius at each vertex."""
+
+    vertices: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    face_offsets: NDArray[np.int32]
+    face_vertices: NDArray[np.int32]
+
+
+def is_balls(thing: bpy.types.Object) -> bool:
+    return thing.type == "MESH" and MODE in thing
+
+
+def balls_of(source: bpy.types.Object) -> bpy.types.Object | None:
+    """The balls that the next ones of this source update."""
+    return output_of(source, is_balls)
+
+
+def check_balls_writable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when the balls of a source cannot be updated now."""
+    check_mode(balls_of(source))
+
+
+def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -> bpy.types.Object:
+    """Make the balls of a source, or update the ones there are; all or nothing.
+
+    Parameters
+    ----------
+    source : Object
+        It is not changed.
+    found : BallCover
+    frame : (4, 4) float64
+        Where the balls lie in the world; rotation and translation only.
+
+    Raises
+    ------
+    InvalidInputError
+        They cannot be changed now, or Blender cannot hold them.
+    """
+    balls = found.balls
+    none = np.zeros(1, np.int32)
+    rows = _Vertices(balls.centres, balls.radii, none, none[:0])
+    thing = balls_of(source)
+    if thing is None:
+        thing = new_object(source, SUFFIX, new_mesh(rows, source.name + SUFFIX, (RADIUS,)))
+        add_modifier(thing, "BALLS")
+    else:
+        replace_mesh(thing, partial(new_mesh, rows, table=(RADIUS,)))
+    place(thing, frame)
+    remember(thing, source, found.points, found.duplicates, found.warnings)
+    thing[MODE], thing[COVERED] = balls.mode.name, balls.covered
+    thing[OUTSIDE], thing[FARTHEST] = balls.outside, balls.farthest
+    thing[_WRITTEN] = _name_of(*_rows(thing))
+    return thing
+
+
+def read_balls(thing: bpy.types.Object) -> Balls:
+    """The balls of an object as they are now, in its own frame; the figures of those that somebody has changed are
+    known to nobody.
+
+    Raises
+    ------
+    InvalidInputError
+        The radii are gone, or no ball is left, or somebody is editing them.
+    """
+    check_mode(thing)
+    centres, radii = _rows(thing)
+    known = thing.get(_WRITTEN) == _name_of(centres, radii)
+    covered, outside, farthest = (
+        float(thing[name]) if known else np.nan for name in (COVERED, OUTSIDE, FARTHEST)
+    )
+    return Balls(centres, radii, CoverMode[thing[MODE]], covered, outside, farthest)
+
+
+def _rows(thing: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    mesh = thing.data
+    found = mesh.attributes.get(RADIUS.name)
+    if found is None or not len(mesh.vertices):
+        raise InvalidInputError(
+            f"Expected vertices with the attribute '{RADIUS.name}' on '{thing.name}', found none; "
+            "make the balls again"
+        )
+    radii = np.empty(len(mesh.vertices), np.float32)
+    found.data.foreach_get("value", radii)
+    return read_vectors(mesh.vertices, "co"), radii.astype(np.float64)
+
+
+def _name_of(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> str:
+    return key_of("balls", centres, radii)

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where things lie in the world: transforms that leave balls balls."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import ExportError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def is_identity(transform: NDArray[np.float64]) -> bool:
+    """Asked without LAPACK, whose OpenBLAS waits for memory without end where addresses are few."""
+    return np.array_equal(transform[:3], np.eye(3, 4))
+
+
+def parts_of(
+    transform: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """(3, 3), (3,): what a transform turns and moves by; and the factor by which it scales all lengths.
+
+    Parameters
+    ----------
+    transform : (3, 4) or (4, 4) float64
+        It may move, turn, mirror and scale evenly.
+
+    Raises
+    ------
+    ExportError
+        It is something else.
+    """
+    if transform.shape not in ((3, 4), (4, 4)) or not np.isfinite(transform).all():
+        raise ExportError(
+            f"Expected a finite 3x4 or 4x4 transform, found shape {transform.shape}; pass a world matrix"
+        )
+    linear, offset = transform[:3, :3], transform[:3, 3]
+    return linear, offset, _even_scale(linear)
+
+
+def _even_scale(linear: NDArray[np.float64]) -> float:
+    """The factor by which `linear` scales all lengths; exactly 1 for a rigid frame in float32."""
+    stretches = np.linalg.svd(linear, compute_uv=False)
+    rounding = (
+        16 * np.finfo(np.float32).eps
+    )  # world matrices are products of a few float32 matrices
+    if stretches[0] == 0.0 or stretches[0] - stretches[2] > rounding * stretches[0]:
+        raise ExportError(
+            "Expected a medial axis that is scaled evenly, found scales from "
+            f"{stretches[2]:.6g} to {stretches[0]:.6g}; scale the source instead and compute its axis again"
+        )
+    scale = float(stretches.mean())
+    return 1.0 if abs(scale - 1.0) <= rounding else scale

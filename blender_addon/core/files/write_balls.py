@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Balls as files: `.ma` and `.json` (docs/balls.md). A file appears whole or not at all."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
+
+from ..axis.ball_cover import Balls
+from .extensions import extension_of
+from .placing import is_identity, parts_of
+from .rows_of_text import write_rows
+from .whole_file import write_whole
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+def export_balls(
+    balls: Balls, path: str | os.PathLike, transform: NDArray[np.float64] | None = None
+) -> Path:
+    """Write balls; the extension of `path` chooses the format.
+
+    Parameters
+    ----------
+    balls : Balls
+    path : path of the file; its folder must exist. A file of that name is replaced.
+    transform : (3, 4) or (4, 4) float64, optional
+        Where the balls lie in the world. It may move, turn, mirror and scale evenly; all lengths are scaled with it.
+
+    Returns
+    -------
+    path : Path
+        The file that was written, with links resolved.
+
+    Raises
+    ------
+    ExportError
+        Unknown extension, unfit transform, or the system refused to write; an old file is then unchanged.
+    """
+    write = ball_format(path)
+    placed = balls if transform is None else _placed(balls, transform)
+    return write_whole(path, lambda stream: write(placed, stream))
+
+
+def ball_format(path: str | os.PathLike) -> Callable[[Balls, BinaryIO], None]:
+    """What writes the format that the extension of `path` names."""
+    return BALL_FORMATS[extension_of(path, BALL_FORMATS)]
+
+
+def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
+    """The same balls, seen in the world."""
+    if is_identity(transform):
+        return balls
+    linear, offset, scale = parts_of(transform)
+    return replace(
+        balls,
+        centres=balls.centres @ linear.T + offset,
+        radii=scale * balls.radii,
+        outside=scale * balls.outside,
+        farthest=scale * balls.farthest,
+    )
+
+
+def _write_ma(balls: Balls, stream: BinaryIO) -> None:
+    """Vertices of a medial axis without edges and triangles."""
+    stream.write(b"%d 0 0\n" % len(balls.radii))
+    write_rows(stream, "v %.17g %.17g %.17g %.17g\n", balls.centres, balls.radii)
+
+
+def _write_json(balls: Balls, stream: BinaryIO) -> None:
+    """Everything; null is a figure that nobody knows."""
+    rows = zip(balls.centres.tolist(), balls.radii.tolist(), strict=True)
+    found = {
+        "mode": balls.mode.name.lower(),
+        "covered": _known(balls.covered),
+        "outside": _known(balls.outside),
+        "farthest": _known(balls.farthest),
+        "balls": [{"centre": centre, "radius": radius} for centre, radius in rows],
+    }
+    stream.write(json.dumps(found, separators=(",", ":"), allow_nan=False).encode("ascii"))
+    stream.write(b"\n")
+
+
+def _known(figure: float) -> float | None:
+    return figure if math.isfinite(figure) else None
+
+
+BALL_FORMATS: dict[str, Callable[[Balls, BinaryIO], None]] = {
+    ".ma": _write_ma,
+    ".json": _write_json,
+}

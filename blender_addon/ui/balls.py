@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cover with Balls, and its panel: how many, what they promise, and how well they do."""
+
+from functools import partial
+
+import bpy
+
+from ..bridge.balls_object import (
+    COVERED,
+    FARTHEST,
+    OUTSIDE,
+    balls_of,
+    check_balls_writable,
+    is_balls,
+    write_balls,
+)
+from ..bridge.output_object import is_gone, source_of
+from ..bridge.read_axis import find_axis
+from ..core.axis.ball_cover import cover_by_balls
+from ..core.settings import BALL_OPTIONS, LOOKS, BallSettings, CoverMode
+from . import current_job
+from .compute_operator import ComputeOperator
+from .figures import length_text
+from .preferences import memory_limit
+from .properties import (
+    SamplingProperties,
+    choice,
+    choice_of,
+    copy_settings,
+    draw_sampling,
+    integer_of,
+    number,
+    settings_from,
+    switch,
+)
+from .translation import say
+
+
+class BallProperties:
+    """How many balls, and what they promise."""
+
+    count: integer_of(BALL_OPTIONS["count"])
+    mode: choice_of(BALL_OPTIONS["mode"])
+
+
+def ball_settings(properties) -> BallSettings:
+    """Properties of an operator -> BallSettings."""
+    return BallSettings(properties.count, CoverMode[properties.mode])
+
+
+class OBJECT_OT_medial_axis_balls(
+    ComputeOperator, SamplingProperties, BallProperties, bpy.types.Operator
+):
+    bl_idname = "object.medial_axis_balls"
+    bl_label = "Cover with Balls"
+    bl_description = (
+        "Make few balls that stand for the selected objects: for collisions, physics, robots"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    product = "balls"
+    check_writable = staticmethod(check_balls_writable)
+
+    theta: number("theta")
+    rho: number("rho")
+    sides: choice("sides")
+    rule: choice("rule")
+    criteria: choice("criteria")
+    parent: switch("parent", of=LOOKS)
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        for name in (*BALL_OPTIONS, "parent", "sides", "sampling"):
+            self.layout.prop(self, name)
+        draw_sampling(self.layout.box().column(), self)
+
+    def work(self, shape):
+        wanted = ball_settings(self)
+        return partial(cover_by_balls, shape, settings_from(self), wanted, limit=memory_limit())
+
+    def write(self, thing, found, frame):
+        return write_balls(thing, found, frame)
+
+    def summary(self, found):
+        balls = found.balls
+        return (
+            f"{len(balls.radii):,} balls, {100 * balls.covered:.1f} % of the volume, "
+            f"at most {balls.outside:.4g} outside; {found.chosen.reason}"
+        )
+
+
+class MedialAxisBallSettings(BallProperties, bpy.types.PropertyGroup):
+    """What the panel of balls shows."""
+
+
+class VIEW3D_PT_medial_axis_balls(bpy.types.Panel):
+    """Few balls that stand for the object"""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Medial Axis"
+    bl_label = "Balls"
+    bl_idname = "VIEW3D_PT_medial_axis_balls"
+    bl_parent_id = "VIEW3D_PT_medial_axis"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        active = context.active_object
+        return find_axis(active) is not None or _shown(context) is not None
+
+    def draw(self, context):
+        settings = context.scene.medial_axis_balls
+        column = self.layout.column()
+        column.use_property_split = True
+        column.use_property_decorate = False
+        for name in BALL_OPTIONS:
+            column.prop(settings, name)
+        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
+            button = self.layout.operator("object.medial_axis_balls", icon="META_BALL")
+            copy_settings(context.scene.medial_axis, button)
+            button.count, button.mode = settings.count, settings.mode
+        if (thing := _shown(context)) is not None:
+            _draw_figures(context, self.layout.column(align=True), thing)
+
+
+def _shown(context):
+    """The balls that the panel speaks of: the active object, those of it, or of what it was made of."""
+    active = context.active_object
+    if active is None:
+        return None
+    if is_balls(active):
+        return active
+    source = source_of(active)
+    return balls_of(active) or (None if is_gone(source) else balls_of(source))
+
+
+def _draw_figures(context, layout, thing):
+    layout.label(text=thing.name, icon="DOT", translate=False)
+    figures = {
+        "Balls": f"{len(thing.data.vertices):,}",
+        "Volume": f"{100 * thing[COVERED]:.1f} %",
+        "Outside": length_text(context, thing[OUTSIDE]),
+        "Surface Away": length_text(context, thing[FARTHEST]),
+    }
+    for label, text in figures.items():
+        row = layout.split(factor=0.45)
+        row.label(text=say(label), translate=False)
+        row.label(text=text, translate=False)
+
+
+CLASSES = (OBJECT_OT_medial_axis_balls, MedialAxisBallSettings, VIEW3D_PT_medial_axis_balls)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Scene.medial_axis_balls = bpy.props.PointerProperty(type=MedialAxisBallSettings)
+
+
+def unregister():
+    del bpy.types.Scene.medial_axis_balls
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "axis/ball_cover.h"
+
+#include <string>
+
+#include "axis/ball_choice.h"
+#include "axis/ball_reach.h"
+#include "base/frame.h"
+#include "base/parallel.h"
+#include "base/rows.h"
+#include "base/text.h"
+#include "base/triangle_tree.h"
+#include "inside/surface.h"
+
+namespace medial {
+namespace {
+
+// Places of a lattice in the box of the solid, at most. An open surface asks for each of them.
+constexpr int64_t kMost = 1 << 24, kMostOpen = 1 << 20;
+constexpr double kPiece = 0.5;   // edges of pieces of the surface, in steps of the lattice
+constexpr int64_t kBalls = 256;  // of one piece of work
+
+void check(const BallCoverInput& input, const BallCoverOptions& options) {
+  require_finite(input.centres, "centre");
+  require_finite(input.vertices, "vertex");
+  require_corners(input.faces, input.vertices.size());
+  if (input.radii.size() != input.centres.size()) {
+    throw InvalidInputError("Expected one radius per centre, found " +
+                            std::to_string(input.radii.size()) + " for " +
+                            std::to_string(input.centres.size()) + " centres; pass all of them.");
+  }
+  for (const double radius : input.radii) {
+    if (radius >= 0 && radius <= kLargestCoordinate) continue;
+    throw InvalidInputError("Expected finite radii of 0 or more, found " + text(radius) +
+                            "; correct it.");
+  }
+  if (options.count < 1 || options.places < 1) {
+    throw InvalidInputError("Expected at least one ball and one place, found " +
+                            std::to_string(std::min(options.count, options.places)) +
+                            "; ask for more.");
+  }
+}
+
+// The solid, in a frame in which squares of lengths stay numbers.
+struct Solid {
+  Solid(const BallCoverInput& input, const Run& run)
+      : frame(frame_of(input.vertices, input.centres)),
+        vertices(distinct_rows(frame.inward(input.vertices), "vertex", run)),
+        surface(make_surface(input.faces, vertices.point_of_row, vertices.count(), run)),
+        winding(vertices.points, surface.triangles, surface.boundary, run.progress) {
+    if (surface.triangles.empty()) {
+      throw DegenerateInputError(
+          "Expected faces that enclose a volume, found none with three corners; pass a surface.");
+    }
+    for (const Triangle& t : surface.triangles) {
+      for (const int32_t corner : t) box.add(vertices.points[corner]);
+    }
+  }
+
+  Frame frame;
+  DistinctRows vertices;
+  Surface surface;
+  WindingNumber winding;
+  Box box;
+};
+
+// From each centre to the surface; negative outside.
+std::vector<double> depths(std::span<const Vec3> centres, const Solid& solid, const Run& run) {
+  const TriangleTree tree(solid.vertices.points, solid.surface.triangles);
+  std::vector<double> depth(centres.size());
+  parallel_for(
+      static_cast<int64_t>(centres.size()), run,
+      [&](int64_t i) {
+        const double away = tree.distance(centres[i]);
+        const auto& winding = solid.winding;
+        depth[i] = winding.is_inside(centres[i], winding.closed(centres[i])) ? away : -away;
+      },
+      kBalls);
+  return depth;
+}
+
+// The balls as far as they lie in the solid; those round a centre outside have none.
+std::vector<Ball> inner_balls(const BallCoverInput& input, const Solid& solid,
+                              std::span<const double> depth) {
+  std::vector<Ball> balls;
+  balls.reserve(depth.size());
+  for (size_t i = 0; i < depth.size(); ++i) {
+    const double radius = std::scalbn(input.radii[i], -solid.frame.exponent);
+    balls.push_back(
+        {solid.frame.inward(input.centres[i]), std::clamp(radius, 0.0, std::max(depth[i], 0.0))});
+  }
+  return balls;
+}
+
+SolidLattice lattice_of(const Solid& solid, int64_t places, const Run& run) {
+  const int64_t most = solid.surface.closed() ? kMost : kMostOpen;
+  SolidLattice lattice(solid.winding, solid.box, places, most, run);
+  if (lattice.count() == 0) {
+    throw DegenerateInputError(
+        "Expected faces that enclose a volume, found no place of a lattice inside; close them, or "
+        "turn them outward.");
+  }
+  return lattice;
+}
+
+// The radii of the chosen balls, grown to hold what is nearest to each if they are to be `around`;
+// and how far off they and the surface then are.
+void set_reach(BallCover& cover, std::span<const Ball> balls, std::span<const double> depth,
+               bool around, const Solid& solid, const SolidLattice& left, const Run& run) {
+  std::vector<Ball> kept;
+  for (const int32_t ball : cover.chosen) kept.push_back(balls[ball]);
+  const auto places = around ? left.places() : std::vector<Vec3>{};
+  const auto needed = needed_radii(kept, solid.vertices.points, solid.surface.triangles, places,
+                                   kPiece * left.step(), run);
+  for (size_t i = 0; i < kept.size(); ++i) {
+    const double radius = around ? std::max(kept[i].radius, needed[i]) : kept[i].radius;
+    cover.farthest = std::max(cover.farthest, needed[i] - radius);
+    cover.outside = std::max(cover.outside, radius - depth[cover.chosen[i]]);
+    cover.radii.push_back(solid.frame.outward(radius));
+  }
+  cover.farthest = solid.frame.outward(cover.farthest);
+  cover.outside = solid.frame.outward(cover.outside);
+}
+
+}  // namespace
+
+BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& options, const Run& run) {
+  begin_stage(run.progress, "Lattice", 0, 0.3);
+  check(input, options);
+  const Solid solid(input, run);
+  SolidLattice left = lattice_of(solid, options.places, run);
+  begin_stage(run.progress, "Depths of balls", 0.3, 0.5);
+  const auto depth = depths(solid.frame.inward(input.centres), solid, run);
+  const auto balls = inner_balls(input, solid, depth);
+  begin_stage(run.progress, "Choice of balls", 0.5, 0.8);
+  BallCover cover;
+  const bool around = options.mode == CoverMode::around;
+  const auto choose = around ? balls_by_distance : balls_by_volume;
+  auto [chosen, covered] = choose(balls, options.count, left, run);
+  cover.chosen = std::move(chosen);
+  cover.covered = std::move(covered);
+  if (cover.chosen.empty() || cover.covered.front() == 0) {
+    throw DegenerateInputError("Expected balls in the solid, found none of " +
+                               std::to_string(balls.size()) +
+                               " that holds a place of the lattice; pass those of its inner axis.");
+  }
+  cover.places = left.count();
+  cover.step = solid.frame.outward(left.step());
+
+  begin_stage(run.progress, "Reach of balls", 0.8, 1);
+  set_reach(cover, balls, depth, around, solid, left, run);
+  advance(run.progress, 1);
+  return cover;
+}
+
+BallCover cover_by_balls(const BallCoverInput& input, const BallCoverOptions& options, int threads,
+                         Progress* progress) {
+  return ball_cover(input, options, {thread_count(threads), progress});
+}
+
+}  // namespace medial

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cover with Balls: the object that is made, its figures, undo, and files of it."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from scene import (
+    addon,
+    attribute,
+    compute,
+    contents,
+    ellipsoid,
+    link,
+    positions,
+    refuse,
+    reports,
+    result_of,
+    scan,
+    select,
+    torus,
+)
+
+
+def balls_of(source):
+    return addon("bridge.balls_object").balls_of(source)
+
+
+def cover(**options):
+    """The balls of the selection, by its vertices if nothing else is said."""
+    usual = {"sampling": "VERTICES"}
+    assert bpy.ops.object.medial_axis_balls(**usual | options) == {"FINISHED"}
+    return bpy.context.object
+
+
+def spheres(thing):
+    """How many instances the modifier makes."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    return sum(
+        1 for i in depsgraph.object_instances if i.is_instance and i.parent.original == thing
+    )
+
+
+def test_balls_of_an_ellipsoid(capfd):
+    source = ellipsoid()
+    source.location, source.rotation_euler, source.scale = (3, 1, 2), (0.3, 0.2, 0.1), (2, 2, 2)
+    select(source)
+    reports(capfd)
+    made = cover(count=20)
+    text = reports(capfd)[-1][1]
+    assert made == balls_of(source) and made.parent == source
+    assert len(made.data.vertices) == 20 == spheres(made)
+    assert "20 balls" in text and f"{100 * made['ma_balls_covered']:.1f} % of the volume" in text
+    assert made["ma_balls_outside"] == 0.0 < made["ma_balls_farthest"]
+    radii = attribute(made.data, "ma_radius")
+    assert 0.9 < radii[0] < 1.01  # the middle of the ellipsoid, twice 0.5
+    assert np.allclose(made.matrix_world @ made.data.vertices[0].co, source.location, atol=0.25)
+
+
+def test_around_holds_every_vertex():
+    source = torus()
+    made = cover(count=30, mode="AROUND")
+    gaps = np.linalg.norm(positions(source.data)[:, None] - positions(made.data)[None], axis=2)
+    assert (gaps - attribute(made.data, "ma_radius")).min(axis=1).max() < 1e-6
+    assert (
+        made["ma_balls_farthest"] == 0.0 < made["ma_balls_outside"]
+        and made["ma_balls_covered"] == 1.0
+    )
+
+
+def test_it_is_updated_in_place_and_undone():
+    source = torus()
+    bpy.ops.ed.undo_push(message="before")
+    made = cover(count=5)
+    name, before = made.name, contents()
+    made.modifiers[0].show_viewport = False
+    select(made)  # the balls stand for their source
+    assert cover(count=9).name == name and contents() == before
+    assert len(balls_of(source).data.vertices) == 9 and not made.modifiers[0].show_viewport
+    bpy.ops.ed.undo_push(message="made")
+    bpy.ops.ed.undo()
+    assert [thing.name for thing in bpy.data.objects] == ["Torus"]
+
+
+def test_a_cloud_has_balls():
+    scan()
+    made = cover(count=6)
+    assert len(made.data.vertices) == 6 and made["ma_balls_covered"] > 0.5
+
+
+def test_one_sentence_where_nothing_is_enclosed():
+    link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0.3, 0.4, 0)])
+    refuse("Expected", operator="medial_axis_balls")
+
+
+def test_balls_are_written(tmp_path, capfd):
+    source = torus()
+    source.location = (1, 2, 3)
+    select(source)
+    made = cover(count=7)
+    path = tmp_path / "torus.json"
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    assert reports(capfd)[-1][1] == "Wrote 7 balls to 'torus.json'"
+    known = json.loads(path.read_text())
+    assert known["covered"] == made["ma_balls_covered"] and len(known["balls"]) == 7
+    first = np.array(known["balls"][0]["centre"])
+    assert np.allclose(first, made.matrix_world @ made.data.vertices[0].co)
+    made.data.vertices[0].co.x += 1.0  # the figures are of other balls now
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    known = json.loads(path.read_text())
+    assert known["covered"] is known["outside"] is known["farthest"] is None
+    assert known["balls"][0]["centre"][0] == pytest.approx(first[0] + 1.0)
+
+
+def test_an_axis_is_written_as_balls(tmp_path):
+    source = torus()
+    compute(side="INNER")
+    select(source)
+    path = tmp_path / "torus.ma"
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path), balls=6, mode="AROUND") == {
+        "FINISHED"
+    }
+    rows = np.loadtxt(path, skiprows=1, usecols=(1, 2, 3, 4))
+    made = cover(count=6, mode="AROUND")
+    world = positions(made.data) @ np.array(made.matrix_world)[:3, :3].T
+    assert np.allclose(rows, np.column_stack([world, attribute(made.data, "ma_radius")]), atol=1e-5)
+    select(result_of(source))
+    with pytest.raises(RuntimeError, match=".ma or .json, found 'a.ply'"):
+        bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "a.ply"), balls=6)
+    with pytest.raises(RuntimeError, match="found 'a.json'"):
+        bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "a.json"))
+    assert list(tmp_path.iterdir()) == [path]
+    bpy.data.objects.remove(source)
+    with pytest.raises(RuntimeError, match="found that it is gone"):
+        bpy.ops.export_scene.medial_axis(filepath=str(path), balls=6)
+
+
+def test_the_spheres_are_the_balls():
+    source = ellipsoid()
+    made = cover(count=1)
+    modifier = made.modifiers[0]
+    addon("bridge.nodes.inputs").set_inputs(modifier, {"Subdivisions": 5})
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    scales = [
+        list(one.matrix_world.to_scale())
+        for one in depsgraph.object_instances
+        if one.is_instance and one.parent.original == made
+    ]
+    assert np.allclose(scales, [3 * [attribute(made.data, "ma_radius")[0]]], rtol=1e-5)
+    assert source.data.users == 1

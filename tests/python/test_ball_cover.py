@@ -1,0 +1,396 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Few balls of a solid: exact shapes, every place counted by NumPy, the greedy choice by trying all, files, command."""
+
+import json
+import threading
+from functools import cache
+
+import medial_axis
+import numpy as np
+import pytest
+from medial_axis.core.errors import (
+    DegenerateInputError,
+    ExportError,
+    InvalidInputError,
+)
+from support import meshes
+from support.shape_meshes import of_capsule
+from support.shapes import SHAPES
+
+SHIFT = np.array([0.4142, 0.5303, 0.4641])
+BALL = meshes.icosphere(4)
+TORUS = meshes.torus(1.0, 0.4, 48, 24)
+
+
+def lattice(vertices, step):
+    """(k, 3) all places of the lattice in the box of a solid, as its header says where they lie."""
+    low, extent = vertices.min(axis=0), np.ptp(vertices, axis=0)
+    size = np.floor(extent / step).astype(int) + 1
+    first = low + (extent - step * size) / 2 + SHIFT * step
+    axes = [first[k] + step * np.arange(size[k]) for k in range(3)]
+    return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def distances(places, balls):
+    """(k, n) from places to the surfaces of balls, negative within."""
+    centres, radii = balls
+    return np.linalg.norm(places[:, None] - centres[None], axis=2) - radii
+
+
+def on_surface(mesh, count=20_000, seed=0):
+    """(count, 3) random points of the surface."""
+    vertices, triangles = mesh
+    corners = vertices[triangles]
+    area = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    random = np.random.default_rng(seed)
+    rows = random.choice(len(area), count, p=area / area.sum())
+    return (random.dirichlet((1, 1, 1), count)[:, :, None] * corners[rows]).sum(axis=1)
+
+
+@cache
+def torus_case():
+    """A torus and 300 random balls round its core, some of which reach out of it."""
+    random = np.random.default_rng(4)
+    angle, r = random.uniform(0, 2 * np.pi, 300), random.uniform(0.85, 1.15, 300)
+    centres = np.column_stack(
+        [r * np.cos(angle), r * np.sin(angle), random.uniform(-0.1, 0.1, 300)]
+    )
+    return TORUS, centres, random.uniform(0.05, 0.5, 300)
+
+
+def cover(medial, case, count, mode="INSIDE", **options):
+    (vertices, triangles), centres, radii = case
+    return medial.cover_by_balls(
+        centres,
+        radii,
+        vertices,
+        triangles,
+        count=count,
+        mode=getattr(medial.CoverMode, mode),
+        **options,
+    )
+
+
+def inner(medial, case):
+    """The candidates as far as they lie in the solid, by functions that are tested elsewhere."""
+    (vertices, triangles), centres, radii = case
+    depth = medial.surface_distances(centres, vertices, triangles)
+    inside = medial.winding_number(centres, vertices, triangles) > 0.5
+    return centres, np.where(inside, np.minimum(radii, depth), 0.0), np.where(inside, depth, -depth)
+
+
+def places_of(medial, case, step):
+    vertices, triangles = case[0]
+    found = lattice(vertices, step)
+    return found[medial.winding_number(found, vertices, triangles) > 0.5]
+
+
+# --- against trying all
+
+
+def test_inside_is_the_greedy_choice(medial):
+    case = torus_case()
+    found = cover(medial, case, 12, places=3000)
+    centres, radii, _ = inner(medial, case)
+    places = places_of(medial, case, found.step)
+    assert found.places == len(places) >= 1500
+    held = distances(places, (centres, radii)) <= 0
+    left, chosen, shares = np.ones(len(places), bool), [], []
+    for _ in range(12):
+        best = int(held[left].sum(axis=0).argmax())  # of equal ones the first
+        left &= ~held[:, best]
+        chosen.append(best)
+        shares.append(1 - left.mean())
+    assert found.chosen.tolist() == chosen
+    assert np.allclose(found.covered, shares, rtol=0, atol=1e-12)
+    assert np.allclose(found.radii, radii[chosen], rtol=1e-14)
+
+
+def test_around_follows_the_farthest_place(medial):
+    case = torus_case()
+    found = cover(medial, case, 12, "AROUND", places=3000)
+    centres, radii, _ = inner(medial, case)
+    places = places_of(medial, case, found.step)
+    order = np.lexsort(places.T[[0, 1, 2]])  # rows along x, then those along y
+    places = places[order]
+    gaps = distances(places, (centres, radii))
+    held = (gaps <= 0) & (radii > 0)
+    left, away = np.ones(len(places), bool), np.full(len(places), np.inf)
+    near, chosen = np.flatnonzero(radii > 0), []
+    for _ in range(12):
+        best = int(near[held[left][:, near].sum(axis=0).argmax()])
+        chosen.append(best)
+        left &= ~held[:, best]
+        away = np.minimum(away, gaps[:, best])
+        worst = int(away.argmax())
+        of_worst = np.where(radii > 0, gaps[worst], np.inf)
+        near = np.flatnonzero(of_worst <= max(0.25 * away[worst], of_worst.min()))
+    assert found.chosen.tolist() == chosen
+
+
+@pytest.mark.parametrize("mode", ["INSIDE", "AROUND"])
+def test_figures_bound_what_is_measured(medial, mode):
+    case = torus_case()
+    found = cover(medial, case, 10, mode, places=5000)
+    balls = case[1][found.chosen], found.radii
+    off = distances(on_surface(TORUS), balls).min(axis=1).max()
+    assert off <= found.farthest + 1e-12
+    assert found.farthest <= max(off, 0) + found.step
+    outside = np.random.default_rng(1).normal(size=(10, 2000, 3))
+    outside *= (found.radii / np.linalg.norm(outside, axis=2).T).T[:, :, None]
+    rim = (balls[0][:, None] + outside).reshape(-1, 3)
+    beyond = medial.winding_number(rim, *TORUS) < 0.5
+    reach = medial.surface_distances(rim, *TORUS)[beyond].max(initial=0.0)
+    assert reach <= found.outside + 1e-12
+    if mode == "INSIDE":
+        assert (
+            found.outside == 0.0
+            and not (beyond & (medial.surface_distances(rim, *TORUS) > 1e-12)).any()
+        )
+    else:
+        assert found.farthest == 0.0 and reach > 0.8 * found.outside
+        assert (distances(places_of(medial, case, found.step), balls).min(axis=1) <= 1e-12).all()
+
+
+def test_an_independent_lattice_counts_the_same_volume(medial):
+    """Random places, inside by the sum of solid angles."""
+    case = torus_case()
+    found = cover(medial, case, 20, places=50_000)
+    places = np.random.default_rng(3).uniform((-1.4, -1.4, -0.4), (1.4, 1.4, 0.4), (200_000, 3))
+    solid = places[medial.winding_number(places, *TORUS) > 0.5]
+    held = (distances(solid, (case[1][found.chosen], found.radii)) <= 0).any(axis=1).mean()
+    assert held == pytest.approx(found.covered[-1], abs=0.01)
+
+
+# --- orders, threads, scales
+
+
+@pytest.mark.parametrize("mode", ["INSIDE", "AROUND"])
+def test_the_first_balls_of_many_are_the_few(medial, mode):
+    case = torus_case()
+    many = cover(medial, case, 30, mode, places=5000)
+    assert (np.diff(many.covered) >= 0).all()
+    before = np.full(30, np.inf)
+    for count in (1, 2, 7, 20, 30):
+        few = cover(medial, case, count, mode, places=5000)
+        assert few.chosen.tolist() == many.chosen[:count].tolist()
+        assert few.covered.tolist() == many.covered[:count].tolist()
+        if mode == "INSIDE":
+            assert few.radii.tolist() == many.radii[:count].tolist()
+        else:  # what a ball has to hold becomes less
+            assert (few.radii <= before[:count]).all()
+            before[:count] = few.radii
+
+
+@pytest.mark.parametrize("mode", ["INSIDE", "AROUND"])
+def test_threads_and_scale_change_nothing(medial, mode):
+    case = torus_case()
+    one = cover(medial, case, 15, mode, places=5000, threads=1)
+    more = cover(medial, case, 15, mode, places=5000, threads=5)
+    for name in ("chosen", "radii", "covered"):
+        assert getattr(one, name).tobytes() == getattr(more, name).tobytes()
+    assert (one.outside, one.farthest) == (more.outside, more.farthest)
+    (vertices, triangles), centres, radii = case
+    for scale in (2.0**-100, 2.0**20, 2.0**120):
+        large = cover(
+            medial,
+            ((scale * vertices, triangles), scale * centres, scale * radii),
+            15,
+            mode,
+            places=5000,
+        )
+        assert large.chosen.tolist() == one.chosen.tolist()
+        assert (large.radii / scale).tolist() == one.radii.tolist()
+        assert large.outside == scale * one.outside and large.farthest == scale * one.farthest
+
+
+def test_fewer_balls_where_more_add_nothing(medial):
+    centres, radii = np.zeros((3, 3)), np.array([0.5, 0.9, 0.2])
+    found = cover(medial, (BALL, centres, radii), 64)
+    assert found.chosen.tolist() == [1]
+
+
+def test_balls_outside_are_not_chosen(medial):
+    centres = np.array([(3.0, 0, 0), (0, 0, 0), (1.0, 0, 0)])
+    found = cover(medial, (BALL, centres, np.array([1.0, 0.5, 0.7])), 64)
+    assert found.chosen.tolist() == [1]
+
+
+def test_it_can_be_cancelled(medial):
+    progress = medial.Progress()
+    progress.cancel()
+    with pytest.raises(medial.Cancelled):
+        cover(medial, torus_case(), 4, progress=progress)
+    late = medial.Progress()
+    timer = threading.Timer(0.05, late.cancel)
+    timer.start()
+    with pytest.raises(medial.Cancelled):
+        cover(medial, torus_case(), 300, "AROUND", places=3_000_000, progress=late)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"count": 0}, "Expected at least one ball and one place, found 0"),
+        ({"radii": np.ones(2)}, "Expected one radius per centre, found 2 for 300"),
+        ({"radii": np.full(300, np.nan)}, "Expected finite radii of 0 or more, found nan"),
+        ({"centres": np.full((300, 3), np.inf)}, "centre"),
+        ({"triangles": np.array([(0, 1, 9999)], np.int32)}, "9999"),
+    ],
+)
+def test_what_cannot_be_is_refused(medial, change, words):
+    (vertices, triangles), centres, radii = torus_case()
+    given = {"centres": centres, "radii": radii, "vertices": vertices, "triangles": triangles}
+    with pytest.raises(medial.InvalidInputError, match=words):
+        medial.cover_by_balls(**(given | change))
+
+
+def test_what_encloses_nothing_is_refused(medial):
+    vertices, triangles = BALL
+    flat = vertices * (1.0, 1.0, 0.0)
+    one = np.zeros((1, 3)), np.ones(1)
+    for surface in (
+        (flat, triangles),
+        (vertices, triangles[:, ::-1].copy()),
+        (vertices, triangles[:0]),
+    ):
+        with pytest.raises(
+            medial.DegenerateInputError, match="Expected faces that enclose a volume"
+        ):
+            cover(medial, (surface, *one), 3)
+    far = np.full((1, 3), 9.0), np.ones(1)
+    with pytest.raises(medial.DegenerateInputError, match="Expected balls in the solid"):
+        cover(medial, (BALL, *far), 3)
+
+
+# --- through the front door
+
+
+def covered(mesh, **options):
+    return medial_axis.cover_by_balls(*mesh, **options)
+
+
+def test_a_ball_is_one_ball():
+    found = covered(BALL, count=64)
+    balls = found.balls
+    assert balls.covered > 0.97 and np.linalg.norm(balls.centres[0]) < 0.01
+    assert balls.radii[0] == pytest.approx(1.0, abs=0.01) and found.shares[0] > 0.97
+    around = covered(BALL, count=1, mode="around").balls
+    assert around.radii[0] == pytest.approx(1.0, abs=0.02) and around.covered == 1.0
+
+
+def test_two_balls_are_two_balls():
+    pair = meshes.join(meshes.icosphere(4), meshes.icosphere(4, 0.5, (3.0, 0, 0)))
+    balls = covered(pair, count=2).balls
+    assert np.allclose(balls.centres, [(0, 0, 0), (3, 0, 0)], atol=0.01)
+    assert np.allclose(balls.radii, (1.0, 0.5), rtol=0.01) and balls.covered > 0.97
+
+
+def test_a_capsule():
+    """Balls of one size along its axis."""
+    shape = SHAPES["capsule"]
+    found = covered(of_capsule(shape), count=16)
+    assert (np.abs(found.balls.radii / found.balls.radii[0] - 1) < 0.03).all()
+    assert found.balls.covered > 0.9
+    assert (np.diff(found.shares) > 0).all()
+
+
+def test_a_cloud_of_points_has_balls():
+    random = np.random.default_rng(2)
+    points = random.normal(size=(3000, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    balls = medial_axis.cover_by_balls(
+        points * (1.0, 0.7, 0.5), count=8, sides="tight_cocone"
+    ).balls
+    assert balls.covered > 0.6 and balls.outside == 0.0
+
+
+def test_an_open_surface_has_balls():
+    vertices, triangles = meshes.icosphere(4)
+    found = covered((vertices, triangles[30:]), count=4)
+    assert found.balls.covered > 0.9
+
+
+@pytest.mark.slow
+def test_the_hand(data_file):
+    shape = medial_axis.read(data_file("hand_closed.obj"))
+    balls = covered((shape.points, shape.triangles), count=64).balls
+    assert balls.covered > 0.8 and len(balls.radii) == 64 and balls.outside == 0.0
+    around = covered((shape.points, shape.triangles), count=64, mode="around").balls
+    diagonal = np.linalg.norm(np.ptp(shape.points, axis=0))
+    assert around.farthest == 0.0 and around.outside < 0.04 * diagonal
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"count": 0}, "Expected count from 1"),
+        ({"count": "many"}, "Expected count as int, found 'many'"),
+        ({"mode": "outside"}, "Expected mode as one of 'inside', 'around'"),
+        ({"colour": 1}, "Expected settings among"),
+    ],
+)
+def test_options_are_checked(options, words):
+    with pytest.raises(InvalidInputError, match=words):
+        covered(BALL, **options)
+
+
+def test_flat_points_are_refused():
+    with pytest.raises(DegenerateInputError):
+        medial_axis.cover_by_balls(np.random.default_rng(1).random((50, 3)) * (1, 1, 0))
+
+
+# --- files
+
+
+def test_files_say_the_same(tmp_path):
+    found = covered(TORUS, count=9, sampling="vertices")
+    balls = found.balls
+    text = medial_axis.write_balls(found, tmp_path / "a.ma").read_text().split("\n")
+    assert text[0] == "9 0 0" and text[-1] == ""
+    rows = np.array([[float(word) for word in line.split()[1:]] for line in text[1:-1]])
+    assert np.array_equal(rows, np.column_stack([balls.centres, balls.radii]))
+    known = json.loads(medial_axis.write_balls(balls, tmp_path / "a.json").read_text())
+    assert known["mode"] == "inside" and known["covered"] == balls.covered
+    assert known["outside"] == 0.0 and known["farthest"] == balls.farthest
+    assert [ball["radius"] for ball in known["balls"]] == balls.radii.tolist()
+    assert [ball["centre"] for ball in known["balls"]] == balls.centres.tolist()
+    with pytest.raises(ExportError, match=r"ends in .ma or .json, found 'a.ply'"):
+        medial_axis.write_balls(balls, tmp_path / "a.ply")
+    assert not (tmp_path / "a.ply").exists()
+
+
+def test_placed_balls_scale(tmp_path):
+    from medial_axis.core.files.write_balls import export_balls
+
+    balls = covered(TORUS, count=5, mode="around", sampling="vertices").balls
+    world = np.array([(0, -2.0, 0, 1), (2.0, 0, 0, 2), (0, 0, 2.0, 3), (0, 0, 0, 1)])
+    known = json.loads(export_balls(balls, tmp_path / "a.json", world).read_text())
+    assert known["outside"] == 2 * balls.outside
+    assert known["balls"][3]["radius"] == 2 * balls.radii[3]
+    x, y, z = balls.centres[3]
+    assert np.allclose(known["balls"][3]["centre"], (1 - 2 * y, 2 + 2 * x, 3 + 2 * z))
+    with pytest.raises(ExportError, match="scaled evenly"):
+        export_balls(balls, tmp_path / "b.json", np.diag((1.0, 2.0, 1.0, 1.0)))
+
+
+def test_the_command_line_writes_the_same(tmp_path, capsys):
+    from medial_axis.cli import main as run
+
+    vertices, triangles = TORUS
+    source = tmp_path / "torus.off"
+    lines = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
+    lines += ["{!r} {!r} {!r}".format(*row) for row in vertices.tolist()]
+    lines += ["3 {} {} {}".format(*row) for row in triangles.tolist()]
+    source.write_text("\n".join(lines))
+    output = tmp_path / "torus.json"
+    words = ["--count", "6", "--mode", "around", "--sampling", "vertices"]
+    assert run(["balls", str(source), str(output), *words]) == 0
+    assert "6 balls, 100.0 % of the volume" in capsys.readouterr().out
+    balls = covered(TORUS, count=6, mode="around", sampling="vertices").balls
+    assert json.loads(output.read_text())["balls"][5]["radius"] == balls.radii[5]
+    assert run(["balls", str(source), str(tmp_path / "x.ply")]) == 2
+    assert run(["balls", str(source), str(output), "--count", "0"]) == 2
+    assert run(["balls", str(tmp_path / "none.off"), str(output)]) == 3
