@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/fire.h"
 
+#include "base/heap.h"
 #include "skeleton/bucket_queue.h"
 
 namespace medial {
@@ -84,6 +85,7 @@ class Fire {
         edge_(array<HotEdge>(complex.ends.size(), run)) {
     light_edges();
     collapse_.facets_at = array<Incident>(0, run_);
+    if (run.arena) run.arena->release();
     light_facets(points);
   }
 
@@ -239,7 +241,9 @@ class Fire {
   // Gives memory back as soon as it can.
   Burning result() {
     const size_t facets = complex_.dual.size(), edges = complex_.ends.size();
-    Burning burning{array<Times>(0, run_), array<uint8_t>(edges, run_), array<double>(facets, run_),
+    if (run_.arena) run_.arena->release();
+    release_heap();  // what the queue has had
+    Burning burning{array<Times>(0, run_), array<uint8_t>(0, run_), array<double>(facets, run_),
                     array<float>(facets, run_)};
     parallel_for(complex_.facets(), run_, [&](int64_t f) {
       const bool before = collapse_.facet_gone[f] != 0;
@@ -250,6 +254,7 @@ class Fire {
     });
     facet_ = array<HotFacet>(0, run_);
     burning.times.resize(edges);
+    burning.is_wire.resize(edges);
     parallel_for(complex_.edges(), run_, [&](int64_t e) {
       burning.times[e] = edge_[e].times;
       burning.is_wire[e] = edge_[e].facets.count() == 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/hierarchy.h"
 
+#include "base/heap.h"
 #include "skeleton/betti.h"
 #include "skeleton/bubbles.h"
 #include "skeleton/fringe.h"
@@ -81,7 +82,8 @@ Values values_of_facets(const InnerComplex& complex, const Collapse& collapse, c
 // has free goes back to the system before the stages that take most: its gaps are too small for
 // them.
 void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeights& weight,
-                  const std::function<void()>& beside_fire, Stopwatch& watch, const Run& run) {
+                  const std::function<void()>& beside_fire,
+                  const std::function<void()>& beside_limbs, Stopwatch& watch, const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena}, alone{1, nullptr, run.arena};
   const InnerComplex& complex = made.complex;
   const auto together = [&](const std::function<void()>& a, const std::function<void()>& b) {
@@ -96,6 +98,7 @@ void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeigh
     const Sheets sheets = find_sheets(complex, collapse, quiet);
     watch.lap("sheets");
     release(run.arena);
+    release_heap();
     together([&] { burning = burn(complex, facets.points, collapse, run); }, beside_fire);
     watch.lap("fire");
     begin_stage(run.progress, "Wires", 0.7, 0.8);
@@ -109,8 +112,12 @@ void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeigh
     watch.lap("wires");
   }
   begin_stage(run.progress, "Values", 0.8, 1);
+  release(run.arena);
   together([&] { made.limb = kept(limb_values(complex, collapse, wires, alone)); },
-           [&] { go_along(wires, complex, collapse, made.values, alone); });
+           [&] {
+             go_along(wires, complex, collapse, made.values, alone);
+             beside_limbs();
+           });
   made.partner = std::move(collapse.partner);
 }
 
@@ -143,7 +150,6 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
-  made.row = samples.row;
   made.frame = frame;
   Stopwatch watch(made.timings);
   const FacetWeights weight(facets, thresholds);
@@ -155,12 +161,15 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
     made.outside = outside_components(made.complex, samples.count(), facets.triangulation,
                                       facets.edges, alone);
     made.betti = betti_of(made.complex, made.outside, alone);
-    made.samples = PointTree(std::span(samples.points.data(), samples.row.size()));
   };
-  collapse_all(made, facets, weight, beside_fire, watch, run);
+  const auto beside_limbs = [&] {
+    made.samples = PointTree(std::span(samples.points.data(), samples.row.size()));
+    made.row = samples.row;
+  };
+  collapse_all(made, facets, weight, beside_fire, beside_limbs, watch, run);
+  release(run.arena);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
   made.complex.dual = {};  // it means nothing without the analysis
-  release(run.arena);
   watch.lap("values");
   advance(run.progress, 1);
   return Hierarchy(std::move(parts));

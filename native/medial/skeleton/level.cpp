@@ -47,7 +47,12 @@ class Drawer {
         run_(run),
         used_(array<uint8_t>(h.complex.ends.size(), 0, run)),
         touched_(array<uint8_t>(h.complex.cell.size(), 0, run)),
-        number_(array<int32_t>(h.complex.cell.size(), -1, run)) {}
+        number_(array<int32_t>(h.complex.cell.size(), -1, run)) {
+    // There are none but of cospherical samples, and to look at the ends of edges takes long.
+    parallel_for(complex_.edges(), run_, [&](int64_t e) {
+      if (is_loop(static_cast<int32_t>(e))) shared_store(has_loops_, uint8_t{1});
+    });
+  }
 
   Level draw() {
     draw_facets();
@@ -81,10 +86,11 @@ class Drawer {
   template <typename Found>
   void for_drawn_edges(int32_t facet, const Found& found) const {
     for (const auto& [vertex, edge] : complex_.ring(facet)) {
-      if (!is_loop(edge)) found(vertex, edge);
+      if (!has_loops_ || !is_loop(edge)) found(vertex, edge);
     }
   }
   int32_t drawn_corners(int32_t facet) const {
+    if (!has_loops_) return static_cast<int32_t>(complex_.ring(facet).size());
     int32_t count = 0;
     for_drawn_edges(facet, [&](int32_t, int32_t) { ++count; });
     return count;
@@ -267,6 +273,7 @@ class Drawer {
   const InnerComplex& complex_;
   const Alive& alive_;
   Run run_;
+  uint8_t has_loops_ = 0;
   Array<uint8_t> used_;     // per edge: by no facet, one, or more
   Array<uint8_t> touched_;  // per vertex: by an edge
   Array<int32_t> number_;   // per vertex: in the level
