@@ -128,7 +128,7 @@ def _of_faces(
 ) -> tuple[Walls | None, tuple[int, int, int] | None]:
     """What the faces tell without an analysis: `AnalysedSamples.walls`, at chosen samples, and `by_faces`."""
     walls, radius = None, found.radius[chosen]
-    if sides.source is not SidesFrom.TIGHT_COCONE and request.shape.volume > 0:
+    if sides.source in (SidesFrom.SURFACE, SidesFrom.NORMALS) and request.shape.volume > 0:
         walls = find_walls(
             request.shape, feet[chosen], normals[chosen], radius / _DISC, radius**2, progress
         )
