@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <type_traits>
 
@@ -38,6 +40,38 @@ TEST(Arena, ServesTheNextWithWhatOneHasFreed) {
   void* const all = arena.take(16 * kMegabyte);
   EXPECT_EQ(all, first);
   arena.give_back(all, 16 * kMegabyte);
+}
+
+TEST(Arena, ReturnsWhatIsFreeAndKeepsWhatIsNot) {
+  if (!Arena::in_use()) GTEST_SKIP() << "built without arenas";
+#ifdef _WIN32
+  GTEST_SKIP() << "here the memory stays";
+#endif
+  constexpr size_t kPart = 32 * kMegabyte;
+  Arena arena(4 * kPart);
+  const size_t before = test::process_memory();
+  std::array<void*, 4> parts{};
+  for (void*& part : parts) {
+    part = arena.take(kPart);
+    std::memset(part, 1, kPart);
+  }
+  arena.give_back(parts[0], kPart);
+  arena.give_back(parts[2], kPart);
+  arena.give_back(parts[3], kPart);
+  EXPECT_GT(test::process_memory(), before + 3 * kPart);  // what is free stays memory until then
+  arena.release();
+  EXPECT_LT(test::process_memory(), before + kPart + kPart / 2);
+  EXPECT_EQ(arena.held(), 2 * kPart);
+  const auto* const kept = static_cast<const unsigned char*>(parts[1]);
+  EXPECT_TRUE(std::all_of(kept, kept + kPart, [](unsigned char byte) { return byte == 1; }));
+  void* const again = arena.take(kPart);
+  EXPECT_EQ(again, parts[0]);
+  std::memset(again, 2, kPart);  // comes back
+  EXPECT_GT(test::process_memory(), before + kPart + kPart / 2);
+  arena.give_back(again, kPart);
+  arena.give_back(parts[1], kPart);
+  arena.release();
+  EXPECT_EQ(arena.held(), 0u);
 }
 
 TEST(Arena, MeetsElsewhereWhatFindsNoRoom) {

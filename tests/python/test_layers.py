@@ -222,6 +222,7 @@ def test_each_part_of_boost_has_one_home():
 
 def test_the_system_has_one_home():
     assert users_of("sys/", "windows.h") == [MEDIAL / "base" / "address_space.cpp"]
+    assert users_of("malloc.h") == [MEDIAL / "base" / "heap.cpp"]
 
 
 def test_pybind_and_python_have_one_home():
@@ -241,7 +242,7 @@ def native_room(path):
 )
 def test_native_looks_down_only(path):
     """Own headers are named with their room; a unit sees its own room and those that the table allows."""
-    foreign = ("CGAL/", "boost/", "sys/", "windows.h", "medial/")
+    foreign = ("CGAL/", "boost/", "sys/", "windows.h", "malloc.h", "medial/")
     own = [n for n in includes_of(path) if n.endswith((".h", ".hpp")) and not n.startswith(foreign)]
     rooms = {str(Path(name).parent.as_posix()) for name in own}
     room = native_room(path)

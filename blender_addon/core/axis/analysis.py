@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ..machine import native
@@ -111,6 +112,13 @@ class Request:
     limit: MemoryLimit
     gaps: int
 
+    @cached_property
+    def solid_betti(self) -> tuple[int, int, int] | None:
+        """Pieces, loops and cavities of the solid, as its closed faces tell; None where they cannot. The same for all
+        passes."""
+        with native.own_errors() as module:
+            return module.solid_betti(self.shape.points, self.shape.triangles)
+
 
 def analyse(
     request: Request,
@@ -164,8 +172,7 @@ def betti_by_faces(request: Request, sides: Sides) -> tuple[int, int, int] | Non
     """`AnalysedSamples.by_faces`, where the faces are what tells inside from outside."""
     if sides.source is not SidesFrom.SURFACE or request.gaps:
         return None
-    with native.own_errors() as module:
-        return module.solid_betti(request.shape.points, request.shape.triangles)
+    return request.solid_betti
 
 
 def kept_or_made(

@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine import native
+from ..machine.beside import Beside
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..settings import SamplingMode, Settings, SidesFrom
 from .analysis import (
@@ -24,7 +26,7 @@ from .sample_spacing import first_amount, first_count, first_spacing, next_amoun
 from .sides import Sides, decided, resolve_sides, resolve_sides_of_samples
 from .surface_pass import surface_pass
 from .thinning import fewer_samples, thinned_rows
-from .walls import walls_of_faces
+from .walls import Walls, walls_of_faces
 
 if TYPE_CHECKING:
     from ..machine.progress import Progress
@@ -198,12 +200,11 @@ def _vertices_reason(request: Request, why: str) -> str:
 
 def _analysed_vertices(request: Request, sides: Sides, share: float) -> AnalysedSamples:
     points, normals = request.shape.points, request.shape.normals
-    analysis = analyse(request, points, normals, sides, request.progress.part(share))
-    no_edges, epsilon = points[:0], request.settings.epsilon
-    density = estimate(analysis, points, no_edges, 0.0, epsilon, most=LOOKED_AT)
-    walls = None
-    if sides.source is SidesFrom.SURFACE and request.shape.volume > 0:
-        walls = walls_of_faces(request.shape, request.progress.part(0.01))
+    with Beside(partial(_of_faces, request, sides)) as beside:
+        analysis = analyse(request, points, normals, sides, request.progress.part(share))
+        no_edges, epsilon = points[:0], request.settings.epsilon
+        density = estimate(analysis, points, no_edges, 0.0, epsilon, most=LOOKED_AT)
+    walls, by_faces = beside.result()
     return AnalysedSamples(
         points,
         None,
@@ -212,8 +213,18 @@ def _analysed_vertices(request: Request, sides: Sides, share: float) -> Analysed
         density,
         walls=walls,
         rows=request.shape.rows,
-        by_faces=betti_by_faces(request, sides),
+        by_faces=by_faces,
     )
+
+
+def _of_faces(
+    request: Request, sides: Sides, progress: Any
+) -> tuple[Walls | None, tuple[int, int, int] | None]:
+    """What the faces tell without an analysis: `AnalysedSamples.walls` and `by_faces`."""
+    walls = None
+    if sides.source is SidesFrom.SURFACE and request.shape.volume > 0:
+        walls = walls_of_faces(request.shape, progress)
+    return walls, betti_by_faces(request, sides)
 
 
 # --- samples of the faces

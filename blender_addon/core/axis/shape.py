@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,13 +46,13 @@ class Shape:
     of_samples: bool = True
     rows: NDArray[np.int32] | None = None
 
-    @property
+    @cached_property
     def volume(self) -> float:
         """The volume that closed faces enclose; negative when they point inward."""
         a, b, c = (self.points[self.triangles[:, corner]] - self.points[0] for corner in range(3))
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
 
-    @property
+    @cached_property
     def area(self) -> float:
         """The area of all faces."""
         a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))

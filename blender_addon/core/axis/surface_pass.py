@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import DegenerateInputError
 from ..machine import native
+from ..machine.beside import Beside
 from ..settings import SidesFrom
 from .analysis import AnalysedSamples, Request, analyse, betti_by_faces, kept_or_made
 from .buried_samples import find_bare, on_flat_faces
@@ -85,19 +87,19 @@ def _sampled(
     if closing or not request.gaps:
         bare = find_bare(shape, feet, outward, spacing)
     _check_some(bare)
-    walls = None
-    if sides.source in (SidesFrom.SURFACE, SidesFrom.NORMALS) and shape.volume > 0:
-        walls = _walls(request, found, bare & _are_inside_faces(found.kind), feet, outward)
     points, normals, kinds = (x[bare] for x in (found.points, found.normals, found.kind))
     if closing:
         radius, progress = found.radius[bare], request.progress.part(0.1 * share)
         points, normals, kinds = closed_by_samples(
             request, points, normals, kinds, radius, progress
         )
-    analysis = analyse(request, points, normals, sides, request.progress.part(share))
     first = first or spacing
-    on_edges = points[_are_on_edges(kinds, request.gaps, closing)]
-    density = estimate(analysis, points, on_edges, first, settings.epsilon)
+    chosen = bare & _are_inside_faces(found.kind)
+    with Beside(partial(_of_faces, request, sides, found, chosen, feet, outward)) as beside:
+        analysis = analyse(request, points, normals, sides, request.progress.part(share))
+        on_edges = points[_are_on_edges(kinds, request.gaps, closing)]
+        density = estimate(analysis, points, on_edges, first, settings.epsilon)
+    walls, by_faces = beside.result()
     buried = int(np.count_nonzero(~bare))
     more = len(points) - int(np.count_nonzero(bare))
     return AnalysedSamples(
@@ -110,22 +112,27 @@ def _sampled(
         buried,
         closing=more,
         walls=walls,
-        by_faces=betti_by_faces(request, sides),
+        by_faces=by_faces,
         faces=np.concatenate((found.triangle[bare], np.full(more, -1, np.int32))),
     )
 
 
-def _walls(
+def _of_faces(
     request: Request,
+    sides: Sides,
     found: Any,
     chosen: NDArray[np.bool_],
     feet: NDArray[np.float64],
     normals: NDArray[np.float64],
-) -> Walls:
-    radius, progress = found.radius[chosen], request.progress.part(0.01)
-    return find_walls(
-        request.shape, feet[chosen], normals[chosen], radius / _DISC, radius**2, progress
-    )
+    progress: Any,
+) -> tuple[Walls | None, tuple[int, int, int] | None]:
+    """What the faces tell without an analysis: `AnalysedSamples.walls`, at chosen samples, and `by_faces`."""
+    walls, radius = None, found.radius[chosen]
+    if sides.source in (SidesFrom.SURFACE, SidesFrom.NORMALS) and request.shape.volume > 0:
+        walls = find_walls(
+            request.shape, feet[chosen], normals[chosen], radius / _DISC, radius**2, progress
+        )
+    return walls, betti_by_faces(request, sides)
 
 
 def _are_inside_faces(kinds: NDArray[np.int32]) -> NDArray[np.bool_]:

@@ -118,8 +118,8 @@ WHAT_IS_FREE = MemoryLimit()
 
 # Bytes per point at the peak of the process, as measured (docs/performance.md). Levels are of the inner side.
 _OF_LEVELS = {
-    False: {"": 3200, ".ma": 3950},
-    True: {"": 3000, ".ma": 3850},
+    False: {"": 2150, ".ma": 3130},
+    True: {"": 2150, ".ma": 3050},
 }  # {faces: {output: bytes}}
 _AT_PEAK = {  # {(faces, both): {output: bytes}}
     (False, False): {"": 1930, ".ply": 2050, ".ma": 2600, OBJECT: 2260},

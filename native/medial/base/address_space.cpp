@@ -44,6 +44,8 @@ bool AddressSpace::commit(size_t bytes) {
 
 bool AddressSpace::populate(size_t, size_t) const { return false; }
 
+bool AddressSpace::release(size_t, size_t) const { return false; }
+
 #else
 
 AddressSpace::AddressSpace(size_t bytes) {
@@ -71,6 +73,10 @@ bool AddressSpace::populate([[maybe_unused]] size_t from, [[maybe_unused]] size_
 #else
   return false;
 #endif
+}
+
+bool AddressSpace::release(size_t from, size_t bytes) const {
+  return madvise(begin_ + from, bytes, MADV_DONTNEED) == 0;
 }
 
 #endif

@@ -23,6 +23,9 @@ class AddressSpace {
   bool commit(size_t bytes);
   // Has bytes made memory before they are touched; false where the system cannot do that.
   bool populate(size_t from, size_t bytes) const;
+  // Returns the memory of whole pages, which come back empty when they are touched; false where the
+  // system cannot do that.
+  bool release(size_t from, size_t bytes) const;
 
  private:
   std::byte* begin_ = nullptr;

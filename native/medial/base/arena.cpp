@@ -102,6 +102,16 @@ void Arena::give_back_to_block(size_t offset, size_t bytes) {
   }
 }
 
+void Arena::release() {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [offset, bytes] : free_) {
+    const size_t from = rounded_up(offset, kPage), end = std::min(offset + bytes, touched_);
+    const size_t until = end == touched_ ? rounded_up(end, kPage) : end / kPage * kPage;
+    if (from >= until || !block_.release(from, until - from)) continue;
+    if (end == touched_) touched_ = from;
+  }
+}
+
 void Arena::touch(size_t bytes, const std::atomic<bool>& stop) {
   const size_t end = std::min(bytes, block_.size()) / kPage * kPage;
   for (size_t at = 0; at < end && !stop; at += kStep) {

@@ -30,8 +30,11 @@ class Arena {
 
   void* take(size_t bytes);
   void give_back(void* memory, size_t bytes);
+  // Returns what is free to the system, as far as that takes it. It comes again where it is used,
+  // which takes its time.
+  void release();
   size_t capacity() const { return block_.size(); }
-  // Memory that the system has given; what was touched stays.
+  // Memory that the system has given, up to the last byte that is used or was not released.
   size_t held() const;
 
  private:

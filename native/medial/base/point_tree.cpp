@@ -81,6 +81,14 @@ Neighbour PointTree::nearest(const Vec3& query) const {
   return {std::sqrt(search.best.distance), search.best.id};
 }
 
+Neighbour PointTree::nearest(const Vec3& query, double within) const {
+  NearestOne search{{within * within, size()}};
+  descend(levels_.size() - 1, 0, query, search);
+  // What is known may be off by its last bits.
+  if (search.best.id == size()) return nearest(query);
+  return {std::sqrt(search.best.distance), search.best.id};
+}
+
 double PointTree::reach(const Vec3& query, size_t count) const {
   NearestFew search{count, {}};
   search.heap.reserve(count + 1);

@@ -26,6 +26,8 @@ class PointTree {
 
   // Of equally near points the lowest one. There is one.
   Neighbour nearest(const Vec3& query) const;
+  // The same, faster where a point is known to be no farther away than that.
+  Neighbour nearest(const Vec3& query, double within) const;
   // How far the `count` nearest points are at most, those in the same place included; of fewer
   // points all.
   double reach(const Vec3& query, size_t count) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A maximum that several threads find together.
+// A maximum or minimum that several threads find together.
 #pragma once
+
+#include <cstdint>
 
 #include "base/atomic.h"
 
@@ -9,6 +11,12 @@ namespace medial {
 inline void raise(float& value, float to) {
   float now = shared_load(value);
   while (now < to && !shared_exchange(value, now, to)) {
+  }
+}
+
+inline void lower(int32_t& value, int32_t to) {
+  int32_t now = shared_load(value);
+  while (now > to && !shared_exchange(value, now, to)) {
   }
 }
 

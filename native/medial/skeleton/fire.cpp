@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/fire.h"
 
+#include "base/heap.h"
 #include "skeleton/bucket_queue.h"
 
 namespace medial {
@@ -83,7 +84,8 @@ class Fire {
         facet_(array<HotFacet>(complex.dual.size(), run)),
         edge_(array<HotEdge>(complex.ends.size(), run)) {
     light_edges();
-    collapse_.facets_at = array<Incident>(0, run_);  // until the fire is out
+    collapse_.facets_at = array<Incident>(0, run_);
+    if (run.arena) run.arena->release();
     light_facets(points);
   }
 
@@ -239,7 +241,10 @@ class Fire {
   // Gives memory back as soon as it can.
   Burning result() {
     const size_t facets = complex_.dual.size(), edges = complex_.ends.size();
-    Burning burning{array<Times>(0, run_), array<double>(facets, run_), array<float>(facets, run_)};
+    if (run_.arena) run_.arena->release();
+    release_heap();  // what the queue has had
+    Burning burning{array<Times>(0, run_), array<uint8_t>(0, run_), array<double>(facets, run_),
+                    array<float>(facets, run_)};
     parallel_for(complex_.facets(), run_, [&](int64_t f) {
       const bool before = collapse_.facet_gone[f] != 0;
       const HotFacet& facet = facet_[f];
@@ -248,11 +253,11 @@ class Fire {
       collapse_.facet_gone[f] = facet.gone;
     });
     facet_ = array<HotFacet>(0, run_);
-    collapse_.facets_at = array<Incident>(edges, run_);
     burning.times.resize(edges);
+    burning.is_wire.resize(edges);
     parallel_for(complex_.edges(), run_, [&](int64_t e) {
       burning.times[e] = edge_[e].times;
-      collapse_.facets_at[e] = edge_[e].facets;
+      burning.is_wire[e] = edge_[e].facets.count() == 0;
     });
     return burning;
   }

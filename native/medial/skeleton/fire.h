@@ -16,13 +16,15 @@ struct Burning {
   // Per edge: when it became free, as the fire has it; for those that never had a facet in K1 the
   // radii. Without meaning for edges that are not free at the end.
   Array<Times> times;
+  Array<uint8_t> is_wire;  // per edge: it has no facet any more
   // Per facet: erosion thickness; infinite for those that did not burn, 0 for those not in K1.
   Array<double> thickness;
   // The same, never less than that of any facet that had to go before.
   Array<float> erosion;  // shares of the diagonal
 };
 
-// Takes all facets away that fire can reach. What it does not are closed sheets.
+// Takes all facets away that fire can reach. What it does not are closed sheets. Of the collapse,
+// `facets_at` is gone afterwards.
 Burning burn(const InnerComplex& complex, std::span<const Vec3> points, Collapse& collapse,
              const Run& run);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/hierarchy.h"
 
+#include "base/heap.h"
 #include "skeleton/betti.h"
 #include "skeleton/bubbles.h"
 #include "skeleton/fringe.h"
@@ -38,13 +39,9 @@ Array<T> kept(const Array<T>& values) {
   return {values.begin(), values.end()};
 }
 
-// What the collapse leaves behind for the values.
-struct Burnt {
-  Collapse collapse;
-  Sheets sheets;
-  Burning burning;  // without times
-  Wires wires;
-};
+void release(Arena* arena) {
+  if (arena) arena->release();
+}
 
 // Works of which none needs what another makes, on as many threads as there are.
 void side_by_side(std::span<const std::function<void()>> works, const Run& run) {
@@ -53,50 +50,75 @@ void side_by_side(std::span<const std::function<void()>> works, const Run& run) 
       [&](int64_t i) { works[i](); }, 1);
 }
 
-// `beside` is done while the fire burns, which keeps one thread busy only.
-Burnt burn_down(const InnerComplex& complex, const FacetWeights& weight,
-                std::span<const Vec3> points, const std::function<void()>& beside, Stopwatch& watch,
-                const Run& run) {
-  const Run quiet{run.threads, nullptr, run.arena};
+// Stages 0 and 1: what stays is K1.
+Collapse peel(const InnerComplex& complex, const FacetWeights& weight, const Run& run) {
   begin_stage(run.progress, "Fringe", 0.2, 0.4);
-  Collapse collapse = whole(complex, weight, quiet);
+  Collapse collapse = whole(complex, weight, {run.threads, nullptr, run.arena});
   open_bubbles(complex, weight, collapse, run);
   peel_facets(complex, weight, collapse, run);
   peel_wires(complex, collapse, run);
-  watch.lap("fringe");
-  begin_stage(run.progress, "Fire", 0.4, 0.7);
-  Sheets sheets = find_sheets(complex, collapse, quiet);
-  watch.lap("sheets");
-  Burning burning;
-  const std::array<std::function<void()>, 2> works{
-      [&] { burning = burn(complex, points, collapse, run); }, beside};
-  side_by_side(works, run);
-  watch.lap("fire");
-  begin_stage(run.progress, "Wires", 0.7, 0.8);
-  Wires wires = burn_wires(complex, burning.times, collapse, run);
-  burning.times = {};
-  watch.lap("wires");
-  return {std::move(collapse), std::move(sheets), std::move(burning), std::move(wires)};
+  return collapse;
 }
 
-void find_values(Hierarchy::Parts& made, const Burnt& burnt, std::span<const double> spacing,
-                 const Run& run) {
-  const Run quiet{run.threads, nullptr, run.arena}, alone{1, nullptr, run.arena};
-  const auto& [collapse, sheets, burning, wires] = burnt;
-  const InnerComplex& complex = made.complex;
-  const auto shares = in_units(burning.thickness, quiet, [&](int64_t) { return complex.diagonal; });
-  const auto spacings = in_units(burning.thickness, quiet, [&](int64_t f) {
-    const auto& [p, q] = complex.generators[f];
-    return 0.5 * (spacing[p] + spacing[q]);
-  });
+// By which facets go, and so far the vertices at them.
+Values values_of_facets(const InnerComplex& complex, const Collapse& collapse, const Sheets& sheets,
+                        const Burning& burning, std::span<const double> spacing, const Run& run) {
   Array<float> by_share, by_spacing;
-  const std::array<std::function<void()>, 3> works{
-      [&] { made.limb = kept(limb_values(complex, burnt.collapse, burnt.wires, alone)); },
-      [&] { by_share = drop_values(complex, burnt.collapse, burnt.sheets, shares, alone); },
-      [&] { by_spacing = drop_values(complex, burnt.collapse, burnt.sheets, spacings, alone); }};
-  side_by_side(works, run);
-  made.values = with_vertices(complex, collapse, wires,
-                              joined(by_share, by_spacing, burning.erosion, quiet), quiet);
+  {
+    const auto shares = in_units(burning.thickness, run, [&](int64_t) { return complex.diagonal; });
+    by_share = drop_values(complex, collapse, sheets, shares, run);
+  }
+  {
+    const auto spacings = in_units(burning.thickness, run, [&](int64_t f) {
+      const auto& [p, q] = complex.generators[f];
+      return 0.5 * (spacing[p] + spacing[q]);
+    });
+    by_spacing = drop_values(complex, collapse, sheets, spacings, run);
+  }
+  return with_vertices(complex, joined(by_share, by_spacing, burning.erosion, run), run);
+}
+
+// Where a stage keeps one thread busy only, the next best work is done beside it. What the arena
+// has free goes back to the system before the stages that take most: its gaps are too small for
+// them.
+void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeights& weight,
+                  const std::function<void()>& beside_fire,
+                  const std::function<void()>& beside_limbs, Stopwatch& watch, const Run& run) {
+  const Run quiet{run.threads, nullptr, run.arena}, alone{1, nullptr, run.arena};
+  const InnerComplex& complex = made.complex;
+  const auto together = [&](const std::function<void()>& a, const std::function<void()>& b) {
+    side_by_side(std::array{a, b}, run);
+  };
+  Collapse collapse = peel(complex, weight, run);
+  watch.lap("fringe");
+  begin_stage(run.progress, "Fire", 0.4, 0.7);
+  Burning burning;
+  Wires wires;
+  {
+    const Sheets sheets = find_sheets(complex, collapse, quiet);
+    watch.lap("sheets");
+    release(run.arena);
+    release_heap();
+    together([&] { burning = burn(complex, facets.points, collapse, run); }, beside_fire);
+    watch.lap("fire");
+    begin_stage(run.progress, "Wires", 0.7, 0.8);
+    release(run.arena);
+    together([&] { wires = burn_wires(complex, burning, collapse, run); },
+             [&] {
+               made.values = values_of_facets(complex, collapse, sheets, burning,
+                                              facets.significance.spacing, alone);
+             });
+    burning = {};
+    watch.lap("wires");
+  }
+  begin_stage(run.progress, "Values", 0.8, 1);
+  release(run.arena);
+  together([&] { made.limb = kept(limb_values(complex, collapse, wires, alone)); },
+           [&] {
+             go_along(wires, complex, collapse, made.values, alone);
+             beside_limbs();
+           });
+  made.partner = std::move(collapse.partner);
 }
 
 // How strongly the facets satisfy the conditions.
@@ -128,24 +150,24 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
-  made.row = samples.row;
   made.frame = frame;
-  made.samples = PointTree(std::span(samples.points.data(), samples.row.size()));
   Stopwatch watch(made.timings);
   const FacetWeights weight(facets, thresholds);
   begin_stage(run.progress, "Inner complex", 0, 0.2);
   made.complex =
       inner_complex(samples, facets.triangulation, facets.voronoi, facets.edges, facets.sides, run);
   watch.lap("complex");
-  const auto count_holes = [&, alone = Run{1, nullptr, run.arena}] {
+  const auto beside_fire = [&, alone = Run{1, nullptr, run.arena}] {
     made.outside = outside_components(made.complex, samples.count(), facets.triangulation,
                                       facets.edges, alone);
     made.betti = betti_of(made.complex, made.outside, alone);
   };
-  Burnt burnt = burn_down(made.complex, weight, facets.points, count_holes, watch, run);
-  begin_stage(run.progress, "Values", 0.8, 1);
-  find_values(made, burnt, facets.significance.spacing, run);
-  made.partner = std::move(burnt.collapse.partner);
+  const auto beside_limbs = [&] {
+    made.samples = PointTree(std::span(samples.points.data(), samples.row.size()));
+    made.row = samples.row;
+  };
+  collapse_all(made, facets, weight, beside_fire, beside_limbs, watch, run);
+  release(run.arena);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
   made.complex.dual = {};  // it means nothing without the analysis
   watch.lap("values");

@@ -2,6 +2,7 @@
 #include "skeleton/level.h"
 
 #include "axis/significance.h"
+#include "base/raise.h"
 #include "base/sort.h"
 #include "skeleton/betti.h"
 #include "skeleton/relax.h"
@@ -46,7 +47,12 @@ class Drawer {
         run_(run),
         used_(array<uint8_t>(h.complex.ends.size(), 0, run)),
         touched_(array<uint8_t>(h.complex.cell.size(), 0, run)),
-        number_(array<int32_t>(h.complex.cell.size(), -1, run)) {}
+        number_(array<int32_t>(h.complex.cell.size(), -1, run)) {
+    // There are none but of cospherical samples, and to look at the ends of edges takes long.
+    parallel_for(complex_.edges(), run_, [&](int64_t e) {
+      if (is_loop(static_cast<int32_t>(e))) shared_store(has_loops_, uint8_t{1});
+    });
+  }
 
   Level draw() {
     draw_facets();
@@ -76,96 +82,163 @@ class Drawer {
     return number_[vertex];
   }
 
-  // In the order of their generators.
-  std::vector<int32_t> facets_in_order() const {
+  // A facet is drawn by its edges that are no loops, if there are three of them.
+  template <typename Found>
+  void for_drawn_edges(int32_t facet, const Found& found) const {
+    for (const auto& [vertex, edge] : complex_.ring(facet)) {
+      if (!has_loops_ || !is_loop(edge)) found(vertex, edge);
+    }
+  }
+  int32_t drawn_corners(int32_t facet) const {
+    if (!has_loops_) return static_cast<int32_t>(complex_.ring(facet).size());
+    int32_t count = 0;
+    for_drawn_edges(facet, [&](int32_t, int32_t) { ++count; });
+    return count;
+  }
+
+  // Those that can be drawn, in the order of their generators.
+  Array<int32_t> facets_in_order() const {
     const auto found =
-        parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t f, auto& out, int) {
-          if (alive_.facet[f]) out.push_back(static_cast<int32_t>(f));
+        parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t id, auto& out, int) {
+          const auto f = static_cast<int32_t>(id);
+          if (alive_.facet[f] && drawn_corners(f) >= 3) out.push_back(f);
         });
     int32_t rows = 0;
     for (const int32_t row : h_.row) rows = std::max(rows, row + 1);
     const auto row = [&](int64_t i, int end) { return h_.row[complex_.generators[found[i]][end]]; };
-    const auto order = bucket_order(
+    auto facets = array<int32_t>(found.size(), run_);
+    bucket_sort(
         static_cast<int64_t>(found.size()), static_cast<size_t>(rows), run_,
-        [&](int64_t i) { return row(i, 0); }, [&](int64_t i) { return row(i, 1); });
-    std::vector<int32_t> facets;
-    facets.reserve(found.size());
-    for (const int32_t i : order) facets.push_back(found[i]);
+        [&](int64_t i) { return row(i, 0); }, [&](int64_t i) { return row(i, 1); },
+        [&](int32_t position, int32_t i) { facets[position] = found[i]; });
     return facets;
   }
 
   void draw_facets() {
-    const auto facets = facets_in_order();
-    size_t corners = 0;
-    for (const int32_t f : facets) corners += complex_.ring(f).size();
-    level_.face_vertices.reserve(corners);
-    level_.face_offsets.reserve(facets.size() + 1);
-    level_.generators.reserve(facets.size());
-    level_.facet_of.reserve(facets.size());
-    level_.vertex_of.reserve(
-        static_cast<size_t>(std::count(alive_.vertex.begin(), alive_.vertex.end(), uint8_t{1})));
-    level_.face_offsets.push_back(0);
-    std::vector<int32_t> polygon, edges;
-    for (const int32_t f : facets) {
-      polygon.clear();
-      edges.clear();
-      for (const auto& [vertex, edge] : complex_.ring(f)) {
-        if (is_loop(edge)) continue;
-        polygon.push_back(vertex);
-        edges.push_back(edge);
-      }
-      if (polygon.size() < 3) {
-        ++level_.hidden;
-        continue;
-      }
-      for (int32_t& vertex : polygon) vertex = number(vertex);
+    Array<int32_t> facets = facets_in_order();
+    set_corners(facets);
+    number_corners();
+    parallel_for(static_cast<int64_t>(facets.size()), run_, [&](int64_t i) {
+      const auto polygon = corners(i);
       std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
-      if (is_twin(polygon)) {
-        ++level_.hidden;
-        continue;
-      }
-      for (const int32_t edge : edges) used_[edge] += used_[edge] < 2;
-      const auto& [p, q] = complex_.generators[f];
-      level_.face_vertices.insert(level_.face_vertices.end(), polygon.begin(), polygon.end());
-      level_.face_offsets.push_back(static_cast<int32_t>(level_.face_vertices.size()));
-      level_.generators.push_back({h_.row[p], h_.row[q]});
-      level_.facet_of.push_back(f);
-    }
+    });
+    leave_twins_out(facets);
+    level_.hidden = std::count(alive_.facet.begin(), alive_.facet.end(), uint8_t{1}) -
+                    static_cast<int64_t>(facets.size());
+    level_.generators.resize(facets.size());
+    level_.facet_of.resize(facets.size());
+    parallel_for(static_cast<int64_t>(facets.size()), run_, [&](int64_t i) {
+      const auto& [p, q] = complex_.generators[facets[i]];
+      level_.generators[i] = {h_.row[p], h_.row[q]};
+      level_.facet_of[i] = facets[i];
+      for_drawn_edges(facets[i], [&](int32_t, int32_t edge) {
+        if (shared_load(used_[edge]) < 2) shared_add(used_[edge], uint8_t{1});
+      });
+    });
   }
 
-  // Whether an earlier facet has the same corners; notes the polygon where none has. In any order:
-  // two facets between parallel edges are one to the eye.
-  bool is_twin(const std::vector<int32_t>& polygon) {
-    newest_.resize(level_.vertex_of.size(), -1);
-    for (int32_t f = newest_[polygon[0]]; f >= 0; f = before_[f]) {
-      const auto first = level_.face_vertices.begin() + level_.face_offsets[f];
-      const auto last = level_.face_vertices.begin() + level_.face_offsets[f + 1];
-      if (std::is_permutation(first, last, polygon.begin(), polygon.end())) return true;
+  std::span<int32_t> corners(int64_t facet) {
+    return {level_.face_vertices.data() + level_.face_offsets[facet],
+            static_cast<size_t>(level_.face_offsets[facet + 1] - level_.face_offsets[facet])};
+  }
+
+  // Vertices of the complex.
+  void set_corners(std::span<const int32_t> facets) {
+    const auto count = static_cast<int64_t>(facets.size());
+    level_.face_offsets.resize(facets.size() + 1);
+    level_.face_offsets.back() = 0;
+    parallel_for(count, run_,
+                 [&](int64_t i) { level_.face_offsets[i] = drawn_corners(facets[i]); });
+    counts_to_offsets(level_.face_offsets);
+    level_.face_vertices.resize(static_cast<size_t>(level_.face_offsets.back()));
+    parallel_for(count, run_, [&](int64_t i) {
+      int32_t* next = corners(i).data();
+      for_drawn_edges(facets[i], [&](int32_t vertex, int32_t) { *next++ = vertex; });
+    });
+  }
+
+  // Numbers vertices in the order in which the corners use them first.
+  void number_corners() {
+    const auto count = static_cast<int64_t>(level_.face_vertices.size());
+    Column<int32_t>& corner = level_.face_vertices;
+    auto first = array<int32_t>(complex_.cell.size(), INT32_MAX, run_);
+    parallel_for(count, run_, [&](int64_t i) { lower(first[corner[i]], static_cast<int32_t>(i)); });
+    parallel_append_to(level_.vertex_of, count, run_, [&](int64_t i, auto& out, int) {
+      if (first[corner[i]] == i) out.push_back(corner[i]);
+    });
+    parallel_for(static_cast<int64_t>(level_.vertex_of.size()), run_,
+                 [&](int64_t v) { number_[level_.vertex_of[v]] = static_cast<int32_t>(v); });
+    parallel_for(count, run_, [&](int64_t i) { corner[i] = number_[corner[i]]; });
+  }
+
+  // Leaves facets out that have the same corners as an earlier one, in any order: two facets
+  // between parallel edges are one to the eye.
+  void leave_twins_out(Array<int32_t>& facets) {
+    // Per vertex the newest facet that starts there, per facet the one before it; or -1.
+    auto newest = array<int32_t>(level_.vertex_of.size(), -1, run_);
+    auto before = array<int32_t>(facets.size(), -1, run_);
+    const auto is_twin = [&](int64_t i) {
+      const auto polygon = corners(i);
+      int32_t& start = newest[polygon[0]];
+      for (int32_t other = start; other >= 0; other = before[other]) {
+        if (std::ranges::is_permutation(corners(other), polygon)) return true;
+      }
+      before[i] = start;
+      start = static_cast<int32_t>(i);
+      return false;
+    };
+    std::vector<int64_t> twins;
+    for (size_t i = 0; i < facets.size(); ++i) {
+      if (is_twin(static_cast<int64_t>(i))) twins.push_back(static_cast<int64_t>(i));
     }
-    before_.push_back(newest_[polygon[0]]);
-    newest_[polygon[0]] = static_cast<int32_t>(before_.size()) - 1;
-    return false;
+    if (!twins.empty()) leave_out(twins, facets);
+  }
+  // Of facets some, ascending.
+  void leave_out(std::span<const int64_t> some, Array<int32_t>& facets) {
+    const auto count = static_cast<int64_t>(facets.size());
+    int64_t left = 0;
+    for (int64_t i = 0; i < count; ++i) {
+      if (!some.empty() && some.front() == i) {
+        some = some.subspan(1);
+        continue;
+      }
+      const auto polygon = corners(i);
+      std::copy(polygon.begin(), polygon.end(),
+                level_.face_vertices.data() + level_.face_offsets[left]);
+      level_.face_offsets[left + 1] =
+          level_.face_offsets[left] + static_cast<int32_t>(polygon.size());
+      facets[left++] = facets[i];
+    }
+    facets.resize(static_cast<size_t>(left));
+    level_.face_offsets.resize(static_cast<size_t>(left) + 1);
+    level_.face_vertices.resize(static_cast<size_t>(level_.face_offsets.back()));
   }
 
   void draw_wires() {
-    for (int32_t e = 0; e < complex_.edges(); ++e) {
-      if (!alive_.edge[e]) continue;
-      if (is_loop(e)) {
-        ++level_.hidden;
-        continue;
-      }
+    const auto found =
+        parallel_append<int32_t>(complex_.edges(), run_, [&](int64_t id, auto& out, int) {
+          const auto e = static_cast<int32_t>(id);
+          if (!alive_.edge[e]) return;
+          if (is_loop(e)) {
+            shared_add(level_.hidden, int64_t{1});
+            return;
+          }
+          for (const int32_t v : complex_.ends[e]) shared_store(touched_[v], uint8_t{1});
+          if (!used_[e]) out.push_back(e);
+        });
+    for (const int32_t e : found) {
       const auto& [a, b] = complex_.ends[e];
-      touched_[a] = touched_[b] = 1;
-      if (used_[e]) continue;
       level_.wires.push_back({number(a), number(b)});
       level_.edge_of.push_back(e);
     }
   }
 
   void draw_points() {
-    for (int32_t v = 0; v < complex_.vertices(); ++v) {
-      if (alive_.vertex[v] && !touched_[v]) level_.points.push_back(number(v));
-    }
+    const auto found =
+        parallel_append<int32_t>(complex_.vertices(), run_, [&](int64_t v, auto& out, int) {
+          if (alive_.vertex[v] && !touched_[v]) out.push_back(static_cast<int32_t>(v));
+        });
+    for (const int32_t v : found) level_.points.push_back(number(v));
   }
 
   void place_vertices() {
@@ -187,14 +260,12 @@ class Drawer {
     level_.theta.resize(facets);
     level_.rho.resize(facets);
     parallel_for(static_cast<int64_t>(facets), run_, [&](int64_t f) {
-      level_.theta[f] = theta_of(h_.sine[level_.facet_of[f]]);
-      level_.rho[f] = h_.rho[level_.facet_of[f]];
+      const int32_t facet = level_.facet_of[f];
+      level_.theta[f] = theta_of(h_.sine[facet]);
+      level_.rho[f] = h_.rho[facet];
+      level_.sheet[f] = h_.values.facet[facet].sheet;
+      level_.erosion[f] = h_.values.facet[facet].erosion;
     });
-    for (size_t f = 0; f < facets; ++f) {
-      const Thickness& value = h_.values.facet[level_.facet_of[f]];
-      level_.sheet[f] = value.sheet;
-      level_.erosion[f] = value.erosion;
-    }
     for (size_t w = 0; w < wires; ++w) level_.limb[w] = h_.limb_of_edge(level_.edge_of[w]);
   }
 
@@ -202,11 +273,10 @@ class Drawer {
   const InnerComplex& complex_;
   const Alive& alive_;
   Run run_;
+  uint8_t has_loops_ = 0;
   Array<uint8_t> used_;     // per edge: by no facet, one, or more
   Array<uint8_t> touched_;  // per vertex: by an edge
   Array<int32_t> number_;   // per vertex: in the level
-  // Per vertex of the level the newest facet that starts there, per facet the one before it; or -1.
-  std::vector<int32_t> newest_, before_;
   Level level_;
 };
 

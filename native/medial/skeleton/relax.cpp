@@ -13,7 +13,9 @@ void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samp
   const auto moved =
       relax_rims({level.face_offsets, level.face_vertices}, rims, level.vertices, run);
   parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
-    level.radius[moved[i]] = samples.nearest(level.vertices[moved[i]]).distance;
+    const int32_t v = moved[i];
+    const double within = level.exact_radius[v] + distance(level.vertices[v], level.exact[v]);
+    level.radius[v] = samples.nearest(level.vertices[v], within).distance;
   });
 }
 

@@ -135,14 +135,14 @@ void wait_at_junctions(const InnerComplex& complex, const Collapse& collapse, co
     raised.push_back(facet);
   };
   for (const auto& [edge, facet] : sheets.junctions) {
-    const int32_t last = collapse.partner[edge];
+    const int32_t last = shared_load(collapse.partner[edge]);
     if (last >= 0) raise_to(last, value[facet]);
   }
   while (!raised.empty()) {
     const int32_t f = raised.back();
     raised.pop_back();
     for (const Corner& c : complex.ring(f)) {
-      const int32_t last = collapse.partner[c.edge];
+      const int32_t last = shared_load(collapse.partner[c.edge]);
       if (last >= 0) raise_to(last, value[f]);
     }
   }

@@ -25,7 +25,8 @@ Sheets find_sheets(const InnerComplex& complex, const Collapse& collapse, const 
 // Per facet: the value up to which a sheet has to be dropped for it to go, with what has to go
 // before; 0 for facets that are not in K1, infinite for those that did not burn. `thickness` is per
 // facet, in any unit; the value of a sheet is that of its thickest facet. Sheets go one after the
-// other, the thinnest first; where one ends at a junction, the other two become one.
+// other, the thinnest first; where one ends at a junction, the other two become one. Wires may burn
+// beside it.
 Array<float> drop_values(const InnerComplex& complex, const Collapse& collapse,
                          const Sheets& sheets, std::span<const float> thickness, const Run& run);
 

@@ -26,8 +26,7 @@ Thickness Values::of_edge(int32_t partner) const {
   return partner >= 0 ? facet[partner] : vertex[with_vertex(partner)];
 }
 
-Values with_vertices(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
-                     Array<Thickness> facets, const Run& run) {
+Values with_vertices(const InnerComplex& complex, Array<Thickness> facets, const Run& run) {
   Values values{std::move(facets), Array<Thickness>(complex.cell.size(), Thickness{})};
   parallel_for(complex.facets(), run, [&](int64_t f) {
     const Thickness& value = values.facet[f];
@@ -35,6 +34,11 @@ Values with_vertices(const InnerComplex& complex, const Collapse& collapse, cons
       raise_shared(values.vertex[c.vertex], value);
     }
   });
+  return values;
+}
+
+void go_along(const Wires& wires, const InnerComplex& complex, const Collapse& collapse,
+              Values& values, const Run& run) {
   for (const int32_t v : wires.order) {
     Thickness& next = values.vertex[other_end(complex, collapse.edge_of_vertex[v], v)];
     next = larger(next, values.vertex[v]);
@@ -42,7 +46,6 @@ Values with_vertices(const InnerComplex& complex, const Collapse& collapse, cons
   parallel_for(complex.vertices(), run, [&](int64_t v) {
     if (!collapse.vertex_gone(static_cast<int32_t>(v))) values.vertex[v] = kEndless;
   });
-  return values;
 }
 
 }  // namespace medial

@@ -20,9 +20,12 @@ struct Values {
   Thickness of_edge(int32_t partner) const;
 };
 
-// The values of facets, and of vertices the largest of all that had to go before: the facets at
-// them and the wires that led to them.
-Values with_vertices(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
-                     Array<Thickness> facets, const Run& run);
+// The values of facets, and of vertices the largest of the facets at them.
+Values with_vertices(const InnerComplex& complex, Array<Thickness> facets, const Run& run);
+
+// Those of vertices become the largest of all that had to go before, which are the wires that led
+// to them, too.
+void go_along(const Wires& wires, const InnerComplex& complex, const Collapse& collapse,
+              Values& values, const Run& run);
 
 }  // namespace medial

@@ -20,10 +20,9 @@ struct Front {
 
 class WireFire {
  public:
-  WireFire(const InnerComplex& complex, std::span<const Times> lateral, Collapse& collapse,
-           const Run& run)
+  WireFire(const InnerComplex& complex, const Burning& burning, Collapse& collapse, const Run& run)
       : complex_(complex),
-        lateral_(lateral),
+        burning_(burning),
         collapse_(collapse),
         progress_(run.progress),
         queue_(complex.diagonal / kBuckets, kBuckets),
@@ -44,7 +43,7 @@ class WireFire {
 
  private:
   bool is_loose(int32_t vertex) const {
-    return left_[vertex].count() == 1 && collapse_.is_wire(left_[vertex].last());
+    return left_[vertex].count() == 1 && burning_.is_wire[left_[vertex].last()];
   }
 
   // Takes loose ends away, one after the other, as far as they do not have to wait.
@@ -63,7 +62,7 @@ class WireFire {
   // The time at a loose end, and the elongation of its edge.
   void light(int32_t vertex) {
     const int32_t edge = left_[vertex].last();
-    const Times& t = lateral_[edge];
+    const Times& t = burning_.times[edge];
     const double sideways = t[complex_.ends[edge][0] == vertex ? 0 : 1];
     Front& front = front_[vertex];
     if (!(front.time > sideways)) front = {sideways, sideways, vertex};
@@ -80,7 +79,7 @@ class WireFire {
   // Returns the other end.
   int32_t take_away(int32_t vertex) {
     const int32_t edge = left_[vertex].last(), other = other_end(complex_, edge, vertex);
-    collapse_.partner[edge] = with_vertex(vertex);
+    shared_store(collapse_.partner[edge], with_vertex(vertex));
     collapse_.edge_of_vertex[vertex] = edge;
     wires_.order.push_back(vertex);
     if (wires_.order.size() % (1 << 14) == 0) throw_if_cancelled(progress_);
@@ -102,7 +101,7 @@ class WireFire {
   }
 
   const InnerComplex& complex_;
-  std::span<const Times> lateral_;
+  const Burning& burning_;
   Collapse& collapse_;
   Progress* progress_;
   BucketQueue queue_;
@@ -113,9 +112,9 @@ class WireFire {
 
 }  // namespace
 
-Wires burn_wires(const InnerComplex& complex, std::span<const Times> lateral, Collapse& collapse,
+Wires burn_wires(const InnerComplex& complex, const Burning& burning, Collapse& collapse,
                  const Run& run) {
-  return WireFire(complex, lateral, collapse, run).run();
+  return WireFire(complex, burning, collapse, run).run();
 }
 
 }  // namespace medial

@@ -15,8 +15,9 @@ struct Wires {
 };
 
 // Takes all wires away that fire can reach. What is left has no loose end: closed curves, closed
-// sheets and what joins them; of a tree one vertex.
-Wires burn_wires(const InnerComplex& complex, std::span<const Times> lateral, Collapse& collapse,
+// sheets and what joins them; of a tree one vertex. Others may read partners at the same time, by
+// shared_load: edges that have gone with a facet keep theirs.
+Wires burn_wires(const InnerComplex& complex, const Burning& burning, Collapse& collapse,
                  const Run& run);
 
 }  // namespace medial
