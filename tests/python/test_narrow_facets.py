@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from support import inputs, reference
 
-NARROWEST = 2.0**-39  # of the largest radius; what is narrower than 2^-40 may be a point or a segment
+# Of the largest radius; what is narrower than 2^-40 may be a point or a segment.
+NARROWEST = 2.0**-39
 
 
 def grid_of_a_box(size, steps):
