@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from support import inputs, reference
 
+from tests.support.fuzz import repeats
+
 # Of the largest radius; what is narrower than 2^-40 may be a point or a segment.
 NARROWEST = 2.0**-39
 
@@ -40,8 +42,20 @@ CASES = {
 
 @pytest.mark.parametrize("name", CASES)
 def test_what_has_a_width_is_there(medial, name):
+    assert_all_with_a_width(medial, CASES[name])
+
+
+@pytest.mark.parametrize("seed", repeats(4))
+def test_fuzzed_boxes(medial, seed):
+    """Of any size and aspect, turned, in float32."""
+    random = np.random.default_rng([seed, 13])
+    steps = random.integers(1, 6, 3).tolist()
+    size = 10.0 ** random.uniform(-3, 1, 3)
+    assert_all_with_a_width(medial, turned(grid_of_a_box(size, steps), seed))
+
+
+def assert_all_with_a_width(medial, points):
     """Judged by exact centres; the reference shares no code with the product."""
-    points = CASES[name]
     cells = medial.delaunay(points)[0]
     cells = reference.sort_cells(cells[(cells >= 0).all(axis=1)])
     expected = reference.Medial(points, cells)

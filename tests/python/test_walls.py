@@ -12,6 +12,8 @@ from medial_axis.core.axis.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings
 from support import meshes
 
+from tests.support.fuzz import repeats
+
 AREA = 1.0  # of the sheet of a plate
 TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
 TURN[:, 0] *= np.sign(np.linalg.det(TURN))
@@ -69,6 +71,17 @@ def test_close_walls_are_refined_within_the_budget(sampling):
 def test_no_samples_are_spent_on_walls_that_stay_too_close():
     found = computed(plate(0.0002))
     assert found.points < 2_500 and found.missed > 0.8
+
+
+@pytest.mark.parametrize("seed", repeats(4))
+def test_fuzzed_plates(seed):
+    random = np.random.default_rng([seed, 1])
+    thickness, samples = 10.0 ** random.uniform(-6, -1.5), int(random.integers(500, 3000))
+    sampling = list(SamplingMode)[random.integers(2, len(SamplingMode))]
+    found = computed(plate(thickness), sampling, samples=samples, budget=4 * samples)
+    there = sheet_area(found.axis) / AREA
+    assert there + found.missed > 0.85, (thickness, samples, sampling)
+    assert said(found) or there > 0.85
 
 
 @pytest.mark.parametrize("thickness", [3e-5, 1e-5, 1e-6])
