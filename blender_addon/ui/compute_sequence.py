@@ -24,6 +24,7 @@ from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
 from .selected_sources import has_faces, sources
+from .tab import Closed
 from .translation import say
 
 _PRODUCT = "medial axis"
@@ -244,15 +245,11 @@ class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_medial_axis_sequence(bpy.types.Panel):
+class VIEW3D_PT_medial_axis_sequence(Closed, bpy.types.Panel):
     """Frames of an animation"""
 
     bl_label = "Sequence"
     bl_idname = "VIEW3D_PT_medial_axis_sequence"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         scene = context.scene
