@@ -53,7 +53,9 @@ def first_count(shape: Shape, settings: Settings) -> int:
     if "count" in amount:
         return amount["count"]
     square = amount["spacing"] ** 2  # of tiny ones 0
-    return round(min(2.0 * shape.area / math.sqrt(3.0), _MANY * square) / square) if square else _MANY
+    return (
+        round(min(2.0 * shape.area / math.sqrt(3.0), _MANY * square) / square) if square else _MANY
+    )
 
 
 def next_amount(
