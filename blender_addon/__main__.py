@@ -49,6 +49,8 @@ def package() -> str:
 
 
 def main() -> int:
+    if "bpy" not in sys.modules:
+        importlib.import_module(f"{package()}.core.machine.few_addresses").share_one_heap()
     try:
         cli = importlib.import_module(f"{package()}.cli")
     except ModuleNotFoundError as error:

@@ -18,6 +18,8 @@ ROOT = Path(__file__).resolve().parents[1]
 FUZZES = {
     "polygons on few places": ("test_polygon_triangles.py", "fuzzed_polygons", 100),
     "simple polygons": ("test_polygon_triangles.py", "fuzzed_simple", 1),
+    "thin plates": ("test_walls.py", "fuzzed_plates", 1),
+    "narrow facets": ("test_narrow_facets.py", "fuzzed_boxes", 1),
     "scales and offsets": ("test_extreme_coordinates.py", "fuzzed_scales", 1),
     "signals": ("test_batch_faults.py", "fuzzed_signals", 1),
     "broken files": ("test_broken_files.py", "fuzzed_files", 50),

@@ -7,6 +7,7 @@ Dey & Zhao, sect. 3: an edge is selected by Angle[theta] or Ratio[rho].
 from __future__ import annotations
 
 import math
+import numbers
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -640,10 +641,23 @@ class Look:
 
 
 def check_ranges(values: Any, options: Mapping[str, Any]) -> None:
-    """Raise InvalidInputError for a number out of its range."""
+    """Raise InvalidInputError for a value of another kind than the default, or a number out of its range."""
     for name, option in options.items():
+        value = getattr(values, name)
+        _check_kind(name, option, value)
         if isinstance(option, (Number, Integer)):
-            _check_range(name, option, getattr(values, name))
+            _check_range(name, option, value)
+
+
+def _check_kind(name: str, option: Any, value: Any) -> None:
+    kind = type(option.default)
+    # NumPy's numbers count as Python's, and everything has a truth value.
+    wider: dict[type, type] = {float: numbers.Real, int: numbers.Integral, bool: object}
+    if not isinstance(value, wider.get(kind, kind)):
+        raise InvalidInputError(
+            f"Expected {name} to be of the kind {kind.__name__}, found {value!r}; "
+            f"the default is {option.default!r}"
+        )
 
 
 def _check_range(name: str, option: Number | Integer, value: float) -> None:

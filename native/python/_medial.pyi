@@ -227,7 +227,8 @@ class MedialMesh:
         """Selected facets that reach infinity; they are counted, never emitted."""
     @property
     def zero_area(self) -> int:
-        """Selected facets that are a point or a segment (cospherical samples); they are not emitted."""
+        """Selected facets that are a point or a segment (cospherical samples), by centres that are right to 2^-40 of
+        the radius or better; they are not emitted."""
     @property
     def rings(self) -> int:
         """Rings of cells that were walked: of the facets that the conditions select, without those that one cell

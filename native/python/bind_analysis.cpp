@@ -224,9 +224,10 @@ void bind_mesh(py::module_& m) {
           "(f, 2) int32: rows p < q of the two samples whose cells meet in the facet.")
       .def_readonly("unbounded", &MedialMesh::unbounded,
                     "Selected facets that reach infinity; they are counted, never emitted.")
-      .def_readonly("zero_area", &MedialMesh::zero_area,
-                    "Selected facets that are a point or a segment (cospherical samples); they are "
-                    "not emitted.")
+      .def_readonly(
+          "zero_area", &MedialMesh::zero_area,
+          "Selected facets that are a point or a segment (cospherical samples), by centres "
+          "that are right to 2^-40 of the radius or better; they are not emitted.")
       .def_readonly("rings", &MedialMesh::rings,
                     "Rings of cells that were walked: of the facets that the conditions select, "
                     "without those that one cell shows to lie on the other side.");

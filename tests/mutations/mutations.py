@@ -251,15 +251,15 @@ MUTATIONS = (
     ),
     Mutation(
         "axis/medial_mesh.cpp",
-        "polygon_.size() < 3 || (!is_wide(",
-        "polygon_.size() < 3 || (false && !is_wide(",
+        "(!is_wide(polygon_",
+        "(false && !is_wide(polygon_",
         "facets on a line are emitted",
         python=("test_on_a_line.py",),
     ),
     Mutation(
         "axis/medial_mesh.cpp",
-        "polygon_.size() < 3 || (!is_wide(",
-        "polygon_.size() < 4 || (!is_wide(",
+        "if (polygon_.size() < 3 ||",
+        "if (polygon_.size() < 4 ||",
         "triangular facets are left out",
     ),
     Mutation(

@@ -397,3 +397,42 @@ def test_a_plain_cube_of_eight_vertices(medial):
         and len(mesh.vertices) == 0
         and np.array_equal(mesh.face_offsets, [0])
     )
+
+
+# --- settings of the Python interface
+
+
+@pytest.mark.parametrize("name", ["side", "sides", "rule", "criteria", "sampling", "form"])
+@pytest.mark.parametrize("value", [0, 1.5, float("nan"), "INNER", None])
+def test_choices_are_of_their_kind(name, value):
+    from medial_axis.core.errors import InvalidInputError
+    from medial_axis.core.settings import Settings
+
+    with pytest.raises(InvalidInputError) as error:
+        Settings(**{name: value})
+    assert name in str(error.value) and str(error.value).startswith("Expected ")
+
+
+@pytest.mark.parametrize(
+    "name, value", [("seed", 0.5), ("samples", 500.0), ("theta", "0.3"), ("spacing", None)]
+)
+def test_numbers_are_of_their_kind(name, value):
+    from medial_axis.core.errors import InvalidInputError
+    from medial_axis.core.settings import Settings
+
+    with pytest.raises(InvalidInputError, match=f"Expected {name} to be of the kind"):
+        Settings(**{name: value})
+    for number in (np.float32(0.5), np.float64(0.5), 1):
+        assert Settings(theta=number).theta == number
+    assert Settings(samples=np.int64(500)).samples == 500
+
+
+@pytest.mark.parametrize("spacing", [5e-324, 1e-200, 1e-100])
+def test_a_spacing_next_to_nothing_is_refused_in_a_sentence(spacing):
+    from medial_axis.core.axis.compute import compute
+    from medial_axis.core.errors import MedialAxisError
+    from medial_axis.core.settings import SamplingMode, Settings
+
+    with pytest.raises(MedialAxisError) as error:
+        compute(*BALL, Settings(spacing=spacing, sampling=SamplingMode.SURFACE))
+    assert str(error.value).startswith("Expected ") and "\n" not in str(error.value)

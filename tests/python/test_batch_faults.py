@@ -238,11 +238,17 @@ def test_standard_streams_that_are_closed(folder, program, closed):  # noqa: F81
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
-@pytest.mark.parametrize("megabytes", [348, 409])
-def test_little_address_space_has_an_end(folder, program, megabytes):  # noqa: F811
-    """OpenBLAS asks again and again for what it does not get; we do not call it for frames that change nothing."""
+@pytest.mark.parametrize(
+    ("megabytes", "axes"), [(348, (1, 0.8, 0.6)), (409, (1, 0.8, 0.6)), (320, (1, 1, 1))]
+)
+def test_little_address_space_has_an_end(folder, program, megabytes, axes):  # noqa: F811
+    """OpenBLAS asks again and again for what it does not get; we do not call it for frames that change nothing.
+
+    A thread for which glibc has no heap maps pages for every number of the exact predicates, of which a ball takes
+    most; all threads share one.
+    """
     rows = np.random.default_rng(1).normal(size=(15_000, 3))
-    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None] * (1, 0.8, 0.6))
+    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None] * axes)
 
     def limit():
         resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
@@ -251,6 +257,29 @@ def test_little_address_space_has_an_end(folder, program, megabytes):  # noqa: F
     if done.returncode == -11 or "OpenBLAS" in done.stderr:
         pytest.skip("NumPy itself does not load in so little")
     assert "Traceback" not in done.stderr and done.returncode in (cli.DONE, cli.FAILED)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
+def test_one_heap_where_addresses_are_few(program):  # noqa: F811
+    """Asked for where there is a limit, before NumPy is loaded; not elsewhere."""
+    code = (
+        "import ctypes, sys; asked = []\n"
+        "class Library: mallopt = staticmethod(lambda *words: asked.append(words))\n"
+        "ctypes.CDLL = lambda name: Library\n"
+        "from medial_axis import __main__\n"
+        "sys.argv[1:] = ['--version']\n"
+        "try: __main__.main()\n"
+        "except SystemExit: pass\n"
+        "sys.exit(len(asked))\n"
+    )
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+
+    for before, expected in ((None, 0), (limit, 1)):
+        command = [sys.executable, "-c", code]
+        done = subprocess.run(command, env=program.environment, preexec_fn=before)
+        assert done.returncode == expected
 
 
 # --- signals

@@ -3,6 +3,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -493,6 +494,38 @@ def test_a_count_bounds_the_memory_too(medial, size):
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert 2800 < int(done.stdout) <= 3000
+
+
+ENDS = """
+import importlib.util, sys
+import numpy as np
+sys.path[:0] = [sys.argv[2]]
+from support import meshes
+spec = importlib.util.spec_from_file_location("_medial", sys.argv[1])
+medial = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(medial)
+vertices, triangles = meshes.icosphere(1)
+spacings = np.full(len(vertices), 0.5)
+if sys.argv[3] == "site":
+    spacings[7] = float(sys.argv[4])
+else:
+    vertices[7] = float(sys.argv[4])
+words = {"sizing": (meshes.icosphere(1)[0], spacings)} if sys.argv[3] != "spike" else {}
+print(len(medial.sample_surface(vertices, triangles, count=300, **words).points))
+"""
+
+
+@pytest.mark.parametrize("value", ["5e-324", "1e-30", "1e9", "1e18"])
+@pytest.mark.parametrize("what", ["site", "spike", "spike and sites"])
+def test_a_count_bounds_the_work(medial, what, value):
+    """A spacing next to nothing at one site, and a vertex that is far away: it ends, with samples that are few."""
+    from medial_axis.core.machine import native
+
+    support = str(Path(__file__).resolve().parents[1])
+    command = [sys.executable, "-c", ENDS, str(native.file()), support, what, value]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert 4 < int(done.stdout) <= 400
 
 
 @pytest.mark.parametrize("keep", [False, True])

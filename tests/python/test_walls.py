@@ -12,6 +12,8 @@ from medial_axis.core.axis.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings
 from support import meshes
 
+from tests.support.fuzz import repeats
+
 AREA = 1.0  # of the sheet of a plate
 TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
 TURN[:, 0] *= np.sign(np.linalg.det(TURN))
@@ -45,7 +47,7 @@ def said(found):
 
 
 @pytest.mark.parametrize("turned", [False, True], ids=["straight", "turned, float32"])
-@pytest.mark.parametrize("thickness", [0.02, 0.01, 0.005, 0.0015, 0.001, 0.0002])
+@pytest.mark.parametrize("thickness", [0.02, 0.01, 0.005, 0.0015, 0.001, 0.0002, 0.00001])
 @pytest.mark.parametrize("sampling", ["AUTOMATIC", "ADAPTIVE", "SURFACE"])
 def test_what_is_missing_of_a_plate_is_said(sampling, thickness, turned):
     found = computed(plate(thickness, turned), SamplingMode[sampling])
@@ -69,6 +71,35 @@ def test_close_walls_are_refined_within_the_budget(sampling):
 def test_no_samples_are_spent_on_walls_that_stay_too_close():
     found = computed(plate(0.0002))
     assert found.points < 2_500 and found.missed > 0.8
+
+
+@pytest.mark.parametrize("seed", repeats(4))
+def test_fuzzed_plates(seed):
+    random = np.random.default_rng([seed, 1])
+    thickness, samples = 10.0 ** random.uniform(-6, -1.5), int(random.integers(500, 3000))
+    sampling = list(SamplingMode)[random.integers(2, len(SamplingMode))]
+    found = computed(plate(thickness), sampling, samples=samples, budget=4 * samples)
+    there = sheet_area(found.axis) / AREA
+    assert there + found.missed > 0.85, (thickness, samples, sampling)
+    assert said(found) or there > 0.85
+
+
+@pytest.mark.parametrize("thickness", [3e-5, 1e-5, 1e-6])
+def test_a_sheet_of_some_thickness_is_not_taken_for_one_without(thickness):
+    """The samples are 0.034 apart; one looks 3.4e-5 off the surface for its two sides."""
+    found = computed(plate(thickness))
+    (text,) = said(found)
+    assert f"about {thickness:.2g}," in text and found.missed > 0.95
+    assert found.chosen.samples.buried == 0
+
+
+def test_sheets_without_thickness_bound_nothing():
+    """A sheet that is there twice, and turned, beside a block."""
+    sheet = np.array([(1, 1, 0), (2, 1, 0), (2, 2, 0), (1, 2, 0)], float)
+    twice = np.array([(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], np.int32)
+    block = meshes.box((1, 1, 1), (0.3, 0.3, 0.3))
+    found = computed(meshes.join((sheet, twice), block))
+    assert found.chosen.samples.buried > 100 and not said(found)
 
 
 def test_close_walls_of_overlapping_parts_are_said_but_not_refined():
@@ -124,10 +155,10 @@ def test_two_linked_thin_tubes():
     assert (density.median > density.limit) == (density.share > 0.5)
 
 
-def holed_block(count):
-    """A flat block with a grid of square holes, count along each side: a surface of genus count squared."""
-    ticks = np.linspace(-1, 1, 2 * count + 2)
-    solid = np.ones((2 * count + 1,) * 2, bool)
+def holed_block(along, across):
+    """A flat block with a grid of square holes, so many along each side: a surface of genus along times across."""
+    ticks = np.arange(2 * along + 2) / along
+    solid = np.ones((2 * along + 1, 2 * across + 1), bool)
     solid[1::2, 1::2] = False
     quads = []
     for i, j in np.argwhere(solid):
@@ -140,7 +171,7 @@ def holed_block(count):
             (0, 1): (r, s),
         }.items():
             k, m = i + di, j + dj
-            if not (0 <= k < len(solid) and 0 <= m < len(solid) and solid[k, m]):
+            if not (0 <= k < len(solid) and 0 <= m < len(solid[0]) and solid[k, m]):
                 quads.append([(*a, 0), (*b, 0), (*b, 1), (*a, 1)])
     corners = np.array(quads).reshape(-1, 3)
     rows, index = np.unique(corners, axis=0, return_inverse=True)
@@ -150,10 +181,10 @@ def holed_block(count):
 
 
 def test_a_block_with_many_tunnels(medial):
-    mesh = holed_block(11)
+    mesh = holed_block(19, 7)
     assert medial.open_edges(*mesh) == 0
     edges = len(np.unique(np.sort(mesh[1][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0))
-    assert len(mesh[0]) - edges + len(mesh[1]) == 2 - 2 * 121
+    assert len(mesh[0]) - edges + len(mesh[1]) == 2 - 2 * 133
     found = computed(mesh, SamplingMode.SURFACE, samples=4000)
     assert said(found) and found.missed > 0.5
     density = found.density

@@ -24,6 +24,7 @@ _OFF = 1e-3
 # Beside what is buried, parts of the solid leave clefts. Those narrower than this share of the spacing, which the
 # samples cannot tell from one solid, would be bridged here and there only: no sample is taken in them.
 _CLEFT = 0.25
+_ROUNDINGS = 4  # of float32, in which meshes are stored: a wall that is less thick is a sheet
 _BESIDE = 1.5  # how far from buried samples clefts are looked for, in spacings
 
 
@@ -46,8 +47,8 @@ def find_bare(
     # Where the faces point inward the axis is empty, and a warning says why; so no sample is left out there either.
     if shape.volume < 0:
         return np.ones(len(feet), bool)
+    found = _are_buried(shape, feet, normals, _OFF * spacing)
     with native.own_errors() as module:
-        found = module.buried(feet, normals, _OFF * spacing, shape.points, shape.triangles)
         beside = np.flatnonzero(near(feet, feet[found], _BESIDE * spacing))
         outward = feet[beside] + _CLEFT * spacing * normals[beside]
         above = module.winding_number(outward, shape.points, shape.triangles)
@@ -67,10 +68,29 @@ def bounding_share(shape: Shape, spacing: float) -> float:
     """
     corners = shape.points[shape.triangles[some_of(len(shape.triangles))]]
     normals, areas = unit_normals(corners)
-    with native.own_errors() as module:
-        points = corners.mean(axis=1)
-        buried = module.buried(points, normals, _OFF * spacing, shape.points, shape.triangles)
+    buried = _are_buried(shape, corners.mean(axis=1), normals, _OFF * spacing)
     return 1.0 - float(areas[buried].sum() / areas.sum())
+
+
+def _are_buried(
+    shape: Shape, points: NDArray[np.float64], normals: NDArray[np.float64], off: float
+) -> NDArray[np.bool_]:
+    """(n,) True where the surface bounds nothing.
+
+    One looks `off` beyond it; through a wall that is thinner than this, half as far as that is thick. A wall is no
+    thicker than the rounding of its corners to float32 where it is a sheet without thickness.
+    """
+    faces = (shape.points, shape.triangles)
+    rounding = _ROUNDINGS * float(np.finfo(np.float32).eps) * float(np.abs(shape.points).max())
+    with native.own_errors() as module:
+        found = module.buried(points, normals, off, *faces).copy()
+        rows = np.flatnonzero(found)
+        reach = np.full(len(rows), 2.0 * off)
+        thick = module.wall_distances(points[rows], normals[rows], reach, *faces)
+        thin = np.isfinite(thick) & (thick > rounding)
+        rows, half = rows[thin], thick[thin, None] / 2.0
+        found[rows] = module.buried(points[rows], half * normals[rows], 1.0, *faces)
+    return found
 
 
 def on_flat_faces(

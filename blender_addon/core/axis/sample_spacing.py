@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from .shape import Shape
 
 
+_MANY = 2**53  # samples, more than any memory holds
+
+
 def mean_spacing(area: float, count: int) -> float:
     """The distance of neighbours when `count` points form a hexagonal lattice on a surface of this area."""
     return math.sqrt(2.0 * area / (math.sqrt(3.0) * count))
@@ -39,7 +42,9 @@ def first_amount(shape: Shape, settings: Settings) -> dict[str, Any]:
 def first_spacing(shape: Shape, settings: Settings) -> float:
     """The distance of neighbours in the first pass."""
     amount = first_amount(shape, settings)
-    return amount.get("spacing") or mean_spacing(shape.area, amount["count"])
+    if "spacing" in amount:
+        return float(amount["spacing"])
+    return mean_spacing(shape.area, amount["count"])
 
 
 def first_count(shape: Shape, settings: Settings) -> int:
@@ -47,7 +52,10 @@ def first_count(shape: Shape, settings: Settings) -> int:
     amount = first_amount(shape, settings)
     if "count" in amount:
         return amount["count"]
-    return round(2.0 * shape.area / (math.sqrt(3.0) * amount["spacing"] ** 2))
+    square = amount["spacing"] ** 2  # of tiny ones 0
+    return (
+        round(min(2.0 * shape.area / math.sqrt(3.0), _MANY * square) / square) if square else _MANY
+    )
 
 
 def next_amount(

@@ -15,7 +15,7 @@ struct MedialMesh {
   Column<Side> side;              // (f)
   Column<Edge> generators;        // (f) input rows p < q; the facets are in their order
   int64_t unbounded = 0;          // facets that reach infinity: counted, not emitted
-  int64_t zero_area = 0;          // facets that are a point or a segment: not emitted
+  int64_t zero_area = 0;          // a point or a segment, within 2^-40 of a ball: not emitted
   int64_t rings = 0;              // of cells, walked to find all this
 };
 

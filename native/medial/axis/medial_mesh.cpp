@@ -47,41 +47,38 @@ void distinct_vertices(const std::vector<int32_t>& ring, const Voronoi& voronoi,
   }
 }
 
-// How far rounding may have moved the centre of a cell.
-double error_of(int32_t cell, std::span<const Vec3> points, const Triangulation& t) {
-  const auto& [i, j, k, l] = t.cells[cell];
-  return circumcentre(points[i], points[j], points[k], points[l]).error;
-}
-
-// Whether the vertices of a polygon cannot be told from points of one line, as of samples that lie
-// symmetrically about it.
-bool is_on_a_line(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
-                  const Triangulation& t, const Voronoi& voronoi) {
-  const Vec3& start = voronoi.centre[polygon[0]];
-  int32_t far = polygon[1];
-  double farthest = 0;
-  for (const int32_t v : polygon) {
-    const double d = squared_length(voronoi.centre[v] - start);
-    if (d > farthest) farthest = d, far = v;
-  }
-  const Vec3 along = normalized(voronoi.centre[far] - start);
-  const double radius = distance(start, points[t.cells[polygon[0]][0]]);
-  // Farther from the line than this is beyond all rounding, even in the largest of the balls.
-  const double clear = 4 * kCoarsestError * (radius + std::sqrt(farthest));
-  const auto squared_beside = [&](int32_t v) {
-    return squared_length(cross(voronoi.centre[v] - start, along));
+// Whether points cannot be told from points of one line, with these errors.
+bool are_on_a_line(std::span<const Circumcentre> found) {
+  const Circumcentre& start = found[0];
+  const auto nearer = [&](const Circumcentre& a, const Circumcentre& b) {
+    return squared_length(a.centre - start.centre) < squared_length(b.centre - start.centre);
   };
-  for (const int32_t v : polygon) {
-    if (squared_beside(v) > clear * clear) return false;
-  }
-  const double ends = error_of(polygon[0], points, t) + error_of(far, points, t);
-  return std::all_of(polygon.begin(), polygon.end(), [&](int32_t v) {
-    return std::sqrt(squared_beside(v)) <= ends + error_of(v, points, t);
+  const Circumcentre& far = *std::max_element(found.begin(), found.end(), nearer);
+  const Vec3 along = normalized(far.centre - start.centre);
+  return std::all_of(found.begin(), found.end(), [&](const Circumcentre& o) {
+    return length(cross(o.centre - start.centre, along)) <= start.error + far.error + o.error;
   });
 }
 
+// Whether the vertices of a polygon cannot be told from points of one line, as of samples that lie
+// symmetrically about it: not as they are, and not by finer centres.
+bool is_on_a_line(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
+                  const Triangulation& t) {
+  std::vector<Circumcentre> found;
+  for (const double coarsest : {kCoarsestError, kFinestError}) {
+    found.clear();
+    for (const int32_t v : polygon) {
+      const auto& [i, j, k, l] = t.cells[v];
+      found.push_back(circumcentre(points[i], points[j], points[k], points[l], coarsest));
+    }
+    if (!are_on_a_line(found)) return false;
+  }
+  return true;
+}
+
 // Whether three vertices of a polygon tell at once that it is not on a line: were they no farther
-// from one than `clear` above, the parallelogram of a and b would be at most clear (|a| + |b|).
+// from one than four of the coarsest errors of the largest ball, the parallelogram of a and b would
+// be at most that times |a| + |b|.
 bool is_wide(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
              const Triangulation& t, const Voronoi& voronoi) {
   const Vec3& start = voronoi.centre[polygon[0]];
@@ -113,8 +110,8 @@ class FacetMaker {
       return 0;
     }
     distinct_vertices(ring_, voronoi_, polygon_);
-    if (polygon_.size() < 3 || (!is_wide(polygon_, points_, t_, voronoi_) &&
-                                is_on_a_line(polygon_, points_, t_, voronoi_))) {
+    if (polygon_.size() < 3 ||
+        (!is_wide(polygon_, points_, t_, voronoi_) && is_on_a_line(polygon_, points_, t_))) {
       ++out.zero_area;
       return 0;
     }

@@ -103,7 +103,8 @@ constexpr double kOperations = 16;
 
 }  // namespace
 
-Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
+                          double coarsest) {
   const Vec3 u = a - d, v = b - d, w = c - d;
   const Vec3 vw = cross(v, w);
   const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
@@ -112,7 +113,7 @@ Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   // |error of the centre| <= 4 * kOperations * epsilon * |u||v||w| / |determinant| * radius.
   const double share =
       4 * kOperations * DBL_EPSILON * std::sqrt(uu * vv * ww) / std::abs(determinant);
-  if (share <= kCoarsestError) {
+  if (share <= coarsest) {
     const double rounding = DBL_EPSILON * (max_abs(d) + max_abs(relative));
     return {d + relative, share * length(relative) + rounding};
   }

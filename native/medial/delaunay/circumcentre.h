@@ -10,15 +10,18 @@ namespace medial {
 // Coarsest relative error that is let through: that of a float, the precision in which meshes are
 // stored.
 inline constexpr double kCoarsestError = 0x1p-24;
+// The same where a facet stands or falls with it: whether two centres are one, or three on a line.
+inline constexpr double kFinestError = 0x1p-40;
 
 struct Circumcentre {
   Vec3 centre;
   double error;  // the exact centre is no farther than this
 };
 
-// Centre of the sphere through four points that are not coplanar; error <= kCoarsestError * radius,
-// plus the rounding of absolute coordinates.
-Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+// Centre of the sphere through four points that are not coplanar; error <= coarsest * radius, plus
+// the rounding of absolute coordinates.
+Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
+                          double coarsest = kCoarsestError);
 
 struct UnitNormal {
   Vec3 direction;

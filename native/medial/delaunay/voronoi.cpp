@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/voronoi.h"
 
+#include <algorithm>
+
 #include "base/union_find.h"
 #include "delaunay/circumcentre.h"
 
@@ -45,7 +47,7 @@ bool indistinguishable(const Centres& centres, int32_t a, int32_t b) {
   return squared_length(d) <= error * error;
 }
 
-Array<CellPair> same_vertex_pairs(const Triangulation& t, const Centres& centres, const Run& run) {
+Array<CellPair> close_pairs(const Triangulation& t, const Centres& centres, const Run& run) {
   auto all = array<CellPair>(0, run);
   parallel_append_to(all, t.finite_cells, run, [&](int64_t c, auto& pairs, int) {
     for (const int32_t n : t.neighbors[c]) {
@@ -56,6 +58,54 @@ Array<CellPair> same_vertex_pairs(const Triangulation& t, const Centres& centres
     }
   });
   return all;
+}
+
+Circumcentre fine_centre(std::span<const Vec3> points, const Cell& cell) {
+  const auto& [i, j, k, l] = cell;
+  return circumcentre(points[i], points[j], points[k], points[l], kFinestError);
+}
+
+// Which of the close pairs finer centres tell apart.
+Array<uint8_t> told_apart(std::span<const Vec3> points, const Triangulation& t,
+                          std::span<const CellPair> pairs, const Run& run) {
+  auto apart = array<uint8_t>(pairs.size(), 0, run);
+  parallel_for(static_cast<int64_t>(pairs.size()), run, [&](int64_t i) {
+    const Circumcentre a = fine_centre(points, t.cells[pairs[i].first]),
+                       b = fine_centre(points, t.cells[pairs[i].second]);
+    apart[i] = distance(a.centre, b.centre) > a.error + b.error;
+  });
+  return apart;
+}
+
+// Finer centres for all cells that close pairs join to one that is told apart, so that it is told
+// from all of them.
+void refine(std::span<const Vec3> points, const Triangulation& t, std::span<const CellPair> pairs,
+            std::span<const uint8_t> apart, Centres& centres, const Run& run) {
+  UnionFind close(t.cells.size(), run);
+  unite(close, pairs);
+  auto finer = array<uint8_t>(t.cells.size(), 0, run);
+  for (size_t i = 0; i < pairs.size(); ++i) finer[close.find(pairs[i].first)] |= apart[i];
+  for (const auto& [a, b] : pairs) {
+    for (const int32_t cell : {a, b}) {
+      if (finer[close.find(cell)]) centres.centre[cell] = fine_centre(points, t.cells[cell]).centre;
+    }
+  }
+}
+
+// Neighbours with one Voronoi vertex. What the first bounds do not tell apart, finer ones may: a
+// facet that is narrower than a coarse bound is a facet.
+Array<CellPair> same_vertex_pairs(std::span<const Vec3> points, const Triangulation& t,
+                                  Centres& centres, const Run& run) {
+  Array<CellPair> pairs = close_pairs(t, centres, run);
+  const Array<uint8_t> apart = told_apart(points, t, pairs, run);
+  if (std::find(apart.begin(), apart.end(), 1) == apart.end()) return pairs;
+  refine(points, t, pairs, apart, centres, run);
+  size_t kept = 0;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (!apart[i]) pairs[kept++] = pairs[i];
+  }
+  pairs.resize(kept);
+  return pairs;
 }
 
 // Cocircular hull triangles have one Voronoi ray: same origin, same direction.
@@ -80,7 +130,7 @@ Voronoi voronoi(std::span<const Vec3> points, const Triangulation& t, const Run&
   begin_stage(run.progress, "Voronoi vertices", 0.58, 0.66);
   Centres found = centres(points, t, run);
   UnionFind vertices(t.cells.size(), run);
-  unite(vertices, same_vertex_pairs(t, found, {run.threads, nullptr, run.arena}));
+  unite(vertices, same_vertex_pairs(points, t, found, {run.threads, nullptr, run.arena}));
   unite(vertices, same_ray_pairs(t, found, vertices));
   return {std::move(found.centre), std::move(vertices).representatives()};
 }

@@ -391,12 +391,17 @@ Turn sample_once(const Model& model, const SamplingOptions& options, const Spaci
   return sample_once(model, options, spacing, expected_of(model, spacing, run), run);
 }
 
+// Times the count: as many samples may lie on creases in the first turn.
+constexpr double kMostOnCreases = 256;
+
 // Changes the spacing until the count is met within a hundredth; the nearest turn counts.
 Turn sample_count(const Model& model, const SamplingOptions& options, const Run& run) {
   constexpr int kTurns = 8;
   const auto wanted = static_cast<double>(*options.count);
   const auto error = [&](const Turn& t) { return std::abs(t.count() - wanted); };
-  Spacing spacing{std::sqrt(kHexagonal * model.area / wanted)};
+  // Of spikes, all length and no area, the creases alone would take any number of samples.
+  const double longest = crease_length(model) / (kMostOnCreases * wanted);
+  Spacing spacing{std::max(std::sqrt(kHexagonal * model.area / wanted), longest)};
   Turn best = sample_once(model, options, spacing, run), last = best;
   for (int i = 1; i < kTurns && error(best) > 0.01 * wanted; ++i) {
     spacing.scale *= std::sqrt(last.count() / wanted);
@@ -414,17 +419,39 @@ Expected bounded(const Model& model, int64_t count, Spacing& spacing, const Run&
   const int64_t most = static_cast<int64_t>(kManyPieces) + kPerSample * (count + triangles);
   Expected expected = expected_of(model, spacing, run, most);
   while (static_cast<int64_t>(expected.pieces.size()) > most) {
-    spacing.scale *= 2;
+    // The pieces that there are tell how many samples it would be at least.
+    spacing.scale *= std::max(2.0, std::sqrt(expected.count / (4 * static_cast<double>(count))));
     expected = expected_of(model, spacing, run, most);
   }
   return expected;
+}
+
+// Where a count bounds the samples, spacings below this share of the longest edge are this share:
+// pieces are not cut so finely.
+constexpr double kFinestSpacing = 0x1p-24;
+
+double longest_edge(const TriangleMesh& mesh) {
+  double longest = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    longest = std::max({longest, distance(mesh.points[a], mesh.points[b]),
+                        distance(mesh.points[b], mesh.points[c]),
+                        distance(mesh.points[c], mesh.points[a])});
+  }
+  return longest;
 }
 
 // Samples by the spacings of the sites, all of which are made larger by one factor until no more
 // samples than allowed are needed.
 Turn sample_sized(const Model& model, const SamplingOptions& options, const Run& run) {
   constexpr int kTurns = 8;
-  const SizingField field(*options.sites, options.site_spacings, run);
+  std::vector<double> spacings(options.site_spacings.begin(), options.site_spacings.end());
+  if (options.count) {
+    const double on_creases = kMostOnCreases * static_cast<double>(*options.count);
+    const double least =
+        std::max(kFinestSpacing * longest_edge(model.mesh), crease_length(model) / on_creases);
+    for (double& s : spacings) s = std::max(s, least);
+  }
+  const SizingField field(*options.sites, spacings, run);
   Spacing spacing{1, &field};
   if (!options.count) return sample_once(model, options, spacing, run);
   const auto most = static_cast<double>(*options.count);

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Breaks, kind after kind, for so many seconds: `python3 -m tests.breaking SECONDS [SEED [KIND ...]]`.
+
+A batch of trials runs in a process of its own, so that a crash, too, is an outcome and not the end. Prints what broke,
+with the seed of its trial, and at the end a table for the docs.
+"""
+
+import itertools
+import os
+import resource
+import subprocess
+import sys
+import time
+import traceback
+from collections import Counter
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+ROOT = Path(__file__).resolve().parents[2]
+if str(ROOT) not in sys.path:
+    sys.path.insert(0, str(ROOT))
+
+BATCH_SECONDS = 20.0  # after which a batch begins no other trial
+LIMIT_SECONDS = 300.0  # after which it has hung
+
+
+def main(seconds: float, seed: int, kinds: list[str]) -> int:
+    from tests.breaking.kinds import KINDS
+
+    end = time.monotonic() + seconds
+    tried, broke, spent = Counter(), Counter(), Counter()
+    for number in itertools.count():
+        for kind in kinds or KINDS:
+            if time.monotonic() > end:
+                return _table(tried, broke, spent)
+            before = _processor_time()
+            said = _batch(kind, seed + number)
+            spent[kind] += _processor_time() - before
+            tried[kind] += said.count("\ntried ")
+            faults = [line for line in said.splitlines() if line.startswith("BROKE ")]
+            broke[kind] += len(faults)
+            for line in faults:
+                print(line, flush=True)
+    return 0
+
+
+def _processor_time() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def _batch(kind: str, seed: int) -> str:
+    command = [sys.executable, "-m", "tests.breaking", "--batch", kind, str(seed)]
+    try:
+        done = subprocess.run(
+            command,
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=LIMIT_SECONDS,
+        )
+    except subprocess.TimeoutExpired as hung:
+        return (
+            f"{(hung.stdout or b'').decode()}\nBROKE {kind} {seed}: no end in {LIMIT_SECONDS:g} s"
+        )
+    if done.returncode != 0:
+        last = done.stdout.splitlines()[-1:] + done.stderr.splitlines()[-3:]
+        return f"{done.stdout}\nBROKE {kind} {seed}: exit code {done.returncode}: {last}"
+    return done.stdout
+
+
+def batch(kind: str, seed: int) -> None:
+    """Trials of one kind, each with a seed of its own."""
+    from tests.breaking.kinds import KINDS, numbered
+
+    end = time.monotonic() + BATCH_SECONDS
+    print()
+    for trial in itertools.count():
+        with TemporaryDirectory(prefix="breaking_") as folder:
+            print(f"tried {kind} {seed} {trial}", flush=True)
+            try:
+                KINDS[kind](numbered(kind, seed, trial), Path(folder))
+            except Exception as error:
+                at = traceback.extract_tb(error.__traceback__)[-1]
+                words = " ".join(str(error).split())[:300]
+                where = f"{Path(at.filename).name}:{at.lineno}"
+                print(f"BROKE {kind} {seed} {trial}: {type(error).__name__} {where} {words}")
+        if time.monotonic() > end:
+            return
+
+
+def _table(tried: Counter, broke: Counter, spent: Counter) -> int:
+    print("| kind | tried | broke | processor time |\n|---|---|---|---|")
+    for kind in tried:
+        print(f"| {kind} | {tried[kind]:,} | {broke[kind]:,} | {spent[kind]:,.0f} s |")
+    print(f"| all | {tried.total():,} | {broke.total():,} | {spent.total():,.0f} s |")
+    return min(1, broke.total())
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if sys.argv[1:2] == ["--batch"]:
+        batch(sys.argv[2], int(sys.argv[3]))
+    else:
+        words = [*sys.argv[1:], "60", "1"][: max(2, len(sys.argv) - 1)]
+        sys.exit(main(float(words[0]), int(words[1]) if len(sys.argv) > 2 else 1, words[2:]))
