@@ -22,6 +22,7 @@ from .core.axis import reconstruction
 from .core.axis.compute import Computation
 from .core.axis.medial_axis import MedialAxis
 from .core.axis.reconstruction import Reconstruction
+from .core.axis.reduce import reduce_axis
 from .core.axis.shape import Shape
 from .core.errors import (
     Cancelled,
@@ -34,6 +35,7 @@ from .core.errors import (
     ReadError,
 )
 from .core.files.load_axis import load_axis
+from .core.files.read_ma import read_ma
 from .core.files.read_shape import read_shape
 from .core.files.write import export_axis
 from .core.machine.progress import Progress
@@ -81,6 +83,7 @@ __all__ = [
     "read",
     "read_axis",
     "reconstruct",
+    "reduce",
     "write",
 ]
 
@@ -144,6 +147,32 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     return axis.extract_axis(computation, settings)
 
 
+def reduce(
+    found: MedialAxis | Computation, vertices: int, *, progress: Progress | None = None
+) -> MedialAxis:
+    """A small medial mesh: the same solid with few vertices, as triangles and edges of the same topology.
+
+    Parameters
+    ----------
+    found : MedialAxis or Computation
+        Of the inside.
+    vertices : int
+        That are wanted at most. Where nothing more can go without changing the topology, more stay.
+    progress : Progress, optional
+
+    Returns
+    -------
+    axis : MedialAxis
+        Its facets are triangles without samples of their own: `generators` are -1, `theta` and `rho` infinite.
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
+    """
+    axis = found.axis if isinstance(found, Computation) else found
+    return reduce_axis(axis, vertices, progress)
+
+
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:
     """The watertight surface through points that lie densely on a closed one (Tight Cocone).
 
@@ -199,13 +228,13 @@ def write(
 
 
 def read_axis(path: str | os.PathLike[str]) -> MedialAxis:
-    """A medial axis that `write` wrote as .npz, bit for bit.
+    """A medial axis that `write` wrote as .npz, bit for bit; or a `.ma` file of any tool, as balls, triangles and edges.
 
     Raises
     ------
     ReadError
     """
-    return load_axis(path)
+    return read_ma(path) if Path(path).suffix.lower() == ".ma" else load_axis(path)
 
 
 # --- what callers give

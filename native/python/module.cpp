@@ -30,5 +30,5 @@ PYBIND11_MODULE(_medial, m) {
   medial::python::bind_analysis(m);
   medial::python::bind_sampling(m);
   medial::python::bind_stages(m);
-  medial::python::bind_simplify(m);
+  medial::python::bind_reduce(m);
 }

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ..errors import ExportError
-from .facet_triangles import triangulate_facets
+from ..axis.facet_triangles import triangulate_facets
 from .rows_of_text import write_rows
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ from ..axis.medial_axis import MedialAxis
 from ..errors import ExportError
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
-from .facet_triangles import triangulate_facets
+from ..axis.facet_triangles import triangulate_facets
 from .rows_of_text import write_rows as _write_rows
 from .whole_file import write_whole
 

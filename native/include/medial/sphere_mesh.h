@@ -17,7 +17,7 @@ struct SphereMesh {
   Column<Edge> wires;          // edges that are on no triangle, i < j, each once, ascending
 };
 
-struct SimplifyOptions {
+struct ReduceOptions {
   int32_t vertices = 200;  // that are wanted at most
   int threads = 0;         // 0: as many as the machine has; the result does not depend on it
 };
@@ -27,7 +27,7 @@ struct SimplifyOptions {
 // spheres are fitted to that surface. Where no more edge can be collapsed, more vertices stay than
 // wanted. Throws InvalidInputError for rows out of range, numbers that are not finite, negative
 // radii and less than one wanted vertex; Cancelled.
-SphereMesh simplify(const SphereMesh& mesh, const SimplifyOptions& options,
+SphereMesh reduce(const SphereMesh& mesh, const ReduceOptions& options,
                     Progress* progress = nullptr);
 
 // The signed distance of each query to the slabs, cones and balls, negative inside: outside that to

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "simplify/cone_and_slab.h"
+#include "reduce/cone_and_slab.h"
 
 namespace medial {
 

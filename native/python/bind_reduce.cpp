@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sphere meshes for Python: simplified, measured, and as points on their surface.
+// Sphere meshes for Python: reduced, measured, and as points on their surface.
 #include <medial/sphere_mesh.h>
 
 #include "arrays.h"
@@ -8,7 +8,7 @@
 namespace medial::python {
 namespace {
 
-constexpr const char* kSimplifyDoc =
+constexpr const char* kReduceDoc =
     "The same solid with fewer spheres: `(vertices, radius, triangles, edges)`.\n\n"
     "Edges collapse as long as the homotopy type stays, those first that change the surface of the "
     "solid least; then the\nspheres are fitted to that surface. Where no more edge can collapse, "
@@ -75,16 +75,16 @@ SphereMesh sphere_mesh(const py::object& vertices, const py::object& radius,
           {ends.begin(), ends.end()}};
 }
 
-py::tuple simplified(const py::object& vertices, const py::object& radius,
+py::tuple reduced(const py::object& vertices, const py::object& radius,
                      const py::object& triangles, const py::object& edges, int64_t wanted,
                      Progress* progress, int threads) {
   const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
   const auto most = static_cast<int32_t>(std::clamp<int64_t>(wanted, 0, INT_MAX));
-  const SimplifyOptions options{most, thread_argument(threads)};
+  const ReduceOptions options{most, thread_argument(threads)};
   SphereMesh result;
   {
     const py::gil_scoped_release release;
-    result = simplify(mesh, options, progress);
+    result = reduce(mesh, options, progress);
   }
   return py::make_tuple(array_of<double>(std::move(result.vertices)),
                         array_of<double>(std::move(result.radius)),
@@ -121,8 +121,8 @@ py::array surface(const py::object& vertices, const py::object& radius, const py
 
 }  // namespace
 
-void bind_simplify(py::module_& m) {
-  m.def("simplify_sphere_mesh", &simplified, kSimplifyDoc, py::arg("vertices"), py::arg("radius"),
+void bind_reduce(py::module_& m) {
+  m.def("reduce_sphere_mesh", &reduced, kReduceDoc, py::arg("vertices"), py::arg("radius"),
         py::arg("triangles"), py::arg("edges"), py::arg("wanted"), py::kw_only(),
         py::arg("progress") = nullptr, py::arg("threads") = 0);
   m.def("solid_distances", &distances, kDistancesDoc, py::arg("queries"), py::arg("vertices"),

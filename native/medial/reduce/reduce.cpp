@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Simplifies a sphere mesh: places on its surface, the collapse of edges, the fit to those places.
+// Reduces a sphere mesh: places on its surface, the collapse of edges, the fit to those places.
 #include "base/parallel.h"
 #include "base/rows.h"
-#include "simplify/checked_mesh.h"
-#include "simplify/collapse.h"
-#include "simplify/envelope.h"
-#include "simplify/fit.h"
+#include "reduce/checked_mesh.h"
+#include "reduce/collapse.h"
+#include "reduce/envelope.h"
+#include "reduce/fit.h"
 
 namespace medial {
 namespace {
 
 constexpr double kCovered = 0x1p-10;  // of the extent: what lies deeper is not on the surface
+constexpr size_t kFitted = 1 << 14, kFittedPerSphere = 64;
 
 SphereMesh inward(const SphereMesh& mesh, const Unit& unit) {
   SphereMesh result = mesh;
@@ -30,9 +31,17 @@ std::vector<TangentPlace> uncovered(const SphereMesh& mesh, const std::vector<Ta
       256);
 }
 
+// Every so many, for as many as the fit of some spheres needs.
+std::vector<TangentPlace> thinned(const std::vector<TangentPlace>& places, size_t spheres) {
+  const size_t step = std::max<size_t>(1, places.size() / (kFitted + kFittedPerSphere * spheres));
+  std::vector<TangentPlace> result;
+  for (size_t i = 0; i < places.size(); i += step) result.push_back(places[i]);
+  return result;
+}
+
 }  // namespace
 
-SphereMesh simplify(const SphereMesh& given, const SimplifyOptions& options, Progress* progress) {
+SphereMesh reduce(const SphereMesh& given, const ReduceOptions& options, Progress* progress) {
   require_sphere_mesh(given);
   if (options.vertices < 1) {
     throw InvalidInputError("Expected at least 1 wanted vertex, found " +
@@ -45,11 +54,12 @@ SphereMesh simplify(const SphereMesh& given, const SimplifyOptions& options, Pro
   mesh = inward(mesh, unit);
   const SphereComplex complex(mesh);
   begin_stage(progress, "Surface of the balls", 0, 0.2);
-  const auto places = uncovered(mesh, tangent_places(mesh, complex, run), run);
+  const auto places = tangent_places(mesh, complex, run);
   begin_stage(progress, "Collapse of edges", 0.2, 0.6);
   Collapsed collapsed = collapse_edges(mesh, complex, places, options.vertices, run);
   begin_stage(progress, "Fit of the spheres", 0.6, 1);
-  const bool moved = fit_spheres(collapsed.mesh, places, run);
+  const auto surface = uncovered(mesh, thinned(places, collapsed.row.size()), run);
+  const bool moved = fit_spheres(collapsed.mesh, surface, run);
   SphereMesh result = std::move(collapsed.mesh);
   for (size_t v = 0; v < result.vertices.size(); ++v) {
     const int32_t row = moved ? -1 : collapsed.row[v];

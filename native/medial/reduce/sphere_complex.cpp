@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simplify/sphere_complex.h"
+#include "reduce/sphere_complex.h"
 
 #include <algorithm>
 

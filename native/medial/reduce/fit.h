@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/run.h"
-#include "simplify/tangent_places.h"
+#include "reduce/tangent_places.h"
 
 namespace medial {
 

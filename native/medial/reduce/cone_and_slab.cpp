@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simplify/cone_and_slab.h"
+#include "reduce/cone_and_slab.h"
 
 namespace medial {
 namespace {

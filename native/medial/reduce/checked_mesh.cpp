@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simplify/checked_mesh.h"
+#include "reduce/checked_mesh.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simplify/envelope.h"
+#include "reduce/envelope.h"
 
 #include "base/parallel.h"
 #include "base/rows.h"
-#include "simplify/checked_mesh.h"
+#include "reduce/checked_mesh.h"
 
 namespace medial {
 namespace {

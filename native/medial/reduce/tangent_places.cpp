@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simplify/tangent_places.h"
+#include "reduce/tangent_places.h"
 
 #include <numbers>
 
 #include "base/parallel.h"
-#include "simplify/cone_and_slab.h"
+#include "reduce/cone_and_slab.h"
 
 namespace medial {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Gauss-Newton: the distance of a place to the nearest ball of a slab is linear, to first order, in
 // the spheres of the slab. Places that are far off count more, for the largest distance shall fall.
-#include "simplify/fit.h"
+#include "reduce/fit.h"
 
 #include <cmath>
 
 #include "base/parallel.h"
-#include "simplify/envelope.h"
+#include "reduce/envelope.h"
 
 namespace medial {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/run.h"
-#include "simplify/sphere_complex.h"
+#include "reduce/sphere_complex.h"
 
 namespace medial {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "simplify/cone_and_slab.h"
+#include "reduce/cone_and_slab.h"
 
 namespace medial {
 

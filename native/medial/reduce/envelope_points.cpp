@@ -5,8 +5,8 @@
 #include "base/parallel.h"
 #include "base/rows.h"
 #include "base/text.h"
-#include "simplify/checked_mesh.h"
-#include "simplify/envelope.h"
+#include "reduce/checked_mesh.h"
+#include "reduce/envelope.h"
 
 namespace medial {
 namespace {

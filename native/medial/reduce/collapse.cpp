@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simplify/collapse.h"
+#include "reduce/collapse.h"
 
 #include <queue>
 
-#include "simplify/checked_mesh.h"
-#include "simplify/quadric.h"
+#include "reduce/checked_mesh.h"
+#include "reduce/quadric.h"
 
 namespace medial {
 namespace {
