@@ -75,9 +75,8 @@ SphereMesh sphere_mesh(const py::object& vertices, const py::object& radius,
           {ends.begin(), ends.end()}};
 }
 
-py::tuple reduced(const py::object& vertices, const py::object& radius,
-                     const py::object& triangles, const py::object& edges, int64_t wanted,
-                     Progress* progress, int threads) {
+py::tuple reduced(const py::object& vertices, const py::object& radius, const py::object& triangles,
+                  const py::object& edges, int64_t wanted, Progress* progress, int threads) {
   const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
   const auto most = static_cast<int32_t>(std::clamp<int64_t>(wanted, 0, INT_MAX));
   const ReduceOptions options{most, thread_argument(threads)};
@@ -86,10 +85,9 @@ py::tuple reduced(const py::object& vertices, const py::object& radius,
     const py::gil_scoped_release release;
     result = reduce(mesh, options, progress);
   }
-  return py::make_tuple(array_of<double>(std::move(result.vertices)),
-                        array_of<double>(std::move(result.radius)),
-                        array_of<int32_t>(std::move(result.triangles)),
-                        array_of<int32_t>(std::move(result.wires)));
+  return py::make_tuple(
+      array_of<double>(std::move(result.vertices)), array_of<double>(std::move(result.radius)),
+      array_of<int32_t>(std::move(result.triangles)), array_of<int32_t>(std::move(result.wires)));
 }
 
 py::array distances(const py::object& queries, const py::object& vertices, const py::object& radius,

@@ -28,7 +28,7 @@ struct ReduceOptions {
 // wanted. Throws InvalidInputError for rows out of range, numbers that are not finite, negative
 // radii and less than one wanted vertex; Cancelled.
 SphereMesh reduce(const SphereMesh& mesh, const ReduceOptions& options,
-                    Progress* progress = nullptr);
+                  Progress* progress = nullptr);
 
 // The signed distance of each query to the slabs, cones and balls, negative inside: outside that to
 // the solid; inside at least as far away is its surface.

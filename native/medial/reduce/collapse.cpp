@@ -9,8 +9,9 @@
 namespace medial {
 namespace {
 
-constexpr double kLength = 1e-6;  // what a length costs besides, so that of equal edges short ones go
-constexpr double kSame = 1e-12;   // costs that differ by less, as shares of the largest, are equal
+constexpr double kLength =
+    1e-6;  // what a length costs besides, so that of equal edges short ones go
+constexpr double kSame = 1e-12;  // costs that differ by less, as shares of the largest, are equal
 
 struct Candidate {
   double cost = 0;
@@ -35,7 +36,8 @@ class Collapser {
       row_.push_back(static_cast<int32_t>(v));
     }
     for (const TangentPlace& place : places) {
-      const auto corners = std::count_if(place.of.begin(), place.of.end(), [](int v) { return v >= 0; });
+      const auto corners =
+          std::count_if(place.of.begin(), place.of.end(), [](int v) { return v >= 0; });
       for (const int32_t v : place.of) {
         if (v >= 0) {
           quadrics_[v].add_plane(place.normal, place.point,

@@ -84,6 +84,12 @@ Envelope::Found Envelope::find(const Vec3& query) const {
   return best;
 }
 
+bool Envelope::covers(const Vec3& query, double depth) const {
+  Found best{{.distance = -depth}};
+  search(0, query, best);
+  return best.part >= 0;
+}
+
 double Envelope::bound(const Node& node, const Vec3& query) {
   return std::sqrt(squared_distance(node.box, query)) - node.largest;
 }

@@ -30,6 +30,9 @@ class Envelope {
   };
   Found find(const Vec3& query) const;
 
+  // Whether a ball of a part holds the query more than `depth` deep.
+  bool covers(const Vec3& query, double depth) const;
+
   std::span<const Part> parts() const { return parts_; }
   // Of the nearest of the balls of one part.
   NearestOfEnvelope nearest_in(int32_t part, const Vec3& query) const;

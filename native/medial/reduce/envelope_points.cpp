@@ -38,8 +38,7 @@ class Painter {
     const double k = rise / whole, flat = std::sqrt(1 - k * k);
     const Vec3 across = normalized(cross(axis, least_of(axis))), third = cross(axis, across);
     const int64_t rings = steps(whole);
-    const int64_t round =
-        steps(2 * std::numbers::pi * std::max(mesh_.radius[a], mesh_.radius[b]));
+    const int64_t round = steps(2 * std::numbers::pi * std::max(mesh_.radius[a], mesh_.radius[b]));
     for (int64_t i = 0; i <= rings; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(rings);
       const Vec3 centre = mesh_.vertices[a] + share * along;
@@ -57,11 +56,10 @@ class Painter {
     const auto [a, b, c] = t;
     const auto& x = mesh_.vertices;
     const auto& r = mesh_.radius;
-    const TangentNormals tangents =
-        tangent_normals({x[a], r[a]}, {x[b], r[b]}, {x[c], r[c]});
+    const TangentNormals tangents = tangent_normals({x[a], r[a]}, {x[b], r[b]}, {x[c], r[c]});
     if (!tangents.exist) return;
-    const int64_t n = steps(std::max({distance(x[a], x[b]), distance(x[b], x[c]),
-                                      distance(x[c], x[a])}));
+    const int64_t n =
+        steps(std::max({distance(x[a], x[b]), distance(x[b], x[c]), distance(x[c], x[a])}));
     for (int64_t i = 0; i <= n; ++i) {
       for (int64_t j = 0; i + j <= n; ++j) {
         const double u = static_cast<double>(i) / static_cast<double>(n),

@@ -92,7 +92,11 @@ class Fitter {
       }
       const Vec3 away = normalized(places_[i].point - centre);
       const double d = nearest.distance;
-      rows[i] = {of, nearest.shares, {away.x, away.y, away.z, 1}, places_[i].area * (0.25 * mean + d * d), d};
+      rows[i] = {of,
+                 nearest.shares,
+                 {away.x, away.y, away.z, 1},
+                 places_[i].area * (0.25 * mean + d * d),
+                 d};
     });
     return rows;
   }

@@ -11,7 +11,7 @@ namespace medial {
 namespace {
 
 constexpr double kCovered = 0x1p-10;  // of the extent: what lies deeper is not on the surface
-constexpr size_t kFitted = 1 << 14, kFittedPerSphere = 64;
+constexpr size_t kFitted = 1 << 16, kFittedPerSphere = 128;
 
 SphereMesh inward(const SphereMesh& mesh, const Unit& unit) {
   SphereMesh result = mesh;
@@ -26,7 +26,8 @@ std::vector<TangentPlace> uncovered(const SphereMesh& mesh, const std::vector<Ta
   return parallel_append<TangentPlace>(
       static_cast<int64_t>(places.size()), run,
       [&](int64_t i, auto& out, int) {
-        if (envelope.find(places[i].point).nearest.distance > -kCovered) out.push_back(places[i]);
+        const bool slab = places[i].of[2] >= 0;  // an exact axis covers none of its slabs
+        if (slab || !envelope.covers(places[i].point, kCovered)) out.push_back(places[i]);
       },
       256);
 }
@@ -54,12 +55,12 @@ SphereMesh reduce(const SphereMesh& given, const ReduceOptions& options, Progres
   mesh = inward(mesh, unit);
   const SphereComplex complex(mesh);
   begin_stage(progress, "Surface of the balls", 0, 0.2);
-  const auto places = tangent_places(mesh, complex, run);
+  const auto places = uncovered(mesh, tangent_places(mesh, complex, run), run);
   begin_stage(progress, "Collapse of edges", 0.2, 0.6);
   Collapsed collapsed = collapse_edges(mesh, complex, places, options.vertices, run);
   begin_stage(progress, "Fit of the spheres", 0.6, 1);
-  const auto surface = uncovered(mesh, thinned(places, collapsed.row.size()), run);
-  const bool moved = fit_spheres(collapsed.mesh, surface, run);
+  const auto some = thinned(places, collapsed.row.size());
+  const bool moved = fit_spheres(collapsed.mesh, some, run);
   SphereMesh result = std::move(collapsed.mesh);
   for (size_t v = 0; v < result.vertices.size(); ++v) {
     const int32_t row = moved ? -1 : collapsed.row[v];

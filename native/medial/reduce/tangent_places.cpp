@@ -63,9 +63,8 @@ class Places {
     if (!(r > 0)) return;
     for (const Vec3& n : spread) {
       const bool sticks_out = std::all_of(
-          complex_.neighbours(v).begin(), complex_.neighbours(v).end(), [&](int32_t other) {
-            return dot(n, at(other) - at(v)) < r - mesh_.radius[other];
-          });
+          complex_.neighbours(v).begin(), complex_.neighbours(v).end(),
+          [&](int32_t other) { return dot(n, at(other) - at(v)) < r - mesh_.radius[other]; });
       if (!sticks_out) continue;
       const double area = 4 * std::numbers::pi * r * r / kDirections;
       out.push_back({at(v) + r * n, n, area, {v, -1, -1}});

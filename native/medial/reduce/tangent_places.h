@@ -13,9 +13,9 @@ namespace medial {
 // The plane there is tangent to a sphere (x, r) of the envelope where normal . x + r = normal .
 // point.
 struct TangentPlace {
-  Vec3 point, normal;             // outward
-  double area = 0;                // of the surface that it stands for
-  std::array<int32_t, 3> of{};    // vertices of the slab, the cone or the ball; -1 behind them
+  Vec3 point, normal;           // outward
+  double area = 0;              // of the surface that it stands for
+  std::array<int32_t, 3> of{};  // vertices of the slab, the cone or the ball; -1 behind them
 };
 
 // Both sides of slabs; round the rims of sheets and round wires all directions in between; of the
