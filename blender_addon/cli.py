@@ -41,11 +41,12 @@ from .core.errors import (
     MedialAxisError,
     ReadError,
 )
+from .core.files.extensions import extension_of
 from .core.files.names import is_folder
 from .core.files.read import READERS
 from .core.files.read_shape import read_shape
-from .core.files.write import FORMATS, format_of
-from .core.files.write_thickness import THICKNESS_FORMATS, thickness_suffix
+from .core.files.write import FORMATS
+from .core.files.write_thickness import THICKNESS_FORMATS
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 from .core.settings import Settings, Side
@@ -251,7 +252,8 @@ def _complete(wanted: argparse.Namespace) -> None:
     if output.endswith(("/", "\\")) or is_folder(output):
         number = "" if wanted.frames is None else "_####"
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
-    thickness_suffix(output) if wanted.lengths else format_of(output)
+    known = (*THICKNESS_FORMATS,) if wanted.lengths else (*FORMATS,)
+    extension_of(output, known)
     wanted.output = output
     first = wanted.frames[0] if wanted.frames else None
     output_path(output, "name", "file", first)  # it raises what is wrong

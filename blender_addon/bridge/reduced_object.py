@@ -11,7 +11,15 @@ import bpy
 from .. import __version__
 from ..core.settings import Side
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
-from .output_object import SOURCE, VERSION, check_mode, new_object, output_of, replace_mesh, source_of
+from .output_object import (
+    SOURCE,
+    VERSION,
+    check_mode,
+    new_object,
+    output_of,
+    replace_mesh,
+    source_of,
+)
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
@@ -31,9 +39,7 @@ def reduced_of(source: bpy.types.Object) -> bpy.types.Object | None:
     return output_of(source, is_reduced)
 
 
-def write_reduced(
-    result: bpy.types.Object, axis: MedialAxis, vertices: int
-) -> bpy.types.Object:
+def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> bpy.types.Object:
     """Make the small medial mesh beside a result, or update the one there is; all or nothing.
 
     Parameters

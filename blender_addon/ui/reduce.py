@@ -3,12 +3,12 @@
 
 import bpy
 
+from ..bridge.axis_object import is_result, result_of
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import read_axis
 from ..bridge.read_object import read_object
-from ..bridge.axis_object import is_result, result_of
+from ..bridge.rebuilt_object import in_frame_of, is_rebuilt
 from ..bridge.reduced_object import is_reduced, write_reduced
-from ..bridge.rebuilt_object import is_rebuilt, in_frame_of
 from ..core.axis.reduce import reduce_axis, reduced_difference
 from ..core.errors import MedialAxisError
 from .translation import say

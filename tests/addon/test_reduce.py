@@ -6,7 +6,17 @@ import re
 import bpy
 import numpy as np
 import pytest
-from scene import addon, attribute, compute, contents, ellipsoid, positions, reports, result_of, select
+from scene import (
+    addon,
+    attribute,
+    compute,
+    contents,
+    ellipsoid,
+    positions,
+    reports,
+    result_of,
+    select,
+)
 from test_nodes import evaluated, volume
 
 
@@ -32,7 +42,7 @@ def test_a_small_mesh_with_radii_beside_its_axis(capfd):
     assert len(made.data.vertices) == 40
     assert {len(polygon.vertices) for polygon in made.data.polygons} == {3}
     radius = attribute(made.data, "ma_radius")
-    assert 0 < radius.min() and radius.max() == pytest.approx(0.5, abs=0.01)
+    assert radius.min() > 0 and radius.max() == pytest.approx(0.5, abs=0.01)
     assert np.allclose(made.matrix_world, result_of(source).matrix_world)
 
 
@@ -72,7 +82,9 @@ def test_a_small_mesh_is_not_a_source():
     source = ellipsoid()
     compute(side="INNER")
     select(reduce(source, 20))
-    assert not bpy.ops.object.medial_axis.poll() or pytest.raises(RuntimeError, bpy.ops.object.medial_axis)
+    assert not bpy.ops.object.medial_axis.poll() or pytest.raises(
+        RuntimeError, bpy.ops.object.medial_axis
+    )
 
 
 def test_one_undo_takes_it_away():

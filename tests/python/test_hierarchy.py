@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
 from support import collapse_reference, measure, meshes
+from support.accuracy import BARS
 from support.levels import Levels, betti_of_mesh
 from support.shapes import SHAPES
 
@@ -155,138 +155,7 @@ SOLIDS = {
 # as their samples, there are more: 9 on the torus, 21 on the capsule.
 MOST_ADDED = 3
 MOST_ADDED_TO_FINS = {("torus", 20_000): 14, ("capsule", 20_000): 32}
-# shape -> n -> distances of the vertices of the clean level to the axis, the other way round: largest
-CURVES = {
-    "torus": {2000: (4.4e-3, 3.3e-3), 8000: (1.1e-3, 8.1e-4)},
-    "knot": {2000: (1.3e-2, 9.8e-3), 8000: (3.0e-3, 1.8e-3)},
-    "capsule": {2000: (3.5e-3, 4.2e-2), 8000: (5.6e-4, 2.3e-2)},
-}
-# n -> how far the slope of the erosion thickness over the distance to the rim may be from 1; how far it may scatter
-SLAB_EROSION = {2000: (3.1e-3, 2.9e-3), 8000: (1.2e-3, 8e-4)}
-NOISE = (0.1, 0.25)  # of the spacing
-
-
-@pytest.mark.parametrize("name", SOLIDS)
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_topology_of_known_solids(sampled, name, seed):
-    _, analysis, hierarchy = sampled(name, 2000, seed)
-    assert hierarchy.betti == SOLIDS[name]
-    assert_levels_hold(hierarchy, analysis)
-
-
-@pytest.mark.parametrize("name", SOLIDS)
-@pytest.mark.parametrize("noise", NOISE)
-def test_topology_of_noisy_solids(sampled, name, noise):
-    """By the normals of the clean surface; thin solids may be torn by the noise, levels are as their complex is."""
-    _, analysis, hierarchy = sampled(name, 2000, 0, noise)
-    assert_levels_hold(hierarchy, analysis)
-
-
-@pytest.mark.parametrize("name", SOLIDS)
-@pytest.mark.parametrize("n", [2000, 8000, pytest.param(20000, marks=pytest.mark.slow)])
-def test_level_zero_is_what_medial_selects_and_bridges(medial, sampled, name, n):
-    _, analysis, hierarchy = sampled(name, n)
-    level = {tuple(g) for g in hierarchy.extract(limb=0.0).generators.tolist()}
-    selected = {tuple(g) for g in analysis.extract(side=medial.Side.INNER).generators.tolist()}
-    assert not selected - level
-    assert len(level - selected) <= MOST_ADDED_TO_FINS.get((name, n), MOST_ADDED)
-
-
-@pytest.mark.parametrize("name", CURVES)
-@pytest.mark.parametrize("n", [2000, 8000])
-def test_tubes_are_curves_on_their_axes(sampled, name, n):
-    shape, _, hierarchy = sampled(name, n)
-    curve = hierarchy.extract(spacings=1.0)
-    assert len(curve.generators) == 0 and len(curve.wires) > 50
-    there, back = CURVES[name][n]
-    assert shape.axis_distance(curve.vertices).max() < there
-    ends = curve.vertices[curve.wires]
-    dense = (
-        ends[:, None, 0] + np.linspace(0, 1, 9)[:, None] * (ends[:, None, 1] - ends[:, None, 0])
-    ).reshape(-1, 3)
-    assert cKDTree(dense).query(shape.axis_points(2000, 1))[0].max() < back
-
-
-def centroids(level):
-    """(f, 3) of the area of each polygon."""
-    sizes = np.diff(level.face_offsets)
-    fans = measure.fan_triangles(level.vertices, level.face_offsets, level.face_vertices)
-    area = np.linalg.norm(np.cross(fans[:, 1] - fans[:, 0], fans[:, 2] - fans[:, 0]), axis=1)
-    of = np.repeat(np.arange(len(sizes)), sizes - 2)
-    moments = fans.mean(axis=1) * area[:, None]
-    total = np.bincount(of, area)
-    return np.column_stack([np.bincount(of, moments[:, k]) / total for k in range(3)])
-
-
-@pytest.mark.parametrize("n", SLAB_EROSION)
-def test_erosion_of_a_slab_is_the_distance_to_its_rim(sampled, n):
-    shape, _, hierarchy = sampled("slab", n)
-    level = hierarchy.extract(limb=0.0)
-    facet = level.facet_of
-    middle = centroids(level)
-    to_rim = np.minimum(shape.width - np.abs(middle[:, 0]), shape.depth - np.abs(middle[:, 1]))
-    thickness = hierarchy.facet_erosion[facet] * hierarchy.diagonal
-    inner = to_rim > 0.1
-    slope, offset = np.polyfit(to_rim[inner], thickness[inner], 1)
-    scatter = np.std(thickness[inner] - slope * to_rim[inner] - offset)
-    most, widest = SLAB_EROSION[n]
-    assert abs(slope - 1) < most
-    assert scatter < widest
-
-
-def test_limb_of_a_capsule_is_half_its_axis(sampled):
-    shape, _, hierarchy = sampled("capsule", 8000)
-    limb = hierarchy.vertex_limb[np.isfinite(hierarchy.vertex_limb)]
-    assert limb.max() * hierarchy.diagonal == pytest.approx(shape.length, rel=0.03)
-
-
-# (noise, shape) -> 99th percentile of the distances of the clean level's area to the axis; of curves the largest
-NOISY = {
-    (0.1, "oblate"): 1.1e-2,
-    (0.1, "slab"): 3.2e-2,
-    (0.1, "box"): 1.1e-2,
-    (0.1, "torus"): 1.2e-2,
-    (0.1, "knot"): 1.8e-2,
-    (0.25, "oblate"): 3.9e-2,
-    (0.25, "slab"): 5.0e-2,
-    (0.25, "box"): 2.3e-2,
-}
-
-
-@pytest.mark.parametrize("noise, name", NOISY)
-def test_clean_levels_of_noisy_solids(sampled, noise, name):
-    shape, _, hierarchy = sampled(name, 8000, 0, noise)
-    clean = hierarchy.extract(spacings=1.0, round_limbs=True, relaxed=True)
-    if len(clean.generators):
-        found = measure.errors(clean, shape).output_p99
-    else:
-        found = shape.axis_distance(clean.vertices).max()
-    assert found < NOISY[noise, name]
-
-
-# shape -> n -> distances of the output to the axis: mean, 99th percentile, largest; the other way round: mean, largest
-SHEETS = {
-    "ellipsoid": {
-        2000: (4.6e-4, 1.8e-3, 4.1e-3, 1.6e-3, 5.4e-2),
-        8000: (1.2e-4, 4.5e-4, 1.6e-3, 5.2e-4, 3.1e-2),
-    },
-    "oblate": {
-        2000: (4.7e-4, 1.8e-3, 5.2e-3, 1.8e-3, 6.2e-2),
-        8000: (1.2e-4, 4.6e-4, 1.5e-3, 5.3e-4, 3.5e-2),
-    },
-    "slab": {
-        2000: (1.5e-3, 5.2e-3, 5.2e-2, 1.4e-3, 7.8e-3),
-        8000: (3.5e-4, 1.3e-3, 1.4e-2, 3.6e-4, 5.4e-3),
-    },
-    "shell": {
-        2000: (9.0e-3, 3.1e-2, 6.4e-2, 7.7e-3, 3.7e-2),
-        8000: (2.3e-3, 7.8e-3, 1.7e-2, 2.2e-3, 1.2e-2),
-    },
-    "box": {
-        2000: (2.6e-3, 1.6e-2, 5.5e-2, 1.2e-2, 1.8e-1),
-        8000: (8.2e-4, 6.0e-3, 2.9e-2, 3.2e-3, 9.9e-2),
-    },
-}
+SHEETS = ("ellipsoid", "oblate", "slab", "shell", "box")
 
 
 @pytest.mark.parametrize("name", SHEETS)
@@ -301,7 +170,7 @@ def test_clean_sheets_are_as_good_as_published_ones(medial, sampled, name, n):
         hierarchy.extract(spacings=1.0, round_limbs=True, relaxed=True), shape
     ).row()
     assert np.all(np.array(exact) < 1.05 * np.array(published))
-    assert np.all(np.array(shown) < SHEETS[name][n])
+    assert np.all(np.array(shown) < BARS[name][n])
 
 
 # --- what is a point or a line

@@ -23,7 +23,10 @@ def betti(vertices, triangles, edges):
     """Components, tunnels and cavities over the field of two elements, by elimination of columns."""
     number = {}
     sides = [
-        {number.setdefault(tuple(sorted(pair)), len(number)) for pair in itertools.combinations(t, 2)}
+        {
+            number.setdefault(tuple(sorted(pair)), len(number))
+            for pair in itertools.combinations(t, 2)
+        }
         for t in triangles.tolist()
     ]
     for pair in edges.tolist():
@@ -313,8 +316,10 @@ def test_broken_ma(tmp_path, text, match):
 
 def test_comments_and_wires_of_other_tools(tmp_path):
     path = tmp_path / "other.ma"
-    path.write_text("# made by hand\n4 4 1\nv 0 0 0 1\nv 1 0 0 1\n\nv 0 1 0 1\nv 5 5 5 .5\n"
-                    "e 1 0\ne 1 2\ne 2 0\ne 3 2\nf 0 1 2\n")
+    path.write_text(
+        "# made by hand\n4 4 1\nv 0 0 0 1\nv 1 0 0 1\n\nv 0 1 0 1\nv 5 5 5 .5\n"
+        "e 1 0\ne 1 2\ne 2 0\ne 3 2\nf 0 1 2\n"
+    )
     axis = read_ma(path)
     assert axis.face_vertices.tolist() == [0, 1, 2] and axis.edges.tolist() == [[2, 3]]
     assert axis.radius.tolist() == [1, 1, 1, 0.5]

@@ -77,9 +77,7 @@ def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = Non
     return _as_axis(SphereMesh(*found))
 
 
-def reduced(
-    found: Computation, vertices: int, progress: Progress | None = None
-) -> Computation:
+def reduced(found: Computation, vertices: int, progress: Progress | None = None) -> Computation:
     """A computation with its axis reduced."""
     return replace(found, axis=reduce_axis(found.axis, vertices, progress))
 

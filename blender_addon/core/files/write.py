@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import MedialAxis
 from ..errors import ExportError
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
-from ..axis.facet_triangles import triangulate_facets
+from .extensions import extension_of
 from .rows_of_text import write_rows as _write_rows
 from .whole_file import write_whole
 
@@ -97,19 +98,7 @@ def left_out(axis: MedialAxis, path: str | os.PathLike, triangles: bool) -> str:
 
 def format_of(path: str | os.PathLike) -> Format:
     """The format that the extension of `path` names."""
-    suffix = Path(path).suffix.lower()
-    if suffix not in FORMATS:
-        raise ExportError(
-            f"Expected a file name that ends in {known_extensions()}, found '{Path(path).name}'; "
-            "add one of these extensions"
-        )
-    return FORMATS[suffix]
-
-
-def known_extensions() -> str:
-    """'.ma, .ply, ... or .npz', for messages."""
-    *first, last = FORMATS
-    return f"{', '.join(first)} or {last}"
+    return FORMATS[extension_of(path, FORMATS)]
 
 
 # --- placing

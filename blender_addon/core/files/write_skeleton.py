@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
-from ..errors import ExportError
 from ..skeleton.skeleton import Skeleton
+from .extensions import extension_of
 from .whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -47,13 +47,7 @@ def export_skeleton(skeleton: Skeleton, parts: Parts, path: str | os.PathLike) -
 
 def skeleton_format(path: str | os.PathLike) -> Callable[[Skeleton, Parts, BinaryIO], None]:
     """What writes the format that the extension of `path` names."""
-    suffix = Path(path).suffix.lower()
-    if suffix not in SKELETON_FORMATS:
-        raise ExportError(
-            f"Expected a file name that ends in .swc, .obj or .json, found '{Path(path).name}'; "
-            "add one of these extensions"
-        )
-    return SKELETON_FORMATS[suffix]
+    return SKELETON_FORMATS[extension_of(path, SKELETON_FORMATS)]
 
 
 def _write_swc(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:

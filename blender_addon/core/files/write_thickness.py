@@ -20,7 +20,7 @@ from ..axis.colours import colours
 from ..axis.thickness import Measurement
 from ..axis.thickness_colours import colour_limits, coloured
 from ..axis.thin_parts import ThinParts
-from ..errors import ExportError
+from .extensions import extension_of
 from .whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -53,24 +53,8 @@ def export_thickness(
     ExportError
         Unknown extension, or the system refused to write; an old file is then unchanged.
     """
-    write = THICKNESS_FORMATS[thickness_suffix(path)]
+    write = THICKNESS_FORMATS[extension_of(path, THICKNESS_FORMATS)]
     return write_whole(path, lambda stream: write(found, parts, unit, stream))
-
-
-def thickness_suffix(path: str | os.PathLike) -> str:
-    """The extension of `path`, one of those that thickness is written as.
-
-    Raises
-    ------
-    ExportError
-    """
-    suffix = Path(path).suffix.lower()
-    if suffix not in THICKNESS_FORMATS:
-        raise ExportError(
-            f"Expected a file name that ends in .csv, .json or .ply, found '{Path(path).name}'; "
-            "add one of these extensions"
-        )
-    return suffix
 
 
 def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str, Any]:

@@ -78,8 +78,9 @@ NearestOfEnvelope Envelope::nearest_in(int32_t part, const Vec3& query) const {
   return nearest_ball({spheres.data(), count}, query);
 }
 
-Envelope::Found Envelope::find(const Vec3& query) const {
+Envelope::Found Envelope::find(const Vec3& query, int32_t near) const {
   Found best;
+  if (near >= 0) best = {nearest_in(near, query), near};
   search(0, query, best);
   return best;
 }
@@ -100,7 +101,8 @@ void Envelope::search(int32_t id, const Vec3& query, Found& best) const {
   if (node.right < 0) {
     for (int32_t i = node.begin; i < node.end; ++i) {
       const NearestOfEnvelope found = nearest_in(i, query);
-      if (found.distance < best.nearest.distance) best = {found, i};
+      const bool first = found.distance == best.nearest.distance && i < best.part;
+      if (found.distance < best.nearest.distance || first) best = {found, i};
     }
     return;
   }

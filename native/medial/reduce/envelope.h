@@ -28,7 +28,8 @@ class Envelope {
     NearestOfEnvelope nearest;
     int32_t part = -1;
   };
-  Found find(const Vec3& query) const;
+  // `near` is a part that is probably among the nearest, which makes it quicker; -1: not known.
+  Found find(const Vec3& query, int32_t near = -1) const;
 
   // Whether a ball of a part holds the query more than `depth` deep.
   bool covers(const Vec3& query, double depth) const;

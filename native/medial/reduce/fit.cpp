@@ -13,23 +13,17 @@ namespace {
 
 constexpr int kSteps = 12;
 constexpr int kHalvings = 3;
-constexpr int kSolverSteps = 60;
+constexpr int kSolverSteps = 100;
 constexpr double kDamping = 1e-3;
 constexpr double kExact = 1e-9;  // of the extent: nearer than this nothing needs to come
 
 using Step = std::vector<std::array<double, 4>>;  // per sphere: of the centre, and of the radius
 
-struct Residual {
-  Envelope::Found found;
-  Vec3 away;  // from the nearest ball's centre, of length one
-};
-
-// One row of the linear system.
-struct Row {
-  std::array<int32_t, 3> of{};
-  std::array<double, 3> shares{};
-  std::array<double, 4> slope{};  // of minus the distance, by the ball
-  double weight = 0, distance = 0;
+// What the places nearest to one part ask of its spheres: the matrix and the right-hand side of a
+// linear system.
+struct Demand {
+  std::array<std::array<double, 12>, 12> matrix{};
+  std::array<double, 12> right{};
 };
 
 double dot4(const std::array<double, 4>& a, const std::array<double, 4>& b) {
@@ -54,7 +48,7 @@ class Fitter {
     for (int i = 0; i < kSteps; ++i) {
       advance(run_.progress, static_cast<double>(i) / kSteps);
       const double before = now;
-      now = improve(solve(rows()), now);
+      now = improve(solve(demands()), now);
       moved |= now < before;
       if (!(now < 0.999 * before)) break;
     }
@@ -67,7 +61,7 @@ class Fitter {
     envelope_.refit();
     parallel_for(
         static_cast<int64_t>(places_.size()), {run_.threads},
-        [&](int64_t i) { found_[i] = envelope_.find(places_[i].point); }, 256);
+        [&](int64_t i) { found_[i] = envelope_.find(places_[i].point, found_[i].part); }, 256);
     double sum = 0;
     largest_ = square_ = weight_ = 0;
     for (size_t i = 0; i < places_.size(); ++i) {
@@ -80,10 +74,10 @@ class Fitter {
     return sum;
   }
 
-  std::vector<Row> rows() const {
+  std::vector<Demand> demands() const {
     const double mean = square_ / weight_;
-    std::vector<Row> rows(places_.size());
-    parallel_for(static_cast<int64_t>(places_.size()), {run_.threads}, [&](int64_t i) {
+    std::vector<Demand> result(envelope_.parts().size());
+    for (size_t i = 0; i < places_.size(); ++i) {
       const auto& [nearest, part] = found_[i];
       const Part& of = envelope_.parts()[part];
       Vec3 centre;
@@ -91,52 +85,60 @@ class Fitter {
         if (of[k] >= 0) centre = centre + nearest.shares[k] * mesh_.vertices[of[k]];
       }
       const Vec3 away = normalized(places_[i].point - centre);
-      const double d = nearest.distance;
-      rows[i] = {of,
-                 nearest.shares,
-                 {away.x, away.y, away.z, 1},
-                 places_[i].area * (0.25 * mean + d * d),
-                 d};
-    });
-    return rows;
-  }
-
-  Step solve(const std::vector<Row>& rows) const {
-    const size_t n = mesh_.vertices.size();
-    Step right(n), weight(n);
-    for (const Row& row : rows) {
-      for (int k = 0; k < 3; ++k) {
-        if (row.of[k] < 0) continue;
-        for (int c = 0; c < 4; ++c) {
-          const double slope = row.shares[k] * row.slope[c];
-          right[row.of[k]][c] += row.weight * slope * row.distance;
-          weight[row.of[k]][3] += row.weight * slope * slope;
-        }
+      const std::array<double, 4> slope{away.x, away.y, away.z, 1};  // of minus the distance
+      const double d = nearest.distance, weight = places_[i].area * (mean / 4 + d * d);
+      std::array<double, 12> row;
+      for (int k = 0; k < 12; ++k) row[k] = nearest.shares[k / 4] * slope[k % 4];
+      Demand& demand = result[part];
+      for (int k = 0; k < 12; ++k) {
+        demand.right[k] += weight * d * row[k];
+        for (int l = 0; l < 12; ++l) demand.matrix[k][l] += weight * row[k] * row[l];
       }
     }
+    return result;
+  }
+
+  // Of the demands of all parts together, damped where they ask little.
+  Step solve(const std::vector<Demand>& demands) const {
+    const auto parts = envelope_.parts();
+    const size_t n = mesh_.vertices.size();
+    Step right(n);
+    std::vector<double> weight(n, 0);
     double whole = 0;
-    for (const auto& w : weight) whole += w[3];
+    for (size_t p = 0; p < parts.size(); ++p) {
+      for (int k = 0; k < 12; ++k) {
+        const int32_t v = parts[p][k / 4];
+        if (v < 0) continue;
+        right[v][k % 4] += demands[p].right[k];
+        weight[v] += demands[p].matrix[k][k];
+        whole += demands[p].matrix[k][k];
+      }
+    }
     const double floor = 1e-6 * whole / static_cast<double>(n);
     const auto apply = [&](const Step& x) {
       Step y(n);
-      for (size_t i = 0; i < n; ++i) {
-        for (int c = 0; c < 4; ++c) y[i][c] = (kDamping * weight[i][3] + floor) * x[i][c];
+      for (size_t v = 0; v < n; ++v) {
+        for (int c = 0; c < 4; ++c) y[v][c] = (kDamping * weight[v] + floor) * x[v][c];
       }
-      for (const Row& row : rows) {
-        double sum = 0;
-        for (int k = 0; k < 3; ++k) {
-          if (row.of[k] >= 0) sum += row.shares[k] * dot4(row.slope, x[row.of[k]]);
-        }
-        for (int k = 0; k < 3; ++k) {
-          if (row.of[k] < 0) continue;
-          for (int c = 0; c < 4; ++c) {
-            y[row.of[k]][c] += row.weight * sum * row.shares[k] * row.slope[c];
+      for (size_t p = 0; p < parts.size(); ++p) {
+        for (int k = 0; k < 12; ++k) {
+          if (parts[p][k / 4] < 0) continue;
+          double sum = 0;
+          for (int l = 0; l < 12; ++l) {
+            const int32_t v = parts[p][l / 4];
+            if (v >= 0) sum += demands[p].matrix[k][l] * x[v][l % 4];
           }
+          y[parts[p][k / 4]][k % 4] += sum;
         }
       }
       return y;
     };
-    // Conjugate gradients.
+    return conjugate_gradients(apply, right);
+  }
+
+  template <typename Apply>
+  Step conjugate_gradients(const Apply& apply, const Step& right) const {
+    const size_t n = right.size();
     Step x(n), rest = right, direction = rest;
     double squared = dot_all(rest, rest);
     const double enough = 1e-8 * squared;

@@ -26,8 +26,7 @@ std::vector<TangentPlace> uncovered(const SphereMesh& mesh, const std::vector<Ta
   return parallel_append<TangentPlace>(
       static_cast<int64_t>(places.size()), run,
       [&](int64_t i, auto& out, int) {
-        const bool slab = places[i].of[2] >= 0;  // an exact axis covers none of its slabs
-        if (slab || !envelope.covers(places[i].point, kCovered)) out.push_back(places[i]);
+        if (!envelope.covers(places[i].point, kCovered)) out.push_back(places[i]);
       },
       256);
 }
