@@ -228,7 +228,7 @@ def write(
 
 
 def read_axis(path: str | os.PathLike[str]) -> MedialAxis:
-    """A medial axis that `write` wrote as .npz, bit for bit; or a `.ma` file of any tool, as balls, triangles and edges.
+    """A medial axis that `write` wrote as .npz, bit for bit; or balls, triangles and edges of any tool's .ma.
 
     Raises
     ------

@@ -78,24 +78,26 @@ def test_it_is_exported(tmp_path):
     assert np.allclose(read.vertices, positions(made.data), atol=1e-6)
 
 
-def test_a_small_mesh_is_not_a_source():
+def test_computing_from_it_computes_its_source():
     source = ellipsoid()
     compute(side="INNER")
     select(reduce(source, 20))
-    assert not bpy.ops.object.medial_axis.poll() or pytest.raises(
-        RuntimeError, bpy.ops.object.medial_axis
-    )
+    before = contents()
+    compute(side="INNER")
+    assert contents() == before
 
 
 def test_one_undo_takes_it_away():
+    bpy.context.preferences.edit.use_global_undo = True
     source = ellipsoid()
     compute(side="INNER")
-    name = source.name
-    bpy.ops.ed.undo_push(message="before")
-    made = reduce(source, 20).name
-    bpy.ops.ed.undo_push(message="reduced")
+    name, before = source.name, len(bpy.data.objects)
+    bpy.ops.ed.undo_push(message="Axis is computed")
+    select(bpy.data.objects[name])
+    assert bpy.ops.object.medial_axis_reduce("EXEC_DEFAULT", True, vertices=20) == {"FINISHED"}
+    assert len(bpy.data.objects) == before + 1
     bpy.ops.ed.undo()
-    assert made not in bpy.data.objects and name in bpy.data.objects
+    assert len(bpy.data.objects) == before and name in bpy.data.objects
 
 
 def test_without_an_axis_it_says_so():

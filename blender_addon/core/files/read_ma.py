@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -81,20 +82,24 @@ def _counts(header: tuple[int, list[bytes]], name: str) -> list[int]:
 
 def _table(lines: list[tuple[int, list[bytes]]], kind: bytes, name: str) -> NDArray[np.float64]:
     width = _WIDTHS[kind]
-    wrong = next((i for i, w in lines if len(w) <= width or w[0] != kind), None)
-    try:
-        if wrong is not None:
-            raise ValueError
-        values = np.array([[float(word) for word in w[1 : width + 1]] for _, w in lines])
-        if not np.isfinite(values).all():
-            raise ValueError
-    except ValueError:
-        place = f"line {wrong} of" if wrong else "lines of"
+    rows = [_row(words, kind, width) for _, words in lines]
+    if None in rows:
         raise ReadError(
-            f"Expected '{kind.decode()}' and {width} finite numbers in {place} '{name}', found "
-            "something else; take the file from its source again"
-        ) from None
-    return values.reshape(-1, width)
+            f"Expected '{kind.decode()}' and {width} finite numbers in line "
+            f"{lines[rows.index(None)][0]} of '{name}', found something else; take the file from its source again"
+        )
+    return np.array(rows, np.float64).reshape(-1, width)
+
+
+def _row(words: list[bytes], kind: bytes, width: int) -> list[float] | None:
+    """The numbers of a line; None where it is not what it should be."""
+    if len(words) <= width or words[0] != kind:
+        return None
+    try:
+        row = [float(word) for word in words[1 : width + 1]]
+    except ValueError:
+        return None
+    return row if all(map(math.isfinite, row)) else None
 
 
 def _ids(rows: NDArray[np.float64], vertices: int, name: str) -> NDArray[np.int32]:
