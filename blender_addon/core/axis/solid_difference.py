@@ -100,7 +100,7 @@ def difference_of_points(
         raise InvalidInputError("Expected a surface with faces, found one without")
     used = shape.points[np.unique(shape.triangles)]
     queries = np.concatenate([_samples(shape), used])
-    there = signed(queries)
+    there = np.array(signed(queries))
     inside = there < 0
     with own_errors() as module:
         nearest = np.asarray(module.nearest(points, queries[inside]))
