@@ -31,6 +31,7 @@ class SidesFrom(Enum):
     SURFACE = "SURFACE"
     NORMALS = "NORMALS"
     TIGHT_COCONE = "TIGHT_COCONE"
+    POLES = "POLES"
 
 
 class SamplingMode(Enum):
@@ -217,7 +218,8 @@ OPTIONS: dict[str, Any] = {
             SidesFrom.AUTOMATIC: (
                 "Automatic",
                 "The faces when they close a volume; else the normals of the points when they "
-                "have an attribute of that name; else Tight Cocone",
+                "have an attribute of that name; else Tight Cocone, or Poles where many of these "
+                "contradict it",
             ),
             SidesFrom.SURFACE: (
                 "Surface",
@@ -231,6 +233,11 @@ OPTIONS: dict[str, Any] = {
             SidesFrom.TIGHT_COCONE: (
                 "Tight Cocone",
                 "A watertight surface that is found through the points alone; faces are ignored",
+            ),
+            SidesFrom.POLES: (
+                "Poles",
+                "Balls inside and outside, labelled from the points alone: keeps cavities and thin "
+                "walls, which Tight Cocone fills; faces are ignored",
             ),
         },
     ),

@@ -6,6 +6,7 @@
 #include "axis/medial_mesh.h"
 #include "axis/thickness.h"
 #include "cocone/watertight_surface.h"
+#include "cocone/labelled_poles.h"
 #include "skeleton/hierarchy.h"
 
 namespace medial {
@@ -88,8 +89,58 @@ std::vector<int32_t> samples_of(std::span<const int32_t> rows, const Samples& sa
   return ids;
 }
 
+bool needs_poles(SidesFrom from) {
+  return from == SidesFrom::tight_cocone || from == SidesFrom::poles;
+}
+
+void take_tight_cocone(Parts& made, TightCocone found, const Csr<int32_t>& incident,
+                       const Run& run) {
+  SolidBoundary boundary = solid_boundary(made.triangulation, incident, found.sides, run);
+  made.sides = sides_in_solid(made.samples.points, found.sides, boundary.triangles,
+                              made.triangulation, made.voronoi, run);
+  found.sides = {};
+  made.tight_cocone = std::make_shared<WatertightSurface>(
+      describe(std::move(found), std::move(boundary), made.samples, run));
+}
+
+void take_labels(Parts& made, const LabelledPoles& labelled, const Run& run) {
+  made.sides = sides_from_normals(made.samples.points, labelled.normals, made.triangulation,
+                                  made.voronoi, run);
+  made.sides_from = SidesFrom::poles;
+  made.tight_cocone.reset();
+}
+
+// A larger share of samples whose poles lie elsewhere by Tight Cocone tells of walls that it does
+// not see, such as those of cavities; noise, outliers and sharp edges stay below.
+constexpr double kDisagreement = 0.05;
+
+// By the samples alone: Tight Cocone, or labels of the poles. Automatic takes these where many
+// disagree with Tight Cocone.
+void tell_sides_of_poles(Parts& made, const Csr<int32_t>& incident, bool automatic,
+                         const CoconeOptions& options, const Run& run) {
+  const std::vector<Vec3>& points = made.samples.points;
+  const Poles p = poles(points, made.triangulation, made.voronoi, incident, run);
+  const auto labelled = [&](std::span<const uint8_t> flat) {
+    return labelled_poles(points, made.triangulation, made.voronoi, incident, made.edges, p, flat,
+                          run);
+  };
+  if (made.sides_from == SidesFrom::poles) {
+    const Cocone found =
+        cocone(points, made.triangulation, made.voronoi, incident, p, options, run);
+    return take_labels(made, labelled(found.flat), run);
+  }
+  TightCocone found =
+      tight_cocone(points, made.triangulation, made.voronoi, incident, p, options, run);
+  const std::vector<uint8_t> flat = found.flat;
+  take_tight_cocone(made, std::move(found), incident, run);
+  if (!automatic) return;
+  const LabelledPoles labels = labelled(flat);
+  made.pole_disagreement = disagreement(labels, made.sides);
+  if (*made.pole_disagreement > kDisagreement) take_labels(made, labels, run);
+}
+
 void tell_sides(Parts& made, const Surface& surface, std::span<const Vec3> vertices,
-                std::span<const Vec3> normals, const Csr<int32_t>& incident,
+                std::span<const Vec3> normals, const Csr<int32_t>& incident, bool automatic,
                 const CoconeOptions& options, const Run& run) {
   const std::vector<Vec3>& points = made.samples.points;
   if (made.sides_from == SidesFrom::surface) {
@@ -98,16 +149,8 @@ void tell_sides(Parts& made, const Surface& surface, std::span<const Vec3> verti
   } else if (made.sides_from == SidesFrom::normals) {
     made.sides = sides_from_normals(points, unit_normals(normals, made.samples), made.triangulation,
                                     made.voronoi, run);
-  } else if (made.sides_from == SidesFrom::tight_cocone) {
-    const Poles p = poles(points, made.triangulation, made.voronoi, incident, run);
-    TightCocone found =
-        medial::tight_cocone(points, made.triangulation, made.voronoi, incident, p, options, run);
-    SolidBoundary boundary = solid_boundary(made.triangulation, incident, found.sides, run);
-    made.sides = sides_in_solid(points, found.sides, boundary.triangles, made.triangulation,
-                                made.voronoi, run);
-    found.sides = {};
-    made.tight_cocone = std::make_shared<WatertightSurface>(
-        describe(std::move(found), std::move(boundary), made.samples, run));
+  } else if (needs_poles(made.sides_from)) {
+    tell_sides_of_poles(made, incident, automatic, options, run);
   }
 }
 
@@ -189,12 +232,12 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
   {
     const Umbrellas u = umbrellas(points, made.triangulation, made.voronoi, incident, run);
     watch.lap("umbrellas");
-    if (made.sides_from != SidesFrom::tight_cocone) incident = {};
+    if (!needs_poles(made.sides_from)) incident = {};
     made.significance = medial::significance(points, made.edges, u, run);
     watch.lap("significance");
   }
   tell_sides(made, surface, corners.points, input.normals.value_or(std::span<const Vec3>()),
-             incident, options.cocone, run);
+             incident, options.sides == SidesFrom::automatic, options.cocone, run);
   watch.lap("sides");
   begin_stage(progress, "Inside and outside", 0.99, 1);
   advance(progress, 1);
@@ -378,6 +421,9 @@ int64_t MedialAnalysis::finite_cells() const { return parts_->triangulation.fini
 bool MedialAnalysis::closed() const { return parts_->closed; }
 int64_t MedialAnalysis::boundary_edges() const { return parts_->boundary_edges; }
 SidesFrom MedialAnalysis::sides_from() const { return parts_->sides_from; }
+std::optional<double> MedialAnalysis::pole_disagreement() const {
+  return parts_->pole_disagreement;
+}
 const std::shared_ptr<const WatertightSurface>& MedialAnalysis::tight_cocone() const {
   return parts_->tight_cocone;
 }

@@ -26,6 +26,7 @@ struct MedialAnalysis::Parts {
   Significance significance;
   CellSides sides;
   SidesFrom sides_from = SidesFrom::none;
+  std::optional<double> pole_disagreement;
   std::shared_ptr<const WatertightSurface> tight_cocone;
   int64_t duplicates = 0, boundary_edges = 0;
   bool closed = false;

@@ -35,11 +35,14 @@ class Side:
 class SidesFrom:
     """What tells inside from outside, for `MedialAnalysis`."""
 
-    AUTOMATIC: SidesFrom  # 0: SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE
+    AUTOMATIC: SidesFrom  # 0: SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE; or POLES
+    # where its `pole_disagreement` is above 0.05
     SURFACE: SidesFrom  # 1: the winding number of the triangles
     NORMALS: SidesFrom  # 2: a vote of outward normals of the samples nearest to a Voronoi vertex
     TIGHT_COCONE: SidesFrom  # 3: the watertight surface of `TightCocone`; needs the points only
     NONE: SidesFrom  # 4: nothing; every facet has side BOTH
+    POLES: SidesFrom  # 5: labels that go from pole to pole, and a vote of the samples by those of their own; needs the
+    # points only, and keeps cavities
 
 class Rule:
     """Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3)."""
@@ -465,7 +468,7 @@ class MedialAnalysis:
     sides : SidesFrom
         What tells inside from outside; default AUTOMATIC.
     cocone : CoconeOptions, optional
-        For TIGHT_COCONE.
+        For TIGHT_COCONE and POLES.
     bounding_sphere : bool
         Add 200 points at twice the radius (Dey & Zhao, sect. 4.2). It bounds the outer axis and removes
         its far junk; only edges between true samples are analysed and selected.
@@ -518,6 +521,10 @@ class MedialAnalysis:
     @property
     def sides_from(self) -> SidesFrom:
         """What told inside from outside; never AUTOMATIC."""
+    @property
+    def pole_disagreement(self) -> float | None:
+        """float: of the samples whose labelled poles lie on two sides, the share for which Tight Cocone says otherwise;
+        None unless AUTOMATIC had to choose between the two."""
     @property
     def tight_cocone(self) -> TightCocone | None:
         """The surface that told inside from outside; None unless `sides_from` is TIGHT_COCONE. Its `cell_side` is

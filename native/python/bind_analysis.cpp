@@ -37,7 +37,7 @@ constexpr const char* kAnalysisDoc =
     "normals : (n, 3) float64, optional\n    Outward normals of the samples, of any length; a zero "
     "normal has no vote.\n"
     "sides : SidesFrom\n    What tells inside from outside; default AUTOMATIC.\n"
-    "cocone : CoconeOptions, optional\n    For TIGHT_COCONE.\n"
+    "cocone : CoconeOptions, optional\n    For TIGHT_COCONE and POLES.\n"
     "bounding_sphere : bool\n    Add 200 points at twice the radius (Dey & Zhao, sect. 4.2); only "
     "edges between true\n"
     "    samples are analysed and selected.\n"
@@ -164,14 +164,19 @@ void bind_enums(py::module_& m) {
       .value("CROSSING", Side::crossing, "Some are; only as a value.");
   py::enum_<SidesFrom>(m, "SidesFrom", py::module_local(),
                        "What tells inside from outside, for `MedialAnalysis`.")
-      .value("AUTOMATIC", SidesFrom::automatic,
-             "SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE.")
+      .value(
+          "AUTOMATIC", SidesFrom::automatic,
+          "SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE; or "
+          "POLES where its `pole_disagreement` is above 0.05.")
       .value("SURFACE", SidesFrom::surface, "The winding number of the triangles.")
       .value("NORMALS", SidesFrom::normals,
              "A vote of the outward normals of the samples nearest to each Voronoi vertex.")
       .value("TIGHT_COCONE", SidesFrom::tight_cocone,
              "The watertight surface of `TightCocone`; needs the points only.")
-      .value("NONE", SidesFrom::none, "Nothing; every facet has side BOTH.");
+      .value("NONE", SidesFrom::none, "Nothing; every facet has side BOTH.")
+      .value("POLES", SidesFrom::poles,
+             "Labels that go from pole to pole, and a vote of the samples by those of their own; "
+             "needs the points only, and keeps cavities.");
   py::enum_<Rule>(m, "Rule", py::module_local(),
                   "Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3).")
       .value("EITHER", Rule::either, "p or q, the paper's text.")
@@ -281,6 +286,10 @@ void bind_analysis(py::module_& m) {
           "`SidesFrom.NONE`.")
       .def_property_readonly("sides_from", &MedialAnalysis::sides_from,
                              "What told inside from outside; never AUTOMATIC.")
+      .def_property_readonly("pole_disagreement", &MedialAnalysis::pole_disagreement,
+                             "float: of the samples whose labelled poles lie on two sides, the "
+                             "share for which Tight Cocone says\notherwise; None unless AUTOMATIC "
+                             "had to choose between the two.")
       .def_property_readonly(
           "tight_cocone",
           [](const MedialAnalysis& a) {

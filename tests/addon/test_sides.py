@@ -2,6 +2,7 @@
 """What tells inside from outside: which source is used, why, what is said of it, what is refused."""
 
 import collections
+import re
 
 import bpy
 import numpy as np
@@ -94,7 +95,7 @@ def test_automatic_says_which_and_why(make, sides, sentence, capfd):
     np.testing.assert_array_equal(facets(result), expected.generators)
 
 
-@pytest.mark.parametrize("sides", ["SURFACE", "NORMALS", "TIGHT_COCONE"])
+@pytest.mark.parametrize("sides", ["SURFACE", "NORMALS", "TIGHT_COCONE", "POLES"])
 def test_chosen_source_is_used_although_all_are_there(sides):
     source = ellipsoid()
     normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
@@ -108,7 +109,7 @@ def test_chosen_source_is_used_although_all_are_there(sides):
 
 def test_all_sources_agree_on_a_clean_shape():
     axes = []
-    for sides in ("SURFACE", "NORMALS", "TIGHT_COCONE"):
+    for sides in ("SURFACE", "NORMALS", "TIGHT_COCONE", "POLES"):
         source = ellipsoid(sides, segments=4)
         normals = positions(source.data) / np.square([1.0, 0.7, 0.5])
         addon("bridge.attributes").add_normals(source.data.attributes, normals)
@@ -241,10 +242,28 @@ def test_noise_is_noticed(capfd):
 
 
 def test_closed_cavity_is_noticed():
-    points, _ = on_ellipsoid(6000)
-    source = scan(points=np.concatenate([points, 0.4 * points[::4]]))
-    compute()
+    source = hollow_scan()
+    compute(sides="TIGHT_COCONE")
     assert "closed cavities, which Tight Cocone fills" in result_of(source)["ma_warnings"]
+
+
+def test_automatic_keeps_a_closed_cavity():
+    """Points alone: their poles contradict Tight Cocone, and are believed."""
+    source = hollow_scan()
+    compute()
+    result = result_of(source)
+    assert result["ma_sides"] == "POLES" and "cavities" not in result["ma_warnings"]
+    begun = "Inside from Poles: the points have no faces and no normals, and the poles of "
+    assert re.fullmatch(
+        re.escape(begun) + r"\d\d% of the points contradict Tight Cocone", result["ma_inside"]
+    )
+    middle = np.linalg.norm(positions(result.data) / [1.0, 0.7, 0.5], axis=1)
+    assert middle.min() > 0.6 and middle.max() < 0.8  # between the walls, none in the cavity
+
+
+def hollow_scan():
+    points, _ = on_ellipsoid(6000)
+    return scan(points=np.concatenate([points, 0.4 * points[::4]]))
 
 
 def test_closed_openings_are_noticed(capfd):
@@ -270,7 +289,7 @@ def test_faces_do_not_matter_to_tight_cocone():
     compute(sides="TIGHT_COCONE")
     before = analyses()
     bare = scan("Bare", positions(source.data))
-    compute()
+    compute(sides="TIGHT_COCONE")
     assert analyses() == before, "the same points are the same analysis"
     np.testing.assert_array_equal(facets(result_of(bare)), facets(result_of(source)))
 

@@ -391,6 +391,27 @@ MUTATIONS = (
         "candidates have to please corners that are not flat",
     ),
     Mutation(
+        "cocone/labelled_poles.cpp",
+        "std::abs(inner - outer) - 1",
+        "std::abs(inner - outer) + 1",
+        "poles that both sides claim are labelled first",
+        python=("test_pole_sides.py",),
+    ),
+    Mutation(
+        "cocone/labelled_poles.cpp",
+        "constexpr double kDeep = 0.5;",
+        "constexpr double kDeep = -0.9;",
+        "balls that hardly touch lie on one side",
+        python=("test_pole_sides.py",),
+    ),
+    Mutation(
+        "cocone/labelled_poles.cpp",
+        "(label_[node] == Label::inner) == (link.weight > 0)",
+        "(label_[node] == Label::inner)",
+        "opposite poles get the same label",
+        python=("test_pole_sides.py",),
+    ),
+    Mutation(
         "cocone/manifold.cpp",
         "  prune(s, candidates, umbrellas.triangles, cocone.flat, run);\n",
         "",

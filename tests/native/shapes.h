@@ -33,6 +33,9 @@ inline std::vector<Vec3> ellipsoid(int count, uint32_t seed) {
   return points;
 }
 
+// 0 in the middle of that ellipsoid, 1 on it.
+inline double height_in_ellipsoid(const Vec3& x) { return length({x.x, x.y / 0.75, x.z / 0.4}); }
+
 // The surface points of a cubic grid of `cells` cells per edge.
 inline std::vector<Vec3> grid_cube(int cells) {
   std::vector<Vec3> points;

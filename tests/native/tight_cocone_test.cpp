@@ -121,5 +121,26 @@ TEST(TightCocone, AnEmptySolidIsAnErrorOnlyWhereItIsAskedFor) {
   EXPECT_NO_THROW(analysis.extract({}));
 }
 
+TEST(LabelledPoles, KeepACavityThatTightCoconeFills) {
+  auto points = test::ellipsoid(6000, 4);
+  for (const Vec3& p : test::ellipsoid(2000, 5)) points.push_back(0.5 * p);
+  const MedialAnalysis analysis({points}, {.threads = 2});
+  EXPECT_EQ(analysis.sides_from(), SidesFrom::poles);
+  EXPECT_EQ(analysis.tight_cocone(), nullptr);
+  EXPECT_GT(analysis.pole_disagreement().value(), 0.1);
+  const MedialMesh axis = analysis.extract({.side = Side::inner});
+  EXPECT_GT(axis.generators.size(), 5000u);
+  const MedialAnalysis solid({points}, {.sides = SidesFrom::tight_cocone, .threads = 2});
+  EXPECT_FALSE(solid.pole_disagreement().has_value());
+  // How far outward, from the middle to the outer wall.
+  const auto least_height = [](const MedialMesh& mesh) {
+    double least = HUGE_VAL;
+    for (const Vec3& v : mesh.vertices) least = std::min(least, test::height_in_ellipsoid(v));
+    return least;
+  };
+  EXPECT_GT(least_height(axis), 0.5);
+  EXPECT_LT(least_height(solid.extract({.side = Side::inner})), 0.4);
+}
+
 }  // namespace
 }  // namespace medial

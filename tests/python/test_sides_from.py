@@ -53,7 +53,7 @@ def test_automatic(medial, triangles, normals, chosen):
     assert (found.side == int(medial.Side.INNER)).sum() > 500
 
 
-@pytest.mark.parametrize("chosen", ["SURFACE", "NORMALS", "TIGHT_COCONE", "NONE"])
+@pytest.mark.parametrize("chosen", ["SURFACE", "NORMALS", "TIGHT_COCONE", "POLES", "NONE"])
 def test_what_is_asked_for_is_used(medial, chosen):
     """Also with everything given; and the faces are looked at all the same."""
     analysis = analysis_of(medial, *OPEN, chosen, normals=OUTWARD)
@@ -66,9 +66,9 @@ def test_what_is_asked_for_is_used(medial, chosen):
 def test_sources_agree_on_a_ball(medial):
     inner = {
         name: inner_edges(medial, analysis_of(medial, *CLOSED, name, normals=OUTWARD))
-        for name in ("SURFACE", "NORMALS", "TIGHT_COCONE")
+        for name in ("SURFACE", "NORMALS", "TIGHT_COCONE", "POLES")
     }
-    for name in ("NORMALS", "TIGHT_COCONE"):
+    for name in ("NORMALS", "TIGHT_COCONE", "POLES"):
         assert len(inner[name] ^ inner["SURFACE"]) < 0.01 * len(inner["SURFACE"]), name
 
 

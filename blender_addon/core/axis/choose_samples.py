@@ -21,7 +21,7 @@ from .analysis import (
 from .check_faces import check_faces, check_not_flat
 from .density import LOOKED_AT, estimate, percent
 from .sample_spacing import first_amount, first_count, first_spacing, next_amount
-from .sides import Sides, resolve_sides, resolve_sides_of_samples
+from .sides import Sides, decided, resolve_sides, resolve_sides_of_samples
 from .surface_pass import surface_pass
 from .thinning import fewer_samples, thinned_rows
 from .walls import walls_of_faces
@@ -188,7 +188,7 @@ def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
         lambda: _analysed_vertices(request, sides, share),
     )
     reason = _vertices_reason(request, why)
-    samples = _judged(request, samples)
+    samples, sides = _judged(request, samples), decided(sides, samples.analysis)
     return ChosenSamples(samples, SamplingMode.VERTICES, reason, sides, request.gaps)
 
 

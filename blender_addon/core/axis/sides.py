@@ -33,7 +33,10 @@ _BOUNDING = 0.75
 
 @dataclass(frozen=True)
 class Sides:
-    """What tells inside from outside, never AUTOMATIC, and the reason, for people."""
+    """What tells inside from outside, and the reason, for people.
+
+    AUTOMATIC is left only where points alone must tell: their analysis decides (`decided`).
+    """
 
     source: SidesFrom
     reason: str
@@ -118,7 +121,18 @@ def _automatic(has_faces: bool, gaps: int, has_normals: bool) -> Sides:
         reason = f"the mesh is open at {gaps:,} edges"
     else:
         reason = "the points have no faces" + ("" if has_normals else " and no normals")
-    return Sides(SidesFrom.NORMALS if has_normals else SidesFrom.TIGHT_COCONE, reason)
+    return Sides(SidesFrom.NORMALS if has_normals else SidesFrom.AUTOMATIC, reason)
+
+
+def decided(sides: Sides, analysis: Any) -> Sides:
+    """The same; where it is AUTOMATIC, what the analysis took: Tight Cocone, or poles where many contradict it."""
+    if sides.source is not SidesFrom.AUTOMATIC:
+        return sides
+    source, reason = SidesFrom[analysis.sides_from.name], sides.reason
+    if source is SidesFrom.POLES:
+        against = f"{analysis.pole_disagreement:.0%}"
+        reason = f"{reason}, and the poles of {against} of the points contradict Tight Cocone"
+    return Sides(source, reason)
 
 
 def look_inward(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
@@ -163,7 +177,7 @@ def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
     if found.cavities:
         yield (
             f"{found.cavities:,} patches of points lie inside like walls of closed cavities, "
-            "which Tight Cocone fills; faces or normals would keep them"
+            "which Tight Cocone fills; faces, normals or Inside From Poles would keep them"
         )
     uneven = np.count_nonzero(~found.flat) / samples
     if uneven > _UNEVEN:

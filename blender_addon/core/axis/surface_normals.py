@@ -62,7 +62,7 @@ def surface_normals(
     """
     samples = chosen.samples
     given = samples.normals
-    if chosen.sides.source is SidesFrom.TIGHT_COCONE:
+    if chosen.sides.source in (SidesFrom.TIGHT_COCONE, SidesFrom.POLES):
         return _of_triangles(samples.points, surface, sharp_angle, "the reconstructed surface")
     if samples.kinds is not None and given is not None:
         at_edge = samples.kinds <= int(native.load().SampleKind.SHARP)

@@ -86,7 +86,7 @@ def _sampled(
         bare = find_bare(shape, feet, outward, spacing)
     _check_some(bare)
     walls = None
-    if sides.source is not SidesFrom.TIGHT_COCONE and shape.volume > 0:
+    if sides.source in (SidesFrom.SURFACE, SidesFrom.NORMALS) and shape.volume > 0:
         walls = _walls(request, found, bare & _are_inside_faces(found.kind), feet, outward)
     points, normals, kinds = (x[bare] for x in (found.points, found.normals, found.kind))
     if closing:

@@ -9,8 +9,9 @@
 namespace medial {
 
 // What tells inside from outside. Automatic: the surface when it is closed, else normals when there
-// are any, else Tight Cocone.
-enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none };
+// are any, else Tight Cocone, or labels of the poles (Amenta, Choi & Kolluri 2001) where more than
+// 5 % of them disagree with it.
+enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none, poles };
 
 // Which ends of a Delaunay edge must pass a condition (Dey & Zhao, sect. 3).
 enum class Rule : int32_t { either = 0, both = 1 };

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inside from labels of poles: equal to a plain reading of the rule, right where Tight Cocone is not, chosen there."""
+
+import numpy as np
+import pytest
+from support import inputs, measure, meshes
+from support.pole_labels_reference import Labels
+from support.shapes import SHAPES
+
+
+def poles(medial, points, **options):
+    return medial.MedialAnalysis(points, sides=medial.SidesFrom.POLES, **options)
+
+
+def inner(medial, analysis):
+    chosen = analysis.select(side=medial.Side.INNER)
+    return set(map(tuple, analysis.edges[chosen].tolist()))
+
+
+def exactly_inner(medial, points, shape):
+    """The selected facets all of whose vertices lie inside the shape."""
+    mesh = medial.MedialAnalysis(points, sides=medial.SidesFrom.NONE).extract()
+    return set(map(tuple, mesh.generators[measure.inner_facets(mesh, shape)].tolist()))
+
+
+def jaccard(a, b):
+    return len(a & b) / len(a | b)
+
+
+def flat(medial, points):
+    return medial.TightCocone(points).flat.astype(bool)
+
+
+# ---- the rule
+
+
+@pytest.mark.parametrize("name", ["shell", "ellipsoid", "torus", "knot", "box", "slab"])
+@pytest.mark.parametrize("n, seed", [(400, 0), (900, 1)])
+def test_sides_equal_those_of_the_reference(medial, name, n, seed):
+    points = np.unique(SHAPES[name].sample(n, seed), axis=0)
+    normals = Labels(medial, points, flat(medial, points)).normals()
+    assert np.count_nonzero(normals.any(axis=1)) > 0.5 * len(points)
+    expected = medial.MedialAnalysis(points, normals=normals, sides=medial.SidesFrom.NORMALS)
+    assert np.array_equal(poles(medial, points).side, expected.side)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_points_equal_the_reference(medial, seed):
+    points = np.random.default_rng(seed).normal(size=(60, 3))
+    normals = Labels(medial, points, flat(medial, points)).normals()
+    expected = medial.MedialAnalysis(points, normals=normals, sides=medial.SidesFrom.NORMALS)
+    assert np.array_equal(poles(medial, points).side, expected.side)
+
+
+# ---- what it is good for
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_thin_shell_is_told_exactly(medial, seed):
+    """A wall hardly thicker than the spacing, about a cavity: Tight Cocone tells a third of its facets, poles all."""
+    shape = SHAPES["shell"]
+    points = shape.sample(2000, seed)
+    exact = exactly_inner(medial, points, shape)
+    analysis = medial.MedialAnalysis(points)
+    assert analysis.sides_from == medial.SidesFrom.POLES and analysis.tight_cocone is None
+    assert analysis.pole_disagreement > 0.2
+    assert inner(medial, analysis) == exact
+    cocone = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
+    assert jaccard(inner(medial, cocone), exact) < 0.5
+
+
+def test_shell_keeps_its_cavity(medial):
+    shape = SHAPES["shell"]
+    points = shape.sample(8000, 0)
+    hierarchy = medial.MedialAnalysis(points).hierarchy()
+    clean = hierarchy.extract(spacings=1.0, round_limbs=True, relaxed=True)
+    assert hierarchy.betti == (1, 0, 1) and clean.betti == (1, 0, 1)
+    assert measure.errors(clean, shape).output_mean <= 0.0021
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "torus", "knot", "box"])
+def test_automatic_stays_with_tight_cocone_where_that_is_right(medial, name):
+    points = SHAPES[name].sample(2000, 0)
+    analysis = medial.MedialAnalysis(points)
+    assert analysis.sides_from == medial.SidesFrom.TIGHT_COCONE
+    assert analysis.pole_disagreement < 0.02
+    asked = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
+    assert np.array_equal(analysis.side, asked.side) and asked.pole_disagreement is None
+
+
+MESHES = {
+    "engine_parts.ply": ("POLES", 0.97),
+    "hand_closed.obj": ("TIGHT_COCONE", 0.999),
+    "fandisk_large.off": ("TIGHT_COCONE", 0.998),
+    "dilo.off": ("TIGHT_COCONE", 0.999),
+    "rocker-arm.off": ("TIGHT_COCONE", 0.999),
+    "knot1.off": ("TIGHT_COCONE", 1.0),
+    "human_woman.obj": ("TIGHT_COCONE", 0.97),
+}
+
+
+@pytest.mark.parametrize("file", MESHES)
+def test_meshes_without_their_faces(medial, data_file, file):
+    points, triangles = meshes.read(data_file(file))
+    chosen, least = MESHES[file]
+    analysis = medial.MedialAnalysis(points)
+    assert analysis.sides_from == getattr(medial.SidesFrom, chosen)
+    by_faces = medial.MedialAnalysis(points, triangles, sides=medial.SidesFrom.SURFACE)
+    assert jaccard(inner(medial, analysis), inner(medial, by_faces)) >= least
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "torus", "knot"])
+def test_outliers_do_not_turn_it_inside_out(medial, name):
+    shape = SHAPES[name]
+    points = shape.sample(4000, 0)
+    box = np.abs(points).max(axis=0)
+    strange = np.random.default_rng(1).uniform(-1, 1, (len(points) // 20, 3)) * box
+    points = np.concatenate([points, strange])
+    assert (
+        jaccard(inner(medial, poles(medial, points)), exactly_inner(medial, points, shape)) > 0.97
+    )
+
+
+# ---- what must not change it
+
+
+@pytest.mark.parametrize("sphere", [False, True])
+def test_threads_and_order_change_nothing(medial, sphere):
+    points = SHAPES["shell"].sample(2000, 0)
+    plain = poles(medial, points, bounding_sphere=sphere, threads=1)
+    for threads in (2, 3):
+        again = poles(medial, points, bounding_sphere=sphere, threads=threads)
+        assert again.side.tobytes() == plain.side.tobytes()
+    order = np.random.default_rng(0).permutation(len(points))
+    mixed = poles(medial, points[order], bounding_sphere=sphere)
+    edges = np.sort(order[mixed.edges], axis=1)
+    row = np.lexsort(edges.T[::-1])
+    assert np.array_equal(edges[row], plain.edges) and np.array_equal(mixed.side[row], plain.side)
+
+
+def test_a_power_of_two_changes_nothing(medial):
+    points = SHAPES["shell"].sample(1000, 0)
+    expected = poles(medial, points).side
+    for factor in (2.0**-40, 2.0**40):
+        assert np.array_equal(poles(medial, points * factor).side, expected)
+
+
+def test_bounding_sphere_leaves_the_inner_facets(medial):
+    points = SHAPES["shell"].sample(2000, 0)
+    plain, within = (poles(medial, points, bounding_sphere=sphere) for sphere in (False, True))
+    assert inner(medial, within) == inner(medial, plain)
+
+
+STRUCTURED = inputs.structured_cases()
+
+
+@pytest.mark.parametrize("name", STRUCTURED)
+def test_structured_points_have_sides(medial, name):
+    """Grids, hollow boxes, prisms: many cospherical cells, and samples on no smooth surface."""
+    sides = {medial.Side.INNER, medial.Side.OUTER, medial.Side.CROSSING}
+    assert set(poles(medial, STRUCTURED[name]).side.tolist()) <= set(map(int, sides))
+
+
+def test_cancelled(medial):
+    progress = medial.Progress()
+    progress.cancel()
+    with pytest.raises(medial.Cancelled):
+        poles(medial, SHAPES["torus"].sample(500, 0), progress=progress)
