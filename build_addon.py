@@ -6,6 +6,7 @@
     python3 build_addon.py demo      build, then compute and render real models in a real Blender
     python3 build_addon.py test      everything that must hold; --fast: the main things, in three minutes
     python3 build_addon.py bench     what it costs beside the bare Delaunay triangulation, as tables
+    python3 build_addon.py race      how close it and others come to medial axes that are known exactly
     python3 build_addon.py clean     remove what the other commands made
 
 Any Python 3.8 or newer can run this file; it needs nothing but the standard library. The module itself is
@@ -70,6 +71,16 @@ def bench(arguments: argparse.Namespace) -> None:
     run(python, "tests/benchmarks/bench.py", *options, "--only", *arguments.only)
 
 
+def race(arguments: argparse.Namespace) -> None:
+    needs.require(needs.RACE)
+    blender = find_blender(arguments.blender)
+    python, _ = blender_python(blender)
+    modules.build_modules(blender)
+    run("cmake", "--build", "--preset", "release", "--target", "power_shape")
+    page = Path(arguments.page).resolve()
+    run(python, "-m", "tests.benchmarks.race", "--sizes", *arguments.sizes, "--page", page)
+
+
 def clean(arguments: argparse.Namespace) -> None:
     """Remove what the other commands made; the results of the demo only with --all."""
     made = [paths.BUILD, paths.DIST, paths.LIBRARY, *paths.ROOT.rglob("__pycache__")]
@@ -113,6 +124,10 @@ operator in Blender, and what a change of a threshold costs there. Prints and wr
 half an hour; --quick takes some minutes."""
 
 
+RACE_HELP = """Builds, then runs every program of tests/benchmarks/race/recipes.toml that is on this machine on samples
+of solids whose medial axes are known exactly, and writes the tables and plots of docs/benchmark.md."""
+
+
 def parse(words: list[str]) -> argparse.Namespace:
     formatter = argparse.RawDescriptionHelpFormatter
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=formatter)
@@ -131,9 +146,14 @@ def parse(words: list[str]) -> argparse.Namespace:
     add_demo_options(add(demo, "build, then compute and render real models in Blender", DEMO_HELP))
     add_test_options(add(test, "build and run every test", TEST_HELP))
     add_bench_options(add(bench, "measure beside the bare Delaunay triangulation", BENCH_HELP))
+    racing = add(race, "run against others on exact axes", RACE_HELP)
+    sizes = {"type": int, "nargs": "+", "default": [2000, 8000, 20_000], "metavar": "N"}
+    racing.add_argument("--sizes", **sizes, help="samples; default: 2000 8000 20000")
+    page = {"default": paths.ROOT / "docs" / "benchmark.md"}
+    racing.add_argument("--page", **page, help="default: docs/benchmark.md")
     cleaning = add(clean, "remove what the other commands made")
     cleaning.add_argument("--all", action="store_true", help="the results of the demo as well")
-    for name in ("build", "demo", "test", "bench"):
+    for name in ("build", "demo", "test", "bench", "race"):
         commands.choices[name].add_argument(
             "--blender", default="blender", metavar="PATH", help="the Blender to build for"
         )

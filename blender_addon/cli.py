@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command line (docs/command_line.md): files in, medial axes or lengths as files out.
+"""The command line (docs/command_line.md): files in, medial axes, lengths or skeletons as files out.
 
 The same in three places: `blender --command medial_axis` from 4.2, `blender --background --python .../__main__.py --`
 in every version, and `python3 -m medial_axis` without Blender.
@@ -19,21 +19,23 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from . import __version__, cli_skeleton
+from . import __version__
 from .console import ClosedPipeError, Console, open_streams
 from .core.batch.axis_work import AxisWork
-from .core.batch.batch import Item, begin, failure, finish
+from .core.batch.batch import Item, Work, begin, failure, finish
 from .core.batch.frames import at_frame, has_number, output_path, parse_frames
 from .core.batch.option_words import (
     add_limits,
     add_options,
     add_sampling,
+    add_skeleton_options,
     add_thickness,
     limit_from,
+    sampling_from,
     settings_from,
+    skeleton_settings_from,
     thickness_from,
 )
-from .core.batch.thickness_work import ThicknessWork
 from .core.errors import (
     Cancelled,
     DegenerateInputError,
@@ -46,14 +48,12 @@ from .core.files.names import is_folder
 from .core.files.read import READERS
 from .core.files.read_shape import read_shape
 from .core.files.write import FORMATS
-from .core.files.write_thickness import THICKNESS_FORMATS
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 from .core.settings import Settings, Side
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
 CLOSED_PIPE = 128 + 13  # as shells say of a program that SIGPIPE ended
-THICKNESS = "thickness"  # the first word, where lengths are wanted and no axes
 
 _EXAMPLES = """\
 INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend and what Blender imports.
@@ -61,7 +61,7 @@ INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend a
 OUTPUT    a file (.ma .ply .obj .off .npz), or a folder; {name} is the object or the file, {file} the
           file, #### the frame.
 
-Lengths and no axes: medial_axis thickness --help
+Lengths and no axes: medial_axis thickness --help; centre lines: medial_axis skeleton --help
 
 examples:
   medial_axis bunny.ply bunny.ma
@@ -94,12 +94,27 @@ exit codes:
   4 cancelled   5 something is thinner than the limit   141 nobody reads the results any more
 """
 
+_EXAMPLES_OF_SKELETONS = """\
+INPUT     as of medial_axis --help.
+OUTPUT    a file, or a folder; {name}, {file} and #### as there.
+          .swc   points with radius and parent; trees only
+          .obj   a line for each branch
+          .json  nodes with radii, edges, and the faces of each branch
+
+examples:
+  medial_axis skeleton neuron.ply neuron.swc --detail 0.7
+  medial_axis skeleton trees/*.obj lines/ --format obj
+  medial_axis skeleton walk.blend lines/{name}_####.json --frames 1-250 --object Body
+
+exit codes:
+  0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
+  141 nobody reads the results any more
+"""
+
 
 def main(words: Sequence[str]) -> int:
     """Run a command line; returns its exit code."""
     open_streams()
-    if words and words[0] == "skeleton":
-        return cli_skeleton.main(words[1:])
     try:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why
@@ -135,15 +150,13 @@ def inside_blender() -> bool:
 
 
 def _parse(words: Sequence[str]) -> argparse.Namespace:
-    lengths = list(words[:1]) == [THICKNESS]
-    parser = _thickness_parser() if lengths else _axis_parser()
-    words = _with_paths_behind_dashes(words[1:] if lengths else words)
+    named = _PARSERS.get(words[0]) if words else None
+    parser = named() if named else _axis_parser()
+    words = _with_paths_behind_dashes(words[1:] if named else words)
     wanted = parser.parse_intermixed_args(words)
-    wanted.lengths = lengths
     try:
         if more := shlex.split(wanted.options):
             wanted = parser.parse_intermixed_args([*words, *more])
-            wanted.lengths = lengths
         _complete(wanted)
     except (MedialAxisError, ValueError) as error:
         parser.error(str(error))
@@ -168,12 +181,21 @@ def _axis_parser() -> argparse.ArgumentParser:
         action="store_true",
         help="write .ply, .obj and .off as triangles in text, which more programs read",
     )
+    parser.set_defaults(known=(*FORMATS,), work_from=_axis_work)
     return parser
 
 
+def _axis_work(wanted: argparse.Namespace) -> Work:
+    settings = settings_from(wanted)
+    _check_vertices(wanted.vertices, settings)
+    return AxisWork(settings, wanted.triangles, wanted.vertices)
+
+
 def _thickness_parser() -> argparse.ArgumentParser:
+    from .core.files.write_thickness import THICKNESS_FORMATS
+
     parser = _parser(
-        f"medial_axis {THICKNESS}",
+        "medial_axis thickness",
         "How thick meshes and point clouds are, and where they are too thin.",
         _EXAMPLES_OF_THICKNESS,
     )
@@ -184,7 +206,39 @@ def _thickness_parser() -> argparse.ArgumentParser:
     )
     add_sampling(parser.add_argument_group("method"))
     _add_files(parser, [suffix[1:] for suffix in THICKNESS_FORMATS], "json")
+    parser.set_defaults(known=(*THICKNESS_FORMATS,), work_from=_thickness_work)
     return parser
+
+
+def _thickness_work(wanted: argparse.Namespace) -> Work:
+    from .core.batch.thickness_work import ThicknessWork
+
+    return ThicknessWork(settings_from(wanted), thickness_from(wanted), wanted.unit)
+
+
+def _skeleton_parser() -> argparse.ArgumentParser:
+    from .core.files.write_skeleton import SKELETON_FORMATS
+
+    parser = _parser(
+        "medial_axis skeleton",
+        "The curve skeletons of meshes and point clouds, with radii.",
+        _EXAMPLES_OF_SKELETONS,
+    )
+    add_skeleton_options(parser.add_argument_group("skeleton"))
+    add_sampling(parser.add_argument_group("method"))
+    _add_files(parser, [suffix[1:] for suffix in SKELETON_FORMATS], "json")
+    parser.set_defaults(known=(*SKELETON_FORMATS,), work_from=_skeleton_work)
+    return parser
+
+
+def _skeleton_work(wanted: argparse.Namespace) -> Work:
+    from .core.batch.skeleton_work import SkeletonWork
+
+    return SkeletonWork(sampling_from(wanted), skeleton_settings_from(wanted))
+
+
+# By the first word, where no axes are wanted. What only one of them needs is imported when it is asked for.
+_PARSERS = {"thickness": _thickness_parser, "skeleton": _skeleton_parser}
 
 
 def _parser(name: str, description: str, epilog: str) -> argparse.ArgumentParser:
@@ -243,7 +297,7 @@ def _with_paths_behind_dashes(words: Sequence[str]) -> list[str]:
 def _complete(wanted: argparse.Namespace) -> None:
     """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
     *wanted.inputs, output = wanted.paths
-    wanted.work, wanted.limit = _work(wanted), limit_from(wanted)
+    wanted.work, wanted.limit = wanted.work_from(wanted), limit_from(wanted)
     wanted.frames = None if wanted.frames is None else parse_frames(wanted.frames)
     if "" in wanted.paths:
         raise ValueError(
@@ -252,8 +306,7 @@ def _complete(wanted: argparse.Namespace) -> None:
     if output.endswith(("/", "\\")) or is_folder(output):
         number = "" if wanted.frames is None else "_####"
         output = str(Path(output, f"{{name}}{number}.{wanted.format}"))
-    known = (*THICKNESS_FORMATS,) if wanted.lengths else (*FORMATS,)
-    extension_of(output, known)
+    extension_of(output, wanted.known)
     wanted.output = output
     first = wanted.frames[0] if wanted.frames else None
     output_path(output, "name", "file", first)  # it raises what is wrong
@@ -271,15 +324,6 @@ def _complete(wanted: argparse.Namespace) -> None:
         raise ValueError(
             f"Expected a folder or {{name}} in OUTPUT for several inputs, found '{output}'; add it"
         )
-
-
-def _work(wanted: argparse.Namespace) -> AxisWork | ThicknessWork:
-    """What is computed of each input."""
-    settings = settings_from(wanted)
-    if not wanted.lengths:
-        _check_vertices(wanted.vertices, settings)
-        return AxisWork(settings, wanted.triangles, wanted.vertices)
-    return ThicknessWork(settings, thickness_from(wanted), wanted.unit)
 
 
 def _check_vertices(vertices: int, settings: Settings) -> None:

@@ -98,6 +98,9 @@ def _said(report: dict[str, Any]) -> str:
     if "facets" in report:
         edges = f", {report['edges']:,} edges" if report.get("edges") else ""
         return f"{report['facets']:,} facets{edges}"
+    if "ends" in report:
+        counts = (f"{report[what]:,} {what}" for what in ("branches", "ends", "loops"))
+        return ", ".join(counts)
     unit = f" {report['unit']}" if report["unit"] else ""
     if report["minimum"] is None:
         return "no two walls face each other"

@@ -136,6 +136,7 @@ def native(blender: Path) -> None:
 
 
 def python(blender: Path) -> None:
+    run("cmake", "--build", "--preset", "release", "--target", "power_shape")
     run_pytest(blender, "--slow", "tests/python")
 
 

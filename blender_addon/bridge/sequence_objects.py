@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Medial axes of several frames as objects of which one is shown at a time.
+"""Medial axes or skeletons of several frames as objects of which one is shown at a time.
 
 Their visibility is keyed, so that viewport, render and render farm show the right one without this add-on:
 nothing runs when the frame changes.
@@ -8,27 +8,55 @@ nothing runs when the frame changes.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
 import numpy as np
 
 from ..core.axis.colours import radius_range
-from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError
 from ..core.files.load_axis import load_axis
+from ..core.files.load_skeleton import load_skeleton
 from .attributes import RADIUS
 from .colours import colour_mesh, remember_colours
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
+from .skeleton_object import BRANCHES, ENDS, LOOPS, check_size, fill_curve, new_curve
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
-SUFFIX = " Medial Axis Sequence"
 SEQUENCE = "ma_sequence"
+FORMAT = "ma_sequence_format"  # collections of earlier versions do not say that theirs is AXES
+AXES, SKELETONS = ".npz", ".json"
 FRAME = "ma_frame"
 
 _NAME = re.compile(r"(.*?)(?:_(-?\d+)|[.-]?(\d+))")  # a minus belongs to a number behind _ only
+
+
+def sequences(paths: Iterable[Path]) -> list[tuple[str, dict[int, Path]]]:
+    """(name, {frame: path}) of each sequence among some files; the reports beside them are passed over.
+
+    Raises
+    ------
+    InvalidInputError
+        A name without a number, or another extension.
+    """
+    outputs = [path for path in paths if not _is_report(path)]
+    for path in outputs:
+        if path.suffix.lower() not in _KINDS:
+            raise InvalidInputError(
+                f"Expected .npz of medial axes or .json of skeletons, found '{path.name}'; choose others"
+            )
+    return [
+        found
+        for form in _KINDS
+        for found in by_frame(p for p in outputs if p.suffix.lower() == form).items()
+    ]
+
+
+def _is_report(path: Path) -> bool:
+    return path.suffix.lower() == ".json" and Path(path.stem).suffix.lower() in _KINDS
 
 
 def by_frame(paths: Iterable[Path]) -> dict[str, dict[int, Path]]:
@@ -60,22 +88,24 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
     ----------
     name : str
     files : dict of int to Path
-        `.npz` of each frame, ascending.
+        Of each frame, ascending: all `.npz` of medial axes, or all `.json` of skeletons.
 
     Raises
     ------
     ReadError, InvalidInputError
     """
+    form = next(iter(files.values())).suffix.lower()
     made: list[bpy.types.Object] = []
     try:
         for frame, path in files.items():
-            made.append(_new_object(f"{name} {frame:04d}", load_axis(path), frame))
+            made.append(_KINDS[form].load(f"{name} {frame:04d}", path))
+            made[-1][FRAME] = frame
     except BaseException:
         _remove(made)
         raise
-    _same_colours(made)
+    _KINDS[form].finish(made)
     _key_visibility(made, list(files))
-    collection = _collection(name)
+    collection = _collection(name, form)
     _remove(list(collection.objects))
     for thing in made:
         collection.objects.link(thing)
@@ -84,15 +114,26 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
     return collection
 
 
-def _new_object(name: str, axis: MedialAxis, frame: int) -> bpy.types.Object:
+def _new_axis(name: str, path: Path) -> bpy.types.Object:
+    axis = load_axis(path)
     mesh = new_axis_mesh(axis, name)
     mesh.materials.append(radius_material())
     thing = bpy.data.objects.new(name, mesh)
     thing.color = FLAT
     thing.show_in_front = True
     show_wires(thing, axis)
-    thing[FRAME] = frame
     thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
+    return thing
+
+
+def _new_skeleton(name: str, path: Path) -> bpy.types.Object:
+    skeleton = load_skeleton(path)
+    check_size(skeleton)
+    curve = new_curve(name)
+    fill_curve(curve, skeleton)
+    thing = bpy.data.objects.new(name, curve)
+    thing.show_in_front = True
+    thing[ENDS], thing[LOOPS], thing[BRANCHES] = skeleton.tips, skeleton.loops, skeleton.count
     return thing
 
 
@@ -121,25 +162,42 @@ def _key_visibility(things: list[bpy.types.Object], frames: list[int]) -> None:
                 thing.keyframe_insert(path, frame=frame)
 
 
-def _collection(name: str) -> bpy.types.Collection:
-    """The collection of a sequence of this name, made where there is none."""
+def _collection(name: str, form: str) -> bpy.types.Collection:
+    """The collection of a sequence of this name and format, made where there is none."""
     for collection in bpy.data.collections:
-        if collection.get(SEQUENCE) == name and collection.library is None:
+        is_it = (collection.get(SEQUENCE), collection.get(FORMAT, AXES)) == (name, form)
+        if is_it and collection.library is None:
             return collection
-    collection = bpy.data.collections.new(name + SUFFIX)
-    collection[SEQUENCE] = name
+    collection = bpy.data.collections.new(name + _KINDS[form].suffix)
+    collection[SEQUENCE], collection[FORMAT] = name, form
     bpy.context.scene.collection.children.link(collection)
     return collection
 
 
 def _remove(things: list[bpy.types.Object]) -> None:
-    """Remove objects of a sequence with their meshes and keys; objects that an artist added stay."""
+    """Remove objects of a sequence with what they show and their keys; objects that an artist added stay."""
     for thing in things:
         if FRAME not in thing:
             continue
-        mesh, keys = thing.data, thing.animation_data and thing.animation_data.action
+        shape, keys = thing.data, thing.animation_data and thing.animation_data.action
         bpy.data.objects.remove(thing)
-        if mesh.users == 0:
-            bpy.data.meshes.remove(mesh)
+        if shape.users == 0:
+            is_curve = isinstance(shape, bpy.types.Curve)
+            (bpy.data.curves if is_curve else bpy.data.meshes).remove(shape)
         if keys and keys.users == 0:
             bpy.data.actions.remove(keys)
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """What the files of a sequence hold: the end of its collection's name, and how objects are made of them."""
+
+    suffix: str
+    load: Callable[[str, Path], bpy.types.Object]
+    finish: Callable[[list[bpy.types.Object]], None] = lambda _: None
+
+
+_KINDS = {
+    AXES: _Kind(" Medial Axis Sequence", _new_axis, _same_colours),
+    SKELETONS: _Kind(" Skeleton Sequence", _new_skeleton),
+}

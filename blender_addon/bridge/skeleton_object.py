@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.axis.nearness import nearest
 from ..core.errors import InvalidInputError
+from .attributes import set_attribute
 from .output_object import check_mode, new_object, output_of, place, remember
 from .read_object import split_transform
 
@@ -62,13 +63,11 @@ def write_skeleton(
     """
     thing = skeleton_of(source)
     check_mode(thing)
-    _check_size(found.skeleton)
+    check_size(found.skeleton)
     if thing is None:
-        curve = bpy.data.curves.new(source.name + SUFFIX, "CURVE")
-        curve.dimensions = "3D"
-        thing = new_object(source, SUFFIX, curve)
+        thing = new_object(source, SUFFIX, new_curve(source.name + SUFFIX))
         thing.show_in_front = True  # it lies inside the surface
-    _fill(thing.data, found.skeleton)
+    fill_curve(thing.data, found.skeleton)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[ENDS], thing[LOOPS] = found.skeleton.tips, found.skeleton.loops
@@ -77,7 +76,8 @@ def write_skeleton(
     return thing
 
 
-def _check_size(skeleton: Skeleton) -> None:
+def check_size(skeleton: Skeleton) -> None:
+    """Raise InvalidInputError when Blender cannot hold a skeleton."""
     largest, limit = np.abs(skeleton.points).max(), np.finfo(np.float32).max
     if largest > limit:
         raise InvalidInputError(
@@ -86,7 +86,13 @@ def _check_size(skeleton: Skeleton) -> None:
         )
 
 
-def _fill(curve: bpy.types.Curve, skeleton: Skeleton) -> None:
+def new_curve(name: str) -> bpy.types.Curve:
+    curve = bpy.data.curves.new(name, "CURVE")
+    curve.dimensions = "3D"
+    return curve
+
+
+def fill_curve(curve: bpy.types.Curve, skeleton: Skeleton) -> None:
     """A poly spline for each branch, cyclic for loops without a fork, and one of a single point for each lone node."""
     curve.splines.clear()
     degree = skeleton.degree
@@ -140,10 +146,7 @@ def write_parts(source: bpy.types.Object, found: Skeletonization) -> None:
     sizes = np.empty(len(mesh.polygons), np.int32)
     mesh.polygons.foreach_get("loop_total", sizes)
     values = _most_frequent(np.repeat(np.arange(len(sizes)), sizes), part[corners], len(sizes))
-    old = mesh.attributes.get(PART)
-    if old is not None:
-        mesh.attributes.remove(old)
-    mesh.attributes.new(PART, "INT", "FACE").data.foreach_set("value", values)
+    set_attribute(mesh, PART, "INT", "FACE", values)
     mesh.update()
 
 

@@ -443,7 +443,8 @@ LOOKS: dict[str, Any] = {
     ),
     "parent": Switch(
         label="Parent to Source",
-        description="Results move and turn with the object that they were made of",
+        description="Results move and turn with the object that they were made of, and a medial axis is hidden "
+        "with it",
         default=True,
     ),
     "within": Number(
@@ -724,7 +725,7 @@ THICKNESS_OPTIONS: dict[str, Any] = {
         },
     ),
     "minimum_patch": Number(
-        label="Minimum Patch",
+        label="Min. Patch",
         description="Thin patches with less than this share of the surface are left out, in percent",
         default=0.0,
         minimum=0.0,

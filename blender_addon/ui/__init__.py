@@ -16,6 +16,7 @@ def _modules() -> tuple[ModuleType, ...]:
         current_job,
         export_axis,
         guide,
+        hide_with_source,
         import_points,
         legend,
         manual,
@@ -64,6 +65,7 @@ def _modules() -> tuple[ModuleType, ...]:
         node_groups,
         manual,
         current_job,
+        hide_with_source,
         command,
     )
 

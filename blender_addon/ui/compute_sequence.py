@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The medial axis of an animated object over a range of frames, and its playback."""
+"""Medial axes or skeletons of an animated object over a range of frames, and their playback."""
 
 import time
 from dataclasses import replace
@@ -7,14 +7,15 @@ from functools import partial
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..bridge import read_scene
-from ..bridge.sequence_objects import by_frame, write_sequence
+from ..bridge.sequence_objects import AXES, SKELETONS, sequences, write_sequence
 from ..core.batch.axis_work import AxisWork
 from ..core.batch.batch import Item, begin, finish
 from ..core.batch.frames import output_path, parse_frames
+from ..core.batch.skeleton_work import SkeletonWork
 from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.machine.job import run_task
 from ..core.settings import SamplingMode
@@ -24,21 +25,45 @@ from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
 from .selected_sources import has_faces, sources
+<<<<<<< HEAD
+from .tab import Closed
 from .translation import say
+=======
+from .skeleton_operators import skeleton_settings
+from .translation import IN_CONTEXT, say
+>>>>>>> skel
 
-_PRODUCT = "medial axis"
+_PRODUCTS = {"AXES": "medial axis", "SKELETONS": "skeleton"}
 _AT_ONCE = 0.1  # seconds for which finished frames are passed over before Blender may draw again
+
+
+def _of():
+    return EnumProperty(
+        name="Of",
+        description="What is computed at every frame",
+        items=(
+            ("AXES", "Medial Axes", "Those of the settings above, as .npz"),
+            (
+                "SKELETONS",
+                "Skeletons",
+                "Those of the panel Skeleton, as .json; bones are not tracked",
+            ),
+        ),
+        default="AXES",
+        **IN_CONTEXT,
+    )
 
 
 class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
     bl_idname = "object.medial_axis_sequence"
     bl_label = "Compute Sequence"
     bl_description = (
-        "Compute the medial axis of the selected objects at every frame, with the settings above, into "
-        "a file each; files that are finished are kept"
+        "Compute the medial axis or the skeleton of the selected objects at every frame, with the settings "
+        "of the panels, into a file each; files that are finished are kept"
     )
     bl_options = {"REGISTER", "UNDO"}
 
+    of: _of()
     directory: StringProperty(
         name="Folder", description="Where the files are written", subtype="DIR_PATH"
     )
@@ -99,13 +124,10 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
     def _start(self, context):
         """What there is to do, frame by frame; False when it cannot be done, which was reported."""
         try:
-            settings = settings_from(context.scene.medial_axis)
-            self._settings = {
-                thing.name: _faster(settings) if self.fast and has_faces(thing) else settings
-                for thing in sources(context)
-            }
+            self._work = {thing.name: self._work_of(context, thing) for thing in sources(context)}
             self._limit = memory_limit()
-            pattern = _folder(self.directory) / "{name}_####.npz"
+            suffix = SKELETONS if self.of == "SKELETONS" else AXES
+            pattern = _folder(self.directory) / f"{{name}}_####{suffix}"
             self._items = list(_items(sources(context), self._frames(context.scene), str(pattern)))
         except (MedialAxisError, ValueError) as error:
             self.report({"ERROR"}, say(error))
@@ -113,6 +135,13 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         self._count, self._shown = len(self._items), context.scene.frame_current
         self._done, self._failed, self._kept = {}, 0, 0
         return True
+
+    def _work_of(self, context, thing):
+        settings = settings_from(context.scene.medial_axis)
+        settings = _faster(settings) if self.fast and has_faces(thing) else settings
+        if self.of == "AXES":
+            return AxisWork(settings)
+        return SkeletonWork(settings, skeleton_settings(context.scene.medial_axis_skeleton))
 
     def _frames(self, scene):
         whole = f"{scene.frame_start}-{scene.frame_end}:{scene.frame_step}"
@@ -122,7 +151,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         """The next item, read; None when there is nothing to compute of it."""
         item = self._items.pop(0)
         try:
-            begun = begin(item, AxisWork(self._settings[item.object]), limit=self._limit)
+            begun = begin(item, self._work[item.object], limit=self._limit)
         except MedialAxisError as error:
             self._fail(item, error)
             return None
@@ -154,7 +183,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         while self._items:
             if begun := self._begin():
                 self._begun = begun
-                self._job = current_job.start([begun.task], _PRODUCT)
+                self._job = current_job.start([begun.task], _PRODUCTS[self.of])
                 current_job.show(context)
                 return
             if time.perf_counter() > until:
@@ -190,7 +219,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
                 self.report({"ERROR"}, say(error))
                 return {"CANCELLED"}
         if not written:
-            self.report({"ERROR"}, say(f"Expected medial axes of {self._count} frames, found none"))
+            self.report({"ERROR"}, say(f"Expected results of {self._count} frames, found none"))
             return {"CANCELLED"}
         text = f"{written} of {self._count} frames are there, {self._kept} were before"
         self.report({"WARNING"} if self._failed else {"INFO"}, say(text))
@@ -223,11 +252,14 @@ def _folder(directory):
 class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
     bl_idname = "import_scene.medial_axis_sequence"
     bl_label = "Import Medial Axis Sequence"
-    bl_description = "Make objects of .npz files, one per frame, of which each frame shows its own"
+    bl_description = (
+        "Make objects of .npz files of axes or .json files of skeletons, one per frame, of which each "
+        "frame shows its own"
+    )
     bl_options = {"UNDO"}
 
     filename_ext = ".npz"
-    filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.npz;*.json", options={"HIDDEN"})
     files: CollectionProperty(
         type=bpy.types.OperatorFileListElement, options={"HIDDEN", "SKIP_SAVE"}
     )
@@ -235,7 +267,7 @@ class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         try:
-            for name, files in by_frame(map(Path, chosen_files(self))).items():
+            for name, files in sequences(map(Path, chosen_files(self))):
                 collection = write_sequence(name, files)
                 self.report({"INFO"}, say(f"'{collection.name}': {len(files)} frames"))
         except MedialAxisError as error:
@@ -244,19 +276,16 @@ class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_medial_axis_sequence(bpy.types.Panel):
+class VIEW3D_PT_medial_axis_sequence(Closed, bpy.types.Panel):
     """Frames of an animation"""
 
     bl_label = "Sequence"
     bl_idname = "VIEW3D_PT_medial_axis_sequence"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         scene = context.scene
         column = self.layout.column()
+        column.prop(scene, "medial_axis_sequence_of", text="")
         column.prop(scene, "medial_axis_folder")
         row = column.row(align=True)
         for name in ("frame_start", "frame_end", "frame_step"):
@@ -264,6 +293,7 @@ class VIEW3D_PT_medial_axis_sequence(bpy.types.Panel):
         column.prop(scene, "medial_axis_fast")
         button = column.operator("object.medial_axis_sequence", icon="RENDER_ANIMATION")
         button.directory, button.fast = scene.medial_axis_folder, scene.medial_axis_fast
+        button.of = scene.medial_axis_sequence_of
         column.operator("import_scene.medial_axis_sequence", text="Load Files", icon="IMPORT")
 
 
@@ -290,6 +320,7 @@ def register():
         subtype="DIR_PATH",
         default="//medial_axis/",
     )
+    bpy.types.Scene.medial_axis_sequence_of = _of()
     bpy.types.Scene.medial_axis_fast = BoolProperty(
         name="Fast",
         description="Sample faces once at every frame: quicker, and coarser at thin parts",
@@ -297,6 +328,7 @@ def register():
 
 
 def unregister():
+    del bpy.types.Scene.medial_axis_sequence_of
     del bpy.types.Scene.medial_axis_fast
     del bpy.types.Scene.medial_axis_folder
     bpy.types.TOPBAR_MT_file_import.remove(menu_func_import)

@@ -30,8 +30,7 @@ def draw_result(context, layout, result):
         draw_wrapped(context, layout, text, "MESH_DATA")
     if hidden := result.get(axis_object.HIDDEN, 0):
         draw_wrapped(context, layout, f"{hidden:,} facets are not shown", "INFO")
-    smallest, largest = axis_object.radius_range(result)
-    figures = {"Radius": f"{length_text(context, smallest)} to {length_text(context, largest)}"}
+    figures = {"Radius": _range_text(context, *axis_object.radius_range(result))}
     if seconds := result.get(output_object.SECONDS):
         figures["Time"] = f"{seconds:.2f} s"
     _draw_figures(layout, figures, 0.3)
@@ -40,8 +39,7 @@ def draw_result(context, layout, result):
 def draw_sequence(context, layout, frame):
     """The radii of a frame of a sequence, whose colours are those of all its frames."""
     _draw_name(layout, frame)
-    smallest, largest = (length_text(context, frame[name]) for name in (RADIUS_MIN, RADIUS_MAX))
-    _draw_figures(layout, {"Radius": f"{smallest} to {largest}"})
+    _draw_figures(layout, {"Radius": _range_text(context, frame[RADIUS_MIN], frame[RADIUS_MAX])})
     _draw_legend(context, layout, frame)
 
 
@@ -148,6 +146,12 @@ def _draw_legend(context, layout, thing):
         draw_legend(layout, f"{start:.2g}", f"{end:.2g}")
     else:
         draw_legend(layout, length_text(context, start), length_text(context, end))
+
+
+def _range_text(context, smallest, largest):
+    """Two lengths, or one where they read the same."""
+    start, end = (length_text(context, value) for value in (smallest, largest))
+    return start if start == end else f"{start} to {end}"
 
 
 def length_text(context, value):

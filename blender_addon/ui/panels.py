@@ -22,34 +22,26 @@ from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
 from .selected_sources import has_faces, obstacle, sources
 from .show import shows_colours
+from .tab import MAIN, Closed, Inside, Tab, settings_column
 from .translation import say
 from .wrapped_text import draw_wrapped
 
+_drawn = {}  # a sidebar -> what its panels were drawn for
 _BINDS = 0.5  # a condition that keeps a larger share of the facets alone is why the other one does little
 
 
-class _Tab:
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Medial Axis"
-
-
-class _Closed(_Tab):
-    bl_parent_id = "VIEW3D_PT_medial_axis"
-    bl_options = {"DEFAULT_CLOSED"}
-
-
-class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
+class VIEW3D_PT_medial_axis(Tab, bpy.types.Panel):
     """The button, progress, and the settings that matter most"""
 
     bl_label = "Medial Axis"
-    bl_idname = "VIEW3D_PT_medial_axis"
+    bl_idname = MAIN
 
     def draw_header_preset(self, _context):
         VIEW3D_PT_medial_axis_presets.draw_panel_header(self.layout)
 
     def draw(self, context):
         layout = self.layout
+        _settle_when_changed(context)
         if problem := native.problem():
             draw_wrapped(context, layout.box(), problem, "ERROR")
         _draw_compute(context, layout)
@@ -59,34 +51,40 @@ class VIEW3D_PT_medial_axis(_Tab, bpy.types.Panel):
         _draw_settings(context, layout)
 
 
-class VIEW3D_PT_medial_axis_sampling(_Closed, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_sampling(Closed, bpy.types.Panel):
     """How faces are sampled, and the report"""
 
-    bl_label = "Sampling"
+    bl_label = ""  # it stands in the header, before the choice, which is seen when the panel is closed, too
     bl_idname = "VIEW3D_PT_medial_axis_sampling"
+
+    def draw_header(self, context):
+        self.layout.label(text="Sampling")
+        choice = self.layout.row()
+        choice.ui_units_x = 4.5
+        choice.prop(context.scene.medial_axis, "sampling", text="")
 
     def draw(self, context):
         settings = context.scene.medial_axis
-        draw_sampling(_column(self.layout), settings)
+        draw_sampling(settings_column(self.layout), settings)
         if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
             button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
             copy_settings(settings, button)
 
 
-class VIEW3D_PT_medial_axis_method(_Closed, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_method(Closed, bpy.types.Panel):
     """What the published method leaves open"""
 
     bl_label = "Method"
     bl_idname = "VIEW3D_PT_medial_axis_method"
 
     def draw(self, context):
-        settings, column = context.scene.medial_axis, _column(self.layout)
+        settings, column = context.scene.medial_axis, settings_column(self.layout)
         draw_more_of_form(column, settings)
         for name in ("rule", "criteria", "limit_set", "sides"):
             column.prop(settings, name)
 
 
-class VIEW3D_PT_medial_axis_show(_Closed, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_show(Closed, bpy.types.Panel):
     """How the result is seen"""
 
     bl_label = "Show"
@@ -99,7 +97,7 @@ class VIEW3D_PT_medial_axis_show(_Closed, bpy.types.Panel):
     def draw(self, context):
         thing, settings = _shown(context), context.scene.medial_axis
         _draw_colours(context, self.layout)
-        column = _column(self.layout)
+        column = settings_column(self.layout)
         column.prop(thing, "show_in_front", text="In Front")
         if output_object.source_of(thing) is not None:
             _draw_source(column, thing)
@@ -111,12 +109,11 @@ class VIEW3D_PT_medial_axis_show(_Closed, bpy.types.Panel):
             column.prop(owner, path, text="Wire Width")
 
 
-class VIEW3D_PT_medial_axis_result(_Tab, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
     """What matters of the result, and files"""
 
     bl_label = "Result"
     bl_idname = "VIEW3D_PT_medial_axis_result"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
 
     @classmethod
     def poll(cls, context):
@@ -137,7 +134,7 @@ class VIEW3D_PT_medial_axis_result(_Tab, bpy.types.Panel):
             layout.operator("export_scene.medial_axis", icon="EXPORT")
 
 
-class VIEW3D_PT_medial_axis_details(_Closed, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_details(Closed, bpy.types.Panel):
     """All other figures, and every sentence"""
 
     bl_label = "Details"
@@ -154,12 +151,11 @@ class VIEW3D_PT_medial_axis_details(_Closed, bpy.types.Panel):
             draw_report_details(context, self.layout, report)
 
 
-class VIEW3D_PT_medial_axis_surface(_Tab, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_surface(Inside, bpy.types.Panel):
     """Figures of the reconstructed surface"""
 
     bl_label = "Surface"
     bl_idname = "VIEW3D_PT_medial_axis_surface"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
 
     @classmethod
     def poll(cls, context):
@@ -167,6 +163,23 @@ class VIEW3D_PT_medial_axis_surface(_Tab, bpy.types.Panel):
 
     def draw(self, context):
         draw_surface(context, self.layout, shown_surface(context))
+
+
+def _settle_when_changed(context):
+    """Have the sidebar drawn again where the panels will be taller or shorter than they were: Blender leaves those
+    below where they were at first, over what has grown."""
+    active, space = context.object, context.space_data
+    now = (
+        active and active.name,
+        obstacle(context),
+        context.scene.medial_axis.note,
+        current_job.job() is None,
+        space is not None and shows_colours(space),
+    )
+    sidebar = context.region.as_pointer()
+    if _drawn.get(sidebar) != now:
+        _drawn[sidebar] = now
+        current_job.settle()
 
 
 def _frame(context):
@@ -180,15 +193,8 @@ def _shown(context):
     return _frame(context) or shown_result(context) or shown_report(context)
 
 
-def _column(layout):
-    column = layout.column()
-    column.use_property_split = True
-    column.use_property_decorate = False
-    return column
-
-
 def _draw_settings(context, layout):
-    settings, column = context.scene.medial_axis, _column(layout)
+    settings, column = context.scene.medial_axis, settings_column(layout)
     draw_form(column, settings)
     for name in ("theta", "rho"):
         column.prop(settings, name, slider=True)
@@ -197,7 +203,6 @@ def _draw_settings(context, layout):
     column.prop(settings, "side")
     if Side[settings.side] in (Side.OUTER, Side.BOTH):
         column.prop(settings, "within")
-    column.prop(settings, "sampling")
 
 
 def _draw_what_binds(context, layout, result):
@@ -231,7 +236,7 @@ def _draw_compute(context, layout):
 
 
 def _draw_progress(context, layout, job):
-    if hasattr(layout, "progress"):  # from 4.0
+    if bpy.app.version >= (5, 0):  # after such a bar, 4.3 draws the next label as a full one
         layout.progress(factor=job.fraction, text=f"{say(job.stage)}, {100 * job.fraction:.0f} %")
     else:
         row = layout.row()

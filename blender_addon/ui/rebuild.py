@@ -17,6 +17,7 @@ from ..bridge.rebuilt_object import (
     rebuilt_of,
 )
 from ..core.errors import MedialAxisError
+from .tab import Closed, settings_column
 from .translation import say
 
 _INPUTS = ("Voxel", "Factor", "Offset", "Min Radius", "Merge")
@@ -68,16 +69,11 @@ def _sentence(name, found):
     )
 
 
-class VIEW3D_PT_medial_axis_rebuild(bpy.types.Panel):
+class VIEW3D_PT_medial_axis_rebuild(Closed, bpy.types.Panel):
     """The solid again"""
 
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Medial Axis"
     bl_label = "Rebuild"
     bl_idname = "VIEW3D_PT_medial_axis_rebuild"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context):
@@ -97,9 +93,7 @@ def _draw_inputs(layout, made):
     modifier = modifier_of(made)
     if modifier is None:
         return
-    column = layout.column()
-    column.use_property_split = True
-    column.use_property_decorate = False
+    column = settings_column(layout)
     for name in _INPUTS:
         owner, path = row_of(modifier, name)
         column.prop(owner, path, text=name)
@@ -115,7 +109,7 @@ def _draw_difference(layout, made):
         "Volume": f"{100 * made[VOLUME]:.1f} %",
     }
     for label, text in figures.items():
-        row = column.split(factor=0.45)
+        row = column.split(factor=0.6)
         row.label(text=say(label), translate=False)
         row.label(text=text, translate=False)
 

@@ -9,27 +9,22 @@ from ..bridge.skeleton_object import is_skeleton, skeleton_of
 from ..core.settings import SKELETON_OPTIONS
 from . import current_job
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
+from .tab import Closed, settings_column
 from .translation import say
 from .wrapped_text import draw_wrapped
 
 
-class VIEW3D_PT_medial_axis_skeleton(bpy.types.Panel):
+class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
     bl_label = "Skeleton"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Medial Axis"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
-        column = self.layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
+        column = settings_column(self.layout)
         column.enabled = current_job.job() is None
         for name in (*SKELETON_OPTIONS, "bind"):
             column.prop(context.scene.medial_axis_skeleton, name)
-        for operator, icon in SKELETON_OPERATORS.items():
-            copy_all(context, self.layout.operator(operator, icon=icon))
+        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
+            for operator, icon in SKELETON_OPERATORS.items():
+                copy_all(context, self.layout.operator(operator, icon=icon))
         for thing in _shown(context):
             _draw_figures(context, self.layout.column(), thing)
 

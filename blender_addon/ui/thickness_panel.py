@@ -14,21 +14,17 @@ from .figures import length_text
 from .legend import draw_legend
 from .properties import copy_settings
 from .show import shows_colours
+from .tab import Closed, settings_column
 from .thickness_properties import copy_thickness_settings, shown_thickness
 from .translation import say
 from .wrapped_text import draw_wrapped
 
 
-class VIEW3D_PT_medial_axis_thickness(bpy.types.Panel):
+class VIEW3D_PT_medial_axis_thickness(Closed, bpy.types.Panel):
     """How thick the selected object is, and where it is thin"""
 
     bl_label = "Thickness"
     bl_idname = "VIEW3D_PT_medial_axis_thickness"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Medial Axis"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         layout, settings = self.layout, context.scene.medial_axis_thickness
@@ -45,9 +41,7 @@ class VIEW3D_PT_medial_axis_thickness(bpy.types.Panel):
 
 
 def _draw_options(layout, settings):
-    column = layout.column()
-    column.use_property_split = True
-    column.use_property_decorate = False
+    column = settings_column(layout)
     for name in THICKNESS_OPTIONS:
         row = column.row()
         row.active = name != "edges" or settings.noise == Noise.CLEAN.name

@@ -58,6 +58,7 @@ BENCH = {
     "virtual display": "xvfb",
     "software OpenGL": "libgl1-mesa-dri",
 }
+RACE = {**BUILD, "SciPy, for the judge": "python3-scipy"}
 
 
 def require(needs: dict[str, str]) -> None:

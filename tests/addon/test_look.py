@@ -175,6 +175,108 @@ def test_a_flat_source_carries_nothing():
     assert other.parent is None
 
 
+# --- hidden with the source
+
+
+def hidden(thing):
+    return thing.hide_viewport, thing.hide_render, thing.hide_get()
+
+
+def hide(thing, viewport=False, render=False, eye=False):
+    """Hide an object in these ways and no other, as Blender's own buttons do."""
+    thing.hide_viewport, thing.hide_render = viewport, render
+    thing.hide_set(eye)
+    bpy.context.view_layer.update()
+
+
+def with_axis(**settings):
+    source = ellipsoid()
+    compute(**EVEN, **settings)
+    bpy.context.view_layer.update()
+    return source, result_of(source)
+
+
+@pytest.mark.parametrize("way", ["viewport", "render", "eye"])
+def test_axis_is_hidden_and_shown_with_its_source(way):
+    source, axis = with_axis()
+    hide(source, **{way: True})
+    assert hidden(axis) == hidden(source) and any(hidden(axis))
+    hide(source)
+    assert hidden(axis) == (False, False, False)
+
+
+def test_an_axis_that_an_artist_shows_stays_beside_a_hidden_source():
+    source, axis = with_axis()
+    hide(source, eye=True)
+    hide(axis)
+    source.location.x += 1.0
+    select(axis)
+    bpy.context.view_layer.update()
+    assert axis.visible_get() and not source.visible_get()
+
+
+def test_an_axis_that_an_artist_hid_is_not_shown_with_its_source():
+    source, axis = with_axis()
+    hide(axis, eye=True)
+    hide(source, eye=True)
+    hide(source)
+    assert source.visible_get() and not axis.visible_get()
+
+
+def test_computing_again_leaves_hidden_what_was_hidden_with_its_source():
+    source, axis = with_axis()
+    hide(source, render=True)
+    select(source)
+    compute(**EVEN)
+    bpy.context.view_layer.update()
+    assert axis.hide_render
+    hide(source)
+    assert not axis.hide_render
+
+
+def test_only_a_child_of_its_source_is_hidden_with_it():
+    source, axis = with_axis(parent=False)
+    hide(source, viewport=True, render=True, eye=True)
+    assert hidden(axis) == (False, False, False)
+
+
+def test_axis_of_a_hidden_source_is_shown_when_it_is_made():
+    """A script may compute of what is hidden, and wants to see what it made."""
+    source = ellipsoid()
+    source.hide_render = True
+    compute(**EVEN)
+    bpy.context.view_layer.update()
+    axis = result_of(source)
+    assert not axis.hide_render
+    hide(source)
+    hide(source, render=True)
+    assert axis.hide_render
+
+
+def test_each_view_layer_hides_its_own():
+    source, axis = with_axis()
+    other = bpy.context.scene.view_layers.new("Other")
+    other.update()
+    source.hide_set(True, view_layer=other)
+    other.update()
+    assert axis.hide_get(view_layer=other) and not axis.hide_get()
+    source.hide_set(False, view_layer=other)
+    other.update()
+    assert not axis.hide_get(view_layer=other)
+
+
+def test_an_animated_source_hides_its_axis():
+    source, axis = with_axis()
+    for frame, value in ((1, False), (3, True), (5, False)):
+        source.hide_viewport = value
+        source.keyframe_insert("hide_viewport", frame=frame)
+    found = []
+    for frame in (1, 3, 4, 5):
+        bpy.context.scene.frame_set(frame)
+        found.append(axis.hide_viewport)
+    assert found == [False, True, True, False]
+
+
 def test_panel_finds_the_axis_of_whatever_is_selected():
     source = ellipsoid()
     bpy.ops.object.medial_axis_sampling_report(target="COPY", **EVEN)

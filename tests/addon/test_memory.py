@@ -161,7 +161,7 @@ def test_reports_of_the_sampling_have_the_limit(tight):
 
 def test_sequences_have_the_limit(tight, tmp_path):
     scan()
-    with pytest.raises(RuntimeError, match="Expected medial axes of 1 frames, found none"):
+    with pytest.raises(RuntimeError, match="Expected results of 1 frames, found none"):
         bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1")
     preferences().above_limit = "THIN"
     done = bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="1")

@@ -55,6 +55,9 @@ def present():
         "context menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object_context_menu),
         "export menu": f"{MODULE}.ui.export_axis" in menu_texts(bpy.types.TOPBAR_MT_file_export),
         "handler": any(h.__module__.startswith(MODULE) for h in bpy.app.handlers.load_pre),
+        "hiding": any(
+            h.__module__.startswith(MODULE) for h in bpy.app.handlers.depsgraph_update_post
+        ),
     }
 
 

@@ -109,7 +109,7 @@ def test_refused(growing, tmp_path):
         bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), frames="x")
     flat = link("Flat", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [(0, 1, 3, 2)])
     select(flat)
-    with pytest.raises(RuntimeError, match="Expected medial axes of 4 frames, found none"):
+    with pytest.raises(RuntimeError, match="Expected results of 4 frames, found none"):
         bpy.ops.object.medial_axis_sequence(directory=str(tmp_path))
     assert list(tmp_path.iterdir()) == [] and len(bpy.data.collections) == 0
     select()
@@ -194,6 +194,96 @@ def test_nothing_is_left_of_files_that_are_broken(growing, tmp_path, broken):
         bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)
     now = [len(data) for data in (bpy.data.objects, bpy.data.meshes, bpy.data.collections)]
     assert now == counts
+
+
+# --- skeletons
+
+
+@pytest.fixture
+def bending():
+    """A rod that bends from frame 1 to 3, selected."""
+    source = rod("Arm")
+    bend = source.modifiers.new("Bend", "SIMPLE_DEFORM")
+    bend.deform_method, bend.deform_axis = "BEND", "Z"
+    for frame, angle in ((1, 0.0), (3, 1.5)):
+        bend.angle = angle
+        bend.keyframe_insert("angle", frame=frame)
+    source.location = (1.0, 2.0, 3.0)
+    bpy.context.scene.frame_start, bpy.context.scene.frame_end = 1, 3
+    bpy.context.scene.frame_set(1)
+    return source
+
+
+def rod(name, around=16, along=41):
+    turn = np.linspace(0.0, 2 * np.pi, around, endpoint=False)
+    places = np.linspace(-2.0, 2.0, along)
+    vertices = [(x, 0.3 * np.cos(t), 0.3 * np.sin(t)) for x in places for t in turn]
+    ends = [list(range(around))[::-1], list(range(around * (along - 1), around * along))]
+    faces = [
+        (row * around + k, row * around + (k + 1) % around)
+        for row in range(along - 1)
+        for k in range(around)
+    ]
+    return link(name, vertices, [*ends, *((a, b, b + around, a + around) for a, b in faces)])
+
+
+def test_skeletons_of_every_frame(bending, tmp_path):
+    done = bpy.ops.object.medial_axis_sequence(directory=str(tmp_path), of="SKELETONS")
+    assert done == {"FINISHED"}
+    names = [f"Arm_{frame:04d}.json" for frame in (1, 2, 3)]
+    assert sorted(p.name for p in tmp_path.glob("Arm_????.json")) == names
+    assert play("Arm").name == "Arm Skeleton Sequence"
+    assert [shown("Arm")[frame] for frame in (1, 2, 3)] == [[f"Arm {f:04d}"] for f in (1, 2, 3)]
+    spans = []
+    for name, thing in zip(names, play("Arm").objects, strict=True):
+        skeleton = addon("core.files.load_skeleton").load_skeleton(tmp_path / name)
+        assert (skeleton.tips, skeleton.loops) == (2, 0) == (thing["ma_ends"], thing["ma_loops"])
+        (spline,) = thing.data.splines
+        points = np.array([point.co[:3] for point in spline.points])
+        np.testing.assert_allclose(points, skeleton.points[skeleton.branches[0]], atol=1e-5)
+        assert abs(np.median(points[:, 2]) - 3.0) < 0.05, "it lies where the source is"
+        radii = [point.radius for point in spline.points]
+        assert max(radii) == pytest.approx(0.3, abs=0.05)
+        spans.append(np.linalg.norm(points[-1] - points[0]))
+    assert spans[0] > spans[1] > spans[2]
+
+
+def test_skeletons_again_beside_axes_and_by_the_command_line(bending, tmp_path, capfd):
+    words = {"directory": str(tmp_path), "frames": "1-2"}
+    bpy.ops.object.medial_axis_sequence(of="SKELETONS", **words)
+    select(bending)
+    bpy.ops.object.medial_axis_sequence(**words)
+    assert sorted(c.name for c in bpy.data.collections) == [
+        "Arm Medial Axis Sequence",
+        "Arm Skeleton Sequence",
+    ]
+    counts = [len(data) for data in (bpy.data.objects, bpy.data.curves, bpy.data.actions)]
+    reports(capfd)
+    select(bending)
+    bpy.ops.object.medial_axis_sequence(of="SKELETONS", **words)
+    assert ("Info", "2 of 2 frames are there, 2 were before") in reports(capfd)
+    assert counts == [len(d) for d in (bpy.data.objects, bpy.data.curves, bpy.data.actions)]
+    assert (
+        addon("cli").main(["skeleton", f"{tmp_path}/", "--object", "Arm", "--frames", "1-2"]) == 0
+    )
+    assert capfd.readouterr().out.count("1 branches, 2 ends, 0 loops, kept\n") == 2
+
+
+def test_files_of_skeletons_are_imported_and_reports_passed_over(bending, tmp_path):
+    bpy.ops.object.medial_axis_sequence(
+        directory=str(tmp_path), of="SKELETONS", frames="1-2", playback=False
+    )
+    files = [{"name": path.name} for path in tmp_path.iterdir()]
+    assert len(files) == 4
+    bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)
+    assert [thing.name for thing in play("Arm").objects] == ["Arm 0001", "Arm 0002"]
+    (tmp_path / "Arm_0002.json").write_text(
+        '{"nodes": [], "edges": 3, "parts": [{"nodes": [0, 9]}]}'
+    )
+    counts = [len(data) for data in (bpy.data.objects, bpy.data.curves, bpy.data.collections)]
+    with pytest.raises(RuntimeError, match="Expected nodes and parts of a skeleton"):
+        bpy.ops.import_scene.medial_axis_sequence(directory=str(tmp_path), files=files)
+    assert counts == [len(d) for d in (bpy.data.objects, bpy.data.curves, bpy.data.collections)]
 
 
 def test_names_of_files():

@@ -293,3 +293,69 @@ def test_real_meshes_are_bound(name):
     make_armature(bind="AXIS")
     assert_weights_hold(source)
     assert len(armature_of(source).data.bones) <= 3 * 6 + 20
+
+
+# --- other programs: Blender's own exporters and importers
+
+
+# How they are written and read; other shading stumbles over np.bool in Blender 3.4 with NumPy 1.24.
+FORMATS = {
+    "gltf": (".glb", {"use_selection": True}, {"import_shading": "FLAT"}),
+    "fbx": (".fbx", {"use_selection": True, "add_leaf_bones": False}, {}),
+}
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_armatures_go_through_the_files_of_others(form, tmp_path):
+    """Bones, weights, and where vertices go when a bone turns, are those of before in an empty scene."""
+    suffix, export, read = FORMATS[form]
+    source = cross()
+    make_armature(bind="AXIS")
+    thing = armature_of(source)
+    name = max(bone.name for bone in thing.data.bones if bone.name.endswith(".L"))
+    parents = {bone.name: bone.parent and bone.parent.name for bone in thing.data.bones}
+    heads = {bone.name: np.array(thing.matrix_world @ bone.head_local) for bone in thing.data.bones}
+    rest, weights = world_positions(source), named_weights(source)
+    moved = turned(source, thing, name, heads[name])
+    assert np.linalg.norm(moved - rest, axis=1).max() > 0.5
+    path = str(tmp_path / f"cross{suffix}")
+    select(source, thing)
+    getattr(bpy.ops.export_scene, form)(filepath=path, **export)
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+    getattr(bpy.ops.import_scene, form)(filepath=path, **read)
+    (thing,) = [o for o in bpy.data.objects if o.type == "ARMATURE"]
+    (source,) = [o for o in bpy.data.objects if o.type == "MESH" and o.vertex_groups]
+    assert {b.name: b.parent and b.parent.name for b in thing.data.bones} == parents
+    for bone in thing.data.bones:
+        head = np.array(thing.matrix_world @ bone.head_local)
+        np.testing.assert_allclose(head, heads[bone.name], atol=1e-4)
+    now = world_positions(source)
+    row = addon("core.axis.nearness").nearest(now, rest)  # corners may have become vertices
+    np.testing.assert_allclose(now, rest[row], atol=1e-4)
+    found = named_weights(source)
+    assert set(found) <= set(weights)
+    for group, values in weights.items():
+        np.testing.assert_allclose(found.get(group, np.zeros(len(row))), values[row], atol=1e-3)
+    np.testing.assert_allclose(turned(source, thing, name, heads[name]), moved[row], atol=2e-3)
+
+
+def named_weights(source):
+    """{group: (v,) weight} of the groups that weigh anything."""
+    table = weights_of(source)
+    return {g.name: table[:, g.index] for g in source.vertex_groups if table[:, g.index].any()}
+
+
+def turned(source, thing, name, head):
+    """(v, 3) where vertices are in the world when a bone turns by 50 degrees about its head; then it turns back."""
+    about = Matrix.Translation(head)
+    turn = about @ Matrix.Rotation(math.radians(50), 4, (0.0, 1.0, 0.2)) @ about.inverted()
+    bone, world = thing.pose.bones[name], thing.matrix_world
+    bpy.context.view_layer.update()
+    bone.matrix = world.inverted() @ turn @ world @ bone.matrix
+    bpy.context.view_layer.update()
+    shown = source.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    places = positions(shown.to_mesh())
+    matrix = np.array(shown.matrix_world)
+    bone.matrix_basis = Matrix.Identity(4)
+    bpy.context.view_layer.update()
+    return places @ matrix[:3, :3].T + matrix[:3, 3]

@@ -34,6 +34,7 @@ DATA = {
     "Fill Caps",
     "step {}",
     " Medial Axis Sequence",
+    " Skeleton Sequence",
     "Medial Axis Self-Test",
     "Medial Axis Armature",
     "the arrays of a mesh contradict each other",
@@ -66,7 +67,9 @@ def labels():
             module, _, name = cls.bl_idname.partition(".")
             rna = getattr(getattr(bpy.ops, module), name).get_rna_type()
             found.add(rna.description)
-        if hasattr(cls, "bl_label") and not issubclass(cls, PresetPanel):  # it has that of a preset
+        if getattr(cls, "bl_label", "") and not issubclass(
+            cls, PresetPanel
+        ):  # it has that of a preset
             found.add(cls.bl_label)
         for prop in own_properties(cls, rna):
             found |= {prop.name, prop.description}

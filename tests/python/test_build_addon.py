@@ -59,7 +59,7 @@ def sources(tmp_path, monkeypatch):
     return addon
 
 
-@pytest.mark.parametrize("command", ["", "build", "demo", "test", "bench", "clean"])
+@pytest.mark.parametrize("command", ["", "build", "demo", "test", "bench", "race", "clean"])
 def test_help_is_there(command):
     words = [sys.executable, str(ROOT / "build_addon.py"), *command.split(), "--help"]
     done = subprocess.run(words, capture_output=True, text=True)

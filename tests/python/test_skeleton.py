@@ -8,13 +8,15 @@ import pytest
 from medial_axis.cli import main
 from medial_axis.core.axis.nearness import nearest
 from medial_axis.core.axis.shape import Shape
-from medial_axis.core.errors import DegenerateInputError, ExportError
+from medial_axis.core.errors import DegenerateInputError, ExportError, ReadError
+from medial_axis.core.files.load_skeleton import load_skeleton
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.files.write_skeleton import export_skeleton
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.skeleton.bones import bones_of
 from medial_axis.core.skeleton.centre import centre_of_mass
 from medial_axis.core.skeleton.compute import compute_skeleton
+from medial_axis.core.skeleton.ends import balls_of
 from medial_axis.core.skeleton.names import names_of
 from medial_axis.core.skeleton.net import Net
 from medial_axis.core.skeleton.rig import compute_rig
@@ -159,18 +161,67 @@ def ends_of(skeleton):
     return skeleton.points[tip], skeleton.radius[tip]
 
 
-@pytest.mark.parametrize("samples", [16_000, 32_000, 64_000])
-def test_the_hand_has_the_same_ends_at_every_density_and_however_it_is_turned(data_file, samples):
-    shape, _ = read_shape(data_file("hand_closed.obj"))
-    settings = Settings(sampling=SamplingMode.SURFACE, samples=samples)
-    points, radii = ends_of(compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton)
-    frame = np.linalg.qr(np.random.default_rng(samples).normal(size=(3, 3)))[0]
+@pytest.mark.parametrize(
+    ("name", "tips", "loops", "radii_off"),
+    [
+        ("hand_closed.obj", 6, 0, 1.0),
+        ("spot_low.obj", 8, 0, 1.0),
+        pytest.param(
+            "dilo.off", 7, 0, 2.0, marks=pytest.mark.slow
+        ),  # a leg ends in one or the other of its toes
+        pytest.param(
+            "rocker-arm.off", 3, 1, 1.5, marks=pytest.mark.slow
+        ),  # an arm that is cut flat
+        pytest.param("knot1.off", 0, 1, 1.0, marks=pytest.mark.slow),
+    ],
+)
+def test_the_same_ends_at_every_density_and_however_turned(data_file, name, tips, loops, radii_off):
+    """End points are within so many radii, of their own or of the usual one."""
+    shape, _ = read_shape(data_file(name))
+    first = None
+    for samples in (16_000, 32_000, 64_000):
+        settings = Settings(sampling=SamplingMode.SURFACE, samples=samples)
+        frame = np.linalg.qr(np.random.default_rng(samples).normal(size=(3, 3)))[0]
+        frame *= np.sign(np.linalg.det(frame))
+        turned = Shape(shape.points @ frame.T, shape.triangles)
+        found = compute_skeleton(turned, settings, SkeletonSettings()).skeleton
+        assert (found.tips, found.loops) == (tips, loops)
+        points, radii = ends_of(found)
+        first = first or (points @ frame, radii)
+        if tips:
+            away, which = cKDTree(points @ frame).query(first[0])
+            assert len(set(which)) == tips
+            assert (away <= radii_off * np.maximum(first[1], np.median(first[1]))).all()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_limb_that_is_cut_flat_ends_in_the_ball_that_touches_its_end(seed):
+    """And in no corner of it: a rod of radius 0.2 from -1 to 1."""
+    points, triangles = rod()
+    frame = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
     frame *= np.sign(np.linalg.det(frame))
-    turned = Shape(shape.points @ frame.T, shape.triangles)
-    others, _ = ends_of(compute_skeleton(turned, settings, SkeletonSettings()).skeleton)
-    away, which = cKDTree(others @ frame).query(points)
-    assert len(others) == len(points) and len(set(which)) == len(points)
-    assert (away <= np.maximum(radii, np.median(radii))).all()
+    shape = Shape(points @ frame.T, triangles)
+    points, _ = ends_of(compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton)
+    points = (points @ frame)[np.argsort((points @ frame)[:, 0])]
+    np.testing.assert_allclose(points, [(-0.8, 0, 0), (0.8, 0, 0)], atol=0.1)
+
+
+def rod(around=24, along=31):
+    turn = np.linspace(0.0, 2 * np.pi, around, endpoint=False)
+    side = np.column_stack((np.zeros(around), 0.2 * np.cos(turn), 0.2 * np.sin(turn)))
+    rings = [side + np.array([x, 0.0, 0.0]) for x in np.linspace(-1.0, 1.0, along)]
+    points = np.concatenate((*rings, [(-1.0, 0, 0), (1.0, 0, 0)]))
+    k = np.arange(around)
+    after, last = (k + 1) % around, around * (along - 1)
+    triangles = []
+    for a in range(0, last, around):
+        b = a + around
+        triangles += [np.column_stack((a + k, a + after, b + after))]
+        triangles += [np.column_stack((a + k, b + after, b + k))]
+    middle = len(points) - 2
+    triangles += [np.column_stack((np.full(around, middle), after, k))]
+    triangles += [np.column_stack((np.full(around, middle + 1), last + k, last + after))]
+    return points, np.concatenate(triangles).astype(np.int32)
 
 
 # --- symmetry
@@ -285,7 +336,7 @@ def test_a_bent_limb_moves_no_other_one(data_file, name):
 
 @pytest.mark.parametrize("name", RIGGED)
 def test_no_vertex_flies_away(data_file, name):
-    """In twenty poses no edge of the surface grows by more than a tenth of the size."""
+    """In twenty poses no edge of the surface grows by more than 7 % of the size; 5.0 % were measured."""
     shape, rig = rig_of(data_file, name)
     edges = edges_of(shape.triangles)
     size = np.linalg.norm(np.ptp(shape.points, axis=0))
@@ -293,7 +344,7 @@ def test_no_vertex_flies_away(data_file, name):
     for seed in range(20):
         found = posed(rig, shape.points, random_turns(rig.bones, seed))
         longer = np.linalg.norm(found[edges[:, 0]] - found[edges[:, 1]], axis=1)
-        assert (longer - np.linalg.norm(a - b, axis=1)).max() < 0.1 * size
+        assert (longer - np.linalg.norm(a - b, axis=1)).max() < 0.07 * size
 
 
 # --- files
@@ -360,6 +411,46 @@ def test_command_line(tmp_path, capsys):
     assert main(["skeleton", str(source), str(tmp_path / "ring.fbx")]) == 2
     assert main(["skeleton", str(tmp_path / "no.obj"), str(target)]) == 3
     assert main(["skeleton", str(source), str(target), "--detail", "2"]) == 2
+
+
+def test_command_line_takes_frames_and_folders(tmp_path, capsys):
+    vertices, triangles = meshes.torus()
+    for frame, size in ((1, 1.0), (2, 2.0)):
+        np.savez(tmp_path / f"ring_{frame:02d}.npz", points=size * vertices, triangles=triangles)
+    words = ["skeleton", str(tmp_path / "ring_##.npz"), f"{tmp_path}/lines/", "--frames", "1-2"]
+    assert main(words) == 0
+    found = [load_skeleton(tmp_path / "lines" / f"ring_{frame:04d}.json") for frame in (1, 2)]
+    assert found[1].length == pytest.approx(2 * found[0].length, rel=1e-6)
+    report = json.loads((tmp_path / "lines" / "ring_0002.json.json").read_text())
+    assert (report["frame"], report["ends"], report["loops"]) == (2, 0, 1)
+    assert main(words) == 0
+    assert capsys.readouterr().out.count("1 branches, 0 ends, 1 loops, kept") == 2
+
+
+def test_json_is_read_back(two_rings_and_a_y, tmp_path):
+    for found in two_rings_and_a_y:
+        path = export_skeleton(found.skeleton, found.parts, tmp_path / "a.json")
+        back = load_skeleton(path)
+        for name in ("points", "radius", "branch_offsets", "branch_points", "nodes"):
+            np.testing.assert_array_equal(getattr(back, name), getattr(found.skeleton, name))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "no json",
+        "{}",
+        "[]",
+        '{"nodes": [{"position": [0, 0], "radius": 1}], "parts": []}',
+        '{"nodes": [{"position": [0, 0, NaN], "radius": 1}], "parts": []}',
+        '{"nodes": [{"position": [0, 0, 0], "radius": 1}], "parts": [{"nodes": [0, 1]}]}',
+    ],
+)
+def test_files_that_are_no_skeletons_are_refused(tmp_path, text):
+    path = tmp_path / "a.json"
+    path.write_text(text)
+    with pytest.raises(ReadError, match=r"Expected nodes and parts of a skeleton in 'a\.json'"):
+        load_skeleton(path)
 
 
 # --- parts of it
@@ -447,7 +538,9 @@ def test_limbs_stay_and_ridges_go():
     wires = [(0, 1), (0, 2), (0, 3), (0, 4)]
     load = [0.5, 0.15, 0.15, 0.15, 0.05]
     net = net_of(points, wires, [1.0, 0.5, 0.5, 0.5, 0.5], load)
-    prune(net, 0.025)
+    none = np.zeros(0, np.int64)
+    balls = balls_of(none, np.zeros((0, 3)), np.zeros(0), none, 5)
+    prune(net, 0.025, balls)
     assert len(net.tips()) == 3 and net.stands_for()[4] == 0 and net.load[0] == pytest.approx(0.55)
-    prune(net, 0.4)
+    prune(net, 0.4, balls)
     assert len(net.tips()) == 2

@@ -47,13 +47,17 @@ def near(
     inside = (points >= lowest - reach) & (points <= highest + reach)
     left = np.flatnonzero(inside.all(axis=1))
     home = _cells(points[left], lowest, reach, size)
-    for step in product((-1, 0, 1), repeat=3):
-        cell = home + np.dot(step, _strides(size))
-        first, last = np.searchsorted(cells, cell, "left"), np.searchsorted(cells, cell, "right")
+    for step in product((-1, 0, 1), repeat=2):  # three cells in a row follow each other
+        cell = home + np.dot((*step, 0), _strides(size))
+        first = np.searchsorted(cells, cell - 1, "left")
+        last = np.searchsorted(cells, cell + 1, "right")
         while len(some := np.flatnonzero(first < last)):
             away = np.linalg.norm(points[left[some]] - others[first[some]], axis=1)
-            found[left[some[away <= reach]]] = True
-            first[some] += 1
+            hit = away <= reach
+            found[left[some[hit]]] = True
+            first[some] = np.where(hit, last[some], first[some] + 1)  # one is enough
+        more = ~found[left]
+        left, home = left[more], home[more]
     return found
 
 

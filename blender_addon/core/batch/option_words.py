@@ -141,6 +141,13 @@ def thickness_as_words(wanted: ThicknessSettings) -> dict[str, str | float | boo
     }
 
 
+def skeleton_as_words(wanted: SkeletonSettings) -> dict[str, str | float | bool]:
+    """The same of a skeleton."""
+    return {
+        name: _outward(option, getattr(wanted, name)) for name, option in SKELETON_OPTIONS.items()
+    }
+
+
 def _given(words: argparse.Namespace, options: Mapping[str, Any]) -> dict[str, Any]:
     given = {name: value for name, value in vars(words).items() if name in options}
     return {name: _inward(options[name], value) for name, value in given.items()}

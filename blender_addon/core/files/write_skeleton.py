@@ -41,13 +41,8 @@ def export_skeleton(skeleton: Skeleton, parts: Parts, path: str | os.PathLike) -
     ExportError
         Unknown extension, or the system refused to write; an old file is then unchanged.
     """
-    write = skeleton_format(path)
+    write = SKELETON_FORMATS[extension_of(path, SKELETON_FORMATS)]
     return write_whole(path, lambda stream: write(skeleton, parts, stream))
-
-
-def skeleton_format(path: str | os.PathLike) -> Callable[[Skeleton, Parts, BinaryIO], None]:
-    """What writes the format that the extension of `path` names."""
-    return SKELETON_FORMATS[extension_of(path, SKELETON_FORMATS)]
 
 
 def _write_swc(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:

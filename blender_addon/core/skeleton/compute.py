@@ -19,6 +19,7 @@ from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, Side, SkeletonSettings
 from .centre import centre_of_mass
+from .ends import end_limbs
 from .forks import draw_forks
 from .mirror import make_symmetric
 from .net import Net
@@ -134,7 +135,7 @@ def _net(
     """The branches that are limbs, the point that owns each sample, facets that have no curve, and what was cleared."""
     samples = chosen.samples
     level, hierarchy = _curve(samples, settings, wanted, progress)
-    owner = owners(samples, hierarchy, level)
+    owner, balls = owners(samples, hierarchy, level)
     spacing, share = shares(samples)
     count = len(level.vertices)
     net = Net(
@@ -145,8 +146,9 @@ def _net(
         np.bincount(owner, weights=share, minlength=count).astype(np.float64),
     )
     loops = clear_loops(net, _mean_of_owned(owner, spacing, count))
-    prune(net, wanted.share)
+    prune(net, wanted.share, balls)
     join_forks(net)
+    owner = end_limbs(net, owner, balls)
     draw_forks(net, samples.points)
     return net, owner, len(level.generators), loops
 

@@ -51,6 +51,7 @@ class Net:
         self.branches: dict[int, list[int]] = {}
         self.at: dict[int, list[int]] = {int(row): [] for row in singles}
         self.moved = np.arange(len(points))
+        self._held: dict[int, list[int]] = {}
         self._next = 0
         for chain in chains(wires, len(points)):
             self.add(chain)
@@ -91,6 +92,15 @@ class Net:
             target = target[target]
         return target
 
+    def held(self, rows: Iterable[int]) -> list[int]:
+        """Some points and all those that they stand for."""
+        found, left = [], list(rows)
+        while left:
+            row = left.pop()
+            found.append(row)
+            left += self._held.get(row, ())
+        return found
+
     # --- what changes it
 
     def add(self, chain: list[int]) -> int:
@@ -108,6 +118,13 @@ class Net:
         self._give(chain[1:], chain[0])
         del self.at[chain[-1]]
         self._join(chain[0])
+
+    def end_at(self, name: int, kept: list[int], tip: int) -> None:
+        """Let a branch go from the first of its points straight to its tip, which takes what was between."""
+        chain = self.branches[name]
+        self._give([row for row in chain if row != tip and row not in kept], tip)
+        way = [*kept, tip]
+        self.branches[name] = way if chain[0] == way[0] else way[::-1]
 
     def cut(self, name: int) -> None:
         """Take away a branch of a loop; each half leaves its load to its end."""
@@ -148,6 +165,7 @@ class Net:
         self.load[target] += self.load[rows].sum()
         self.load[rows] = 0.0
         self.moved[rows] = target
+        self._held.setdefault(target, []).extend(rows)
 
     def _join(self, node: int) -> None:
         """Make one branch of the two that meet at a node which is no fork any more."""

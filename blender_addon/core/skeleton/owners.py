@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..axis.nearness import nearest
+from .ends import Balls, balls_of
 from .spread import graph_of, spread
 
 if TYPE_CHECKING:
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
     from ..axis.analysis import AnalysedSamples
 
 
-def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> NDArray[np.int64]:
-    """The point that owns each sample.
+def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArray[np.int64], Balls]:
+    """The point that owns each sample, and the balls of the samples that each point owns.
 
     Parameters
     ----------
@@ -31,6 +32,7 @@ def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> NDArray[np.i
     owner : (n,) int64
         A row of the points. Samples whose ball the skeleton does not reach have that of the nearest one that has, and
         where there is none, as on a ball, the nearest point.
+    balls : Balls
     """
     graph = graph_of(hierarchy.vertices, hierarchy.edges)
     rows = np.arange(len(level.vertices))
@@ -41,7 +43,10 @@ def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> NDArray[np.i
     left = np.flatnonzero(owner < 0)
     if len(left):
         owner[left] = nearest(samples.points[left], level.vertices)
-    return owner
+    touched = np.flatnonzero(ball >= 0)
+    vertex = ball[touched]
+    found = hierarchy.vertices[vertex], hierarchy.radius[vertex]
+    return owner, balls_of(owner[touched], *found, touched, len(rows))
 
 
 def _of_the_nearest(owner: NDArray[np.int64], samples: AnalysedSamples) -> NDArray[np.int64]:
@@ -65,10 +70,10 @@ def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
     best = np.flatnonzero(radius == largest[facet])[::-1]  # so that the first of several stays
     of_facet = np.empty(len(largest), np.int64)
     of_facet[facet[best]] = corners[best]
-    sample = hierarchy.generators.T.ravel()
-    order = np.lexsort((np.tile(largest, 2), sample))
-    last = np.append(sample[order][1:] != sample[order][:-1], True)
-    ball[sample[order][last]] = np.tile(of_facet, 2)[order][last]
+    order = np.argsort(largest, kind="stable")
+    ball[hierarchy.generators[order].ravel()] = np.repeat(
+        of_facet[order], 2
+    )  # the last of several stays
     return ball
 
 

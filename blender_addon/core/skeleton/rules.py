@@ -19,13 +19,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .ends import reach_of
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from .ends import Balls
     from .net import Net
 
 THIN = 2.0  # spacings
-REACH = 1.6  # radii of the ball at the fork, from the centre of that to the far side of the ball at the tip
+REACH = 1.6  # radii of the ball at the fork, from the centre of that to the far side of the farthest ball
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,7 @@ def clear_loops(net: Net, spacing: NDArray[np.float64]) -> Loops:
     return Loops(cut, filled)
 
 
-def prune(net: Net, share: float) -> None:
+def prune(net: Net, share: float, balls: Balls) -> None:
     """Take the leaves away that are no limbs, the lightest first.
 
     Parameters
@@ -64,6 +67,8 @@ def prune(net: Net, share: float) -> None:
     net : Net
     share : float
         Of the surface: what a limb carries at least that hardly reaches out; others less, as they reach farther.
+    balls : Balls
+        Of the samples, by the points that own them.
     """
     queue = [(net.carried(name), name) for name in net.leaves()]
     heapq.heapify(queue)
@@ -73,7 +78,7 @@ def prune(net: Net, share: float) -> None:
             continue
         if net.carried(name) > load:  # it has grown
             heapq.heappush(queue, (net.carried(name), name))
-        elif not is_limb(net, name, share):
+        elif not is_limb(net, name, share, balls):
             before = set(net.branches)
             net.drop_leaf(name)
             for new in net.branches.keys() - before:
@@ -101,12 +106,10 @@ def _shortest_between_forks(net: Net) -> int | None:
     return min(found)[1] if found else None
 
 
-def is_limb(net: Net, name: int, share: float) -> bool:
+def is_limb(net: Net, name: int, share: float, balls: Balls) -> bool:
     """Whether a leaf reaches out of the ball at its fork, and carries enough for that."""
-    chain = net.from_fork(name)
-    fork, tip = chain[0], chain[-1]
-    reach = net.radius[tip] + np.linalg.norm(net.points[tip] - net.points[fork])
-    needed = REACH * net.radius[fork]
+    reach = reach_of(net, name, balls)
+    needed = REACH * net.radius[net.from_fork(name)[0]]
     return bool(reach >= needed and net.carried(name) * reach >= share * needed)
 
 

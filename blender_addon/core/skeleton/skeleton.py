@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -86,6 +86,10 @@ class Skeleton:
         """Of all branches together."""
         steps = np.diff(self.points[self.edges], axis=1)[:, 0]
         return float(np.linalg.norm(steps, axis=1).sum())
+
+    def placed(self, frame: NDArray[np.float64]) -> Skeleton:
+        """The skeleton moved and turned by a (4, 4) matrix."""
+        return replace(self, points=self.points @ frame[:3, :3].T + frame[:3, 3])
 
 
 def skeleton_of(

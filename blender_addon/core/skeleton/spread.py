@@ -26,12 +26,22 @@ class Graph:
 
 def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
     """The graph of (e, 2) edges between (n, 3) points, as long as they are in space."""
-    ends = np.concatenate((edges, edges[:, ::-1]))
-    ends = ends[np.argsort(ends[:, 0], kind="stable")].astype(np.int64)
-    length = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
+    ends = np.ascontiguousarray(edges.T)
+    along = points[ends[0]] - points[ends[1]]
+    length = np.sqrt(np.einsum("ij,ij->i", along, along))
+    counts = [np.bincount(end, minlength=len(points)) for end in ends]
     first = np.zeros(len(points) + 1, np.int64)
-    np.cumsum(np.bincount(ends[:, 0], minlength=len(points)), out=first[1:])
-    return Graph(first, ends[:, 1], length)
+    np.cumsum(counts[0] + counts[1], out=first[1:])
+    to, far = np.empty(2 * len(edges), np.int64), np.empty(2 * len(edges))
+    start = first[:-1]
+    for here, there, count in zip(ends, ends[::-1], counts, strict=True):
+        order = np.argsort(
+            here, kind="stable"
+        )  # half of the rows at a time: lists of edges are sorted in part
+        row = np.arange(len(edges)) + np.repeat(start - (np.cumsum(count) - count), count)
+        to[row], far[row] = there[order], length[order]
+        start = start + count
+    return Graph(first, to, far)
 
 
 def spread(

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which bones move which vertex, and how much: those of the branch that owns the vertex' ball.
 
-A vertex follows the bone beside it. Round a joint within a chain its two bones share. Where a limb begins it shares
-with the bone that the limb hangs on, and where two limbs meet both share with that: so the weights are continuous, and
-no limb moves the skin of another one.
+A vertex follows the bone beside it. Round a joint within a chain its two bones share. Where the part of a limb, and of
+all that hangs on it, meets the rest, it follows the bone that the limb hangs on: so the weights are continuous, and no
+limb moves the skin of another one.
 """
 
 from __future__ import annotations
@@ -123,21 +123,42 @@ def _share_with_parents(
     vertices: NDArray[np.float64],
     edges: NDArray[np.int32],
 ) -> None:
-    """Fade each chain out towards others that do not hang on it, in favour of the bone that it hangs on itself."""
+    """Fade each chain, and with it all that hangs on it, out towards the rest in favour of the bone that it hangs on.
+
+    Those that hang on others come first: so what they leave to a chain fades out with it.
+    """
     first = _first_bones(bones)
-    hangs_on = bones.parent[first]
-    above = np.where(hangs_on >= 0, bones.chain[hangs_on], -1)
-    other = chain[edges]
-    apart = other[:, 0] != other[:, 1]
-    rim = [edges[apart & ~_below(other[:, 1 - i], other[:, i], above)][:, i] for i in (0, 1)]
-    rim_vertices = np.unique(np.concatenate(rim)).astype(np.int64)
-    inner = graph_of(vertices, edges[~apart])
-    _, away = spread(inner, rim_vertices, np.zeros(len(rim_vertices), np.int64))
-    width = bones.head_radius[first][chain]
-    here = np.flatnonzero((away < width) & (hangs_on[chain] >= 0))
-    stays = _smoothstep(away[here] / width[here])
-    weight[here] *= stays[:, None]
-    weight[here, hangs_on[chain[here]]] += 1.0 - stays
+    for name in range(
+        len(first) - 1, -1, -1
+    ):  # a chain has a higher number than that which it hangs on
+        hangs_on = bones.parent[first[name]]
+        if hangs_on < 0:
+            continue
+        below = _all_below(name, bones, first)
+        width = float(bones.head_radius[first[name]])
+        rows, fades = _rim(below[chain], vertices, edges, width)
+        mine = np.flatnonzero(below[bones.chain])
+        block = weight[np.ix_(rows, mine)]
+        left = block * fades[:, None]
+        weight[np.ix_(rows, mine)] = left
+        weight[rows, hangs_on] += (block - left).sum(axis=1)
+
+
+def _rim(
+    here: NDArray[np.bool_], vertices: NDArray[np.float64], edges: NDArray[np.int32], width: float
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """The vertices of a part of the surface that are nearer to its rim than a width, and how much they follow it.
+
+    What is farthest from the rim of a short part follows it whole: there the width is half of that distance.
+    """
+    inside = here[edges]
+    apart = inside[:, 0] != inside[:, 1]
+    rim = np.unique(edges[apart][inside[apart]]).astype(np.int64)
+    inner = graph_of(vertices, edges[inside.all(axis=1)])
+    _, away = spread(inner, rim, np.zeros(len(rim), np.int64))
+    width = min(width, float(away[np.isfinite(away)].max(initial=0.0)) / 2)
+    rows = np.flatnonzero(here & (away < width))
+    return rows, _smoothstep(away[rows] / width)
 
 
 def _first_bones(bones: Bones) -> NDArray[np.int64]:
@@ -147,14 +168,13 @@ def _first_bones(bones: Bones) -> NDArray[np.int64]:
     return first
 
 
-def _below(
-    lower: NDArray[np.int64], upper: NDArray[np.int64], above: NDArray[np.int64]
-) -> NDArray[np.bool_]:
-    """Whether one chain hangs on another, at once or by others between."""
-    found, at = np.zeros(len(lower), bool), lower
-    while (at >= 0).any():
-        at = np.where(at >= 0, above[at], -1)
-        found |= at == upper
+def _all_below(name: int, bones: Bones, first: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(chains,) a chain, and those that hang on it, at once or by others between."""
+    found = np.zeros(len(first), bool)
+    found[name] = True
+    for other in range(name + 1, len(first)):
+        above = bones.parent[first[other]]
+        found[other] = above >= 0 and found[bones.chain[above]]
     return found
 
 

@@ -244,8 +244,22 @@ std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, do
   return Pair{*left, *right};
 }
 
+// One of each chain; samples on edges and all rows beside them go by the same.
+using Divisions = std::vector<std::optional<Division>>;
+
+Divisions divisions_of(const Model& model, bool keep_vertices, const Spacing& spacing,
+                       const Run& run) {
+  const auto& chains = model.creases.chains;
+  Divisions divisions(chains.size());
+  parallel_for(
+      chains.size(), run,
+      [&](int64_t i) { divisions[i].emplace(model, chains[i], keep_vertices, spacing); }, 16);
+  return divisions;
+}
+
 std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
-                                       const Spacing& spacing, const Run& run) {
+                                       const Divisions& divisions, const Spacing& spacing,
+                                       const Run& run) {
   auto samples = parallel_append<FixedSample>(
       static_cast<int64_t>(model.mesh.points.size()), run,
       [&](int64_t p, std::vector<FixedSample>& out, int) {
@@ -254,12 +268,10 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
           out.push_back(at_vertex(model, static_cast<int32_t>(p), spacing));
         }
       });
-  const auto& chains = model.creases.chains;
   const auto along_chains = parallel_append<FixedSample>(
-      chains.size(), run,
+      static_cast<int64_t>(divisions.size()), run,
       [&](int64_t i, std::vector<FixedSample>& out, int) {
-        const Division division(model, chains[i], keep_vertices, spacing);
-        for (const auto& [edge, share] : division.ends_of_parts()) {
+        for (const auto& [edge, share] : divisions[i]->ends_of_parts()) {
           out.push_back(on_edge(model, model.creases.edges[edge], share, spacing));
         }
       },
@@ -271,14 +283,13 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
 }
 
 // One row of a hexagonal lattice along each edge; every other row is staggered.
-std::vector<Pair> mirrored_row(const Model& model, int row, bool keep_vertices,
+std::vector<Pair> mirrored_row(const Model& model, int row, const Divisions& divisions,
                                const Spacing& spacing, const Run& run) {
   constexpr double kFirstRow = 0.75, kNextRow = 0.85;
-  const auto& chains = model.creases.chains;
   return parallel_append<Pair>(
-      chains.size(), run,
+      static_cast<int64_t>(divisions.size()), run,
       [&](int64_t i, std::vector<Pair>& out, int) {
-        const Division division(model, chains[i], keep_vertices, spacing);
+        const Division& division = *divisions[i];
         for (const PlaceOnEdge& place :
              row % 2 == 0 ? division.middles_of_parts() : division.ends_of_parts()) {
           const auto pair = beside_edge(model, place, kFirstRow + kNextRow * row, spacing);
@@ -299,10 +310,10 @@ std::vector<Disk> disks_of(std::span<const FixedSample> samples) {
 }
 
 // Appends the rows beside the sharp edges, as far as there is room, the nearest first.
-void add_mirrored_rows(const Model& model, const SamplingOptions& options, const Spacing& spacing,
-                       std::vector<FixedSample>& samples, const Run& run) {
-  for (int row = 0; row < options.mirrored_rows; ++row) {
-    const auto pairs = mirrored_row(model, row, options.keep_vertices, spacing, run);
+void add_mirrored_rows(const Model& model, int rows, const Divisions& divisions,
+                       const Spacing& spacing, std::vector<FixedSample>& samples, const Run& run) {
+  for (int row = 0; row < rows; ++row) {
+    const auto pairs = mirrored_row(model, row, divisions, spacing, run);
     std::vector<std::array<Disk, 2>> disks;
     for (const auto& [left, right] : pairs) disks.push_back({disk_of(left), disk_of(right)});
     for (const int32_t i : free_pairs(disks_of(samples), disks, run)) {
@@ -363,8 +374,9 @@ Turn sample_once(const Model& model, const SamplingOptions& options, const Spaci
   const double creases = spacing.field ? 0 : crease_length(model) / spacing.scale;
   require_countable(std::max(expected.count, creases));
   Turn turn;
-  turn.fixed = fixed_samples(model, options.keep_vertices, spacing, run);
-  add_mirrored_rows(model, options, spacing, turn.fixed, run);
+  const auto divisions = divisions_of(model, options.keep_vertices, spacing, run);
+  turn.fixed = fixed_samples(model, options.keep_vertices, divisions, spacing, run);
+  add_mirrored_rows(model, options.mirrored_rows, divisions, spacing, turn.fixed, run);
   const int cuts = cuts_for(model, expected.count);
   if (cuts > 0 || !spacing.field) {
     expected.pieces = cut_into_pieces(*model.surface, cuts, spacing, run);

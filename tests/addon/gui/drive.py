@@ -27,6 +27,8 @@ SCENES = {  # name -> whether the compiled module is installed
     "compute_drag_undo": True,
     "scan": True,
     "sampling": True,
+    "what_comes_after": True,
+    "hide_and_seek": True,
     "cancel_surface_with_escape": True,
     "cancel_with_escape": True,
     "cancel_with_button": True,

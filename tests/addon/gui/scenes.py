@@ -31,8 +31,16 @@ CANCEL = (102, 71)
 RECONSTRUCT = (102, 81)  # where there are points without faces
 THETA_LEFT, THETA_RIGHT = (120, 127), (50, 127)
 GERMAN_TAB = (13, 270)
-SAMPLING = (102, 229)
-REPORT = (102, 442)
+# Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
+SAMPLING, SKELETON, THICKNESS = (185, 206), (150, 258), (150, 284)
+RESULT, REBUILD = (
+    (150, 283),
+    (150, 387),
+)  # where there is a result; the second, when the first is closed
+REPORT = (102, 419)
+EXTRACT_SKELETON, MAKE_ARMATURE = (102, 384), (102, 410)
+MEASURE_THICKNESS = (102, 432)
+REBUILD_SOLID = (102, 417)
 
 
 # --- hands and eyes
@@ -473,6 +481,105 @@ def scene_sampling():
     assert len(report.data.vertices) == result["ma_points"], "it is the same analysis"
     yield from key("ctrl+z")
     assert reports() == [] and len(medial_objects()) == 1, "undo must remove the report alone"
+
+
+def branches():
+    """A Y of three tubes, as one mesh."""
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    ends = [(0, 0, 0), (0, 0, -1.6), (-1.2, 0, 1.2), (1.2, 0, 1.2)]
+    wire = link("Wire", ends, edges=[(0, 1), (0, 2), (0, 3)])
+    wire.modifiers.new("Skin", "SKIN")
+    wire.modifiers.new("Subdivision", "SUBSURF").levels = 3
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    mesh = bpy.data.meshes.new_from_object(wire.evaluated_get(depsgraph))
+    source = bpy.data.objects.new("Branches", mesh)
+    bpy.context.scene.collection.objects.link(source)
+    bpy.data.objects.remove(wire)
+    select(source)
+    turn_to_the_front()
+    bpy.ops.ed.undo_push(message="Scene is set")
+    return source
+
+
+def scene_what_comes_after():
+    """Skeleton, armature, thickness, the solid again and nodes, each by the button of its panel."""
+    source = branches()
+    yield from open_tab()
+    yield from fold(SKELETON)
+    look("1-skeleton-panel")
+    yield from click(*at(EXTRACT_SKELETON))
+    yield from until(lambda: "Branches Skeleton" in bpy.data.objects)
+    look("2-skeleton")
+    yield from click(*at(MAKE_ARMATURE))
+    yield from until(lambda: "Branches Armature" in bpy.data.objects)
+    look("3-armature")
+    assert len(bpy.data.armatures["Branches Armature"].bones) >= 3
+    assert bpy.context.object == source, "the source stays what the panel speaks of"
+    yield from fold(SKELETON)
+
+    bpy.context.scene.medial_axis_thickness.limit = 0.45
+    yield from fold(THICKNESS)
+    look("4-thickness-panel")
+    yield from click(*at(MEASURE_THICKNESS))
+    yield from until(lambda: addon("bridge.thickness_object").carrier_of(source) is not None)
+    look("5-thickness")
+    show_colours()
+    yield patience(1.0)
+    look("6-thickness-in-colours")
+    show_colours()
+    yield from fold(THICKNESS)
+
+    yield from click(*at(COMPUTE))
+    yield from until(medial_objects)
+    yield from fold(RESULT)
+    yield from fold(REBUILD)
+    look("7-rebuild-panel")
+    yield from click(*at(REBUILD_SOLID))
+    yield from until(lambda: "Branches Medial Axis Rebuilt" in bpy.data.objects)
+    look("8-rebuilt")
+    bpy.data.objects.remove(bpy.data.objects["Branches Medial Axis Rebuilt"])
+    with bpy.context.temp_override(window=window(), area=viewport(), object=source):
+        assert bpy.ops.object.medial_axis_nodes("INVOKE_DEFAULT", group="BALLS") == {"FINISHED"}
+    yield patience(1.5)
+    look("9-nodes")
+
+
+def scene_hide_and_seek():
+    """H hides the axis with its source; undo, redo and Alt H know it, too."""
+    source = bpy.data.objects["Cube"]
+    select(source)
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield from until(medial_objects)
+    (axis,) = medial_objects()
+    name = axis.name
+    for stroke, seen in (
+        ("h", False),
+        ("ctrl+z", True),
+        ("ctrl+shift+z", False),
+        ("alt+h", True),
+    ):
+        yield from key(stroke)
+        yield 0.5
+        look(stroke)
+        assert [bpy.data.objects[n].visible_get() for n in ("Cube", name)] == [seen, seen], stroke
+
+
+def until(condition):
+    """Wait for a button's work; it is refused at once or begun, so the limit is short."""
+
+    def done():
+        return bool(condition()) and no_job()
+
+    done.patience = 30.0
+    yield done
+    yield patience(1.0)
+
+
+def fold(header):
+    """Open or close a panel by its header."""
+    yield from click(*at(header))
+    yield 1.0
 
 
 def reports():

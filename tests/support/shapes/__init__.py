@@ -6,12 +6,16 @@ inner axis), `axis_points(m, seed)` (uniform points of the inner axis) and `axis
 Truth: oblate and triaxial ellipsoid: a disc or solid ellipse with semi-axes (a^2 - c^2)/a and (b^2 - c^2)/b;
 prolate: a segment; rounded slab: the rectangle; shell: the middle surface; convex polytope: for each pair of faces the
 polygon where both are nearest; convex profile turned round the z axis: the profile's axis, turned; tube: the curve.
+Some give `outer_axis_distance(x)`, too. Thickness varies in `RoundCone`, `EccentricShell` and `Cyclide`; `HoledPlate`
+has handles.
 """
 
 from .base import Array, Rng, Shape
 from .convex import Box, Lathe, cylinder, frustum, grid_cube
 from .ellipsoids import Ellipsoid, Prolate, Shell, Sphere
+from .holes import HoledPlate
 from .thick import Capsule, Knot, Slab, Torus
+from .varying import Cyclide, EccentricShell, RoundCone
 
 SHAPES: dict[str, Shape] = {
     "ellipsoid": Ellipsoid(),
@@ -42,11 +46,15 @@ __all__ = [
     "Array",
     "Box",
     "Capsule",
+    "Cyclide",
+    "EccentricShell",
     "Ellipsoid",
+    "HoledPlate",
     "Knot",
     "Lathe",
     "Prolate",
     "Rng",
+    "RoundCone",
     "Shape",
     "Shell",
     "Slab",

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a batch computes of each shape: its skeleton."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..axis.shape import Shape
+from ..files.write_skeleton import export_skeleton
+from ..machine.memory_limit import MemoryLimit
+from ..machine.progress import Progress
+from ..settings import Settings, SkeletonSettings
+from ..skeleton.compute import Skeletonization, compute_skeleton
+from .option_words import as_words, skeleton_as_words
+
+
+@dataclass(frozen=True)
+class SkeletonWork:
+    """Skeletons of some settings, as files."""
+
+    settings: Settings
+    wanted: SkeletonSettings
+
+    def compute(
+        self, shape: Shape, limit: MemoryLimit, progress: Progress | None
+    ) -> Skeletonization:
+        return compute_skeleton(shape, self.settings, self.wanted, progress, limit)
+
+    def check(self, found: Skeletonization) -> None:
+        """A skeleton has one point at least."""
+
+    def write(self, found: Skeletonization, path: Path, frame: np.ndarray) -> tuple[str, ...]:
+        export_skeleton(found.skeleton.placed(frame), found.parts, path)
+        return ()
+
+    def words(self) -> dict[str, Any]:
+        """The settings, as one would write them."""
+        return {**as_words(self.settings), **skeleton_as_words(self.wanted)}
+
+    def figures(self, found: Skeletonization) -> dict[str, Any]:
+        skeleton = found.skeleton
+        return {
+            "points": found.points,
+            "duplicates": found.duplicates,
+            "branches": skeleton.count,
+            "ends": skeleton.tips,
+            "loops": skeleton.loops,
+            "pieces": skeleton.pieces,
+            "loops_cut": found.loops.cut,
+            "loops_filled": found.loops.filled,
+            "mirrored": found.mirrored,
+            "length": skeleton.length,
+            "radius": [float(skeleton.radius.min()), float(skeleton.radius.max())],
+            "sampled": found.chosen.reason,
+        }
