@@ -25,13 +25,9 @@ from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
 from .selected_sources import has_faces, sources
-<<<<<<< HEAD
-from .tab import Closed
-from .translation import say
-=======
 from .skeleton_operators import skeleton_settings
+from .tab import Closed
 from .translation import IN_CONTEXT, say
->>>>>>> skel
 
 _PRODUCTS = {"AXES": "medial axis", "SKELETONS": "skeleton"}
 _AT_ONCE = 0.1  # seconds for which finished frames are passed over before Blender may draw again

@@ -5,8 +5,9 @@
 #include "axis/feature_size.h"
 #include "axis/medial_mesh.h"
 #include "axis/thickness.h"
-#include "cocone/watertight_surface.h"
 #include "cocone/labelled_poles.h"
+#include "cocone/watertight_surface.h"
+#include "inside/pockets.h"
 #include "skeleton/hierarchy.h"
 
 namespace medial {
@@ -93,11 +94,19 @@ bool needs_poles(SidesFrom from) {
   return from == SidesFrom::tight_cocone || from == SidesFrom::poles;
 }
 
+// `surface` is that of the solid, `vertices` are its own.
+void find_pockets(Parts& made, std::span<const Vec3> vertices, const Surface& surface,
+                  const Run& run) {
+  made.pockets = pockets(made.samples.points, made.significance.spacing, vertices, surface,
+                         made.triangulation, made.voronoi, made.sides, run);
+}
+
 void take_tight_cocone(Parts& made, TightCocone found, const Csr<int32_t>& incident,
                        const Run& run) {
   SolidBoundary boundary = solid_boundary(made.triangulation, incident, found.sides, run);
   made.sides = sides_in_solid(made.samples.points, found.sides, boundary.triangles,
                               made.triangulation, made.voronoi, run);
+  find_pockets(made, made.samples.points, {boundary.triangles, {}}, run);
   found.sides = {};
   made.tight_cocone = std::make_shared<WatertightSurface>(
       describe(std::move(found), std::move(boundary), made.samples, run));
@@ -107,6 +116,7 @@ void take_labels(Parts& made, const LabelledPoles& labelled, const Run& run) {
   made.sides = sides_from_normals(made.samples.points, labelled.normals, made.triangulation,
                                   made.voronoi, run);
   made.sides_from = SidesFrom::poles;
+  made.pockets.clear();  // of Tight Cocone
   made.tight_cocone.reset();
 }
 
@@ -146,6 +156,7 @@ void tell_sides(Parts& made, const Surface& surface, std::span<const Vec3> verti
   if (made.sides_from == SidesFrom::surface) {
     made.sides =
         sides_from_surface(points, vertices, surface, made.triangulation, made.voronoi, run);
+    find_pockets(made, vertices, surface, run);
   } else if (made.sides_from == SidesFrom::normals) {
     made.sides = sides_from_normals(points, unit_normals(normals, made.samples), made.triangulation,
                                     made.voronoi, run);
@@ -244,10 +255,12 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
   return kept;
 }
 
-Facets facets_of(const Parts& made) {
+Facets facets_of(const Parts& made, const CellSides& sides) {
   return {made.samples.points, made.triangulation, made.voronoi,
-          made.edges,          made.significance,  made.sides};
+          made.edges,          made.significance,  sides};
 }
+
+Facets facets_of(const Parts& made) { return facets_of(made, made.sides); }
 
 Selection selection(const Parts& made, const Extraction& x) {
   const Selection selection(x, facets_of(made));
@@ -306,7 +319,10 @@ Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
         "where fire has no rim to start from.");
   }
   require_solid(parts_->sides_from, parts_->tight_cocone.get());
-  return make_hierarchy(parts_->samples, facets_of(*parts_), thresholds, parts_->frame,
+  CellSides in_parts;
+  if (!parts_->pockets.empty()) in_parts = without(parts_->pockets, parts_->sides);
+  const CellSides& sides = parts_->pockets.empty() ? parts_->sides : in_parts;
+  return make_hierarchy(parts_->samples, facets_of(*parts_, sides), thresholds, parts_->frame,
                         parts_->run(progress));
 }
 

@@ -25,6 +25,7 @@ struct MedialAnalysis::Parts {
   Edges edges;
   Significance significance;
   CellSides sides;
+  std::vector<int32_t> pockets;  // inner cells that the hierarchy leaves out
   SidesFrom sides_from = SidesFrom::none;
   std::optional<double> pole_disagreement;
   std::shared_ptr<const WatertightSurface> tight_cocone;

@@ -35,8 +35,8 @@ class Side:
 class SidesFrom:
     """What tells inside from outside, for `MedialAnalysis`."""
 
-    AUTOMATIC: SidesFrom  # 0: SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE; or POLES
-    # where its `pole_disagreement` is above 0.05
+    AUTOMATIC: SidesFrom  # 0: SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE; or
+    # POLES where its `pole_disagreement` is above 0.05
     SURFACE: SidesFrom  # 1: the winding number of the triangles
     NORMALS: SidesFrom  # 2: a vote of outward normals of the samples nearest to a Voronoi vertex
     TIGHT_COCONE: SidesFrom  # 3: the watertight surface of `TightCocone`; needs the points only

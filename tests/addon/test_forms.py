@@ -15,6 +15,7 @@ from scene import (
     positions,
     result_of,
     select,
+    suzanne,
     torus,
 )
 
@@ -237,3 +238,19 @@ def test_a_sequence_plays_with_its_edges(tmp_path):
     assert len(loose_edges(thing.data)) == len(loose_edges(mesh)) > 0
     assert np.array_equal(positions(thing.data), positions(mesh))
     assert np.array_equal(attribute(thing.data, "ma_limb"), attribute(mesh, "ma_limb"))
+
+
+@pytest.mark.parametrize("smooth", [False, True], ids=["flat", "smooth"])
+@pytest.mark.parametrize("levels", [0, 2, pytest.param(3, marks=pytest.mark.slow)])
+def test_suzanne_is_one_piece(levels, smooth):
+    """One click; her eyes and their sockets are open, and have sharp rims where she is not subdivided."""
+    source = suzanne(levels)
+    if smooth:
+        bpy.ops.object.shade_smooth()
+    bpy.ops.object.medial_axis()
+    result = result_of(source)
+    assert tuple(result["ma_betti"]) == (1, 0, 0)
+    assert result["ma_topology"].startswith("1 piece, no loop, no cavity")
+    mesh = result.data
+    loose = set(range(len(mesh.vertices))) - {v for edge in mesh.edges for v in edge.vertices}
+    assert not loose and len(mesh.polygons) > 10_000

@@ -365,6 +365,61 @@ MUTATIONS = (
         "what bounds something is taken for buried",
         python=("test_sampling.py",),
     ),
+    Mutation(
+        "inside/level_set.cpp",
+        "corner.inside = winding.is_inside(corner.at, corner.closed);",
+        "corner.inside = corner.closed > 0;",
+        "the caps are taken for the level set",
+    ),
+    Mutation(
+        "inside/level_set.cpp",
+        "return drop && *drop == 0;",
+        "return drop.has_value();",
+        "the level set is followed through triangles",
+    ),
+    Mutation(
+        "inside/level_set.cpp",
+        "if (!in->inside) std::swap(in, out);",
+        "if (in->inside) std::swap(in, out);",
+        "falls begin outside",
+    ),
+    Mutation(
+        "inside/walls.cpp",
+        "depth += hit.cosine > 0 ? -1 : 1;",
+        "depth -= 1;",
+        "the way to a wall ends where it enters another part",
+    ),
+    Mutation(
+        "inside/walls.cpp",
+        "return hit.cosine >= kFacing ? hit.at : HUGE_VAL;",
+        "return hit.at;",
+        "walls at a slant count",
+    ),
+    Mutation(
+        "inside/solid_betti.cpp",
+        "++betti[volume[v] > 0 ? 0 : 2];",
+        "++betti[0];",
+        "cavities are counted as pieces",
+    ),
+    Mutation(
+        "inside/solid_betti.cpp",
+        "if (!is_fan(triangles, fans[v], v)) return std::nullopt;",
+        "if (fans[v].size() < 3) return std::nullopt;",
+        "pinched surfaces have Betti numbers",
+    ),
+    Mutation(
+        "inside/pockets.cpp",
+        "points_[corners[0]]) <= hole;",
+        "points_[corners[0]]) <= 0 * hole;",
+        "pockets stay",
+    ),
+    Mutation(
+        "inside/pockets.cpp",
+        "return winding.is_inside_along(from, to + offset);",
+        "return winding.is_inside_along(to + offset, to + offset);",
+        "small bodies are taken for pockets",
+        python=("test_pockets.py",),
+    ),
     # ---- cocone
     Mutation(
         "cocone/cocone.cpp",
@@ -458,6 +513,61 @@ MUTATIONS = (
         "const bool third = edges[i] == edges[i - 2] &&",
         "const bool third = edges[i] == edges[i - 1] &&",
         "edges of two triangles count as not manifold",
+    ),
+    # ---- skeleton
+    Mutation(
+        "skeleton/wires.cpp",
+        "if (distance(at, complex_.position[front.anchor]) > 0.5 * complex_.radius[vertex]) {",
+        "if (distance(at, complex_.position[front.anchor]) > 0 * complex_.radius[vertex]) {",
+        "times on wires are summed over zigzags",
+    ),
+    Mutation(
+        "skeleton/canal.cpp",
+        "canal.trust = all_round();",
+        "canal.trust = 1;",
+        "two walls are taken for a round limb",
+    ),
+    Mutation(
+        "skeleton/canal.cpp",
+        "canal.radius = from_.radius + f[0];",
+        "canal.radius = from_.radius - f[0];",
+        "radii of canals are corrected the wrong way",
+    ),
+    Mutation(
+        "skeleton/chains.cpp",
+        "return !fixed_[vertex] && at_[vertex].size() == 2;",
+        "return at_[vertex].size() == 2;",
+        "chains pass through fixed vertices",
+    ),
+    Mutation(
+        "skeleton/chains.cpp",
+        "chain.closed = closed;",
+        "chain.closed = false;",
+        "closed chains have ends",
+    ),
+    Mutation(
+        "skeleton/rims.cpp",
+        "if (dot(area(touched_[t]), upright_[t]) < 0) out",
+        "if (dot(area(touched_[t]), upright_[t]) < -HUGE_VAL) out",
+        "facets fold at relaxed rims",
+    ),
+    Mutation(
+        "skeleton/rims.cpp",
+        "constexpr double kFactor = 0.5;",
+        "constexpr double kFactor = -0.5;",
+        "rims move away from their neighbours",
+    ),
+    Mutation(
+        "skeleton/relax.cpp",
+        "samples.nearest(level.vertices[moved[i]]).distance",
+        "samples.nearest(level.exact[moved[i]]).distance",
+        "balls of moved vertices are those of the old places",
+    ),
+    Mutation(
+        "skeleton/relax.cpp",
+        "for (size_t k = chain.closed ? 0 : 1; k < chain.size(); ++k) number_",
+        "for (size_t k = 1; k < chain.size(); ++k) number_",
+        "a vertex of a closed chain stays behind",
     ),
     # ---- sampling
     Mutation(

@@ -36,11 +36,7 @@ constexpr std::array kCases{
          SidesFrom::tight_cocone,
          Side::inner,
          {1200, 305, 370, 1.001}},
-    Case{"EllipsoidAutomatic",
-         false,
-         SidesFrom::automatic,
-         Side::inner,
-         {1200, 305, 370, 1.001}},
+    Case{"EllipsoidAutomatic", false, SidesFrom::automatic, Side::inner, {1200, 305, 370, 1.001}},
     Case{"TorusBySurface", true, SidesFrom::surface, Side::inner, {1380, 372, 42600, 1.001}},
 };
 

@@ -2,17 +2,22 @@
 // The hierarchy of the inner axis, and what its collapse is built from.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
+#include <medial/sampling.h>
 
 #include <set>
 #include <thread>
 
+#include "analysis_parts.h"
 #include "base/thread.h"
 #include "base/union_find.h"
 #include "shapes.h"
+#include "skeleton/bubbles.h"
 #include "skeleton/bucket_queue.h"
 #include "skeleton/curves.h"
+#include "skeleton/fringe.h"
 #include "skeleton/level.h"
 #include "skeleton/rims.h"
+#include "skeleton/wires.h"
 
 namespace medial {
 namespace {
@@ -82,6 +87,69 @@ TEST(Hierarchy, CancelsFromAnotherThreadInEveryStage) {
     ended = true;
   }
   EXPECT_GT(met, 0);
+}
+
+constexpr double kHalf = 1, kRadius = 0.4;  // of a capsule: half its axis, along z, and its tube
+
+Vec3 from_axis_of_capsule(const Vec3& p) { return p - Vec3{0, 0, std::clamp(p.z, -kHalf, kHalf)}; }
+
+// Blue noise.
+std::vector<Vec3> samples_of_capsule(int count) {
+  constexpr int kRows = 64, kRound = 96;
+  test::Mesh mesh;
+  for (int i = 0; i <= kRows; ++i) {
+    for (int j = 0; j < kRound; ++j) {
+      const double u = std::numbers::pi * i / kRows, v = 2 * std::numbers::pi * j / kRound;
+      const Vec3 p{std::sin(u) * std::cos(v), std::sin(u) * std::sin(v), -std::cos(u)};
+      mesh.vertices.push_back(kRadius * p + Vec3{0, 0, 2 * i < kRows ? -kHalf : kHalf});
+      if (i == kRows) continue;
+      const int next = (j + 1) % kRound, a = i * kRound;
+      mesh.triangles.push_back({a + j, a + next, a + kRound + next});
+      mesh.triangles.push_back({a + j, a + kRound + next, a + kRound + j});
+    }
+  }
+  auto points = sample_surface(mesh.vertices, mesh.triangles, {.count = count}, 2).points;
+  for (Vec3& p : points) {
+    const Vec3 away = from_axis_of_capsule(p);
+    p = p - away + kRadius * normalized(away);
+  }
+  return points;
+}
+
+// Without the anchors of the fire the zigzag of the Voronoi edges makes the slope 1.07 to 1.13.
+TEST(Wires, ElongationInACapsuleIsTheWayFromTheEndOfItsAxisOnEachEdge) {
+  const auto points = samples_of_capsule(8000);
+  std::vector<Vec3> normals;
+  for (const Vec3& p : points) normals.push_back(from_axis_of_capsule(p));
+  const MedialAnalysis analysis({.points = points, .normals = normals}, {.threads = 2}, nullptr);
+  const auto& made = analysis.parts();
+  const medial::Run run = made.run();
+  const InnerComplex complex =
+      inner_complex(made.samples, made.triangulation, made.voronoi, made.edges, made.sides, run);
+  const Facets facets{made.samples.points, made.triangulation, made.voronoi,
+                      made.edges,          made.significance,  made.sides};
+  const FacetWeights weight(facets, {});
+  Collapse collapse = whole(complex, weight, run);
+  open_bubbles(complex, weight, collapse, run);
+  peel_facets(complex, weight, collapse, run);
+  peel_wires(complex, collapse, run);
+  const Burning burning = burn(complex, made.samples.points, collapse, run);
+  const Wires wires = burn_wires(complex, burning.times, collapse, run);
+  const Hierarchy hierarchy = analysis.hierarchy({});  // knows which edges are no short spurs
+  // A line through elongations over ways, by least squares.
+  double count = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const int32_t v : wires.order) {
+    const int32_t edge = collapse.edge_of_vertex[v];
+    if (hierarchy.parts().limb_of_edge(edge) < 0.04) continue;
+    const auto& [a, b] = complex.ends[edge];
+    const Vec3 middle = 0.5 * (complex.position[a] + complex.position[b]);
+    const double way = kHalf - std::abs(middle.z);
+    const double elongation = wires.elongation[v];
+    if (way < 0.1) continue;
+    ++count, x += way, y += elongation, xx += way * way, xy += way * elongation;
+  }
+  EXPECT_GT(count, 1000);
+  EXPECT_NEAR((count * xy - x * y) / (count * xx - x * x), 1, 1e-3);
 }
 
 TEST(BucketQueue, GivesIdsInOrderOfTheirKeysHoweverTheyCome) {
@@ -230,6 +298,44 @@ TEST(Rims, RelaxAndNeverFold) {
     const Vec3 &a = places[corners[3 * i + 1]], &b = places[corners[3 * i + 2]];
     EXPECT_GT(cross(a, b).z, 0);
   }
+}
+
+TEST(Rims, DoNotPassTheHubOfAFan) {
+  // The middle of the first vertex's neighbours lies far beyond the hub.
+  std::vector<Vec3> places{{0, 0, 0}, {1, 0, 0}, {-2.6, 1.5, 0}, {-2.6, -1.5, 0}};
+  const std::vector<int32_t> corners{0, 1, 2, 0, 2, 3, 0, 3, 1}, offsets{0, 3, 6, 9};
+  const std::vector<Edge> rims{{1, 2}, {2, 3}, {3, 1}};
+  relax_rims({offsets, corners}, rims, places, {2});
+  for (int f = 0; f < 3; ++f) {
+    EXPECT_GT(cross(places[corners[3 * f + 1]], places[corners[3 * f + 2]]).z, 0);
+  }
+}
+
+TEST(Hierarchy, ARelaxedTorusIsOneClosedCurve) {
+  const Level circle =
+      hierarchy_of(test::torus(60, 30), 2).extract({.sheet = 1, .limb = 1, .relaxed = true});
+  std::vector<int> wires_at(circle.vertices.size(), 0);
+  for (const Edge& wire : circle.wires) {
+    for (const int32_t v : wire) ++wires_at[v];
+  }
+  EXPECT_GT(wires_at.size(), 50u);
+  for (const int count : wires_at) EXPECT_EQ(count, 2);
+}
+
+TEST(Hierarchy, BallsOfRelaxedSheetsEndAtTheSamples) {
+  const auto points = test::ellipsoid(1500, 3);
+  const Level level = MedialAnalysis({points}, {.threads = 2}, nullptr)
+                          .hierarchy({})
+                          .extract({.limb = 1, .relaxed = true});
+  ASSERT_FALSE(level.vertices.empty());
+  int moved = 0;
+  for (size_t v = 0; v < level.vertices.size(); ++v) {
+    double nearest = HUGE_VAL;
+    for (const Vec3& p : points) nearest = std::min(nearest, distance(p, level.vertices[v]));
+    EXPECT_NEAR(level.radius[v], nearest, 1e-9);
+    moved += level.vertices[v] != level.exact[v];
+  }
+  EXPECT_GT(moved, 50);
 }
 
 TEST(Hierarchy, RelaxedLevelsAreTheSameForEveryThreadCount) {

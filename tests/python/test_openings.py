@@ -184,5 +184,5 @@ def test_tunnels_of_real_meshes(data_file, name, most):
     from medial_axis.core.files.read_shape import read_shape
 
     found = compute_axis(read_shape(data_file(name))[0], Settings())
-    _, tunnels, cavities = found.chosen.samples.analysis.hierarchy().betti
-    assert cavities == 0 and tunnels <= most
+    pieces, tunnels, cavities = found.chosen.samples.analysis.hierarchy().betti
+    assert pieces == 1 and cavities == 0 and tunnels <= most

@@ -11,9 +11,7 @@
 namespace medial {
 namespace {
 
-// How exactly the winding number is told at the lattice, as a share of what it falls in one step
-// across a round opening as wide as all of the triangles: by 1/2 over its radius.
-constexpr double kRough = 0.1;
+constexpr double kRough = 0.1;  // how exactly a fall of the winding number is told, as its share
 constexpr double kFine = 1e-6;  // and where a sample is to lie
 constexpr int kMostSteps = 8;   // of the secant method; two or three are usual
 constexpr int kBits = 21;       // of a lattice coordinate
@@ -45,16 +43,14 @@ class Follower {
     // The lattice reaches beyond the box by its extent. Parts of a step that have nothing to do
     // with the numbers in which models are made keep it off their edges.
     step_ = std::max(step, 4 * max_abs(extent) / static_cast<double>(kCells));
-    rough_ = kRough * step_ / length(extent);
     origin_ = box.low - extent - step_ * Vec3{1.3819, 1.6367, 1.4562};
   }
 
   void begin_at(const Vec3& p) {
-    const Vec3 x = (1 / step_) * (p - origin_);
-    for (int i = 0; i < 27; ++i) {
-      visit({static_cast<int64_t>(x.x) + i % 3 - 1, static_cast<int64_t>(x.y) + i / 3 % 3 - 1,
-             static_cast<int64_t>(x.z) + i / 9 - 1});
-    }
+    const Vec3 x = (1 / step_) * (p - origin_) - Vec3{0.5, 0.5, 0.5};
+    const LatticePoint low{static_cast<int64_t>(x.x), static_cast<int64_t>(x.y),
+                           static_cast<int64_t>(x.z)};
+    for (int i = 0; i < 8; ++i) visit(corner_of(low, i));
   }
 
   std::vector<OpenSurface::Fall> operator()() {
@@ -73,9 +69,7 @@ class Follower {
     Vec3 at;
     int32_t from;  // a corner beside it that is known already; -1: none
     int closed = 0;
-    double winding = 0;
-
-    bool inside() const { return winding > 0.5; }
+    bool inside = false;
   };
   struct LatticeEdge {
     LatticePoint lower;
@@ -119,18 +113,20 @@ class Follower {
       const Corner& near = corners_[static_cast<size_t>(corner.from)];
       corner.closed = winding.closed_from(near.at, near.closed, corner.at);
     }
-    corner.winding = winding.within(rough_, corner.at, corner.closed);
+    // Which side it is on is told much sooner than the number itself.
+    corner.inside = winding.is_inside(corner.at, corner.closed);
   }
 
   void tell_edges(std::span<const LatticePoint> wave) {
     const auto edges = new_edges(wave);
-    std::vector<uint8_t> crossed(edges.size());
-    parallel_for(
-        static_cast<int64_t>(edges.size()), {run_.threads},
-        [&](int64_t i) { crossed[i] = is_clear(edges[i]); }, 64);
+    std::vector<std::optional<OpenSurface::Fall>> falls(edges.size());
+    const auto tell = [&](int64_t i) {
+      if (is_clear(edges[i])) falls[i] = fall_of(edges[i]);
+    };
+    parallel_for(static_cast<int64_t>(edges.size()), {run_.threads}, tell, 64);
     for (size_t i = 0; i < edges.size(); ++i) {
-      if (!crossed[i]) continue;
-      found_.push_back(fall_of(edges[i]));
+      if (!falls[i]) continue;
+      found_.push_back(*falls[i]);
       visit_round(edges[i]);
     }
   }
@@ -145,7 +141,7 @@ class Follower {
         for (int i = 0; i < 8; ++i) {
           if (i >> axis & 1) continue;
           const int32_t p = ids[i], q = ids[i | 1 << axis];
-          if (corners_[p].inside() == corners_[q].inside()) continue;
+          if (corners_[p].inside == corners_[q].inside) continue;
           const LatticePoint lower = corner_of(cube, i);
           if (had_[axis].insert(key_of(lower)).second) edges.push_back({lower, axis, {p, q}});
         }
@@ -164,9 +160,17 @@ class Follower {
 
   OpenSurface::Fall fall_of(const LatticeEdge& edge) const {
     const Corner *in = &corners_[edge.ends[0]], *out = &corners_[edge.ends[1]];
-    if (!in->inside()) std::swap(in, out);
-    const double share = (in->winding - 0.5) / (in->winding - out->winding);
-    return {in->at, out->at, share, in->winding - 0.5};
+    if (!in->inside) std::swap(in, out);
+    double above = 0, below = 0;
+    const auto tell = [&](double tolerance) {
+      above = std::max(0.0, surface_.above(tolerance, in->at, in->closed));
+      below = std::min(0.0, surface_.above(tolerance, out->at, out->closed));
+    };
+    double tolerance = kRough * kRough;
+    for (tell(tolerance); tolerance > kFine && tolerance > kRough * (above - below);) {
+      tell(tolerance *= 0.25);
+    }
+    return {in->at, out->at, above > below ? above / (above - below) : 0.5, above};
   }
 
   // The four cubes at the edge.
@@ -182,7 +186,7 @@ class Follower {
 
   const OpenSurface& surface_;
   const Run& run_;
-  double step_, rough_ = 0;
+  double step_;
   Vec3 origin_;
   std::unordered_set<uint64_t> seen_;  // cubes
   std::vector<LatticePoint> next_;     // in the order in which they were come upon
@@ -216,13 +220,13 @@ std::vector<OpenSurface::Fall> OpenSurface::falls(double step, const Run& run) c
 std::optional<Vec3> OpenSurface::place(const Fall& fall) const {
   const Vec3 way = fall.outside - fall.inside;
   const int closed = winding_.closed(fall.inside);
-  const auto above = [&](double share) {
+  const auto above_at = [&](double share) {
     const Vec3 at = fall.inside + share * way;
-    return winding_.within(kFine, at, winding_.closed_from(fall.inside, closed, at)) - 0.5;
+    return above(kFine, at, winding_.closed_from(fall.inside, closed, at));
   };
   double last = 0, before = fall.above, share = fall.share;
   for (int i = 0; i < kMostSteps; ++i) {
-    const double here = above(share);
+    const double here = above_at(share);
     if (std::abs(here) <= 2 * kFine) return fall.inside + share * way;
     const double next = share - here * (share - last) / (here - before);
     if (!(std::abs(next - fall.share) < 1)) break;

@@ -42,6 +42,11 @@ class OpenSurface {
  private:
   friend class Follower;
 
+  // How far the winding number is above 1/2, with an error of at most `tolerance`.
+  double above(double tolerance, const Vec3& query, int closed_here) const {
+    return winding_.within(tolerance, query, closed_here) - 0.5;
+  }
+
   std::span<const Vec3> vertices_;
   std::span<const Edge> boundary_;
   WindingNumber winding_;

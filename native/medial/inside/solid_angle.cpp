@@ -2,12 +2,13 @@
 #include "inside/solid_angle.h"
 
 #include <numbers>
+#include <tuple>
 
 namespace medial {
 namespace {
 
 constexpr double kFull = 4 * std::numbers::pi;
-constexpr int32_t kLeafTriangles = 4;
+constexpr int32_t kLeafTriangles = 8;  // as many as close a small opening
 
 // Signed solid angle of a triangle seen from the origin (van Oosterom & Strackee 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -34,13 +35,12 @@ double solid_angle_sum(std::span<const Corners> triangles, const Vec3& query) {
 int32_t split_in_half(std::vector<Corners>& corners, int32_t begin, int32_t end) {
   Box box;
   for (int32_t i = begin; i < end; ++i) box.add(corners[i].a);
-  const Vec3 extent = box.extent();
-  double Vec3::*axis = extent.x >= extent.y && extent.x >= extent.z ? &Vec3::x
-                       : extent.y >= extent.z                       ? &Vec3::y
-                                                                    : &Vec3::z;
+  const int axis = longest_axis(box.extent());
   const int32_t middle = begin + (end - begin) / 2;
   std::nth_element(corners.begin() + begin, corners.begin() + middle, corners.begin() + end,
-                   [&](const Corners& s, const Corners& t) { return s.a.*axis < t.a.*axis; });
+                   [&](const Corners& s, const Corners& t) {
+                     return coordinate(s.a, axis) < coordinate(t.a, axis);
+                   });
   return middle;
 }
 
@@ -58,11 +58,33 @@ int32_t SolidAngle::build(int32_t begin, int32_t end) {
     describe_leaf(nodes_[id]);
     return id;
   }
-  const int32_t middle = split_in_half(corners_, begin, end);
+  const int32_t middle = split(begin, end);
   const int32_t left = build(begin, middle), right = build(middle, end);
   nodes_[id].right = right;
   describe_parent(nodes_[id], nodes_[left], nodes_[right]);
+  find_radius(nodes_[id]);
   return id;
+}
+
+// Between triangles whose last corners differ, as near to the middle as there is such a place: the
+// triangles of a cap share theirs, and a cap of a small opening is a small cluster only as a whole.
+int32_t SolidAngle::split(int32_t begin, int32_t end) {
+  const auto first = corners_.begin() + begin, last = corners_.begin() + end;
+  Box box;
+  for (auto t = first; t != last; ++t) box.add(t->c);
+  if (box.low == box.high) return split_in_half(corners_, begin, end);
+  const int axis = longest_axis(box.extent());
+  const auto place = [&](const Corners& t) {
+    return std::tuple(coordinate(t.c, axis), t.c.x, t.c.y, t.c.z);
+  };
+  const auto before = [&](const auto& s, const auto& t) { return place(s) < place(t); };
+  const auto middle = first + (end - begin) / 2;
+  std::nth_element(first, middle, last, before);
+  const Corners at = *middle;
+  const auto low = std::partition(first, middle, [&](const auto& t) { return before(t, at); });
+  const auto high = std::partition(middle, last, [&](const auto& t) { return !before(at, t); });
+  const bool after = low == first || (high != last && high - middle < middle - low);
+  return static_cast<int32_t>((after ? high : low) - corners_.begin());
 }
 
 void SolidAngle::describe_leaf(Node& node) const {
@@ -99,7 +121,14 @@ void SolidAngle::describe_parent(Node& node, const Node& left, const Node& right
     for (int k = 0; k < 3; ++k) node.moment[k] = node.moment[k] + child->moment[k];
     add_scaled(node.moment, offset, child->area_vector);
     node.spread += child->spread + child->area * dot(offset, offset);
-    node.radius = std::max(node.radius, child->radius + length(offset));
+  }
+}
+
+void SolidAngle::find_radius(Node& node) const {
+  for (int32_t i = node.begin; i < node.end; ++i) {
+    for (const Vec3& p : {corners_[i].a, corners_[i].b, corners_[i].c}) {
+      node.radius = std::max(node.radius, distance(p, node.centroid));
+    }
   }
 }
 

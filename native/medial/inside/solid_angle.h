@@ -54,6 +54,8 @@ class SolidAngle {
   int32_t build(int32_t begin, int32_t end);
   void describe_leaf(Node& node) const;
   static void describe_parent(Node& node, const Node& left, const Node& right);
+  int32_t split(int32_t begin, int32_t end);
+  void find_radius(Node& node) const;
   Term term(int32_t id, const Vec3& query) const;
   template <typename Enough>
   double opened(const Vec3& query, const Enough& enough) const;

@@ -87,4 +87,24 @@ bool WindingNumber::is_inside(const Vec3& query, int closed_here) const {
   return caps_.is_below(closed_here - 0.5, query);
 }
 
+bool WindingNumber::is_inside_along(const Vec3& from, const Vec3& to) const {
+  constexpr int kPlaces = 8;
+  const Vec3 way = to - from;
+  const double reach = length(way);
+  const int closed_there = closed(from);
+  if (reach == 0) return is_inside(from, closed_there);
+  std::vector<RayCrossings::Hit> hits;
+  crossings_.hits(from, (1 / reach) * way, reach, hits);
+  std::vector<double> cuts;
+  for (const auto& hit : hits) cuts.push_back(hit.at / reach);
+  for (int i = 0; i <= kPlaces; ++i) cuts.push_back(i / double{kPlaces});
+  std::sort(cuts.begin(), cuts.end());
+  for (size_t i = 1; i < cuts.size(); ++i) {
+    if (cuts[i - 1] == cuts[i]) continue;
+    const Vec3 middle = from + 0.5 * (cuts[i - 1] + cuts[i]) * way;
+    if (!is_inside(middle, closed_from(from, closed_there, middle))) return false;
+  }
+  return true;
+}
+
 }  // namespace medial

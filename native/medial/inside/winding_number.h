@@ -32,6 +32,9 @@ class WindingNumber {
   // Whether the winding number of the soup itself exceeds 1/2; the caps are summed only as far as
   // it takes to tell.
   bool is_inside(const Vec3& query, int closed_here) const;
+  // Whether that exceeds 1/2 all along a segment: it is looked at between each two triangles that
+  // the segment meets and, because that of an open soup varies there, at eight places at least.
+  bool is_inside_along(const Vec3& from, const Vec3& to) const;
   // The winding number of the soup itself, with an error of at most `tolerance`.
   double within(double tolerance, const Vec3& query, int closed_here) const {
     return closed_here - caps_.within(tolerance, query);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "inside/pockets.h"
+
+#include <array>
+#include <unordered_map>
+
+#include "inside/winding_number.h"
+
+namespace medial {
+namespace {
+
+// Cells that hang together, in the order in which they were come upon.
+using Part = std::vector<int32_t>;
+
+// What of the inner cells is so small that the samples cannot tell its shape.
+class SmallParts {
+ public:
+  SmallParts(std::span<const Vec3> points, std::span<const double> spacing, const Triangulation& t,
+             const Voronoi& voronoi, const CellSides& sides, const Run& run)
+      : points_(points), spacing_(spacing), t_(t), voronoi_(voronoi), sides_(sides), run_(run) {}
+
+  // The smallest part first, of equal ones that with the lowest cell.
+  std::vector<Part> operator()() {
+    const auto small =
+        parallel_append<int32_t>(t_.finite_cells, run_, [&](int64_t c, auto& out, int) {
+          const auto cell = static_cast<int32_t>(c);
+          if (sides_[cell] == Side::inner && is_small(cell)) out.push_back(cell);
+        });
+    std::vector<Part> parts;
+    if (small.empty()) return parts;
+    seen_.assign(t_.cells.size(), 0);
+    for (const int32_t cell : small) {
+      if (seen_[cell]) continue;
+      Part part;
+      if (fill(cell, part)) parts.push_back(std::move(part));
+    }
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part& a, const Part& b) { return a.size() < b.size(); });
+    return parts;
+  }
+
+ private:
+  bool is_small(int32_t cell) const {
+    const Cell& corners = t_.cells[cell];
+    double hole = 0;
+    for (const int32_t p : corners) {
+      if (static_cast<size_t>(p) < spacing_.size()) hole = std::max(hole, spacing_[p]);
+    }
+    return distance(voronoi_.centre[cell], points_[corners[0]]) <= hole;
+  }
+
+  // The small cells that hang together with one; false if a larger one is among them.
+  bool fill(int32_t first, Part& part) {
+    bool alone = true;
+    part.assign(1, first);
+    seen_[first] = 1;
+    for (size_t i = 0; i < part.size(); ++i) {
+      for (const int32_t n : t_.neighbors[part[i]]) {
+        if (sides_[n] != Side::inner || seen_[n]) continue;
+        if (!is_small(n)) {
+          alone = false;
+          continue;
+        }
+        seen_[n] = 1;
+        part.push_back(n);
+      }
+    }
+    return alone;
+  }
+
+  std::span<const Vec3> points_;
+  std::span<const double> spacing_;
+  const Triangulation& t_;
+  const Voronoi& voronoi_;
+  const CellSides& sides_;
+  Run run_;
+  std::vector<uint8_t> seen_;  // per cell: in a part already
+};
+
+using CellsAtSample = std::unordered_map<int32_t, std::vector<int32_t>>;
+
+// The inner cells at the samples of some parts.
+CellsAtSample inner_cells_at(std::span<const Part> parts, const Triangulation& t,
+                             const CellSides& sides) {
+  CellsAtSample found;
+  for (const Part& part : parts) {
+    for (const int32_t cell : part) {
+      for (const int32_t p : t.cells[cell]) found.try_emplace(p);
+    }
+  }
+  for (int32_t c = 0; c < t.finite_cells; ++c) {
+    if (sides[c] != Side::inner) continue;
+    for (const int32_t p : t.cells[c]) {
+      const auto at = found.find(p);
+      if (at != found.end()) at->second.push_back(c);
+    }
+  }
+  return found;
+}
+
+// A straight way from a part to a cell of a larger one.
+struct Way {
+  double length;
+  int32_t from, to;
+
+  auto operator<=>(const Way&) const = default;
+};
+
+constexpr double kWidth = 0.01;  // half of that of a way at its end, as a share of its length
+
+// Bodies that touch in an edge or in a corner leave no width between them. A way begins without
+// any, for Voronoi vertices of pockets may lie close beneath the surface.
+bool is_wide_way(const Vec3& from, const Vec3& to, const WindingNumber& winding) {
+  const Vec3 way = to - from;
+  const Vec3 across = std::abs(way.x) < std::abs(way.y) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const double width = kWidth * length(way);
+  const Vec3 u = width * normalized(cross(way, across)), v = width * normalized(cross(way, u));
+  const std::array<Vec3, 5> beside{Vec3{}, u, -u, v, -v};
+  return std::all_of(beside.begin(), beside.end(), [&](const Vec3& offset) {
+    return winding.is_inside_along(from, to + offset);
+  });
+}
+
+}  // namespace
+
+std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const double> spacing,
+                             std::span<const Vec3> vertices, const Surface& surface,
+                             const Triangulation& t, const Voronoi& voronoi, const CellSides& sides,
+                             const Run& run) {
+  const auto parts = SmallParts(points, spacing, t, voronoi, sides, run)();
+  if (parts.empty()) return {};
+  std::unordered_map<int32_t, size_t> part_of;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    for (const int32_t cell : parts[i]) part_of.emplace(cell, i);
+  }
+  const CellsAtSample beside = inner_cells_at(parts, t, sides);
+  const WindingNumber winding(vertices, surface.triangles, surface.boundary, run.progress);
+  const auto is_pocket = [&](size_t i) {
+    std::vector<Way> ways;
+    for (const int32_t from : parts[i]) {
+      for (const int32_t p : t.cells[from]) {
+        for (const int32_t to : beside.at(p)) {
+          const auto other = part_of.find(to);
+          if (other != part_of.end() && other->second <= i) continue;
+          ways.push_back({distance(voronoi.centre[from], voronoi.centre[to]), from, to});
+        }
+      }
+    }
+    std::sort(ways.begin(), ways.end());  // the shortest are the likeliest
+    return std::any_of(ways.begin(), ways.end(), [&](const Way& way) {
+      return is_wide_way(voronoi.centre[way.from], voronoi.centre[way.to], winding);
+    });
+  };
+  std::vector<int32_t> cells;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    throw_if_cancelled(run.progress);
+    if (is_pocket(i)) cells.insert(cells.end(), parts[i].begin(), parts[i].end());
+  }
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+CellSides without(std::span<const int32_t> cells, CellSides sides) {
+  for (const int32_t cell : cells) sides[cell] = Side::outer;
+  return sides;
+}
+
+}  // namespace medial

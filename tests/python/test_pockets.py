@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts of the inner cells that the samples alone cut off are no pieces; bodies of their own are, however small."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.settings import SamplingMode, Settings
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from support import meshes, reference
+
+
+def wedge(degrees):
+    """A prism over a triangle with two sides of length 1."""
+    turn = np.radians(degrees)
+    below = [[0, 0, 0], [1, 0, 0], [np.cos(turn), np.sin(turn), 0]]
+    points = np.array(below + [[x, y, 1] for x, y, _ in below], float)
+    triangles = [[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]]
+    return points, np.array([*triangles, [2, 0, 3], [2, 3, 5]], np.int32)
+
+
+def circumcentres(points, cells):
+    """(c, 3), far away where a cell is flat."""
+    corners = points[cells] - points[cells[:, :1]]
+    edges = corners[:, 1:]
+    flat = np.abs(np.linalg.det(edges)) < 1e-15
+    edges[flat] = np.eye(3)
+    squares = (edges**2).sum(axis=2, keepdims=True)
+    centres = np.linalg.solve(2 * edges, squares)[:, :, 0] + points[cells[:, 0]]
+    centres[flat] = 1e6
+    return centres
+
+
+def parts(medial, points, mesh):
+    """How many parts the cells have whose circumcentres lie inside, joined through triangles: one by one."""
+    cells = medial.delaunay(points)[0]
+    inner = reference.winding_number(circumcentres(points, cells), *mesh) > 0.5
+    first, pairs = {}, []
+    for cell in np.flatnonzero(inner):
+        for triangle in combinations(sorted(cells[cell].tolist()), 3):
+            pairs.append((first.setdefault(triangle, cell), cell))
+    joined = coo_matrix((np.ones(len(pairs)), np.transpose(pairs)), shape=(len(cells),) * 2)
+    return len(np.unique(connected_components(joined, directed=False)[1][inner]))
+
+
+def betti(medial, mesh, count=2000, **options):
+    found = medial.sample_surface(*mesh, count=count, **options)
+    return tuple(medial.MedialAnalysis(found.points, mesh[1], vertices=mesh[0]).hierarchy().betti)
+
+
+@pytest.mark.parametrize("degrees, seed", [(25, 2), (25, 3), (35, 0), (50, 0)])
+def test_a_wedge_is_one_piece(medial, degrees, seed):
+    mesh = wedge(degrees)
+    found = medial.sample_surface(*mesh, count=1500, seed=seed, mirrored_rows=0)
+    assert parts(medial, found.points, mesh) > 1  # what the samples make of its edge
+    assert betti(medial, mesh, 1500, seed=seed, mirrored_rows=0)[0] == 1
+
+
+def test_levels_have_the_topology_without_pockets(medial):
+    mesh = wedge(35)
+    found = medial.sample_surface(*mesh, count=1500, mirrored_rows=0)
+    hierarchy = medial.MedialAnalysis(found.points, mesh[1], vertices=mesh[0]).hierarchy()
+    for chosen in ({}, {"spacings": 1.0, "relaxed": True}, {"sheet": np.inf, "limb": np.inf}):
+        level = hierarchy.extract(**chosen)
+        assert tuple(level.betti) == (1, 0, 0) and len(level.points) == (
+            chosen.get("limb") is not None
+        )
+
+
+def test_facets_as_published_stay(medial):
+    """Every facet with all its Voronoi vertices inside is inner, in a pocket or not."""
+    mesh = wedge(35)
+    found = medial.sample_surface(*mesh, count=1500, mirrored_rows=0)
+    analysis = medial.MedialAnalysis(found.points, mesh[1], vertices=mesh[0])
+    published = analysis.extract(side=medial.Side.INNER)
+    assert (reference.winding_number(published.vertices, *mesh) > 0.5).all()
+
+
+BALL = meshes.icosphere(2)
+CUBE = meshes.box((1, 1, 1), (0.5, 0.5, 0.5))
+
+
+def beside(mesh, size, x):
+    return size * mesh[0] + (x, 0.0, 0.0), mesh[1]
+
+
+def bodies_seen(medial, points, bodies, vertices):
+    """In which bodies inner cells have their circumcentres, and in which places lie."""
+    centres = circumcentres(points, medial.delaunay(points)[0])
+    cells = [(reference.winding_number(centres, *body) > 0.5).any() for body in bodies]
+    return cells, [(reference.winding_number(vertices, *body) > 0.5).any() for body in bodies]
+
+
+@pytest.mark.parametrize(
+    "size, gap", [(1.0, 1e-6), (0.1, 1e-3), (0.01, 0.5), (0.01, 1e-6), (1e-4, 0.5)]
+)
+@pytest.mark.parametrize("body", [BALL, CUBE, wedge(60)], ids=["ball", "cube", "wedge"])
+def test_no_body_is_lost(medial, body, gap, size):
+    """However much smaller than the distance between samples, and closer. Samples are the vertices."""
+    low = (size * body[0][:, 0]).min()
+    other = beside(body, size, BALL[0][:, 0].max() + gap - low)
+    points, triangles = meshes.join(BALL, other)
+    hierarchy = medial.MedialAnalysis(points, triangles).hierarchy()
+    cells, vertices = bodies_seen(medial, points, (BALL, other), hierarchy.vertices)
+    assert vertices == cells
+    if (
+        gap == 0.5
+    ):  # else cells lead from one to the other, across a gap that the samples do not show
+        assert hierarchy.betti[0] == sum(cells) == 2
+
+
+def test_a_body_of_four_samples_is_a_piece(medial):
+    corners = 0.02 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1.0]]) + (1.05, 0, 0)
+    faces = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], np.int32)
+    points, triangles = meshes.join(BALL, (corners, faces))
+    assert medial.MedialAnalysis(points, triangles).hierarchy().betti[0] == 2
+
+
+@pytest.mark.parametrize("size", [1.0, 0.2, 0.05])
+def test_bodies_that_touch_in_an_edge_are_two(medial, size):
+    """Samples on the edge belong to both; no way through the solid leads from one to the other."""
+    small = size * CUBE[0] + (0.5 + 0.5 * size, 0.5 + 0.5 * size, 0.0), CUBE[1]
+    points, triangles = meshes.join(CUBE, small)
+    found = medial.sample_surface(points, triangles, count=1000)
+    hierarchy = medial.MedialAnalysis(found.points, triangles, vertices=points).hierarchy()
+    cells, vertices = bodies_seen(medial, found.points, (CUBE, small), hierarchy.vertices)
+    assert vertices == cells == [True, True]
+
+
+def dumbbell(neck):
+    x = np.linspace(-1.0, 1.0, 61)[1:-1]
+    radius = np.maximum(0.4 * np.sqrt(np.maximum(0, 1 - ((np.abs(x) - 0.6) / 0.4) ** 2)), neck)
+    return meshes.lathe(np.column_stack((radius, x)), 48)
+
+
+def test_what_the_samples_can_tell_is_kept_beyond_a_neck_that_they_lose(medial):
+    """Two large balls on a neck that few samples show are a part each, or one: none of them is a pocket."""
+    vertices, triangles = dumbbell(0.004)
+    found = medial.sample_surface(vertices, triangles, count=1500)
+    analysis = medial.MedialAnalysis(found.points, triangles, vertices=vertices)
+    places = analysis.hierarchy().extract(limb=0.0).vertices
+    axis = int(np.argmax(np.ptp(vertices, axis=0)))
+    assert places[:, axis].min() < -0.5 and places[:, axis].max() > 0.5
+
+
+def test_pockets_at_the_rim_of_an_opening(medial):
+    """Half a ball whose lid are samples: as one click makes it."""
+    ball = meshes.icosphere(4)
+    below = ball[0][ball[1]].mean(axis=1)[:, 2] < 0.0
+    bowl = ball[0], np.ascontiguousarray(ball[1][below])
+    for seed in range(3):
+        settings = Settings(sampling=SamplingMode.SURFACE, samples=1500, seed=seed)
+        assert compute(*bowl, settings).axis.level.betti == (1, 0, 0)
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+@pytest.mark.parametrize("scale", [2.0**-40, 1.0, 2.0**40])
+def test_the_same_pieces_for_any_scale_and_threads(medial, scale, threads):
+    points, triangles = wedge(35)
+    found = medial.sample_surface(points, triangles, count=1500, mirrored_rows=0)
+    analysis = medial.MedialAnalysis(
+        scale * found.points, triangles, vertices=scale * points, threads=threads
+    )
+    plain = medial.MedialAnalysis(found.points, triangles, vertices=points).hierarchy()
+    assert np.array_equal(analysis.hierarchy().cells, plain.cells)
