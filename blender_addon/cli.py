@@ -50,6 +50,7 @@ from .core.files.read_shape import read_shape
 from .core.files.write import FORMATS
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
+from .core.settings import Settings, Side
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
 CLOSED_PIPE = 128 + 13  # as shells say of a program that SIGPIPE ended
@@ -67,6 +68,7 @@ examples:
   medial_axis bunny.ply hand.obj axes/ --format ply --theta 30 --side both
   medial_axis cloth_####.obj axes/cloth_####.npz --frames 1-250
   medial_axis walk.blend axes/{name}_####.npz --frames 1-250 --object Body --json
+  medial_axis hand.obj hand.ma --vertices 200
   medial_axis skeleton neuron.ply neuron.swc
   medial_axis balls robot.stl robot.json --count 64 --mode around
 
@@ -171,6 +173,13 @@ def _axis_parser() -> argparse.ArgumentParser:
         "medial_axis", "The medial axis of meshes and point clouds, with radii.", _EXAMPLES
     )
     add_options(parser.add_argument_group("method"))
+    parser.add_argument_group("small medial mesh").add_argument(
+        "--vertices",
+        type=int,
+        default=0,
+        metavar="N",
+        help="reduce the axis to at most N vertices of the same topology (default: 0, all)",
+    )
     files = _add_files(parser, [suffix[1:] for suffix in FORMATS], "ma")
     files.add_argument(
         "--triangles",
@@ -182,7 +191,9 @@ def _axis_parser() -> argparse.ArgumentParser:
 
 
 def _axis_work(wanted: argparse.Namespace) -> Work:
-    return AxisWork(settings_from(wanted), wanted.triangles)
+    settings = settings_from(wanted)
+    _check_vertices(wanted.vertices, settings)
+    return AxisWork(settings, wanted.triangles, wanted.vertices)
 
 
 def _thickness_parser() -> argparse.ArgumentParser:
@@ -318,6 +329,13 @@ def _complete(wanted: argparse.Namespace) -> None:
         raise ValueError(
             f"Expected a folder or {{name}} in OUTPUT for several inputs, found '{output}'; add it"
         )
+
+
+def _check_vertices(vertices: int, settings: Settings) -> None:
+    if vertices < 0:
+        raise ValueError(f"Expected --vertices of 0 or more, found {vertices}; 0 keeps all")
+    if vertices and settings.with_side().side is not Side.INNER:
+        raise ValueError("Expected --side inner with --vertices, found another; leave out one")
 
 
 def _is_still(path: str) -> bool:

@@ -23,6 +23,7 @@ from .core.axis.ball_cover import BallCover, Balls
 from .core.axis.compute import Computation
 from .core.axis.medial_axis import MedialAxis
 from .core.axis.reconstruction import Reconstruction
+from .core.axis.reduce import reduce_axis
 from .core.axis.shape import Shape
 from .core.errors import (
     Cancelled,
@@ -35,6 +36,7 @@ from .core.errors import (
     ReadError,
 )
 from .core.files.load_axis import load_axis
+from .core.files.read_ma import read_ma
 from .core.files.read_shape import read_shape
 from .core.files.write import export_axis
 from .core.files.write_balls import export_balls
@@ -90,6 +92,7 @@ __all__ = [
     "read",
     "read_axis",
     "reconstruct",
+    "reduce",
     "write",
     "write_balls",
 ]
@@ -196,6 +199,32 @@ def cover_by_balls(
     return ball_cover.cover_by_balls(_shape(points, triangles, normals), chosen, wanted, progress)
 
 
+def reduce(
+    found: MedialAxis | Computation, vertices: int, *, progress: Progress | None = None
+) -> MedialAxis:
+    """A small medial mesh: the same solid with few vertices, as triangles and edges of the same topology.
+
+    Parameters
+    ----------
+    found : MedialAxis or Computation
+        Of the inside.
+    vertices : int
+        That are wanted at most. Where nothing more can go without changing the topology, more stay.
+    progress : Progress, optional
+
+    Returns
+    -------
+    axis : MedialAxis
+        Its facets are triangles without samples of their own: `generators` are -1, `theta` and `rho` infinite.
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
+    """
+    axis = found.axis if isinstance(found, Computation) else found
+    return reduce_axis(axis, vertices, progress)
+
+
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:
     """The watertight surface through points that lie densely on a closed one (Tight Cocone).
 
@@ -271,13 +300,13 @@ def write_balls(found: Balls | BallCover, path: str | os.PathLike[str]) -> Path:
 
 
 def read_axis(path: str | os.PathLike[str]) -> MedialAxis:
-    """A medial axis that `write` wrote as .npz, bit for bit.
+    """A medial axis that `write` wrote as .npz, bit for bit; or balls, triangles and edges of any tool's .ma.
 
     Raises
     ------
     ReadError
     """
-    return load_axis(path)
+    return read_ma(path) if Path(path).suffix.lower() == ".ma" else load_axis(path)
 
 
 # --- what callers give

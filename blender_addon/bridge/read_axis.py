@@ -15,16 +15,17 @@ from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes, level_attributes
 from .axis_object import BETTI, UNBOUNDED, ZERO_AREA, is_result, result_of
 from .output_object import is_gone
+from .reduced_object import is_reduced
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
 def find_axis(thing: bpy.types.Object | None) -> bpy.types.Object | None:
-    """The result that `thing` is, or that was computed from it; None when there is neither."""
+    """The result or small medial mesh that `thing` is, or the result that was computed from it; None without either."""
     if is_gone(thing):
         return None
-    return thing if is_result(thing) else result_of(thing)
+    return thing if is_result(thing) or is_reduced(thing) else result_of(thing)
 
 
 def read_axis(result: bpy.types.Object) -> MedialAxis:

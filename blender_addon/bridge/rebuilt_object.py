@@ -7,10 +7,12 @@ is measured and remembered.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 
 from ..core.axis.solid_difference import SolidDifference, solid_difference
 from ..core.errors import InvalidInputError
@@ -20,6 +22,7 @@ from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
 from .output_object import SOURCE, is_gone, new_object, output_of, source_of
 from .read_object import read_object
+from .reduced_object import is_reduced
 
 if TYPE_CHECKING:
     from ..core.axis.shape import Shape
@@ -66,8 +69,25 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
     made = new_object(result, SUFFIX, result.data)
     made.matrix_world = result.matrix_world
     made[REBUILT], made[SOURCE] = True, result
-    set_inputs(add_modifier(made, "REBUILD"), {"Voxel": _diagonal(result) / _PARTS})
+    voxel = _diagonal(result) / _PARTS
+    if is_reduced(result):
+        _divide(made, voxel)
+    set_inputs(add_modifier(made, "REBUILD"), {"Voxel": voxel})
     return made
+
+
+def _divide(rebuilt: bpy.types.Object, voxel: float) -> None:
+    """Divide triangles and edges, with their radii, until vertices are about as close as voxels: what is rebuilt are
+    balls at vertices."""
+    mesh = rebuilt.data
+    ends = np.array([tuple(edge.vertices) for edge in mesh.edges], int).reshape(-1, 2)
+    places = np.array([tuple(vertex.co) for vertex in mesh.vertices], float).reshape(-1, 3)
+    longest = np.linalg.norm(places[ends[:, 0]] - places[ends[:, 1]], axis=1).max(initial=0.0)
+    if longest <= voxel:
+        return
+    modifier = rebuilt.modifiers.new("Subdivision", "SUBSURF")
+    modifier.subdivision_type = "SIMPLE"
+    modifier.levels = modifier.render_levels = min(5, math.ceil(math.log2(longest / voxel)))
 
 
 def _diagonal(result: bpy.types.Object) -> float:
@@ -95,6 +115,12 @@ def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidD
     rebuilt[MEAN], rebuilt[LARGEST] = found.mean, found.largest
     rebuilt[VOLUME] = found.volume
     return found
+
+
+def in_frame_of(shape: Shape, thing: bpy.types.Object) -> Shape:
+    """A shape as seen from an object."""
+    world, inverse = _in_the_world(shape), np.array(thing.matrix_world.inverted())
+    return replace(world, points=world.points @ inverse[:3, :3].T + inverse[:3, 3])
 
 
 def _in_the_world(shape: Shape) -> Shape:

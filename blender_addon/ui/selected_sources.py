@@ -10,6 +10,7 @@ from ..bridge.axis_object import is_result
 from ..bridge.balls_object import is_balls
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_object import SOURCE_TYPES
+from ..bridge.reduced_object import is_reduced
 from ..bridge.report_object import is_report
 from ..bridge.skeleton_object import is_skeleton
 from ..bridge.thickness_object import is_copy
@@ -21,6 +22,7 @@ _KINDS = "a mesh, point cloud, curve, surface, text or metaball"
 # What is made of a source and has no surface of its own.
 _MADE = {
     is_result: "a medial axis",
+    is_reduced: "a medial axis",
     is_report: "a report",
     is_copy: "a report",
     is_skeleton: "a skeleton",

@@ -1089,6 +1089,97 @@ def surface_distances(
     InvalidInputError, Cancelled
     """
 
+def reduce_sphere_mesh(
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    wanted: int,
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    """The same solid with fewer spheres: `(vertices, radius, triangles, edges)`.
+
+    Edges collapse as long as the homotopy type stays, those first that change the surface of the solid least; then the
+    spheres are fitted to that surface. Where no more edge can collapse, more spheres stay than wanted.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    radius : (v,) float64
+    triangles : (t, 3) int32
+    edges : (w, 2) int32
+        Those without a triangle; others are passed over.
+    wanted : int
+        Number of spheres.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
+def solid_distances(
+    queries: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> NDArray[np.float64]:
+    """(q,) float64: signed distance of each query to the balls, cones and slabs of a sphere mesh, negative inside.
+
+    Outside it is that to the solid; inside the surface is at least as far away.
+
+    Parameters
+    ----------
+    queries : (q, 3) float64
+    vertices : (v, 3) float64
+    radius : (v,) float64
+    triangles : (t, 3) int32
+    edges : (w, 2) int32
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
+def solid_surface(
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    spacing: float,
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> NDArray[np.float64]:
+    """(k, 3) float64: points on the surface of the solid of a sphere mesh, about `spacing` apart or closer.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    radius : (v,) float64
+    triangles : (t, 3) int32
+    edges : (w, 2) int32
+    spacing : float
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
 def buried(
     points: NDArray[np.float64],
     normals: NDArray[np.float64],

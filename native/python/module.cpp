@@ -31,4 +31,5 @@ PYBIND11_MODULE(_medial, m) {
   medial::python::bind_sampling(m);
   medial::python::bind_stages(m);
   medial::python::bind_balls(m);
+  medial::python::bind_reduce(m);
 }

@@ -29,6 +29,7 @@ DATA = {
     "of {}",
     "property float {}\n",
     " Medial Axis",
+    " Small Mesh",
     "Medial Axis Wires",
     "Fill Caps",
     "step {}",

@@ -134,7 +134,7 @@ TEST(Wires, ElongationInACapsuleIsTheWayFromTheEndOfItsAxisOnEachEdge) {
   peel_facets(complex, weight, collapse, run);
   peel_wires(complex, collapse, run);
   const Burning burning = burn(complex, made.samples.points, collapse, run);
-  const Wires wires = burn_wires(complex, burning.times, collapse, run);
+  const Wires wires = burn_wires(complex, burning, collapse, run);
   const Hierarchy hierarchy = analysis.hierarchy({});  // knows which edges are no short spurs
   // A line through elongations over ways, by least squares.
   double count = 0, x = 0, y = 0, xx = 0, xy = 0;

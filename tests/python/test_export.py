@@ -330,7 +330,8 @@ def test_same_axis_same_bytes(extension, tmp_path):
 @pytest.mark.parametrize("extension", EXTENSIONS)
 def test_more_faces_than_one_chunk(extension, tmp_path, monkeypatch):
     """Pieces of the file join without a seam: tiny chunks give the same bytes as one large one."""
-    from medial_axis.core.files import facet_triangles, rows_of_text
+    from medial_axis.core.axis import facet_triangles
+    from medial_axis.core.files import rows_of_text
 
     whole = export_axis(AXES["sheets"], tmp_path / ("a" + extension)).read_bytes()
     monkeypatch.setattr(export_module, "_CHUNK", 7)

@@ -165,6 +165,7 @@ MAY_INCLUDE = {
     "cocone": {"base", "delaunay", "inside", "axis"},
     "skeleton": {"base", "delaunay", "inside", "axis"},
     "sampling": {"base", "inside"},
+    "reduce": {"base"},
     ".": {
         "base",
         "delaunay",
@@ -183,6 +184,7 @@ PUBLIC = {
     "medial_mesh.h": {"axis"},
     "watertight_surface.h": {"cocone"},
     "hierarchy.h": {"skeleton"},
+    "sphere_mesh.h": {"reduce"},
     "thickness.h": {"axis"},
     "ball_cover.h": {"axis"},
     "sampling.h": {"sampling"},

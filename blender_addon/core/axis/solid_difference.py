@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,21 @@ class SolidDifference:
     volume: float
 
 
+@dataclass(frozen=True)
+class PointDifference:
+    """Between a surface and a solid.
+
+    Parameters
+    ----------
+    mean, largest : float
+        As shares of the diagonal of the surface: the mean distance of its points to the surface of the solid, by area,
+        and the largest of both directions.
+    """
+
+    mean: float
+    largest: float
+
+
 def solid_difference(first: Shape, second: Shape) -> SolidDifference:
     """Compare two surfaces in the same coordinates; only `points` and `triangles` are used.
 
@@ -55,6 +71,45 @@ def solid_difference(first: Shape, second: Shape) -> SolidDifference:
         mean=max(there[:SAMPLES].mean(), back[:SAMPLES].mean()) / diagonal,
         largest=max(there.max(), back.max()) / diagonal,
         volume=second.volume / first.volume,
+    )
+
+
+def difference_of_points(
+    shape: Shape,
+    points: NDArray[np.float64],
+    signed: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+) -> PointDifference:
+    """Compare a surface with a solid of which points on its surface and signed distances are known.
+
+    Parameters
+    ----------
+    shape : Shape
+        The surface; only `points` and `triangles` are used.
+    points : (k, 3) float64
+        On the surface of the solid, all over it.
+    signed : callable
+        (q, 3) queries -> (q,) distances to the solid, negative inside, where they may be too small.
+
+    Raises
+    ------
+    InvalidInputError
+        The surface has no faces.
+    NativeModuleError, OutOfMemoryError
+    """
+    if not len(shape.triangles):
+        raise InvalidInputError("Expected a surface with faces, found one without")
+    used = shape.points[np.unique(shape.triangles)]
+    queries = np.concatenate([_samples(shape), used])
+    there = np.array(signed(queries))
+    inside = there < 0
+    with own_errors() as module:
+        nearest = np.asarray(module.nearest(points, queries[inside]))
+        back = np.asarray(module.surface_distances(points, shape.points, shape.triangles))
+    there[inside] = np.linalg.norm(points[nearest] - queries[inside], axis=1)
+    diagonal = float(np.linalg.norm(np.ptp(used, axis=0)))
+    return PointDifference(
+        mean=float(there[:SAMPLES].mean()) / diagonal,
+        largest=float(max(there.max(), back.max())) / diagonal,
     )
 
 

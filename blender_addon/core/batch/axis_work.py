@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..axis.compute import Computation, compute_axis
+from ..axis.reduce import reduced
 from ..axis.shape import Shape
 from ..errors import MedialAxisError
 from ..files.write import export_axis, left_out
@@ -21,13 +22,27 @@ from .option_words import as_words
 
 @dataclass(frozen=True)
 class AxisWork:
-    """Medial axes of some settings, as files; `triangles` writes them as triangles in text."""
+    """Medial axes of some settings, as files.
+
+    Parameters
+    ----------
+    settings : Settings
+    triangles : bool
+        Write triangles in text.
+    vertices : int
+        Reduced to so many at most; 0: as they are.
+    """
 
     settings: Settings
     triangles: bool = False
+    vertices: int = 0
 
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Computation:
-        return compute_axis(shape, self.settings, progress, limit)
+        found = compute_axis(shape, self.settings, progress, limit)
+        return reduced(found, self.vertices, progress) if self._reduces(found) else found
+
+    def _reduces(self, found: Computation) -> bool:
+        return self.vertices > 0 and not found.axis.is_empty
 
     def check(self, found: Computation) -> None:
         """Raise MedialAxisError where there is nothing to write."""
@@ -42,7 +57,8 @@ class AxisWork:
 
     def words(self) -> dict[str, Any]:
         """The settings, as one would write them."""
-        return as_words(self.settings)
+        words = as_words(self.settings)
+        return {**words, "vertices": self.vertices} if self.vertices else words
 
     def figures(self, found: Computation) -> dict[str, Any]:
         axis = found.axis

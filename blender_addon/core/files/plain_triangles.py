@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from ..axis.facet_triangles import triangulate_facets
 from ..errors import ExportError
-from .facet_triangles import triangulate_facets
 from .rows_of_text import write_rows
 
 if TYPE_CHECKING:

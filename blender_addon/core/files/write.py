@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import MedialAxis
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
 from .extensions import extension_of
-from .facet_triangles import triangulate_facets
 from .placing import is_identity, parts_of
 from .rows_of_text import write_rows as _write_rows
 from .whole_file import write_whole

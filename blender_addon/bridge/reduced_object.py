@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small medial meshes as objects: how they are found, made and updated."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+
+from .. import __version__
+from ..core.settings import Side
+from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
+from .output_object import (
+    SOURCE,
+    VERSION,
+    check_mode,
+    new_object,
+    output_of,
+    replace_mesh,
+    source_of,
+)
+from .wires import show_wires
+from .write_mesh import new_axis_mesh
+
+if TYPE_CHECKING:
+    from ..core.axis.medial_axis import MedialAxis
+
+SUFFIX = " Small Mesh"
+REDUCED = "ma_reduced"  # the number of vertices that was asked for; marks the object
+
+
+def is_reduced(thing: bpy.types.Object) -> bool:
+    return thing.type == "MESH" and REDUCED in thing
+
+
+def reduced_of(source: bpy.types.Object) -> bpy.types.Object | None:
+    """The small medial mesh that the next one of this source updates."""
+    return output_of(source, is_reduced)
+
+
+def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> bpy.types.Object:
+    """Make the small medial mesh beside a result, or update the one there is; all or nothing.
+
+    Parameters
+    ----------
+    result : Object
+        The medial axis that was reduced; it is not changed.
+    axis : MedialAxis
+        In the frame of `result`.
+    vertices : int
+        That were asked for.
+
+    Raises
+    ------
+    InvalidInputError
+        The object cannot be changed now, or Blender cannot hold it.
+    """
+    source = source_of(result) or result
+    thing = reduced_of(source)
+    check_mode(thing)
+    if thing is None:
+        mesh = new_axis_mesh(axis, source.name + SUFFIX)
+        mesh.materials.append(radius_material())
+        thing = new_object(source, SUFFIX, mesh)
+        thing.color, thing.show_in_front = FLAT, True  # it lies inside the surface
+    else:
+        replace_mesh(thing, partial(new_axis_mesh, axis))
+    thing.matrix_world = result.matrix_world
+    show_wires(thing, axis)
+    _remember(thing, source, axis, vertices)
+    return thing
+
+
+def _remember(
+    thing: bpy.types.Object, source: bpy.types.Object, axis: MedialAxis, vertices: int
+) -> None:
+    thing[REDUCED] = vertices
+    thing[SOURCE], thing[VERSION] = source, __version__
+    thing["ma_side"] = Side.INNER.name
+    thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
+    thing.update_tag()

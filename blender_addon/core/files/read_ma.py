@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`.ma` files of this and other tools -> medial axes of balls, triangles and edges (docs/formats.md)."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..axis.medial_axis import MedialAxis
+from ..errors import ReadError
+from .text import open_file
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_WIDTHS = {b"v": 4, b"e": 2, b"f": 3}
+_INNER = 1  # value of `_medial.Side`
+
+
+def read_ma(path: str | os.PathLike) -> MedialAxis:
+    """Vertices, radii, triangles, and the edges that are on none of these.
+
+    What else an axis knows is not in the file: `generators` are -1, `theta` and `rho` infinite.
+
+    Raises
+    ------
+    ReadError
+        The file is no `.ma`, or contradicts itself.
+    """
+    name = Path(path).name
+    with open_file(path) as stream:
+        header, *lines = _lines(stream.read()) or [(1, [])]
+    counts = _counts(header, name)
+    if len(lines) != sum(counts):
+        raise ReadError(
+            f"Expected {sum(counts)} lines after the header of '{name}', found {len(lines)}; "
+            "take the file from its source again"
+        )
+    ends = np.cumsum(counts)
+    vertices, edges, triangles = (
+        _table(lines[end - count : end], kind, name)
+        for kind, count, end in zip(_WIDTHS, counts, ends, strict=True)
+    )
+    pairs, corners = _ids(edges, counts[0], name), _ids(triangles, counts[0], name)
+    if (vertices[:, 3] < 0).any():
+        raise ReadError(f"Expected radii of 0 or more in '{name}', found a negative one; mend it")
+    always = np.full(len(corners), np.inf)
+    return MedialAxis(
+        vertices=np.ascontiguousarray(vertices[:, :3]),
+        radius=np.ascontiguousarray(vertices[:, 3]),
+        face_offsets=np.arange(0, 3 * len(corners) + 1, 3, dtype=np.int32),
+        face_vertices=corners.reshape(-1),
+        theta=always,
+        rho=always,
+        side=np.full(len(corners), _INNER, np.int32),
+        generators=np.full((len(corners), 2), -1, np.int32),
+        unbounded=0,
+        zero_area=0,
+        edges=_alone(pairs, corners),
+    )
+
+
+def _lines(content: bytes) -> list[tuple[int, list[bytes]]]:
+    """The words of lines that are neither blank nor comment, with their numbers."""
+    split = ((i + 1, line.split()) for i, line in enumerate(content.splitlines()))
+    return [(i, words) for i, words in split if words and not words[0].startswith(b"#")]
+
+
+def _counts(header: tuple[int, list[bytes]], name: str) -> list[int]:
+    number, words = header
+    if len(words) != 3 or not all(word.isdigit() for word in words):
+        raise ReadError(
+            f"Expected the numbers of vertices, edges and triangles in line {number} of '{name}', "
+            f"found {b' '.join(words)[:24]!a}; choose a .ma file as Q-MAT writes it"
+        )
+    return [int(word) for word in words]
+
+
+def _table(lines: list[tuple[int, list[bytes]]], kind: bytes, name: str) -> NDArray[np.float64]:
+    width = _WIDTHS[kind]
+    rows = [_row(words, kind, width) for _, words in lines]
+    if None in rows:
+        raise ReadError(
+            f"Expected '{kind.decode()}' and {width} finite numbers in line "
+            f"{lines[rows.index(None)][0]} of '{name}', found something else; take the file from its source again"
+        )
+    return np.array(rows, np.float64).reshape(-1, width)
+
+
+def _row(words: list[bytes], kind: bytes, width: int) -> list[float] | None:
+    """The numbers of a line; None where it is not what it should be."""
+    if len(words) <= width or words[0] != kind:
+        return None
+    try:
+        row = [float(word) for word in words[1 : width + 1]]
+    except ValueError:
+        return None
+    return row if all(map(math.isfinite, row)) else None
+
+
+def _ids(rows: NDArray[np.float64], vertices: int, name: str) -> NDArray[np.int32]:
+    inside = (rows >= 0) & (rows < vertices) & (rows == np.floor(rows))
+    if not inside.all():
+        raise ReadError(
+            f"Expected edges and triangles between {vertices} vertices in '{name}', found "
+            f"{rows[~inside][0]:g}; vertices count from 0"
+        )
+    return rows.astype(np.int32)
+
+
+def _alone(pairs: NDArray[np.int32], corners: NDArray[np.int32]) -> NDArray[np.int32]:
+    """(w, 2) the edges that are on no triangle, i < j, each once, ascending."""
+    sides = np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    found = set(map(tuple, sides.tolist()))
+    alone = sorted({tuple(sorted(pair)) for pair in pairs.tolist()} - found)
+    return np.array(alone, np.int32).reshape(-1, 2)

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reduce/collapse.h"
+
+#include <queue>
+
+#include "reduce/checked_mesh.h"
+#include "reduce/quadric.h"
+
+namespace medial {
+namespace {
+
+constexpr double kLength =
+    1e-6;  // what a length costs besides, so that of equal edges short ones go
+constexpr double kSame = 1e-12;  // costs that differ by less, as shares of the largest, are equal
+
+struct Candidate {
+  double cost = 0;
+  Edge ends = {};
+  std::array<uint32_t, 2> version = {};
+
+  // The next is the cheapest, of equal ones that of the lowest rows.
+  bool operator<(const Candidate& other) const {
+    return std::tie(other.cost, other.ends) < std::tie(cost, ends);
+  }
+};
+
+class Collapser {
+ public:
+  Collapser(const SphereMesh& mesh, SphereComplex complex, std::span<const TangentPlace> places)
+      : complex_(std::move(complex)),
+        quadrics_(mesh.vertices.size()),
+        version_(mesh.vertices.size(), 0),
+        waiting_(mesh.vertices.size()) {
+    for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+      spheres_.push_back({mesh.vertices[v], mesh.radius[v]});
+      row_.push_back(static_cast<int32_t>(v));
+    }
+    for (const TangentPlace& place : places) {
+      const auto corners =
+          std::count_if(place.of.begin(), place.of.end(), [](int v) { return v >= 0; });
+      for (const int32_t v : place.of) {
+        if (v >= 0) {
+          quadrics_[v].add_plane(place.normal, place.point,
+                                 place.area / static_cast<double>(corners));
+        }
+      }
+    }
+  }
+
+  // Slabs may turn over only where nothing else is left to do.
+  void run(int64_t wanted, const Run& run) {
+    const auto total = static_cast<int64_t>(spheres_.size());
+    left_ = total;
+    for (const bool turns : {false, true}) {
+      may_turn_ = turns;
+      fill();
+      while (left_ > wanted && !queue_.empty()) {
+        if (step() && left_ % 256 == 0) {
+          advance(run.progress, static_cast<double>(total - left_) /
+                                    static_cast<double>(std::max<int64_t>(1, total - wanted)));
+        }
+      }
+    }
+  }
+
+  Collapsed result(const SphereMesh& mesh) const {
+    Collapsed out;
+    std::vector<int32_t> number(spheres_.size(), -1);
+    for (size_t v = 0; v < spheres_.size(); ++v) {
+      if (gone(static_cast<int32_t>(v))) continue;
+      number[v] = static_cast<int32_t>(out.row.size());
+      out.row.push_back(row_[v]);
+      out.mesh.vertices.push_back(spheres_[v].centre);
+      out.mesh.radius.push_back(spheres_[v].radius);
+    }
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto id = static_cast<int32_t>(t);
+      const auto& [a, b, c] = complex_.triangle(id);
+      const auto those = complex_.triangles_of(a);
+      if (!std::binary_search(those.begin(), those.end(), id)) continue;
+      out.mesh.triangles.push_back({number[a], number[b], number[c]});
+    }
+    for (size_t v = 0; v < spheres_.size(); ++v) {
+      for (const int32_t other : complex_.neighbours(static_cast<int32_t>(v))) {
+        if (static_cast<int32_t>(v) < other) out.mesh.wires.push_back({number[v], number[other]});
+      }
+    }
+    out.mesh = without_doubles(std::move(out.mesh));
+    return out;
+  }
+
+ private:
+  static constexpr uint32_t kGone = UINT32_MAX;
+  bool gone(int32_t v) const { return version_[v] == kGone; }
+
+  void fill() {
+    queue_ = {};
+    for (auto& edges : waiting_) edges.clear();
+    for (size_t v = 0; v < spheres_.size(); ++v) {
+      for (const int32_t other : complex_.neighbours(static_cast<int32_t>(v))) {
+        if (static_cast<int32_t>(v) < other) push(static_cast<int32_t>(v), other);
+      }
+    }
+  }
+
+  void push(int32_t a, int32_t b) {
+    if (a > b) std::swap(a, b);
+    const Target target = target_of(a, b);
+    const double along = squared_length(spheres_[a].centre - spheres_[b].centre);
+    const double weight = quadrics_[a].weight() + quadrics_[b].weight();
+    queue_.push({std::max(0.0, target.cost) + kLength * weight * along,
+                 {a, b},
+                 {version_[a], version_[b]}});
+  }
+
+  struct Target {
+    Sphere sphere;
+    int32_t row = -1;
+    double cost = HUGE_VAL;
+  };
+
+  // The best sphere for both, or one of the two where that is no worse.
+  Target target_of(int32_t a, int32_t b) const {
+    Quadric sum = quadrics_[a];
+    sum += quadrics_[b];
+    const Sphere &s = spheres_[a], &t = spheres_[b];
+    const Sphere middle{0.5 * (s.centre + t.centre), 0.5 * (s.radius + t.radius)};
+    Target best{s, row_[a], sum(s)};
+    const double other = sum(t), same = kSame * std::max(best.cost, other);
+    if (other < best.cost - same) best = {t, row_[b], other};
+    const auto free = sum.best(middle);
+    if (free && free->radius >= 0) {
+      const double cost = sum(*free);
+      const double reach = squared_length(s.centre - t.centre) + std::pow(s.radius - t.radius, 2);
+      if (cost < best.cost - same - kSame * sum.weight() * reach) best = {*free, -1, cost};
+    }
+    return best;
+  }
+
+  // Whether an edge has collapsed.
+  bool step() {
+    const Candidate next = queue_.top();
+    queue_.pop();
+    const auto [a, b] = next.ends;
+    if (next.version[0] != version_[a] || next.version[1] != version_[b]) return false;
+    if (gone(a) || gone(b)) return false;
+    const Target target = target_of(a, b);
+    if (!complex_.can_collapse(a, b) ||
+        (!may_turn_ && (turns(a, b, target.sphere) || turns(b, a, target.sphere)))) {
+      waiting_[a].push_back(b);
+      waiting_[b].push_back(a);
+      return false;
+    }
+    complex_.collapse(a, b);
+    quadrics_[a] += quadrics_[b];
+    spheres_[a] = target.sphere;
+    row_[a] = target.row;
+    ++version_[a];
+    version_[b] = kGone;
+    --left_;
+    push_again(a);
+    return true;
+  }
+
+  // The edges of a vertex cost something else now; those of its neighbours may be free to go.
+  void push_again(int32_t a) {
+    waiting_[a].clear();
+    for (const int32_t v : complex_.neighbours(a)) push(a, v);
+    for (const int32_t v : complex_.neighbours(a)) {
+      for (const int32_t other : std::exchange(waiting_[v], {})) {
+        const auto those = complex_.neighbours(v);
+        if (other != a && std::binary_search(those.begin(), those.end(), other)) push(v, other);
+      }
+    }
+  }
+
+  // Whether a triangle of `a`, and not of `b`, would turn over or lose its area.
+  bool turns(int32_t a, int32_t b, const Sphere& target) const {
+    for (const int32_t t : complex_.triangles_of(a)) {
+      const auto& corners = complex_.triangle(t);
+      if (std::find(corners.begin(), corners.end(), b) != corners.end()) continue;
+      std::array<Vec3, 3> before, after;
+      for (int i = 0; i < 3; ++i) {
+        before[i] = spheres_[corners[i]].centre;
+        after[i] = corners[i] == a ? target.centre : before[i];
+      }
+      const Vec3 was = cross(before[1] - before[0], before[2] - before[0]);
+      const Vec3 is = cross(after[1] - after[0], after[2] - after[0]);
+      if (squared_length(was) > 0 && !(dot(was, is) > 0)) return true;
+    }
+    return false;
+  }
+
+  SphereComplex complex_;
+  std::vector<Sphere> spheres_;
+  std::vector<int32_t> row_;
+  std::vector<Quadric> quadrics_;
+  std::vector<uint32_t> version_;
+  std::vector<std::vector<int32_t>> waiting_;  // other ends of edges that could not collapse
+  std::priority_queue<Candidate> queue_;
+  int64_t left_ = 0;
+  bool may_turn_ = false;
+};
+
+}  // namespace
+
+Collapsed collapse_edges(const SphereMesh& mesh, SphereComplex complex,
+                         std::span<const TangentPlace> places, int32_t wanted, const Run& run) {
+  Collapser collapser(mesh, std::move(complex), places);
+  collapser.run(wanted, run);
+  return collapser.result(mesh);
+}
+
+}  // namespace medial

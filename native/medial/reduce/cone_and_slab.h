@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Slabs, cones and balls: the envelopes of balls whose centres run over a triangle, a segment or a
+// point, with linear radii.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "base/vec3.h"
+
+namespace medial {
+
+struct Sphere {
+  Vec3 centre;
+  double radius = 0;
+};
+
+// The ball of an envelope that comes nearest to a query, in shares of its spheres.
+struct NearestOfEnvelope {
+  double distance = HUGE_VAL;  // signed: negative inside that ball
+  std::array<double, 3> shares{};
+};
+
+// Of 1 to 3 spheres. The distance to a ball is convex in its shares, so that there is one least.
+NearestOfEnvelope nearest_ball(std::span<const Sphere> spheres, const Vec3& query);
+
+// The outward normals of the two planes that are tangent to three spheres; none where one of the
+// spheres, or a cone of two of them, holds the rest of the slab.
+struct TangentNormals {
+  bool exist = false;
+  std::array<Vec3, 2> normals;
+};
+TangentNormals tangent_normals(const Sphere& a, const Sphere& b, const Sphere& c);
+
+}  // namespace medial

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "reduce/envelope.h"
+
+#include "base/parallel.h"
+#include "base/rows.h"
+#include "reduce/checked_mesh.h"
+
+namespace medial {
+namespace {
+
+constexpr int32_t kLeaf = 4;
+
+}  // namespace
+
+std::vector<Part> parts_of(const SphereMesh& mesh) {
+  std::vector<Part> parts(mesh.triangles.begin(), mesh.triangles.end());
+  std::vector<uint8_t> used(mesh.vertices.size(), 0);
+  for (const auto& [a, b, c] : mesh.triangles) used[a] = used[b] = used[c] = 1;
+  for (const auto& [a, b] : mesh.wires) {
+    parts.push_back({a, b, -1});
+    used[a] = used[b] = 1;
+  }
+  for (size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) parts.push_back({static_cast<int32_t>(v), -1, -1});
+  }
+  return parts;
+}
+
+Envelope::Envelope(const SphereMesh& mesh) : mesh_(mesh), parts_(parts_of(mesh)) {
+  build(0, static_cast<int32_t>(parts_.size()));
+}
+
+void Envelope::measure(Node& node) const {
+  node.box = {};
+  node.largest = 0;
+  for (int32_t i = node.begin; i < node.end; ++i) {
+    for (const int32_t v : parts_[i]) {
+      if (v < 0) continue;
+      node.box.add(mesh_.vertices[v]);
+      node.largest = std::max(node.largest, mesh_.radius[v]);
+    }
+  }
+}
+
+int32_t Envelope::build(int32_t begin, int32_t end) {
+  const auto id = static_cast<int32_t>(nodes_.size());
+  Node node{.begin = begin, .end = end};
+  measure(node);
+  nodes_.push_back(node);
+  if (end - begin <= kLeaf) return id;
+  const int axis = longest_axis(node.box.extent());
+  const int32_t middle = begin + (end - begin) / 2;
+  const auto key = [&](const Part& part) {
+    double low = HUGE_VAL;
+    for (const int32_t v : part) {
+      if (v >= 0) low = std::min(low, coordinate(mesh_.vertices[v], axis));
+    }
+    return std::pair(low, part);
+  };
+  std::nth_element(parts_.begin() + begin, parts_.begin() + middle, parts_.begin() + end,
+                   [&](const Part& s, const Part& t) { return key(s) < key(t); });
+  build(begin, middle);
+  const int32_t right = build(middle, end);
+  nodes_[id].right = right;
+  return id;
+}
+
+void Envelope::refit() {
+  for (Node& node : nodes_) measure(node);
+}
+
+NearestOfEnvelope Envelope::nearest_in(int32_t part, const Vec3& query) const {
+  std::array<Sphere, 3> spheres;
+  size_t count = 0;
+  for (const int32_t v : parts_[part]) {
+    if (v >= 0) spheres[count++] = {mesh_.vertices[v], mesh_.radius[v]};
+  }
+  return nearest_ball({spheres.data(), count}, query);
+}
+
+Envelope::Found Envelope::find(const Vec3& query, int32_t near) const {
+  Found best;
+  if (near >= 0) best = {nearest_in(near, query), near};
+  search(0, query, best);
+  return best;
+}
+
+bool Envelope::covers(const Vec3& query, double depth) const {
+  Found best{{.distance = -depth}};
+  search(0, query, best);
+  return best.part >= 0;
+}
+
+double Envelope::bound(const Node& node, const Vec3& query) {
+  return std::sqrt(squared_distance(node.box, query)) - node.largest;
+}
+
+void Envelope::search(int32_t id, const Vec3& query, Found& best) const {
+  const Node& node = nodes_[id];
+  if (bound(node, query) > best.nearest.distance) return;
+  if (node.right < 0) {
+    for (int32_t i = node.begin; i < node.end; ++i) {
+      const NearestOfEnvelope found = nearest_in(i, query);
+      const bool first = found.distance == best.nearest.distance && i < best.part;
+      if (found.distance < best.nearest.distance || first) best = {found, i};
+    }
+    return;
+  }
+  int32_t near = id + 1, far = node.right;
+  if (bound(nodes_[far], query) < bound(nodes_[near], query)) std::swap(near, far);
+  search(near, query, best);
+  search(far, query, best);
+}
+
+std::vector<double> solid_distances(std::span<const Vec3> queries, const SphereMesh& mesh,
+                                    int threads, Progress* progress) {
+  require_finite(queries, "query");
+  require_sphere_mesh(mesh);
+  if (mesh.vertices.empty()) {
+    throw InvalidInputError("Expected a mesh of at least one sphere, found none; pass one.");
+  }
+  const Run run{thread_count(threads), progress};
+  const SphereMesh whole = without_doubles(mesh);
+  const Envelope envelope(whole);
+  std::vector<double> result(queries.size());
+  parallel_for(
+      static_cast<int64_t>(queries.size()), run,
+      [&](int64_t i) { result[i] = envelope.find(queries[i]).nearest.distance; }, 256);
+  return result;
+}
+
+}  // namespace medial

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points on the surface of the solid: on every slab, cone and ball, where no other one covers them.
+#include <numbers>
+
+#include "base/parallel.h"
+#include "base/rows.h"
+#include "base/text.h"
+#include "reduce/checked_mesh.h"
+#include "reduce/envelope.h"
+
+namespace medial {
+namespace {
+
+constexpr double kCovered = 1e-6;  // deeper than this share of the spacing
+
+class Painter {
+ public:
+  Painter(const SphereMesh& mesh, const Envelope& envelope, double spacing)
+      : mesh_(mesh), envelope_(envelope), spacing_(spacing) {}
+
+  void paint_ball(int32_t v, std::vector<Vec3>& out) const {
+    const double r = mesh_.radius[v];
+    const auto count =
+        static_cast<int64_t>(std::ceil(4 * std::numbers::pi * r * r / (spacing_ * spacing_))) + 1;
+    for (int64_t i = 0; i < count; ++i) {
+      const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
+      const double turn = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
+      const double flat = r * std::sqrt(std::max(0.0, 1 - z * z));
+      keep(mesh_.vertices[v] + Vec3{flat * std::cos(turn), flat * std::sin(turn), r * z}, out);
+    }
+  }
+
+  void paint_cone(int32_t a, int32_t b, std::vector<Vec3>& out) const {
+    const Vec3 along = mesh_.vertices[b] - mesh_.vertices[a];
+    const double whole = length(along), rise = mesh_.radius[b] - mesh_.radius[a];
+    if (!(std::abs(rise) < whole)) return;
+    const Vec3 axis = (1 / whole) * along;
+    const double k = rise / whole, flat = std::sqrt(1 - k * k);
+    const Vec3 across = normalized(cross(axis, least_of(axis))), third = cross(axis, across);
+    const int64_t rings = steps(whole);
+    const int64_t round = steps(2 * std::numbers::pi * std::max(mesh_.radius[a], mesh_.radius[b]));
+    for (int64_t i = 0; i <= rings; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(rings);
+      const Vec3 centre = mesh_.vertices[a] + share * along;
+      const double radius = mesh_.radius[a] + share * rise;
+      for (int64_t j = 0; j < round; ++j) {
+        const double turn =
+            2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(round);
+        const Vec3 n = flat * (std::cos(turn) * across + std::sin(turn) * third) - k * axis;
+        keep(centre + radius * n, out);
+      }
+    }
+  }
+
+  void paint_slab(const Triangle& t, std::vector<Vec3>& out) const {
+    const auto [a, b, c] = t;
+    const auto& x = mesh_.vertices;
+    const auto& r = mesh_.radius;
+    const TangentNormals tangents = tangent_normals({x[a], r[a]}, {x[b], r[b]}, {x[c], r[c]});
+    if (!tangents.exist) return;
+    const int64_t n =
+        steps(std::max({distance(x[a], x[b]), distance(x[b], x[c]), distance(x[c], x[a])}));
+    for (int64_t i = 0; i <= n; ++i) {
+      for (int64_t j = 0; i + j <= n; ++j) {
+        const double u = static_cast<double>(i) / static_cast<double>(n),
+                     v = static_cast<double>(j) / static_cast<double>(n), w = 1 - u - v;
+        const Vec3 centre = w * x[a] + u * x[b] + v * x[c];
+        const double radius = w * r[a] + u * r[b] + v * r[c];
+        for (const Vec3& normal : tangents.normals) keep(centre + radius * normal, out);
+      }
+    }
+  }
+
+ private:
+  int64_t steps(double whole) const {
+    return std::max<int64_t>(1, static_cast<int64_t>(std::ceil(whole / spacing_)));
+  }
+  static Vec3 least_of(const Vec3& axis) {
+    const Vec3 size{std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
+    if (size.x <= size.y && size.x <= size.z) return {1, 0, 0};
+    return size.y <= size.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  }
+  void keep(const Vec3& point, std::vector<Vec3>& out) const {
+    if (envelope_.find(point).nearest.distance >= -kCovered * spacing_) out.push_back(point);
+  }
+
+  const SphereMesh& mesh_;
+  const Envelope& envelope_;
+  double spacing_;
+};
+
+std::vector<Edge> edges_of(const SphereMesh& mesh) {
+  std::vector<Edge> edges(mesh.wires.begin(), mesh.wires.end());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const Edge& side : {Edge{a, b}, Edge{b, c}, Edge{a, c}}) {
+      edges.push_back({std::min(side[0], side[1]), std::max(side[0], side[1])});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+Column<Vec3> solid_surface(const SphereMesh& given, double spacing, int threads,
+                           Progress* progress) {
+  require_sphere_mesh(given);
+  if (!(spacing > 0)) {
+    throw InvalidInputError("Expected a spacing above 0, found " + text(spacing) +
+                            "; a hundredth of the diagonal is a fair one.");
+  }
+  Column<Vec3> all;
+  if (given.vertices.empty()) return all;
+  const SphereMesh mesh = without_doubles(given);
+  const Envelope envelope(mesh);
+  const Painter painter(mesh, envelope, spacing);
+  const auto edges = edges_of(mesh);
+  const Run run{thread_count(threads), progress};
+  parallel_append_to(
+      all, static_cast<int64_t>(mesh.triangles.size()), run,
+      [&](int64_t t, auto& out, int) { painter.paint_slab(mesh.triangles[t], out); }, 16);
+  parallel_append_to(
+      all, static_cast<int64_t>(edges.size()), run,
+      [&](int64_t e, auto& out, int) { painter.paint_cone(edges[e][0], edges[e][1], out); }, 16);
+  parallel_append_to(
+      all, static_cast<int64_t>(mesh.vertices.size()), run,
+      [&](int64_t v, auto& out, int) { painter.paint_ball(static_cast<int32_t>(v), out); }, 16);
+  return all;
+}
+
+}  // namespace medial

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sphere meshes for Python: reduced, measured, and as points on their surface.
+#include <medial/sphere_mesh.h>
+
+#include "arrays.h"
+#include "bindings.h"
+
+namespace medial::python {
+namespace {
+
+constexpr const char* kReduceDoc =
+    "The same solid with fewer spheres: `(vertices, radius, triangles, edges)`.\n\n"
+    "Edges collapse as long as the homotopy type stays, those first that change the surface of the "
+    "solid least; then the\nspheres are fitted to that surface. Where no more edge can collapse, "
+    "more spheres stay than wanted.\n\n"
+    "Parameters\n----------\n"
+    "vertices : (v, 3) float64\n"
+    "radius : (v,) float64\n"
+    "triangles : (t, 3) int32\n"
+    "edges : (w, 2) int32\n    Those without a triangle; others are passed over.\n"
+    "wanted : int\n    Number of spheres.\n"
+    "progress : Progress, optional\n"
+    "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+constexpr const char* kDistancesDoc =
+    "(q,) float64: signed distance of each query to the balls, cones and slabs of a sphere mesh, "
+    "negative inside.\n\nOutside it is that to the solid; inside the surface is at least as far "
+    "away.\n\n"
+    "Parameters\n----------\n"
+    "queries : (q, 3) float64\n"
+    "vertices : (v, 3) float64\n"
+    "radius : (v,) float64\n"
+    "triangles : (t, 3) int32\n"
+    "edges : (w, 2) int32\n"
+    "progress : Progress, optional\n"
+    "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+constexpr const char* kSurfaceDoc =
+    "(k, 3) float64: points on the surface of the solid of a sphere mesh, about `spacing` apart or "
+    "closer.\n\n"
+    "Parameters\n----------\n"
+    "vertices : (v, 3) float64\n"
+    "radius : (v,) float64\n"
+    "triangles : (t, 3) int32\n"
+    "edges : (w, 2) int32\n"
+    "spacing : float\n"
+    "progress : Progress, optional\n"
+    "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
+
+std::span<const Edge> edges_of(const py::object& edges) {
+  using Rows = py::array_t<int32_t, py::array::c_style>;
+  if (!py::isinstance<Rows>(edges) || py::cast<Rows>(edges).ndim() != 2 ||
+      py::cast<Rows>(edges).shape(1) != 2) {
+    throw InvalidInputError("Expected edges as a contiguous (w, 2) int32 array, found " +
+                            describe(edges) + "; convert it.");
+  }
+  const auto view = py::reinterpret_borrow<Rows>(edges);
+  return {reinterpret_cast<const Edge*>(view.data()), static_cast<size_t>(view.shape(0))};
+}
+
+SphereMesh sphere_mesh(const py::object& vertices, const py::object& radius,
+                       const py::object& triangles, const py::object& edges) {
+  const Points rows(vertices, "vertices");
+  const Triangles faces(triangles);
+  const auto places = rows.span();
+  const auto corners = faces.span();
+  const auto radii = column_of<double>(radius, "radius", "(v,) float64");
+  const auto ends = edges_of(edges);
+  return {{places.begin(), places.end()},
+          {radii.begin(), radii.end()},
+          {corners.begin(), corners.end()},
+          {ends.begin(), ends.end()}};
+}
+
+py::tuple reduced(const py::object& vertices, const py::object& radius, const py::object& triangles,
+                  const py::object& edges, int64_t wanted, Progress* progress, int threads) {
+  const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
+  const auto most = static_cast<int32_t>(std::clamp<int64_t>(wanted, 0, INT_MAX));
+  const ReduceOptions options{most, thread_argument(threads)};
+  SphereMesh result;
+  {
+    const py::gil_scoped_release release;
+    result = reduce(mesh, options, progress);
+  }
+  return py::make_tuple(
+      array_of<double>(std::move(result.vertices)), array_of<double>(std::move(result.radius)),
+      array_of<int32_t>(std::move(result.triangles)), array_of<int32_t>(std::move(result.wires)));
+}
+
+py::array distances(const py::object& queries, const py::object& vertices, const py::object& radius,
+                    const py::object& triangles, const py::object& edges, Progress* progress,
+                    int threads) {
+  const Points asked(queries, "queries");
+  const auto at = asked.span();
+  const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
+  const int count = thread_argument(threads);
+  std::vector<double> result;
+  {
+    const py::gil_scoped_release release;
+    result = solid_distances(at, mesh, count, progress);
+  }
+  return array_of<double>(std::move(result));
+}
+
+py::array surface(const py::object& vertices, const py::object& radius, const py::object& triangles,
+                  const py::object& edges, double spacing, Progress* progress, int threads) {
+  const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
+  const int count = thread_argument(threads);
+  Column<Vec3> result;
+  {
+    const py::gil_scoped_release release;
+    result = solid_surface(mesh, spacing, count, progress);
+  }
+  return array_of<double>(std::move(result));
+}
+
+}  // namespace
+
+void bind_reduce(py::module_& m) {
+  m.def("reduce_sphere_mesh", &reduced, kReduceDoc, py::arg("vertices"), py::arg("radius"),
+        py::arg("triangles"), py::arg("edges"), py::arg("wanted"), py::kw_only(),
+        py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("solid_distances", &distances, kDistancesDoc, py::arg("queries"), py::arg("vertices"),
+        py::arg("radius"), py::arg("triangles"), py::arg("edges"), py::kw_only(),
+        py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("solid_surface", &surface, kSurfaceDoc, py::arg("vertices"), py::arg("radius"),
+        py::arg("triangles"), py::arg("edges"), py::arg("spacing"), py::kw_only(),
+        py::arg("progress") = nullptr, py::arg("threads") = 0);
+}
+
+}  // namespace medial::python

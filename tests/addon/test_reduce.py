@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reduce to Few Vertices: a small medial mesh beside the axis, which can be rebuilt, exported and undone."""
+
+import re
+
+import bpy
+import numpy as np
+import pytest
+from scene import (
+    addon,
+    attribute,
+    compute,
+    contents,
+    ellipsoid,
+    positions,
+    reports,
+    result_of,
+    select,
+)
+from test_nodes import evaluated, volume
+
+
+def reduced_of(source):
+    return addon("bridge.reduced_object").reduced_of(source)
+
+
+def reduce(source, vertices):
+    select(source)
+    assert bpy.ops.object.medial_axis_reduce(vertices=vertices) == {"FINISHED"}
+    return reduced_of(source)
+
+
+def test_a_small_mesh_with_radii_beside_its_axis(capfd):
+    source = ellipsoid(segments=4)
+    source.location, source.rotation_euler = (3, 1, 2), (0.3, 0.2, 0.1)
+    compute(form="CLEAN", side="INNER")
+    reports(capfd)
+    made = reduce(source, 40)
+    sentence = reports(capfd)[-1][1]
+    mean, largest = (float(x) for x in re.findall(r"([\d.]+) %", sentence))
+    assert mean < 0.3 and largest < 2
+    assert len(made.data.vertices) == 40
+    assert {len(polygon.vertices) for polygon in made.data.polygons} == {3}
+    radius = attribute(made.data, "ma_radius")
+    assert radius.min() > 0 and radius.max() == pytest.approx(0.5, abs=0.01)
+    assert np.allclose(made.matrix_world, result_of(source).matrix_world)
+
+
+def test_it_is_made_once_and_again_for_another_number():
+    source = ellipsoid()
+    compute(side="INNER")
+    made = reduce(source, 30)
+    before = contents()
+    select(made)
+    assert bpy.ops.object.medial_axis_reduce(vertices=12) == {"FINISHED"}
+    assert reduced_of(source) == made and contents() == before and len(made.data.vertices) == 12
+
+
+def test_the_solid_of_a_small_mesh_is_rebuilt(capfd):
+    source = ellipsoid(segments=4)
+    compute(form="CLEAN", side="INNER")
+    made = reduce(source, 40)
+    select(made)
+    reports(capfd)
+    assert bpy.ops.object.medial_axis_rebuild() == {"FINISHED"}
+    solid = addon("bridge.rebuilt_object").rebuilt_of(made)
+    assert volume(evaluated(solid)) / volume(source.data) == pytest.approx(1, abs=0.03)
+    assert solid["ma_rebuilt_mean"] < 0.005
+
+
+def test_it_is_exported(tmp_path):
+    source = ellipsoid()
+    compute(side="INNER")
+    made = reduce(source, 20)
+    select(made)
+    path = tmp_path / "small.ma"
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    read = addon("core.files.read_ma").read_ma(path)
+    assert np.allclose(read.vertices, positions(made.data), atol=1e-6)
+
+
+def test_computing_from_it_computes_its_source():
+    source = ellipsoid()
+    compute(side="INNER")
+    select(reduce(source, 20))
+    before = contents()
+    compute(side="INNER")
+    assert contents() == before
+
+
+def test_one_undo_takes_it_away():
+    bpy.context.preferences.edit.use_global_undo = True
+    source = ellipsoid()
+    compute(side="INNER")
+    name, before = source.name, len(bpy.data.objects)
+    bpy.ops.ed.undo_push(message="Axis is computed")
+    select(bpy.data.objects[name])
+    assert bpy.ops.object.medial_axis_reduce("EXEC_DEFAULT", True, vertices=20) == {"FINISHED"}
+    assert len(bpy.data.objects) == before + 1
+    bpy.ops.ed.undo()
+    assert len(bpy.data.objects) == before and name in bpy.data.objects
+
+
+def test_without_an_axis_it_says_so():
+    source = ellipsoid()
+    select(source)
+    assert not bpy.ops.object.medial_axis_reduce.poll()
+    with pytest.raises(RuntimeError, match="Select a medial axis"):
+        bpy.ops.object.medial_axis_reduce()

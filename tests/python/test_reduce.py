@@ -1,0 +1,340 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small medial meshes: topology by an independent count, exact shapes, solids measured by brute force, files."""
+
+import itertools
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.facet_triangles import triangulate_facets
+from medial_axis.core.axis.medial_axis import MedialAxis
+from medial_axis.core.axis.reduce import reduce_axis, reduced_difference
+from medial_axis.core.axis.shape import Shape
+from medial_axis.core.errors import InvalidInputError, ReadError
+from medial_axis.core.files.read_ma import read_ma
+from medial_axis.core.files.write import export_axis
+from support import meshes
+
+NO_EDGES = np.zeros((0, 2), np.int32)
+NO_TRIANGLES = np.zeros((0, 3), np.int32)
+
+
+def betti(vertices, triangles, edges):
+    """Components, tunnels and cavities over the field of two elements, by elimination of columns."""
+    number = {}
+    sides = [
+        {
+            number.setdefault(tuple(sorted(pair)), len(number))
+            for pair in itertools.combinations(t, 2)
+        }
+        for t in triangles.tolist()
+    ]
+    for pair in edges.tolist():
+        number.setdefault(tuple(sorted(pair)), len(number))
+    filled = rank(sides)
+    joined = rank([set(pair) for pair in number])
+    return vertices - joined, len(number) - joined - filled, len(sides) - filled
+
+
+def rank(columns):
+    lowest = {}
+    for column in columns:
+        while column and max(column) in lowest:
+            column = column ^ lowest[max(column)]
+        if column:
+            lowest[max(column)] = column
+    return len(lowest)
+
+
+def grid(along=13, across=9, radius=0.3):
+    """A flat rectangle, 6 by 4, as triangles of balls of one radius."""
+    x, y = np.meshgrid(np.linspace(0, 6, along), np.linspace(0, 4, across), indexing="ij")
+    vertices = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
+    rows = np.arange(x.size).reshape(along, across)
+    a, b, c, d = rows[:-1, :-1], rows[1:, :-1], rows[1:, 1:], rows[:-1, 1:]
+    triangles = np.concatenate(
+        [np.stack(t, -1).reshape(-1, 3) for t in ((a, b, c), (a, c, d))]
+    ).astype(np.int32)
+    return vertices, np.full(len(vertices), radius), triangles, NO_EDGES
+
+
+def wire(count=40, radii=(0.5, 0.2), length=3.0):
+    """The axis of a capsule whose ends have these radii."""
+    share = np.linspace(0, 1, count)
+    vertices = np.outer(share, [length, 0, 0])
+    edges = np.column_stack([np.arange(count - 1), np.arange(1, count)]).astype(np.int32)
+    return vertices, radii[0] + share * (radii[1] - radii[0]), NO_TRIANGLES, edges
+
+
+def random_complex(seed, vertices=14, triangles=16, edges=10):
+    random = np.random.default_rng(seed)
+    corners = np.array([random.choice(vertices, 3, replace=False) for _ in range(triangles)])
+    pairs = np.array([random.choice(vertices, 2, replace=False) for _ in range(edges)])
+    corners = np.unique(np.sort(corners, axis=1), axis=0).astype(np.int32)
+    return (
+        random.normal(size=(vertices, 3)),
+        random.uniform(0.01, 0.1, vertices),
+        corners,
+        pairs.astype(np.int32).reshape(-1, 2),
+    )
+
+
+# --- topology
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_any_complex_keeps_its_betti_numbers(medial, seed):
+    mesh = random_complex(seed, triangles=4 + seed % 30, edges=seed % 17)
+    before = betti(len(mesh[0]), *mesh[2:])
+    for wanted in (11, 6, 3, 1):
+        vertices, radius, triangles, edges = medial.reduce_sphere_mesh(*mesh, wanted)
+        assert betti(len(vertices), triangles, edges) == before
+        assert len(radius) == len(vertices)
+
+
+def test_a_complex_that_can_be_a_point_becomes_one(medial):
+    vertices, radius, triangles, edges = medial.reduce_sphere_mesh(*grid(), 1)
+    assert (len(vertices), len(triangles), len(edges)) == (1, 0, 0)
+    assert np.isfinite(vertices).all() and (radius >= 0).all()
+
+
+@pytest.mark.parametrize("count", [3, 4, 30])
+def test_a_loop_keeps_three_vertices(medial, count):
+    turn = np.arange(count) * 2 * np.pi / count
+    vertices = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
+    edges = np.column_stack([np.arange(count), (np.arange(count) + 1) % count]).astype(np.int32)
+    found = medial.reduce_sphere_mesh(vertices, np.full(count, 0.1), NO_TRIANGLES, edges, 1)
+    assert len(found[0]) == 3 and found[3].tolist() == [[0, 1], [0, 2], [1, 2]]
+
+
+def test_the_shell_of_a_tetrahedron_is_the_least_that_holds_a_cavity(medial):
+    points, triangles = meshes.icosphere(2)
+    radius = np.full(len(points), 0.1)
+    found = medial.reduce_sphere_mesh(points, radius, triangles.astype(np.int32), NO_EDGES, 1)
+    assert (len(found[0]), len(found[2]), len(found[3])) == (4, 4, 0)
+
+
+# --- exact shapes
+
+
+def test_a_flat_sheet_becomes_two_triangles_without_an_error(medial):
+    mesh = grid()
+    vertices, radius, triangles, edges = medial.reduce_sphere_mesh(*mesh, 4)
+    assert sorted(map(tuple, vertices.tolist())) == [(0, 0, 0), (0, 4, 0), (6, 0, 0), (6, 4, 0)]
+    assert (radius == 0.3).all() and len(triangles) == 2 and len(edges) == 0
+    points = medial.solid_surface(*mesh, 0.2)
+    left = np.asarray((vertices, radius, triangles, edges), dtype=object)
+    assert np.abs(medial.solid_distances(points, *left)).max() < 1e-12
+
+
+@pytest.mark.parametrize("radii", [(0.5, 0.5), (0.5, 0.2), (0.05, 1.0)])
+def test_a_cone_becomes_its_two_ends(medial, radii):
+    found = medial.reduce_sphere_mesh(*wire(radii=radii), 2)
+    order = np.argsort(found[0][:, 0])
+    assert found[0][order].tolist() == [[0, 0, 0], [3, 0, 0]]
+    assert found[1][order].tolist() == list(radii)
+    assert found[3].tolist() == [[0, 1]]
+
+
+def test_enough_vertices_change_nothing(medial):
+    mesh = grid()
+    for before, after in zip(mesh, medial.reduce_sphere_mesh(*mesh, len(mesh[0])), strict=True):
+        assert np.array_equal(before, after)
+
+
+# --- the solid
+
+
+def least_of_samples(query, spheres, steps=200):
+    """The signed distance to a slab, a cone or a ball at many of its balls: never less, and little more."""
+    shares = np.random.default_rng(3).dirichlet([0.6] * len(spheres), steps * steps)
+    balls = np.concatenate([shares, np.eye(len(spheres))]) @ spheres
+    return (np.linalg.norm(balls[:, :3] - query, axis=1) - balls[:, 3]).min()
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_distances_to_slabs_cones_and_balls(medial, count):
+    random = np.random.default_rng(count)
+    for _ in range(12):
+        spheres = np.column_stack([random.normal(size=(count, 3)), random.uniform(0, 1, count)])
+        triangles = np.array([[0, 1, 2]], np.int32) if count == 3 else NO_TRIANGLES
+        edges = np.array([[0, 1]], np.int32) if count == 2 else NO_EDGES
+        queries = 2 * random.normal(size=(4, 3))
+        mesh = (np.ascontiguousarray(spheres[:, :3]), spheres[:, 3].copy(), triangles, edges)
+        found = medial.solid_distances(queries, *mesh)
+        for query, distance in zip(queries, found, strict=True):
+            sampled = least_of_samples(query, spheres)
+            assert distance - 1e-12 <= sampled < distance + 0.03
+
+
+def test_points_on_the_surface_of_a_solid(medial):
+    mesh = wire(count=3)
+    points = medial.solid_surface(*mesh, 0.05)
+    assert np.abs(medial.solid_distances(points, *mesh)).max() < 1e-6
+    random = np.random.default_rng(1).normal(size=(300, 3))
+    outside = random / np.linalg.norm(random, axis=1)[:, None] * 10
+    gaps = np.linalg.norm(points[medial.nearest(points, outside)] - outside, axis=1)
+    assert np.allclose(gaps, medial.solid_distances(outside, *mesh), atol=0.01)
+
+
+def ellipsoid():
+    points, triangles = meshes.icosphere(3)
+    return Shape(points * (1.0, 0.7, 0.5), triangles.astype(np.int32))
+
+
+@pytest.fixture(scope="module")
+def computed():
+    import medial_axis
+
+    shape = ellipsoid()
+    return shape, medial_axis.compute(shape.points, shape.triangles)
+
+
+@pytest.mark.slow
+def test_the_solid_of_an_ellipsoid_stays(computed):
+    shape, found = computed
+    errors = [reduced_difference(reduce_axis(found.axis, n), shape) for n in (8, 20, 60)]
+    assert errors[0].largest < 0.04 and errors[1].largest < 0.02 and errors[2].mean < 0.003
+    assert errors[0].mean > errors[1].mean > errors[2].mean
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["3holes.off", "rocker-arm.off", "hand_closed.obj", "knot1.off"])
+def test_real_meshes_keep_their_holes(data_file, name):
+    import medial_axis
+
+    shape = medial_axis.read(data_file(name))
+    axis = medial_axis.compute(shape.points, shape.triangles, sampling="vertices").axis
+    triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
+    before = betti(len(axis.vertices), triangles, axis.edges)
+    for wanted in (200, 50):
+        reduced = medial_axis.reduce(axis, wanted)
+        corners = reduced.face_vertices.reshape(-1, 3)
+        assert len(reduced.vertices) <= wanted
+        assert betti(len(reduced.vertices), corners, reduced.edges) == before
+
+
+def test_threads_and_scale_change_nothing(medial, computed):
+    axis = computed[1].axis
+    triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
+    mesh = (axis.vertices, axis.radius, triangles, np.ascontiguousarray(axis.edges))
+    one = medial.reduce_sphere_mesh(*mesh, 50, threads=1)
+    for part, other in zip(one, medial.reduce_sphere_mesh(*mesh, 50, threads=3), strict=True):
+        assert part.tobytes() == other.tobytes()
+    size = 2.0**30
+    large = medial.reduce_sphere_mesh(size * axis.vertices, size * axis.radius, *mesh[2:], 50)
+    assert np.array_equal(large[0], size * one[0]) and np.array_equal(large[1], size * one[1])
+    assert np.array_equal(large[2], one[2])
+
+
+def test_cancelled(medial):
+    progress = medial.Progress()
+    progress.cancel()
+    with pytest.raises(medial.Cancelled):
+        medial.reduce_sphere_mesh(*grid(60, 60), 10, progress=progress)
+
+
+# --- what is refused
+
+
+@pytest.mark.parametrize(
+    ("change", "match"),
+    [
+        ({"wanted": 0}, "at least 1 wanted vertex, found 0"),
+        ({"radius": -0.1}, "radii of 0 or more|radii of 0 to"),
+        ({"radius": np.nan}, "radii of 0 to"),
+        ({"triangle": 99}, "rows of 117 vertices in triangles, found 117|found 99|found"),
+        ({"place": np.inf}, "finite"),
+    ],
+)
+def test_what_is_refused(medial, change, match):
+    vertices, radius, triangles, edges = grid()
+    radius[3] = change.get("radius", radius[3])
+    vertices[4, 1] = change.get("place", 0)
+    if "triangle" in change:
+        triangles[2, 1] = len(vertices)
+    with pytest.raises(medial.InvalidInputError, match=match):
+        medial.reduce_sphere_mesh(vertices, radius, triangles, edges, change.get("wanted", 5))
+
+
+def test_another_side_is_refused(computed):
+    from dataclasses import replace
+
+    axis = computed[1].axis
+    other = replace(axis, side=np.full(axis.facets, 2, np.int32))
+    with pytest.raises(InvalidInputError, match="axis of the inside"):
+        reduce_axis(other, 10)
+
+
+# --- files
+
+
+def parsed(path):
+    """`.ma` as other tools read it: word by word."""
+    words = path.read_text().split()
+    counts = [int(word) for word in words[:3]]
+    at, rows = 3, {"v": [], "e": [], "f": []}
+    for kind, count, width in zip("vef", counts, (4, 2, 3), strict=True):
+        for _ in range(count):
+            assert words[at] == kind
+            rows[kind].append([float(word) for word in words[at + 1 : at + 1 + width]])
+            at += 1 + width
+    assert at == len(words)
+    return [np.array(rows[kind]).reshape(-1, width) for kind, width in zip("vef", (4, 2, 3))]
+
+
+def test_ma_is_read_back_here_and_elsewhere(computed, tmp_path):
+    axis = reduce_axis(computed[1].axis, 40)
+    path = export_axis(axis, tmp_path / "small.ma")
+    balls, edges, triangles = parsed(path)
+    assert np.array_equal(balls[:, :3], axis.vertices) and np.array_equal(balls[:, 3], axis.radius)
+    assert np.array_equal(triangles.reshape(-1), axis.face_vertices)
+    assert betti(len(balls), triangles.astype(int), edges.astype(int)) == (1, 0, 0)
+    back = read_ma(path)
+    for name in MedialAxis.__dataclass_fields__:
+        if name != "level":
+            assert np.array_equal(getattr(back, name), getattr(axis, name)), name
+
+
+@pytest.mark.parametrize(
+    ("text", "match"),
+    [
+        ("", "numbers of vertices, edges and triangles"),
+        ("1 0\n", "numbers of vertices, edges and triangles"),
+        ("2 0 0\nv 0 0 0 1\n", "Expected 2 lines"),
+        ("1 0 0\nv 0 0 0\n", "'v' and 4 finite numbers in line 2"),
+        ("1 0 0\nv 0 0 0 nan\n", "'v' and 4 finite numbers"),
+        ("1 0 0\nv 0 0 0 -1\n", "radii of 0 or more"),
+        ("1 1 0\nv 0 0 0 1\ne 0 1\n", "between 1 vertices"),
+    ],
+)
+def test_broken_ma(tmp_path, text, match):
+    path = tmp_path / "broken.ma"
+    path.write_text(text)
+    with pytest.raises(ReadError, match=match):
+        read_ma(path)
+
+
+def test_comments_and_wires_of_other_tools(tmp_path):
+    path = tmp_path / "other.ma"
+    path.write_text(
+        "# made by hand\n4 4 1\nv 0 0 0 1\nv 1 0 0 1\n\nv 0 1 0 1\nv 5 5 5 .5\n"
+        "e 1 0\ne 1 2\ne 2 0\ne 3 2\nf 0 1 2\n"
+    )
+    axis = read_ma(path)
+    assert axis.face_vertices.tolist() == [0, 1, 2] and axis.edges.tolist() == [[2, 3]]
+    assert axis.radius.tolist() == [1, 1, 1, 0.5]
+
+
+def test_command_line(tmp_path, monkeypatch):
+    from medial_axis import cli
+
+    monkeypatch.chdir(tmp_path)
+    points, triangles = meshes.icosphere(3)
+    lines = [f"v {x} {y} {z}" for x, y, z in points * (1.0, 0.7, 0.5)]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in triangles]
+    (tmp_path / "shape.obj").write_text("\n".join(lines))
+    assert cli.main(["shape.obj", "shape.ma", "--vertices", "12"]) == 0
+    assert len(parsed(tmp_path / "shape.ma")[0]) <= 12
+    assert cli.main(["shape.obj", "shape.npz", "--vertices", "12"]) == 0
+    assert cli.main(["shape.obj", "shape.ma", "--vertices", "-1"]) == 2
+    assert cli.main(["shape.obj", "shape.ma", "--vertices", "5", "--side", "outer"]) == 2
