@@ -53,6 +53,7 @@ __all__ = [
     "read",
     "read_axis",
     "reconstruct",
+    "reduce",
     "write",
     "write_balls",
 ]

@@ -559,8 +559,8 @@ MUTATIONS = (
     ),
     Mutation(
         "skeleton/relax.cpp",
-        "samples.nearest(level.vertices[moved[i]]).distance",
-        "samples.nearest(level.exact[moved[i]]).distance",
+        "samples.nearest(level.vertices[v], within).distance",
+        "samples.nearest(level.exact[v], within).distance",
         "balls of moved vertices are those of the old places",
     ),
     Mutation(
