@@ -9,7 +9,7 @@ from medial_axis.core.axis.compute import compute
 from medial_axis.core.settings import Settings
 from support import messy, resampled
 from support.levels import betti_of_mesh
-from support.shapes import SHAPES
+from support.shapes import SHAPES, Cyclide
 
 CLEAN = {"spacings": 1.0}
 CURVE = {"sheet": math.inf}
@@ -79,6 +79,22 @@ def test_closed_curves_have_their_length(sampled, name, true, n, noise, most):
     if not noise:
         raw = curve_of(hierarchy, name)
         assert lengths(raw, raw.vertices).sum() / true > 1.02
+
+
+@pytest.mark.parametrize("noise, mean, largest", [(0.0, 1.1e-3, 3e-3), (0.1, 1.4e-3, 4e-3)])
+def test_bent_tube_of_changing_radius_has_its_axis(medial, noise, mean, largest):
+    """What lies across the curve there touches balls farther on: left at that, the mean is 2.4e-3."""
+    shape = Cyclide()
+    points = shape.sample(8000, 0)
+    normals = shape.normals(points)
+    way = np.random.default_rng(0).uniform(-noise, noise, (len(points), 1))
+    points = points + way * math.sqrt(shape.area / len(points)) * normals
+    hierarchy = medial.MedialAnalysis(points, normals=normals).hierarchy()
+    level = hierarchy.extract(**CURVE, limb=math.inf, relaxed=True)
+    assert hierarchy.betti == level.betti == (1, 1, 0) and len(level.generators) == 0
+    off = shape.axis_distance(level.vertices)
+    assert off.mean() < mean and off.max() < largest
+    assert np.abs(level.radius - shape.axis_radius(level.vertices)).max() < 0.6 * largest
 
 
 def test_steps_are_a_quarter_of_the_spacing(sampled):

@@ -153,6 +153,42 @@ Canal fitted(Canal canal, const PointTree& samples, double half_width) {
   return canal;
 }
 
+// Along the curve from one of its vertices, `way` on or up to its end, of a closed curve a quarter.
+struct Walk {
+  Vec3 place;
+  double way = 0;  // that was gone
+};
+
+Walk walk(const Curve& curve, bool closed, size_t vertex, int direction, double way) {
+  const auto steps = static_cast<int64_t>(curve.canal.size()) - 1;
+  auto next = static_cast<int64_t>(vertex);
+  Walk walk{curve.canal[vertex].centre};
+  for (int64_t i = 0; i < (closed ? steps / 4 : steps); ++i) {
+    next += direction;
+    if (closed) next = (next + steps) % steps;
+    if (next < 0 || next > steps) break;
+    const Vec3 step = curve.canal[next].centre - walk.place;
+    const double left = way - walk.way, all = length(step);
+    if (all >= left) return {all > 0 ? walk.place + (left / all) * step : walk.place, way};
+    walk = {curve.canal[next].centre, walk.way + all};
+  }
+  return walk;
+}
+
+// From the fitted centre at a vertex to the axis. What the samples show lies across the curve, but
+// touches a ball that is R R' farther on, where R is the radius across and R' its slope. If the
+// axis is bent it has turned away there, and what lies across has its middle k (R R')^2 / 2 outside
+// the bend, k the curvature: as far as the middle of two places of the curve, R R' to either side,
+// lies inside. Near an end, as much of that as there is.
+Vec3 to_axis(const Curve& curve, bool closed, size_t vertex) {
+  const auto& [centre, radius, slope, tangent, bend, trust] = curve.canal[vertex];
+  double way = radius * std::sqrt(1 + slope * slope) * std::abs(slope);
+  for (const int direction : {-1, 1}) way = walk(curve, closed, vertex, direction, way).way;
+  const Vec3 before = walk(curve, closed, vertex, -1, way).place,
+             behind = walk(curve, closed, vertex, 1, way).place;
+  return trust * (0.5 * (before + behind) - centre);
+}
+
 }  // namespace
 
 std::vector<Curve> fit_curves(const std::vector<Chain>& chains, std::span<const Vec3> places,
@@ -172,9 +208,20 @@ std::vector<Curve> fit_curves(const std::vector<Chain>& chains, std::span<const 
         found[i] = fitted(canal, samples, kHalfWidth * curves[c].spacing[k]);
       },
       kFewVertices);
-  for (size_t i = 0; i < vertices.size(); ++i) {
-    curves[vertices[i].curve].canal[vertices[i].vertex] = found[i];
-  }
+  const auto bring = [&] {
+    for (size_t i = 0; i < vertices.size(); ++i) {
+      curves[vertices[i].curve].canal[vertices[i].vertex] = found[i];
+    }
+  };
+  bring();
+  parallel_for(
+      static_cast<int64_t>(vertices.size()), run,
+      [&](int64_t i) {
+        const auto& [c, k] = vertices[i];
+        found[i].centre = found[i].centre + to_axis(curves[c], chains[c].closed, k);
+      },
+      kFewVertices);
+  bring();
   for (size_t c = 0; c < curves.size(); ++c) {
     if (chains[c].closed) curves[c].canal.back() = curves[c].canal.front();
   }
