@@ -9,7 +9,7 @@ namespace medial::python {
 void bind_analysis(pybind11::module_& module);
 void bind_thickness(pybind11::module_& module);  // before the analysis
 void bind_hierarchy(pybind11::module_& module);  // after the progress, before the analysis
-void bind_reduce(pybind11::module_& module);  // after the progress
+void bind_reduce(pybind11::module_& module);     // after the progress
 void bind_tight_cocone(pybind11::module_& module);
 void bind_sampling(pybind11::module_& module);
 void bind_stages(pybind11::module_& module);

@@ -27,7 +27,7 @@ struct ReduceOptions {
 // spheres are fitted to that surface. Where no more edge can be collapsed, more vertices stay than
 // wanted. Throws InvalidInputError for rows out of range, numbers that are not finite, negative
 // radii and less than one wanted vertex; Cancelled.
-SphereMesh reduce(const SphereMesh& mesh, const ReduceOptions& options,
+SphereMesh reduce(const SphereMesh& given, const ReduceOptions& options,
                   Progress* progress = nullptr);
 
 // The signed distance of each query to the slabs, cones and balls, negative inside: outside that to
@@ -36,7 +36,7 @@ std::vector<double> solid_distances(std::span<const Vec3> queries, const SphereM
                                     int threads = 0, Progress* progress = nullptr);
 
 // Points on the surface of the solid, no farther apart than about `spacing`.
-Column<Vec3> solid_surface(const SphereMesh& mesh, double spacing, int threads = 0,
+Column<Vec3> solid_surface(const SphereMesh& given, double spacing, int threads = 0,
                            Progress* progress = nullptr);
 
 }  // namespace medial

@@ -58,7 +58,7 @@ class Chosen {
     held_ += gain.places;
     choice_.chosen.push_back(gain.ball);
     choice_.covered.push_back(static_cast<double>(held_) / static_cast<double>(left_.count()));
-    const double size = static_cast<double>(choice_.chosen.size());
+    const auto size = static_cast<double>(choice_.chosen.size());
     advance(run_.progress, size / static_cast<double>(count_));
   }
 

@@ -123,7 +123,7 @@ class Links {
   std::vector<Link> take() { return std::move(found_); }
 
  private:
-  void link(int32_t a, int32_t b, double weight, std::vector<Link>& out) const {
+  static void link(int32_t a, int32_t b, double weight, std::vector<Link>& out) {
     if (a == kNone || b == kNone || a == b) return;
     out.push_back({{a, b}, static_cast<float>(std::min(weight, 1.0))});
   }

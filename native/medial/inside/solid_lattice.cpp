@@ -44,7 +44,7 @@ SolidLattice::SolidLattice(const WindingNumber& winding, const Box& box, int64_t
   for (;;) {
     fill(winding, box, step, run);
     if (2 * count_ >= places || (count_ == 0 && lattice_size(box, step) > kEmpty)) return;
-    const double wanted = static_cast<double>(places);
+    const auto wanted = static_cast<double>(places);
     const double ratio = std::cbrt(wanted / static_cast<double>(std::max<int64_t>(count_, 1)));
     const double next = finer(box, step, ratio, most);
     if (next == step) return;
@@ -102,7 +102,7 @@ void SolidLattice::visit_words(const Vec3& centre, double radius, const Visit& v
   // First and last of the places along an axis that are within `reach` of the centre.
   const auto range = [&](int axis, double reach) {
     const double at = coordinate(centre, axis) - coordinate(origin_, axis);
-    const double last = static_cast<double>(size_[axis] - 1);
+    const auto last = static_cast<double>(size_[axis] - 1);
     const double low = std::ceil((at - reach) / step_), high = std::floor((at + reach) / step_);
     return std::array{static_cast<int64_t>(std::clamp(low, 0.0, last + 1)),
                       static_cast<int64_t>(std::clamp(high, -1.0, last))};

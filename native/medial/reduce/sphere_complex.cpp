@@ -69,12 +69,11 @@ bool SphereComplex::can_collapse(int32_t a, int32_t b) const {
   for (const int32_t vertex : neighbours_[a]) {
     if (holds(neighbours_[b], vertex) && !has_triangle(a, b, vertex)) return false;
   }
-  for (const int32_t t : of_vertex_[a]) {
-    if (has_corner(triangles_[t], b)) continue;
+  return std::ranges::all_of(of_vertex_[a], [&](int32_t t) {
+    if (has_corner(triangles_[t], b)) return true;
     const auto [c, d] = others(triangles_[t], a);
-    if (holds(neighbours_[b], c) && has_triangle(b, c, d)) return false;
-  }
-  return true;
+    return !holds(neighbours_[b], c) || !has_triangle(b, c, d);
+  });
 }
 
 void SphereComplex::collapse(int32_t a, int32_t b) {
