@@ -4,8 +4,9 @@
 Blender hands hiding down to no child, and a driver cannot: what one sees in one view layer (the eye, which H
 closes) is no property that can be driven. So a *change* of the source is passed on, and nothing else: an axis
 that an artist hides or shows by himself stays so until the source is hidden or shown the next time, and one that was
-hidden before its source is not shown by it. What is needed to tell that stands in two custom properties of the axis,
-so that undo, copies and files keep it.
+hidden before its source is not shown by it. Renders are left alone: who takes the source out of them wants to
+render the axis. What is needed to tell that stands in two custom properties of the axis, so that undo, copies and
+files keep it.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ HIDDEN_WITH_SOURCE = "ma_hidden_with_source"  # how the axis was hidden with it
 
 @dataclass(frozen=True)
 class _Way:
-    """One way of hiding an object: for all viewports, for renders, or in a view layer."""
+    """One way of hiding an object: for all viewports, or in a view layer."""
 
     word: str
     layer: bpy.types.ViewLayer | None = None
@@ -47,7 +48,6 @@ def hide_with_sources(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Non
     """Hide or show every axis that is the child of its source, where that was hidden or shown since the last call."""
     ways = (
         _Way("hide_viewport"),
-        _Way("hide_render"),
         _Way(f"{scene.name}/{layer.name}", layer),
     )
     for axis in list(_followers()):

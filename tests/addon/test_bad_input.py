@@ -203,6 +203,8 @@ def test_hidden_source_of_a_selected_result():
     result = result_of(source)
     points = result["ma_points"]
     source.hide_set(True)
+    bpy.context.view_layer.update()
+    result.hide_set(False)  # hidden with its source, and shown again by hand
     select(result)
     try:
         compute()

@@ -196,12 +196,18 @@ def with_axis(**settings):
     return source, result_of(source)
 
 
-@pytest.mark.parametrize("way", ["viewport", "render", "eye"])
+@pytest.mark.parametrize("way", ["viewport", "eye"])
 def test_axis_is_hidden_and_shown_with_its_source(way):
     source, axis = with_axis()
     hide(source, **{way: True})
     assert hidden(axis) == hidden(source) and any(hidden(axis))
     hide(source)
+    assert hidden(axis) == (False, False, False)
+
+
+def test_axis_is_rendered_without_its_source():
+    source, axis = with_axis()
+    hide(source, render=True)
     assert hidden(axis) == (False, False, False)
 
 
@@ -223,34 +229,10 @@ def test_an_axis_that_an_artist_hid_is_not_shown_with_its_source():
     assert source.visible_get() and not axis.visible_get()
 
 
-def test_computing_again_leaves_hidden_what_was_hidden_with_its_source():
-    source, axis = with_axis()
-    hide(source, render=True)
-    select(source)
-    compute(**EVEN)
-    bpy.context.view_layer.update()
-    assert axis.hide_render
-    hide(source)
-    assert not axis.hide_render
-
-
 def test_only_a_child_of_its_source_is_hidden_with_it():
     source, axis = with_axis(parent=False)
     hide(source, viewport=True, render=True, eye=True)
     assert hidden(axis) == (False, False, False)
-
-
-def test_axis_of_a_hidden_source_is_shown_when_it_is_made():
-    """A script may compute of what is hidden, and wants to see what it made."""
-    source = ellipsoid()
-    source.hide_render = True
-    compute(**EVEN)
-    bpy.context.view_layer.update()
-    axis = result_of(source)
-    assert not axis.hide_render
-    hide(source)
-    hide(source, render=True)
-    assert axis.hide_render
 
 
 def test_each_view_layer_hides_its_own():

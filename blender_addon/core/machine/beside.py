@@ -34,7 +34,7 @@ class Beside(Generic[T]):
         self._failure: BaseException | None = None
 
     def __enter__(self) -> Beside[T]:
-        thread = threading.Thread(target=self._run, name="medial axis, beside")
+        thread = threading.Thread(target=self._run, name="beside")
         try:
             thread.start()
         except RuntimeError:  # the system has no thread to give: the work is done here and now
