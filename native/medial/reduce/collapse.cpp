@@ -147,8 +147,8 @@ class Collapser {
     const Target target = target_of(a, b);
     if (!complex_.can_collapse(a, b) ||
         (!may_turn_ && (turns(a, b, target.sphere) || turns(b, a, target.sphere)))) {
-      waiting_[a].push_back(b);
-      waiting_[b].push_back(a);
+      wait(a, b);
+      wait(b, a);
       return false;
     }
     complex_.collapse(a, b);
@@ -160,6 +160,14 @@ class Collapser {
     --left_;
     push_again(a);
     return true;
+  }
+
+  // Once: an edge waits at both its ends, and comes back from either. What waited as often as it
+  // came back would double with every turn.
+  void wait(int32_t v, int32_t other) {
+    auto& others = waiting_[v];
+    const auto at = std::lower_bound(others.begin(), others.end(), other);
+    if (at == others.end() || *at != other) others.insert(at, other);
   }
 
   // The edges of a vertex cost something else now; those of its neighbours may be free to go.
@@ -196,7 +204,8 @@ class Collapser {
   std::vector<int32_t> row_;
   std::vector<Quadric> quadrics_;
   std::vector<uint32_t> version_;
-  std::vector<std::vector<int32_t>> waiting_;  // other ends of edges that could not collapse
+  std::vector<std::vector<int32_t>>
+      waiting_;  // other ends of edges that could not collapse, ascending
   std::priority_queue<Candidate> queue_;
   int64_t left_ = 0;
   bool may_turn_ = false;
