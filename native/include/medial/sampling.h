@@ -14,12 +14,12 @@ namespace medial {
 enum class SampleKind : int32_t { corner, sharp, boundary, vertex, surface, opening };
 
 struct SamplingOptions {
-  std::optional<int64_t> count;  // one of count, spacing and sites
-  std::optional<double> spacing;
-  std::optional<std::span<const Vec3>> sites;
-  std::span<const double> site_spacings;
+  std::optional<int64_t> count = {};  // one of count, spacing and sites
+  std::optional<double> spacing = {};
+  std::optional<std::span<const Vec3>> sites = {};
+  std::span<const double> site_spacings = {};
   double sharp_angle = 0.52359877559829887;  // pi / 6
-  std::span<const Edge> sharp_edges;         // rows of vertices
+  std::span<const Edge> sharp_edges = {};    // rows of vertices
   bool smooth = false;
   bool keep_vertices = false;
   int mirrored_rows = 2;  // beside each sharp edge, on either side

@@ -31,7 +31,9 @@ struct PolesInput {
   }
   bool is_infinite(int32_t cell) const {
     const auto samples = static_cast<int32_t>(incident.size());
-    return std::ranges::any_of(t.cells[cell], [&](int32_t p) { return p < 0 || p >= samples; });
+    const Cell& corners = t.cells[cell];
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](int32_t p) { return p < 0 || p >= samples; });
   }
 };
 

@@ -69,7 +69,7 @@ bool SphereComplex::can_collapse(int32_t a, int32_t b) const {
   for (const int32_t vertex : neighbours_[a]) {
     if (holds(neighbours_[b], vertex) && !has_triangle(a, b, vertex)) return false;
   }
-  return std::ranges::all_of(of_vertex_[a], [&](int32_t t) {
+  return std::all_of(of_vertex_[a].begin(), of_vertex_[a].end(), [&](int32_t t) {
     if (has_corner(triangles_[t], b)) return true;
     const auto [c, d] = others(triangles_[t], a);
     return !holds(neighbours_[b], c) || !has_triangle(b, c, d);

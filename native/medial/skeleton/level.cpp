@@ -181,7 +181,10 @@ class Drawer {
       const auto polygon = corners(i);
       int32_t& start = newest[polygon[0]];
       for (int32_t other = start; other >= 0; other = before[other]) {
-        if (std::ranges::is_permutation(corners(other), polygon)) return true;
+        const auto earlier = corners(other);
+        if (std::is_permutation(earlier.begin(), earlier.end(), polygon.begin(), polygon.end())) {
+          return true;
+        }
       }
       before[i] = start;
       start = static_cast<int32_t>(i);
