@@ -68,7 +68,8 @@ struct alignas(32) HotEdge {
 };
 
 constexpr double kNotKnown = -1;  // no time is below 0
-constexpr size_t kFacetsPerBucket = 512, kMostBuckets = 1 << 14;
+constexpr size_t kFacetsPerBucket = 512, kMostBuckets = 1 << 12;
+constexpr double kFirstRange = 1.0 / 1024;  // of the buckets, as share of the diagonal
 constexpr int kLookEvery = 1 << 13;  // facets between two looks at whether to stop
 
 class Fire {
@@ -80,7 +81,7 @@ class Fire {
         run_{run.threads, nullptr, run.arena},
         progress_(run.progress),
         buckets_(std::clamp<size_t>(complex.dual.size() / kFacetsPerBucket, 16, kMostBuckets)),
-        queue_(0.25 * complex.diagonal / static_cast<double>(buckets_), buckets_ + 1),
+        queue_(kFirstRange * complex.diagonal / static_cast<double>(buckets_), buckets_),
         facet_(array<HotFacet>(complex.dual.size(), run)),
         edge_(array<HotEdge>(complex.ends.size(), run)) {
     light_edges();
