@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A queue of ids in ascending order of their keys, equal ones by id. Keys lie in buckets, of which
-// only the one in use is sorted: that costs less than one large heap.
+// only those in use are sorted: that costs less than one large heap.
 #pragma once
 
 #include <bit>
@@ -31,10 +31,8 @@ class BucketQueue {
 
   // The next id; -1 when none is left.
   int32_t pop() {
-    while (next_ == sorted_.size() && late_.empty()) {
-      if (open_ == buckets_.size()) return -1;
-      open();
-    }
+    while (sorted_.size() - next_ <= kAhead && open_ < buckets_.size()) open();
+    if (next_ == sorted_.size() && late_.empty()) return -1;
     if (late_.empty() || (next_ < sorted_.size() && sorted_[next_] < late_.top())) {
       return sorted_[next_++].second;
     }
@@ -43,7 +41,9 @@ class BucketQueue {
     return id;
   }
 
-  // An id that will be popped soon, if nothing comes between; -1: not known.
+  static constexpr size_t kAhead = 32;
+  // An id that will be popped soon, if nothing comes between; -1: not known. It is of those up to
+  // kAhead as long as there are so many.
   int32_t soon(size_t ahead) const {
     return next_ + ahead < sorted_.size() ? sorted_[next_ + ahead].second : -1;
   }
@@ -62,9 +62,13 @@ class BucketQueue {
     return static_cast<size_t>((static_cast<double>(range) + in_range) * in_range_);
   }
   void open() {
-    sorted_ = std::exchange(buckets_[open_++], {});
-    std::sort(sorted_.begin(), sorted_.end());
+    const auto bucket = std::exchange(buckets_[open_++], {});
+    if (bucket.empty()) return;
+    sorted_.erase(sorted_.begin(), sorted_.begin() + static_cast<int64_t>(next_));
     next_ = 0;
+    const auto first = static_cast<int64_t>(sorted_.size());
+    sorted_.insert(sorted_.end(), bucket.begin(), bucket.end());
+    std::sort(sorted_.begin() + first, sorted_.end());
   }
 
   double per_range_, in_range_;

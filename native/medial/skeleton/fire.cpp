@@ -10,6 +10,7 @@ namespace {
 void fetch([[maybe_unused]] const void* at) {
 #ifdef __GNUC__
   __builtin_prefetch(at);
+  asm volatile("");  // without it GCC takes this for a function without effect, and leaves it out
 #endif
 }
 
@@ -132,14 +133,19 @@ class Fire {
     for (const int32_t f : lit) queue_.push(facet_[f].thickness(), f);
   }
 
-  // Has the memory of the next facets come while the present one burns.
+  // Has the memory of the next facets come while the present one burns: of each what is known by
+  // what has come before.
   void fetch_ahead() const {
-    if (const int32_t f = queue_.soon(12); f >= 0) fetch(&facet_[f]);
-    if (const int32_t f = queue_.soon(8); f >= 0) fetch(&complex_.corners[facet_[f].first]);
-    if (const int32_t f = queue_.soon(3); f >= 0) {
+    if (const int32_t f = queue_.soon(24); f >= 0) fetch(&facet_[f]);
+    if (const int32_t f = queue_.soon(16); f >= 0 && !facet_[f].gone) {
+      const auto ring = ring_of(facet_[f]);
+      fetch(&ring.front());
+      fetch(&ring.back());
+    }
+    if (const int32_t f = queue_.soon(9); f >= 0 && !facet_[f].gone) {
       for (const Corner& c : ring_of(facet_[f])) fetch(&edge_[c.edge]);
     }
-    if (const int32_t f = queue_.soon(1); f >= 0) {
+    if (const int32_t f = queue_.soon(3); f >= 0 && !facet_[f].gone) {
       for (const Corner& c : ring_of(facet_[f])) {
         fetch(&complex_.position[c.vertex]);
         const Incident& at = edge_[c.edge].facets;
