@@ -30,6 +30,8 @@ class WireFire {
         front_(array<Front>(complex.cell.size(), Front{}, run)) {
     wires_.order = array<int32_t>(0, run);
     wires_.order.reserve(complex.cell.size());
+    wires_.next = array<int32_t>(0, run);
+    wires_.next.reserve(complex.cell.size());
     wires_.elongation = array<double>(complex.cell.size(), run);
   }
 
@@ -82,6 +84,7 @@ class WireFire {
     shared_store(collapse_.partner[edge], with_vertex(vertex));
     collapse_.edge_of_vertex[vertex] = edge;
     wires_.order.push_back(vertex);
+    wires_.next.push_back(other);
     if (wires_.order.size() % (1 << 14) == 0) throw_if_cancelled(progress_);
     left_[vertex].remove(edge);
     left_[other].remove(edge);
