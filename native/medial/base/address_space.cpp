@@ -17,11 +17,6 @@
 #endif
 
 namespace medial {
-namespace {
-
-constexpr size_t kHugePage = 2 << 20;
-
-}  // namespace
 
 #ifdef _WIN32
 
@@ -60,6 +55,7 @@ bool AddressSpace::release(size_t, size_t) const { return false; }
 
 void prefer_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] size_t bytes) {
 #ifdef MADV_HUGEPAGE  // Linux
+  constexpr uintptr_t kHugePage = 2 << 20;
   const auto begin = reinterpret_cast<uintptr_t>(memory), end = begin + bytes;
   const uintptr_t from = (begin + kHugePage - 1) / kHugePage * kHugePage;
   const uintptr_t until = end / kHugePage * kHugePage;

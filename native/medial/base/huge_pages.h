@@ -6,7 +6,7 @@
 namespace medial {
 
 // Asks the system for few large pages in the place of many small ones, where it has such: memory
-// then comes faster, and the processor finds it faster. Only advice.
+// then comes faster, and the processor finds it faster. Only advice; in address_space.cpp.
 void prefer_huge_pages(void* memory, size_t bytes);
 
 }  // namespace medial

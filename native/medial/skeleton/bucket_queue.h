@@ -3,6 +3,7 @@
 // only those in use are sorted: that costs less than one large heap.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <queue>
 
@@ -41,9 +42,9 @@ class BucketQueue {
     return id;
   }
 
+  // An id that will be popped soon, if nothing comes between; -1: there is none, or it is not
+  // known, which it is for all below kAhead.
   static constexpr size_t kAhead = 32;
-  // An id that will be popped soon, if nothing comes between; -1: not known. It is of those up to
-  // kAhead as long as there are so many.
   int32_t soon(size_t ahead) const {
     return next_ + ahead < sorted_.size() ? sorted_[next_ + ahead].second : -1;
   }
@@ -56,10 +57,11 @@ class BucketQueue {
   // Keys are not negative, so 1 + key / range has the number of its range in its exponent.
   size_t bucket_of(double key) const {
     const auto bits = std::bit_cast<uint64_t>(1 + key * per_range_);
-    const auto range = static_cast<size_t>(bits >> 52) - 1023;
-    if (range >= kRanges) return buckets_.size() - 1;
+    const size_t range = static_cast<size_t>(bits >> 52) - 1023, last = buckets_.size() - 1;
+    if (range >= kRanges) return last;
     const double in_range = std::bit_cast<double>((bits & kFraction) | kOne) - 1;
-    return static_cast<size_t>((static_cast<double>(range) + in_range) * in_range_);
+    // The sum may be rounded up.
+    return std::min(last, static_cast<size_t>((static_cast<double>(range) + in_range) * in_range_));
   }
   void open() {
     const auto bucket = std::exchange(buckets_[open_++], {});

@@ -71,7 +71,7 @@ struct alignas(32) HotEdge {
 constexpr double kNotKnown = -1;  // no time is below 0
 constexpr size_t kFacetsPerBucket = 512, kMostBuckets = 1 << 12;
 constexpr double kFirstRange = 1.0 / 1024;  // of the buckets, as share of the diagonal
-constexpr int kLookEvery = 1 << 13;  // facets between two looks at whether to stop
+constexpr int kLookEvery = 1 << 13;         // facets between two looks at whether to stop
 
 class Fire {
  public:
