@@ -803,7 +803,7 @@ TEST(MethodSides, BySurfaceWithVerticesOfItsOwn) {
   }
 }
 
-// The corners of a cell vote, as user_guide and algorithm.md have it; beyond the box all is outside
+// The corners of a cell vote, as user_guide and stage_inside.md have it; beyond the box all is outside
 // because the normals look outwards.
 TEST(MethodSides, ByNormals) {
   for (uint32_t seed = 0; seed < 10; ++seed) {
