@@ -292,3 +292,20 @@ def test_links_lead_somewhere(page):
         if not path.exists() or (place and place not in anchors(path)):
             wrong.append(target)
     assert wrong == []
+
+
+# --- the width of lines
+
+# What scripts write, from here to the end of a page.
+WRITTEN = ("<!-- Below this line stands what", "<!-- written by build_addon.py bench")
+# What cannot be broken: rows of tables, pictures, and commands, also those of a session of a shell.
+WHOLE = re.compile(r"\|.*\|$|!\[|\s*(\$ |[A-Z_]+=\S+ )?(blender|openjd|python3|curl|sudo) ")
+
+
+@pytest.mark.parametrize("path", [*PAGES, ROOT / "CONTRIBUTING.md"], ids=lambda path: path.name)
+def test_lines_are_at_most_100_wide(path):
+    text = path.read_text(encoding="utf-8")
+    for mark in WRITTEN:
+        text = text.partition(mark)[0]
+    wide = [line for line in text.splitlines() if len(line) > 100 and not WHOLE.match(line)]
+    assert wide == []
