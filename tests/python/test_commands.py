@@ -11,13 +11,14 @@ import subprocess
 import sys
 from pathlib import Path
 
-import build_addon
 import pytest
 from conftest import PACKAGE, ROOT
 from support.shape_meshes import of_ellipsoid
 from support.shapes import SHAPES
 from test_cli import documented, program, write_egg, write_input  # noqa: F401 - a fixture
 from test_docs import PAGES
+
+import build_addon
 
 PAGES = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROGRAMS = (
