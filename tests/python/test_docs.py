@@ -309,3 +309,27 @@ def test_lines_are_at_most_100_wide(path):
         text = text.partition(mark)[0]
     wide = [line for line in text.splitlines() if len(line) > 100 and not WHOLE.match(line)]
     assert wide == []
+
+
+# --- the length of sentences
+
+# Lists of what was done, and of what the add-on says.
+LISTS = {"changelog.md", "checklist.md", "troubleshooting.md"}
+LONGEST = 40  # words
+
+
+def sentences(path):
+    """Of paragraphs and items: not of tables, pictures, headings and what scripts write."""
+    text = prose(path)
+    for mark in WRITTEN:
+        text = text.partition(mark)[0]
+    text = "\n".join(line for line in text.splitlines() if not line.startswith(("|", "!", "#")))
+    for paragraph in re.split(r"\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )", text):
+        words = re.sub(r"\]\([^)]*\)", "]", paragraph)
+        yield from re.split(r"(?<=[.!?])\*{0,2}\s+(?=[A-Z*`|(\[])", words)
+
+
+def test_sentences_are_short(page):
+    if page.name in LISTS:
+        pytest.skip(f"{page.name} is a list")
+    assert [text for text in sentences(page) if len(text.split()) > LONGEST] == []
