@@ -10,6 +10,8 @@ from conftest import ROOT
 from medial_axis.core.settings import LIMITS, LOOKS, OPTIONS, THICKNESS_OPTIONS, Switch
 from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
+from tests.wrap_docs import WRITTEN, wrap
+
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
 SOURCES = ("native", "blender_addon", "tests", "docs")
@@ -296,8 +298,6 @@ def test_links_lead_somewhere(page):
 
 # --- the width of lines
 
-# What scripts write, from here to the end of a page.
-WRITTEN = ("<!-- Below this line stands what", "<!-- written by build_addon.py bench")
 # What cannot be broken: rows of tables, pictures, and commands, also those of a session of a shell.
 WHOLE = re.compile(r"\|.*\|$|!\[|\s*(\$ |[A-Z_]+=\S+ )?(blender|openjd|python3|curl|sudo) ")
 
@@ -309,6 +309,36 @@ def test_lines_are_at_most_100_wide(path):
         text = text.partition(mark)[0]
     wide = [line for line in text.splitlines() if len(line) > 100 and not WHOLE.match(line)]
     assert wide == []
+
+
+LONG = """\
+# A heading that is kept
+
+A paragraph whose words are moved, with `a code span that stays whole` and [a link](page.md#place) and
+a number - such as 7. that is no item, and so on and on and on until the line is much too wide for it.
+
+- An item, the second line of which is indented as the first one is, and which is a little longer than that.
+
+    code = "is kept as it is, however long the line may be, for nobody knows where it may be broken"  # so
+
+| a table | is kept as it is, however long the row may be, for it cannot be broken at all in any way |
+"""
+
+
+def test_wrapping_moves_words_and_changes_none():
+    text = wrap(LONG)
+    assert text.split() == LONG.split() and wrap(text) == text != LONG
+    kept = [line for line in LONG.splitlines() if line.startswith(("#", "    ", "|"))]
+    assert [line for line in text.splitlines() if line.startswith(("#", "    ", "|"))] == kept
+    assert max(len(line) for line in text.splitlines() if line not in kept) <= 100
+    assert "`a code span that stays whole`" in text
+    assert not re.search(r"^(-|7\.) (such|that)", text, re.MULTILINE)
+
+
+def test_the_docs_are_wrapped(page):
+    """`python3 tests/wrap_docs.py` wraps them."""
+    text = page.read_text(encoding="utf-8")
+    assert wrap(text) == text
 
 
 # --- the length of sentences
