@@ -344,7 +344,7 @@ def lines(points, triangles, middle: float, colour: str, width: float) -> list[s
 
 
 def on_cut(points, middle: float):
-    return np.asarray(points) * (165, -165) + (middle, 235)
+    return np.asarray(points) * (165, -165) + (middle, 195)
 
 
 def main() -> None:
