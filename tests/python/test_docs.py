@@ -2,6 +2,7 @@
 """Every code word in the docs exists: identifiers, files and options between backticks occur in the sources."""
 
 import ast
+import functools
 import re
 from pathlib import Path
 
@@ -65,6 +66,7 @@ def spans(page):
     return [span for span in SPAN.findall(prose(page)) if span not in FOREIGN]
 
 
+@functools.cache
 def files():
     tops = [path for path in ROOT.iterdir() if path.is_file() and path.name != "README.md"]
     found = [path for folder in SOURCES for path in (ROOT / folder).rglob("*") if path.is_file()]
