@@ -79,8 +79,9 @@ def _sources() -> list[Path]:
 
 
 def _make_manual(folder: Path) -> None:
-    python = python_that("import markdown", "install python3-markdown")
-    run(python, Path(__file__).with_name("manual.py"), paths.ROOT / "docs", folder)
+    python = python_that("import mkdocs", "install mkdocs")
+    options = ["--quiet", "--strict", "--config-file", paths.ROOT / "mkdocs.yml"]
+    run(python, "-B", "-m", "mkdocs", "build", *options, "--site-dir", folder)
 
 
 def _make_presets(folder: Path) -> None:
