@@ -67,4 +67,6 @@ def cpp_page() -> str:
 
 
 def _page(title: str, text: str, entries: list[Entry]) -> str:
-    return "\n\n".join([f"# {title}", docstring(text), *(markdown_of(e, 2) for e in entries)]) + "\n"
+    return (
+        "\n\n".join([f"# {title}", docstring(text), *(markdown_of(e, 2) for e in entries)]) + "\n"
+    )

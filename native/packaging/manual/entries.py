@@ -80,7 +80,8 @@ def docstring(text: str) -> str:
     first, *rest = _SECTION.split(text)
     blocks = [paragraphs(first)]
     for title, body in zip(rest[::2], rest[1::2]):
-        blocks.append(f"**{title}**\n\n{items(body)}")
+        listed, *more = re.split(r"\n\n(?=\S)", body)  # a paragraph at the margin ends the list
+        blocks += [f"**{title}**\n\n{items(listed)}", *map(paragraphs, more)]
     return "\n\n".join(block for block in blocks if block)
 
 

@@ -78,7 +78,9 @@ class Source:
             if isinstance(item, ast.FunctionDef):
                 self._member(entry, node, item)
             elif isinstance(item, (ast.AnnAssign, ast.Assign)) and (text := self.comment(item)):
-                name = ast.unparse(item.target if isinstance(item, ast.AnnAssign) else item.targets[0])
+                name = ast.unparse(
+                    item.target if isinstance(item, ast.AnnAssign) else item.targets[0]
+                )
                 add(entry, "Values", Member(name, "", text))
         return entry
 
@@ -129,8 +131,8 @@ def _parameters(arguments: ast.arguments) -> list[str]:
         _parameter(argument, arguments.defaults[number - plain] if number >= plain else None)
         for number, argument in enumerate(arguments.args)
     ]
-    if arguments.kwonlyargs:
-        pieces.append("*")
+    if arguments.vararg or arguments.kwonlyargs:
+        pieces.append(f"*{ast.unparse(arguments.vararg) if arguments.vararg else ''}")
     pieces += map(_parameter, arguments.kwonlyargs, arguments.kw_defaults)
     return pieces + ([f"**{ast.unparse(arguments.kwarg)}"] if arguments.kwarg else [])
 

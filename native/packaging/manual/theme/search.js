@@ -15,14 +15,18 @@ const wordsOf = (text) => text.toLowerCase().split(/\s+/).filter(Boolean);
 function score([, title, heading, text], words) {
   let sum = 0;
   for (const word of words) {
-    const whole = new RegExp(`(^|[^\\p{L}\\p{N}_])${word.replace(/[^\p{L}\p{N}_]/gu, "\\$&")}($|[^\\p{L}\\p{N}_])`, "iu");
-    const worth = (place, weight) =>
-      whole.test(place) ? 2 * weight : place.toLowerCase().includes(word) ? weight : 0;
-    const here = worth(heading, 10) + worth(text, 2);
+    const here = 10 * worth(heading, word) + 2 * worth(text, word);
     if (here === 0) return 0;
-    sum += here + worth(title, 3);
+    sum += here + 3 * worth(title, word);
   }
   return sum;
+}
+
+// 2 for a word that stands by itself, 1 for a part of one.
+function worth(text, word) {
+  const literally = word.replace(/[\\^$.*+?()[\]{}|/]/g, "\\$&");
+  if (new RegExp(`(?<![\\p{L}\\p{N}_])${literally}(?![\\p{L}\\p{N}_])`, "iu").test(text)) return 2;
+  return text.toLowerCase().includes(word) ? 1 : 0;
 }
 
 function find(words) {
