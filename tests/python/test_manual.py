@@ -217,11 +217,20 @@ def test_what_is_missing_is_an_error(page, link):
         page(f"# A\n\n{link}\n")
 
 
-def test_page_that_is_missing_in_the_list_of_pages_is_an_error(tmp_path):
+@pytest.mark.parametrize(
+    ("listed", "said"),
+    [
+        ("page.md, no.md", "no.md"),
+        ("", "expected page.md once in the list of pages, found it 0 times"),
+        ("page.md, page.md", "expected page.md once in the list of pages, found it 2 times"),
+    ],
+)
+def test_pages_must_be_listed_once(tmp_path, listed, said):
     (tmp_path / "docs").mkdir()
-    (tmp_path / "docs" / "page.md").write_text("# A\n")
-    with pytest.raises(AssertionError, match=r"no\.md"):
-        make_manual(one_page_config(tmp_path, "no.md"), tmp_path / "made")
+    for name in ("page.md", "other.md"):
+        (tmp_path / "docs" / name).write_text("# A\n")
+    with pytest.raises(AssertionError, match=said):
+        make_manual(one_page_config(tmp_path, f"other.md, {listed}"), tmp_path / "made")
 
 
 # --- in a browser

@@ -6,8 +6,10 @@ from __future__ import annotations
 import re
 import sys
 import tempfile
+from collections import Counter
 from pathlib import Path
 
+from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3]))  # mkdocs runs this file by its path
@@ -37,6 +39,18 @@ def on_files(files, config):
     return files
 
 
+def on_nav(nav, config, files):
+    """Every page is listed once; else it could not be found, or be in two places."""
+    listed = Counter(page.file.src_uri for page in nav.pages)
+    for file in files.documentation_pages():
+        if listed[file.src_uri] != 1:
+            raise PluginError(
+                f"mkdocs.yml: expected {file.src_uri} once in the list of pages, "
+                f"found it {listed[file.src_uri]} times"
+            )
+    return nav
+
+
 def on_page_markdown(markdown, page, config, files):
     page.title = links.title_of(markdown)
     _LINKS.page = page.file.src_uri
@@ -45,7 +59,7 @@ def on_page_markdown(markdown, page, config, files):
 
 def on_env(env, config, files):
     """Only pictures that a page shows are copied; beside the pages lies what the search reads."""
-    pages = in_order(files)
+    pages = list(in_order(files))
     shown = {name for page in pages for name in links.pictures(page.content, page.file.src_uri)}
     for file in list(files.media_files()):
         if file.src_uri.endswith((".png", ".svg")) and file.src_uri not in shown:
@@ -58,11 +72,9 @@ def on_env(env, config, files):
 
 
 def in_order(files):
-    """The pages as one leafs through them; those that the navigation lacks come last."""
+    """The pages as one leafs through them."""
     pages = [file.page for file in files.documentation_pages()]
-    page = next((page for page in pages if page.next_page and not page.previous_page), None)
-    ordered = []
+    page = next(page for page in pages if page.previous_page is None)
     while page:
-        ordered.append(page)
+        yield page
         page = page.next_page
-    return ordered + [page for page in pages if page not in ordered]
