@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from . import cpp_source, python_source
+from . import cpp_source, option_source, python_source
 from .entries import Entry, docstring, markdown_of, paragraphs
 
 # Of this checkout, whatever is packed.
@@ -28,7 +28,7 @@ def pages() -> dict[str, str]:
 def package_page() -> str:
     """`medial_axis`, the package for Python programs: functions, then classes, choices and errors."""
     library = python_source.Source(LIBRARY)
-    known = python_source.options(python_source.Source(SETTINGS))
+    known = option_source.options(python_source.Source(SETTINGS))
     entries = [_public(library, name, known) for name in library.names()]
     functions = [entry for entry in entries if entry.name.islower()]
     errors = [entry for entry in entries if _is_error(entry)]
@@ -36,12 +36,12 @@ def package_page() -> str:
     return _page("API of medial_axis", library.docstring, [*functions, *classes, *errors])
 
 
-def _public(library: python_source.Source, name: str, known: python_source.Options) -> Entry:
+def _public(library: python_source.Source, name: str, known: option_source.Options) -> Entry:
     source = library.origin(name)
     entry = source.entry(name)
-    python_source.describe_choices(entry, known)
-    python_source.describe_fields(entry, source.definitions()[name], known)
-    entry.signature = python_source.with_defaults(entry.signature, known)
+    option_source.describe_choices(entry, known)
+    option_source.describe_fields(entry, source.definitions()[name], known)
+    entry.signature = option_source.with_defaults(entry.signature, known)
     return entry
 
 
