@@ -152,7 +152,7 @@ def test_all_levels_of_1700_more_inputs_have_the_topology_of_their_complex(media
     tried = 0
     for seed, _, analysis in inputs(medial, range(300, 2000)):
         hierarchy = analysis.hierarchy()
-        assert not Levels(hierarchy, analysis).wrong(THRESHOLDS[::2]), seed
+        assert not Levels(hierarchy, analysis).wrong(THRESHOLDS[::3]), seed
         tried += 1
     assert tried > 1600
 
@@ -200,18 +200,9 @@ def test_topology_of_noisy_solids(sampled, name, noise):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SOLIDS)
-@pytest.mark.parametrize(
-    "n, seed, noise",
-    [
-        (8000, 0, 0.0),
-        (20000, 0, 0.0),
-        (8000, 0, 0.1),
-        (8000, 0, 0.25),
-    ],
-)
-def test_sixteen_levels_of_known_solids(sampled, name, n, seed, noise):
-    _, analysis, hierarchy = sampled(name, n, seed, noise)
-    assert noise or hierarchy.betti == SOLIDS[name]
+@pytest.mark.parametrize("noise", NOISE)
+def test_sixteen_levels_of_noisy_solids(sampled, name, noise):
+    _, analysis, hierarchy = sampled(name, 8000, 0, noise)
     assert not Levels(hierarchy, analysis).wrong()
 
 
@@ -239,8 +230,10 @@ def test_levels_are_what_lies_above_their_thresholds(sampled, name, noise):
 @pytest.mark.parametrize("name", SOLIDS)
 @pytest.mark.parametrize("n", [2000, 8000, pytest.param(20000, marks=pytest.mark.slow)])
 def test_level_zero_is_what_medial_selects_and_bridges(medial, sampled, name, n):
-    """Of what is selected, `extract` cannot draw the facets without area, of which tubes have hundreds."""
+    """Of what is selected, `extract` cannot draw the facets without area, of which tubes have hundreds. The sixteen
+    levels above it hold, too."""
     _, analysis, hierarchy = sampled(name, n)
+    assert hierarchy.betti == SOLIDS[name] and not Levels(hierarchy, analysis).wrong()
     level = {tuple(g) for g in hierarchy.extract(limb=0.0).generators.tolist()}
     drawn = {tuple(g) for g in analysis.extract(side=medial.Side.INNER).generators.tolist()}
     selected = {tuple(g) for g in analysis.edges[analysis.select()].tolist()}
