@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.settings import Settings
-from support import messy, resampled
+from support import meshes, messy, resampled
 from support.levels import betti_of_mesh
 from support.shapes import SHAPES, Cyclide
 
@@ -289,6 +289,51 @@ def test_tips_of_curves(data_file, name, fewest, most):
         assert fewest <= tips(level) <= most, limb
         assert tips(raw) == tips(level)
     assert lengths(level, level.vertices).sum() < 0.95 * lengths(raw, raw.vertices).sum()
+
+
+def four_legged():
+    """A body, four legs, a tail and a neck, which pass through each other; where the six limbs end."""
+    ends = [(0.9 * x, 0.3 * y, -1.2) for x in (-1, 1) for y in (-1, 1)]
+    legs = [meshes.capsule((x, y / 1.2, 0.0), (x, y, z), 0.13) for x, y, z in ends]
+    tail, neck = (-2.2, 0.0, 0.6), (1.7, 0.0, 0.9)
+    mesh = meshes.join(
+        meshes.capsule((-1, 0, 0), (1, 0, 0), 0.4),
+        *legs,
+        meshes.capsule((-1.0, 0.0, 0.1), tail, 0.1),
+        meshes.capsule((1.0, 0.0, 0.1), neck, 0.2),
+    )
+    return mesh, np.array([*ends, tail, neck])
+
+
+def curve_tips(hierarchy, **options):
+    """(t, 3) where a curve skeleton has its loose ends."""
+    level = hierarchy.extract(**CURVE, **options)
+    return level.vertices[np.bincount(level.wires.ravel()) == 1]
+
+
+@pytest.mark.parametrize("count", [8000, 16000])
+def test_a_four_legged_animal_with_a_tail_has_six_tips(count):
+    """From 4 to 8 % of the diagonal, each where the axis of its limb ends; at 2 % there are a few where limbs join."""
+    mesh, ends = four_legged()
+    hierarchy = resampled.of_surface(mesh, count).chosen.samples.analysis.hierarchy()
+    assert hierarchy.betti == (1, 0, 0)
+    for limb, most in ((0.02, 12), (0.04, 6), (0.06, 6), (0.08, 6)):
+        for relaxed in (False, True):
+            found = curve_tips(hierarchy, limb=limb, relaxed=relaxed)
+            assert 6 <= len(found) <= most, limb
+            away = np.linalg.norm(found[:, None] - ends, axis=2)
+            assert away.min(axis=0).max() < 0.05, limb
+
+
+def test_each_leg_of_spot_has_its_tip(data_file):
+    """Ears, horns, muzzle and tail are shorter: with them there are 11 to 6 tips from 4 to 8 %."""
+    hierarchy = of_mesh(data_file, "spot_low.obj")
+    feet = np.array([(x, -0.5, z) for x in (-0.2, 0.2) for z in (0.06, 0.78)])
+    for limb, most in ((0.02, 40), (0.04, 12), (0.06, 8), (0.08, 7)):
+        found = curve_tips(hierarchy, limb=limb, relaxed=True)
+        assert 6 <= len(found) <= most, limb
+        nearest = np.linalg.norm(found[:, None] - feet, axis=2).min(axis=0)
+        assert (nearest < 0.15).all(), limb
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -12,7 +12,7 @@ from medial_axis.core.settings import Settings
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
-from support import collapse_reference, measure, meshes
+from support import collapse_reference, measure, meshes, messy, resampled
 from support.accuracy import BARS
 from support.levels import Levels, betti_of_mesh
 from support.shapes import SHAPES
@@ -30,6 +30,8 @@ THRESHOLDS = [
     {"sheet": math.inf, "limb": 0.0},
     {"sheet": math.inf, "limb": math.inf},
 ]
+
+KEYS = ("sheet", "spacings", "erosion")  # of facets
 
 
 def random_points(seed, count=None):
@@ -144,6 +146,17 @@ def test_all_levels_of_random_and_degenerate_inputs_have_the_topology_of_the_com
     assert met > 20
 
 
+@pytest.mark.slow
+def test_all_levels_of_1700_more_inputs_have_the_topology_of_their_complex(medial):
+    """Small inputs, whose drawn levels are counted above: here the masks alone."""
+    tried = 0
+    for seed, _, analysis in inputs(medial, range(300, 2000)):
+        hierarchy = analysis.hierarchy()
+        assert not Levels(hierarchy, analysis).wrong(THRESHOLDS[::3]), seed
+        tried += 1
+    assert tried > 1600
+
+
 # --- shapes with a known axis
 
 # Betti numbers of the solids, and what of MEDIAL's facets on clean samples may be added as bridges at most.
@@ -185,11 +198,42 @@ def test_topology_of_noisy_solids(sampled, name, noise):
     assert_levels_hold(hierarchy, analysis)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SOLIDS)
+@pytest.mark.parametrize("noise", NOISE)
+def test_sixteen_levels_of_noisy_solids(sampled, name, noise):
+    _, analysis, hierarchy = sampled(name, 8000, 0, noise)
+    assert not Levels(hierarchy, analysis).wrong()
+
+
+@pytest.mark.parametrize(
+    "name, noise", [("slab", 0.25), ("torus", 0.1), ("capsule", 0.0), ("box", 0.0)]
+)
+def test_levels_are_what_lies_above_their_thresholds(sampled, name, noise):
+    """Whatever is drawn of a level is what its values say, and the stricter level is part of the looser one."""
+    _, analysis, hierarchy = sampled(name, 2000, 0, noise)
+    levels = Levels(hierarchy, analysis)
+    for chosen in THRESHOLDS:
+        level, alive = hierarchy.extract(**chosen), levels.alive(**chosen)
+        facets, wires, vertices = levels.drawn(alive)
+        assert np.array_equal(np.sort(level.facet_of), facets), chosen
+        assert np.array_equal(np.sort(level.edge_of), wires), chosen
+        assert np.array_equal(np.sort(level.vertex_of), vertices), chosen
+        for stricter in ({"sheet": 0.03}, {"erosion": 0.01}, {"spacings": 3.0}, {"limb": 0.2}):
+            both = {key: max(chosen.get(key, 0.0), stricter.get(key, 0.0)) for key in KEYS}
+            both["limb"] = max(chosen.get("limb", 0.04), stricter.get("limb", 0.0))
+            inner = hierarchy.extract(**both)
+            assert np.isin(inner.facet_of, level.facet_of).all(), (chosen, stricter)
+            assert np.isin(inner.vertex_of, level.vertex_of).all(), (chosen, stricter)
+
+
 @pytest.mark.parametrize("name", SOLIDS)
 @pytest.mark.parametrize("n", [2000, 8000, pytest.param(20000, marks=pytest.mark.slow)])
 def test_level_zero_is_what_medial_selects_and_bridges(medial, sampled, name, n):
-    """Of what is selected, `extract` cannot draw the facets without area, of which tubes have hundreds."""
+    """Of what is selected, `extract` cannot draw the facets without area, of which tubes have hundreds. The sixteen
+    levels above it hold, too."""
     _, analysis, hierarchy = sampled(name, n)
+    assert hierarchy.betti == SOLIDS[name] and not Levels(hierarchy, analysis).wrong()
     level = {tuple(g) for g in hierarchy.extract(limb=0.0).generators.tolist()}
     drawn = {tuple(g) for g in analysis.extract(side=medial.Side.INNER).generators.tolist()}
     selected = {tuple(g) for g in analysis.edges[analysis.select()].tolist()}
@@ -447,7 +491,11 @@ MESHES = {
     "spot_low.obj": (1, 0, 0),
     "mannequin.off": (1, 0, 0),
     "fandisk_large.off": (1, 0, 0),
+    "dilo.off": (1, 0, 0),
+    "liver.ply": (1, 0, 0),
+    "igea.ply": (1, 0, 0),
 }
+LARGE = ("liver.ply", "igea.ply")
 
 
 def sheets(level):
@@ -459,10 +507,22 @@ def sheets(level):
     return connected_components(at @ at.T, directed=False)[0] if len(sizes) else 0
 
 
-@pytest.mark.parametrize("name", MESHES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=pytest.mark.slow if n in LARGE else ()) for n in MESHES]
+)
 def test_real_meshes_have_their_topology_and_one_sheet_of_two_spacings(data_file, name):
     samples = compute_axis(read_shape(data_file(name))[0], Settings()).chosen.samples
     hierarchy = samples.analysis.hierarchy()
     assert tuple(hierarchy.betti) == MESHES[name]
     assert_levels_hold(hierarchy, samples.analysis, THRESHOLDS[1:9:3])
     assert sheets(hierarchy.extract(spacings=2.0)) <= 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*messy.CLOSED, *messy.OPEN])
+def test_sixteen_levels_of_every_mesh(data_file, name):
+    """Parts that overlap and walls thinner than the spacing make strange solids, whose levels hold all the same."""
+    samples = resampled.of_surface(messy.load(name, data_file), 8000).chosen.samples
+    hierarchy = samples.analysis.hierarchy()
+    assert not Levels(hierarchy, samples.analysis).wrong()
+    assert betti_of_mesh(hierarchy.extract(spacings=1.0))[0] == hierarchy.betti[0]

@@ -5,6 +5,16 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+# Thresholds of sixteen levels, by every value and by several at once.
+SIXTEEN = [
+    *({"sheet": s, "limb": c} for s in (0.0, 0.003, 0.01, 0.03) for c in (0.0, 0.04)),
+    *({"spacings": s} for s in (0.5, 1.0, 2.0)),
+    *({"erosion": s} for s in (0.003, 0.02)),
+    {"sheet": 0.01, "erosion": 0.01, "limb": 0.02},
+    {"sheet": np.inf},
+    {"sheet": np.inf, "limb": np.inf},
+]
+
 
 class Levels:
     """The complex of a hierarchy and its values as arrays; `analysis` gives the Delaunay edges."""
@@ -61,6 +71,22 @@ class Levels:
         cavities = parts(row + 1, np.concatenate(joined), there) - 1
         euler = int(vertices.sum()) - int(edges.sum()) + int(facets.sum())
         return pieces, pieces + cavities - euler, cavities
+
+    def wrong(self, thresholds=SIXTEEN):
+        """Those whose levels lack faces of their own cells, or have other Betti numbers than the complex."""
+        alive = [(chosen, self.alive(**chosen)) for chosen in thresholds]
+        return [
+            chosen
+            for chosen, level in alive
+            if not self.is_closed(level) or self.betti(level) != tuple(self.h.betti)
+        ]
+
+    def drawn(self, alive):
+        """What is seen of a level: its facets, edges without a facet of it, and its vertices, as ascending ids."""
+        facets, edges, vertices = alive
+        bare = edges.copy()
+        bare[self.corner_edge[facets[self.facet_of_corner]]] = False
+        return tuple(map(np.flatnonzero, (facets, bare, vertices)))
 
 
 def parts(count, pairs, there):

@@ -114,6 +114,19 @@ def lathe(profile: NDArray[np.float64], around: int = 64) -> Mesh:
     return weld((rings, np.concatenate(quads).astype(np.int32)))
 
 
+def capsule(start: tuple, end: tuple, radius: float, around: int = 32) -> Mesh:
+    """All within that distance of a segment."""
+    a, axis = np.asarray(start, float), np.subtract(end, start)
+    length = np.linalg.norm(axis)
+    turn = np.linspace(-np.pi / 2, np.pi / 2, around // 2 + 1)
+    z = radius * np.sin(turn) + length * (np.arange(len(turn)) > around // 4)
+    vertices, triangles = lathe(np.column_stack((radius * abs(np.cos(turn)), z)), around)
+    across = np.linalg.svd(axis[None])[2][1:]
+    frame = np.vstack((across, axis / length))
+    frame[0] *= np.sign(np.linalg.det(frame))
+    return vertices @ frame + a, triangles
+
+
 def rectangle(along: int, across: int) -> Mesh:
     """(n, 2) vertices of a grid over |x| <= 1, |y| <= 1 and its triangles, counter-clockwise."""
     x, y = np.meshgrid(np.linspace(-1, 1, along + 1), np.linspace(-1, 1, across + 1), indexing="ij")
