@@ -136,7 +136,6 @@ def native(blender: Path) -> None:
 
 
 def python(blender: Path) -> None:
-    run("cmake", "--build", "--preset", "release", "--target", "power_shape")
     run_pytest(blender, "--slow", "tests/python")
 
 

@@ -207,8 +207,9 @@ def test_public_headers_see_only_public_ones(path):
 
 
 def test_cgal_has_one_home():
-    """Triangulations of points and of polygons; both set CGAL up alike."""
-    homes = [MEDIAL / "delaunay" / name for name in ("polygon_triangles.cpp", "triangulation.cpp")]
+    """Triangulations of points, of balls and of polygons; all set CGAL up alike."""
+    units = ("polygon_triangles.cpp", "power_shape.cpp", "triangulation.cpp")
+    homes = [MEDIAL / "delaunay" / name for name in units]
     assert sorted(set(users_of("CGAL/")) - {MEDIAL / "delaunay" / "cgal.h"}) == homes
     assert all("delaunay/cgal.h" in includes_of(home) for home in homes)
 
