@@ -410,8 +410,8 @@ RIVAL_OPTIONS: dict[str, Any] = {
     ),
     "length": Number(
         label="Length",
-        description="Of the methods Angle and Length and Lambda, in percent of the diagonal of the "
-        "bounding box; twice the lambda of that",
+        description="How far apart the two samples are at least, or twice the lambda, in percent of the "
+        "diagonal of the bounding box",
         default=5.0,
         minimum=0.0,
         maximum=100.0,

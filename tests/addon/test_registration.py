@@ -144,7 +144,8 @@ def test_options_of_operator_and_panel_come_from_settings(name):
 
 def test_all_options_are_tested_here():
     assert tuple(addon("core.settings").OPTIONS) == OPTIONS
-    assert tuple(addon("core.settings").Settings.__dataclass_fields__) == OPTIONS
+    rivals = tuple(addon("core.settings").RIVAL_OPTIONS)  # of the command line and the library
+    assert tuple(addon("core.settings").Settings.__dataclass_fields__) == OPTIONS + rivals
 
 
 def test_defaults_are_those_of_the_compiled_module():

@@ -245,9 +245,34 @@ MUTATIONS = (
     ),
     Mutation(
         "axis/selection.cpp",
-        "wanted_.limit_set && !satisfies_angle(edge);",
-        "wanted_.limit_set;",
+        "is_by_theta_or_rho(criteria) && !satisfies_angle(edge);",
+        "is_by_theta_or_rho(criteria);",
         "Definition 4 is asked of the Angle condition, too",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "size(edge) >= length_;",
+        "size(edge) > length_;",
+        "the length of lambda is exceeded, not reached",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "largest = std::max(largest, radius);",
+        "largest = radius;",
+        "one ball alone is asked for its angle",
+    ),
+    Mutation(
+        "axis/pole_balls.cpp",
+        "squared_length(v) > most)",
+        "squared_length(v) > 2 * most)",
+        "balls at poles are not the farthest",
+    ),
+    Mutation(
+        "axis/loose_edges.cpp",
+        "a * a + b * b <= c * c ? c :",
+        "false ? c :",
+        "the smallest ball of an obtuse triangle passes through all its corners",
+        python=("test_rivals.py",),
     ),
     Mutation(
         "axis/medial_mesh.cpp",

@@ -184,6 +184,7 @@ PUBLIC = {
     "medial_mesh.h": {"axis"},
     "watertight_surface.h": {"cocone"},
     "hierarchy.h": {"skeleton"},
+    "power_shape.h": {"delaunay"},
     "sphere_mesh.h": {"reduce"},
     "thickness.h": {"axis"},
     "ball_cover.h": {"axis"},

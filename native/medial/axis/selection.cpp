@@ -50,8 +50,8 @@ double tried_rho(const Significance& s, int64_t edge, Rule rule) {
 Selection::Selection(const Extraction& wanted, const Facets& facets)
     : wanted_(wanted), facets_(facets) {
   check(wanted);
+  sine_ = largest_sine(wanted.thresholds.theta);
   const Thresholds& t = wanted.thresholds;
-  sine_ = largest_sine(t.theta);
   if (is_by_theta_or_rho(t.criteria)) return;
   const size_t samples = facets.edges.first.size() - 1;  // other points are no samples
   length_ = t.length * length(box_of(facets.points.first(samples)).extent());
