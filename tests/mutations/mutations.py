@@ -268,11 +268,10 @@ MUTATIONS = (
         "balls at poles are not the farthest",
     ),
     Mutation(
-        "axis/loose_edges.cpp",
-        "a * a + b * b <= c * c ? c :",
-        "false ? c :",
-        "the smallest ball of an obtuse triangle passes through all its corners",
-        python=("test_rivals.py",),
+        "delaunay/power_shape.cpp",
+        "return std::all_of(",
+        "return std::any_of(",
+        "one wanted ball is enough for a simplex of the power shape",
     ),
     Mutation(
         "axis/medial_mesh.cpp",

@@ -85,7 +85,10 @@ End end_at(int32_t p, int32_t q, const Vec3& direction, double size, const Umbre
     const auto& [a, b] = umbrellas.items[i];
     end.umbrella |= a == q || b == q;
   }
-  if (!shapes.pole.empty()) end.sine = std::abs(dot(shapes.pole[p], direction));
+  if (!shapes.pole.empty()) {
+    end.sine = std::abs(dot(shapes.pole[p], direction));
+    end.umbrella = false;  // without umbrellas every edge is tried
+  }
   end.ratio = size / shapes.width()[p];
   return end;
 }

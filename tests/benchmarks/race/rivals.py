@@ -195,31 +195,23 @@ def _smallest_ball(sides: Array) -> Array:
 
 
 def variant(samples: Samples, by_pole: bool, by_polygon: bool) -> Found:
-    """MEDIAL with its rule Either; what is not asked for is as in the paper, whose step 5 leaves out the edges of the
-    umbrella."""
+    """MEDIAL with its rule Either; what is not asked for is as in the paper."""
     points, pairs = samples.points, samples.facets.generators
     vectors, _ = medial.poles(points)
     passed = np.zeros(len(pairs), bool)
     for p, q in (pairs.T, pairs.T[::-1]):
-        along, tried = points[q] - points[p], ~in_umbrella(points, p, q)
+        along = points[q] - points[p]
         if by_pole:
             across = np.abs(np.einsum("ij,ij->i", along, vectors[p]))
             size = np.linalg.norm(vectors, axis=1)[p] * samples.lengths
-            passed |= tried & (across > np.sin(THETA) * size)
+            passed |= across > np.sin(THETA) * size
         if by_polygon:
-            passed |= tried & (samples.lengths > RHO * polygon_reach(points, vectors)[p])
+            passed |= samples.lengths > RHO * polygon_reach(points, vectors)[p]
     if not by_pole:
         passed |= samples.facets.theta > THETA
     if not by_polygon:
         passed |= samples.facets.rho > RHO
     return samples.kept(passed)
-
-
-def in_umbrella(points: Array, p: Ints, q: Ints) -> Flags:
-    """Whether pq is an edge of the umbrella of p."""
-    _, triangles = medial.umbrellas(points)
-    own = len(points) * triangles[:, :1].astype(np.int64) + triangles[:, 1:]
-    return np.isin(len(points) * p.astype(np.int64) + q, own)
 
 
 def polygon_reach(points: Array, vectors: Array) -> Array:
