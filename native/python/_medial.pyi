@@ -66,7 +66,7 @@ class Against:
     """What theta and rho at a sample are measured against (Dey & Zhao, the Remark in sect. 3.2)."""
 
     UMBRELLA: Against  # 0: the normals and the circumradii of its umbrella
-    POLE: Against  # 1: the pole vector for the normals
+    POLE: Against  # 1: the pole vector for the normals; edges of umbrellas are tried, too
     POLYGON: Against  # 2: the farthest corner of the tangent polygon for the circumradii
     POLE_AND_POLYGON: Against  # 3: both
 

@@ -4,6 +4,9 @@
 #include <medial/analysis.h>
 #include <medial/power_shape.h>
 
+#include <set>
+
+#include "axis/poles.h"
 #include "delaunay/samples.h"
 #include "delaunay/triangulation.h"
 #include "delaunay/voronoi.h"
@@ -78,25 +81,30 @@ TEST(Rivals, AngleAndLengthAskEveryBall) {
 
 TEST(Rivals, PolesAreTheFarthestVerticesOfCells) {
   const auto points = test::ellipsoid(80, 7);
-  const MedialAnalysis analysis({.points = points}, {.sides = SidesFrom::none});
-  const MedialMesh poles = analysis.poles(), all = analysis.extract({.thresholds = {0, 0}});
-  EXPECT_GT(poles.vertices.size(), 40u);
-  EXPECT_TRUE(poles.generators.empty());
-  for (size_t i = 0; i < poles.vertices.size(); ++i) {
-    const Vec3& pole = poles.vertices[i];
-    bool farthest = false;  // for some sample on its sphere, of the vertices on its side
-    for (const Vec3& p : points) {
-      if (distance(p, pole) > poles.radius[i] * (1 + 1e-9)) continue;
-      double most = 0;
-      for (size_t v = 0; v < all.vertices.size(); ++v) {
-        const Vec3 to = all.vertices[v] - p;
-        if (length(to) > all.radius[v] * (1 + 1e-9) || dot(to, pole - p) <= 0) continue;
-        most = std::max(most, length(to));
+  const Samples samples = make_samples(points, {});
+  const Triangulation t = triangulate(samples.points, {});
+  const Voronoi v = voronoi(samples.points, t, {});
+  const Poles first = poles(samples.points, t, v, incident_cells(t, samples.count(), {}), {});
+  std::set<std::array<double, 3>> expected;
+  for (int32_t p = 0; p < samples.count(); ++p) {
+    for (const double sign : {1.0, -1.0}) {
+      if (sign > 0 && first.unbounded[p]) continue;
+      Vec3 pole = samples.points[p];
+      for (int32_t c = 0; c < t.finite_cells; ++c) {
+        const Vec3 to = v.centre[c] - samples.points[p];
+        if (std::count(t.cells[c].begin(), t.cells[c].end(), p) == 0) continue;
+        if (sign * dot(to, first.vector[p]) <= 0) continue;
+        if (length(to) > distance(pole, samples.points[p])) pole = v.centre[c];
       }
-      farthest |= most <= poles.radius[i] * (1 + 1e-9);
+      if (pole != samples.points[p]) expected.insert({pole.x, pole.y, pole.z});
     }
-    EXPECT_TRUE(farthest) << i;
   }
+  const MedialMesh found = MedialAnalysis({.points = points}, {.sides = SidesFrom::none}).poles();
+  std::set<std::array<double, 3>> places;
+  for (const Vec3& x : found.vertices) places.insert({x.x, x.y, x.z});
+  EXPECT_EQ(places, expected);
+  EXPECT_EQ(places.size(), found.vertices.size());
+  EXPECT_TRUE(found.generators.empty());
 }
 
 TEST(Rivals, OnlySelectionsTakeOtherCriteria) {
@@ -112,7 +120,7 @@ TEST(Rivals, OnlySelectionsTakeOtherCriteria) {
 TEST(PowerShape, HasNoHiddenBalls) {
   const std::vector<Vec3> centres = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {1, 1, 1}};
   const std::vector<uint8_t> all(5, 1), three = {1, 1, 1, 0, 1};
-  const std::vector<double> large = {3, 3, 3, 3, 0.1}, equal(5, 1.0);
+  const std::vector<double> large = {4, 4, 4, 4, 0.1}, equal(5, 1.0);
   const PowerShape hidden = power_shape(centres, large, all);
   EXPECT_EQ(hidden.balls, (Column<int32_t>{0, 1, 2, 3}));
   EXPECT_EQ(hidden.triangles, (Column<Triangle>{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}));
