@@ -57,10 +57,10 @@ class Criteria:
     ANGLE_OR_RATIO: Criteria  # 0
     ANGLE: Criteria  # 1
     RATIO: Criteria  # 2
-    ANGLE_AND_LENGTH: Criteria  # 3: after Attali & Lachaud (2001): every ball of the facet sees pq under at least
-    # twice theta, and |pq| is at least `length`
-    LAMBDA: Criteria  # 4: Chazal & Lieutier (2005): the nearest samples fit in no ball with a diameter below
-    # `length`, twice their lambda. Of edges, too
+    ANGLE_AND_LENGTH: Criteria  # 3: after Attali & Lachaud (2001): every ball of the facet
+    # sees pq under at least twice theta, and |pq| is at least `length`
+    LAMBDA: Criteria  # 4: Chazal & Lieutier (2005): the nearest samples fit in no ball
+    # with a diameter below `length`, twice their lambda. Of edges, too
 
 class Against:
     """What theta and rho at a sample are measured against (Dey & Zhao, the Remark in sect. 3.2)."""

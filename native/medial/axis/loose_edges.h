@@ -8,8 +8,8 @@ namespace medial {
 
 // Voronoi edges, as the lowest cells of their two Voronoi vertices, whose nearest samples fit in no
 // ball that is smaller than the selection asks for, and none of whose facets is among `generators`
-// (input rows, ascending). Their three facets are bounded and lie on the side that is wanted. In the
-// order of the rows of their samples. `row`: of each sample.
+// (input rows, ascending). Their three facets are bounded and lie on the side that is wanted. In
+// the order of the rows of their samples. `row`: of each sample.
 std::vector<Edge> loose_edges(const Selection& selection, std::span<const Edge> generators,
                               std::span<const int32_t> row, const Run& run);
 
