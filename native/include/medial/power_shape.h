@@ -9,6 +9,7 @@
 
 namespace medial {
 
+// The simplices of the regular triangulation of balls all of whose corners are wanted.
 struct PowerShape {
   Column<Triangle> triangles;  // rows of three balls whose cells meet, ascending, in order
   Column<Edge> edges;          // of two balls that are in no such triangle, likewise
