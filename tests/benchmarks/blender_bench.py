@@ -93,7 +93,7 @@ def measured(work: Input, bare: Path, program: str, repeats: int) -> dict:
 
 
 def _in_window(blender: addon.Blender, folder: Path) -> dict:
-    with drive.display() as number:
+    with drive.display(drive.SIZE) as number:
         blender.environment |= {"DISPLAY": number, "LIBGL_ALWAYS_SOFTWARE": "1"}
         return _in_blender(blender, folder, "--window-geometry", "0", "0", *map(str, drive.SIZE))
 

@@ -34,6 +34,10 @@ BARE = _module.ROOT / "build/release/tests/benchmarks/bare_triangulation"
 STAGES = ("complex", "fringe", "sheets", "fire", "wires", "values")
 HEADER = ["input", "points", "threads", "bare s", "wall", "CPU", *STAGES]
 HEADER += ["first level", "CPU", "level", "CPU", "peak analysis", "peak", "kept", "others"]
+NOTHING = (
+    "Expected inputs that have one of the words {} in their names and at most {} points, found "
+    "none; see bench.py for the names, and let MEDIAL_AXIS_TEST_DATA name the folder of the meshes."
+)
 
 
 def main() -> None:
@@ -51,6 +55,8 @@ def main() -> None:
                 turns = [_turn(Path(name), threads) for _ in range(options.turns)]
                 rows.append(_row(work, threads, median(turns)))
                 print(rows[-1], file=sys.stderr, flush=True)
+    if not rows:
+        raise SystemExit(NOTHING.format(" ".join(options.only), options.largest))
     print(_module.markdown(HEADER, rows))
     if options.blender:
         _in_blender(options)

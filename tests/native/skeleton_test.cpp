@@ -176,6 +176,29 @@ TEST(BucketQueue, GivesIdsInOrderOfTheirKeysHoweverTheyCome) {
   }
 }
 
+TEST(BucketQueue, KnowsWhatComesSoonWhateverTheSizeOfTheKeys) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> exponent(-12, 12);
+  BucketQueue queue(1e-3, 16);
+  constexpr int32_t kCount = 500;
+  std::set<std::pair<double, int32_t>> expected;
+  for (int32_t id = 0; id < kCount; ++id) {
+    const double key = id % 50 == 0 ? HUGE_VAL : id % 50 == 1 ? 0 : std::pow(10, exponent(random));
+    expected.emplace(key, id);
+    queue.push(key, id);
+  }
+  std::vector<int32_t> order;
+  for (const auto& [key, id] : expected) order.push_back(id);
+  for (size_t i = 0; i < order.size(); ++i) {
+    ASSERT_EQ(queue.pop(), order[i]);
+    for (size_t ahead = 0; ahead < BucketQueue::kAhead; ++ahead) {
+      const size_t later = i + 1 + ahead;
+      ASSERT_EQ(queue.soon(ahead), later < order.size() ? order[later] : -1);
+    }
+  }
+  EXPECT_EQ(queue.pop(), -1);
+}
+
 TEST(Incident, KnowsTheLastOneAndTheOtherOfTwo) {
   constexpr int32_t kLarge = INT32_MAX - 1;
   Incident at;

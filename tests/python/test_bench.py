@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The benchmark: what its figures are made of. No test looks at seconds."""
 
+import io
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "benchmarks"))
 import bench
+import hierarchy_cost
 import measuring
 from support.shapes import SHAPES
 
@@ -58,3 +61,36 @@ def test_tables_replace_what_stood_below_the_mark(tmp_path):
     bench.put_below_mark("new\n", page)
     assert page.read_text() == f"words\n{bench.MARK}\n\nnew\n"
     assert (Path(bench.__file__).parents[2] / "docs/performance.md").read_text().count(bench.MARK)
+
+
+def test_a_window_opens_on_a_display_of_its_size(monkeypatch, tmp_path):
+    pytest.importorskip("scipy")
+    import blender_bench
+
+    commands = []
+
+    class Server:
+        def __init__(self, command, **_):
+            commands.append(command)
+            self.stdout = io.StringIO("7\n")
+
+        def terminate(self):
+            commands.append("ended")
+
+        def wait(self):
+            pass
+
+    monkeypatch.setattr(blender_bench.drive.subprocess, "Popen", Server)
+    monkeypatch.setattr(blender_bench, "_in_blender", lambda blender, folder, *how: how)
+    blender = SimpleNamespace(environment={})
+    how = blender_bench._in_window(blender, tmp_path)
+    size = [str(length) for length in blender_bench.drive.SIZE]
+    assert list(how[-2:]) == size and blender.environment["DISPLAY"] == ":7"
+    assert "x".join([*size, "24"]) in commands[0] and commands[1:] == ["ended"]
+
+
+def test_costs_of_no_input_are_a_sentence_not_an_empty_table(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["hierarchy_cost.py", "--only", "no such mesh"])
+    with pytest.raises(SystemExit, match="no such mesh.*found none.*MEDIAL_AXIS_TEST_DATA"):
+        hierarchy_cost.main()
+    assert capsys.readouterr().out == ""

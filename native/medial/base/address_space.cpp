@@ -2,6 +2,9 @@
 #include "base/address_space.h"
 
 #include <algorithm>
+#include <cstdint>
+
+#include "base/huge_pages.h"
 
 #ifdef _WIN32
 #define WIN32_LEAN_AND_MEAN
@@ -16,6 +19,8 @@
 namespace medial {
 
 #ifdef _WIN32
+
+void prefer_huge_pages(void*, size_t) {}
 
 namespace {
 
@@ -48,6 +53,16 @@ bool AddressSpace::release(size_t, size_t) const { return false; }
 
 #else
 
+void prefer_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] size_t bytes) {
+#ifdef MADV_HUGEPAGE  // Linux
+  constexpr uintptr_t kHugePage = 2 << 20;
+  const auto begin = reinterpret_cast<uintptr_t>(memory), end = begin + bytes;
+  const uintptr_t from = (begin + kHugePage - 1) / kHugePage * kHugePage;
+  const uintptr_t until = end / kHugePage * kHugePage;
+  if (from < until) madvise(reinterpret_cast<void*>(from), until - from, MADV_HUGEPAGE);
+#endif
+}
+
 AddressSpace::AddressSpace(size_t bytes) {
   if (bytes == 0) return;
   void* const found = mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
@@ -55,6 +70,7 @@ AddressSpace::AddressSpace(size_t bytes) {
   if (found == MAP_FAILED) return;
   begin_ = static_cast<std::byte*>(found);
   size_ = bytes;
+  prefer_huge_pages(begin_, size_);
 }
 
 AddressSpace::~AddressSpace() {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <iterator>
 
+#include "base/huge_pages.h"
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // GCC
 #define MEDIAL_SANITIZED
 #elif defined(__has_feature)
@@ -34,8 +36,15 @@ constexpr size_t kPage = 4096;
 constexpr size_t kSmall = 4096;    // requests below leave no gaps in the block
 constexpr size_t kStep = 8 << 20;  // between two looks at whether to stop
 constexpr size_t kLine = 64;       // of the cache
+constexpr size_t kLarge = 4 << 20;
 
 size_t rounded_up(size_t bytes, size_t step) { return (bytes + step - 1) / step * step; }
+
+void* take_elsewhere(size_t bytes) {
+  void* const memory = ::operator new(bytes);
+  if (bytes >= kLarge) prefer_huge_pages(memory, bytes);
+  return memory;
+}
 
 }  // namespace
 
@@ -57,7 +66,7 @@ void* Arena::take(size_t bytes) {
     if (found != nullptr) return found;
     elsewhere_ += bytes;
   }
-  return ::operator new(bytes);
+  return take_elsewhere(bytes);
 }
 
 // Where it fits first; null where it does not.
@@ -130,7 +139,7 @@ ArenaToucher::ArenaToucher(Arena& arena, size_t bytes)
     : thread_([this, &arena, bytes] { arena.touch(bytes, stop_); }) {}
 
 void* take_memory(Arena* arena, size_t bytes) {
-  void* const memory = arena ? arena->take(bytes) : ::operator new(bytes);
+  void* const memory = arena ? arena->take(bytes) : take_elsewhere(bytes);
   if (kFill) std::memset(memory, kPattern, bytes);
   return memory;
 }

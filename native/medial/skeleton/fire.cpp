@@ -10,6 +10,7 @@ namespace {
 void fetch([[maybe_unused]] const void* at) {
 #ifdef __GNUC__
   __builtin_prefetch(at);
+  asm volatile("");  // without it GCC takes this for a function without effect, and leaves it out
 #endif
 }
 
@@ -68,8 +69,9 @@ struct alignas(32) HotEdge {
 };
 
 constexpr double kNotKnown = -1;  // no time is below 0
-constexpr size_t kFacetsPerBucket = 512, kMostBuckets = 1 << 14;
-constexpr int kLookEvery = 1 << 13;  // facets between two looks at whether to stop
+constexpr size_t kFacetsPerBucket = 512, kMostBuckets = 1 << 12;
+constexpr double kFirstRange = 1.0 / 1024;  // of the buckets, as share of the diagonal
+constexpr int kLookEvery = 1 << 13;         // facets between two looks at whether to stop
 
 class Fire {
  public:
@@ -80,7 +82,7 @@ class Fire {
         run_{run.threads, nullptr, run.arena},
         progress_(run.progress),
         buckets_(std::clamp<size_t>(complex.dual.size() / kFacetsPerBucket, 16, kMostBuckets)),
-        queue_(0.25 * complex.diagonal / static_cast<double>(buckets_), buckets_ + 1),
+        queue_(kFirstRange * complex.diagonal / static_cast<double>(buckets_), buckets_),
         facet_(array<HotFacet>(complex.dual.size(), run)),
         edge_(array<HotEdge>(complex.ends.size(), run)) {
     light_edges();
@@ -131,14 +133,19 @@ class Fire {
     for (const int32_t f : lit) queue_.push(facet_[f].thickness(), f);
   }
 
-  // Has the memory of the next facets come while the present one burns.
+  // Has the memory of the next facets come while the present one burns: of each what is known by
+  // what has come before.
   void fetch_ahead() const {
-    if (const int32_t f = queue_.soon(12); f >= 0) fetch(&facet_[f]);
-    if (const int32_t f = queue_.soon(8); f >= 0) fetch(&complex_.corners[facet_[f].first]);
-    if (const int32_t f = queue_.soon(3); f >= 0) {
+    if (const int32_t f = queue_.soon(24); f >= 0) fetch(&facet_[f]);
+    if (const int32_t f = queue_.soon(16); f >= 0 && !facet_[f].gone) {
+      const auto ring = ring_of(facet_[f]);
+      fetch(&ring.front());
+      fetch(&ring.back());
+    }
+    if (const int32_t f = queue_.soon(9); f >= 0 && !facet_[f].gone) {
       for (const Corner& c : ring_of(facet_[f])) fetch(&edge_[c.edge]);
     }
-    if (const int32_t f = queue_.soon(1); f >= 0) {
+    if (const int32_t f = queue_.soon(3); f >= 0 && !facet_[f].gone) {
       for (const Corner& c : ring_of(facet_[f])) {
         fetch(&complex_.position[c.vertex]);
         const Incident& at = edge_[c.edge].facets;

@@ -4,28 +4,24 @@
 namespace medial {
 namespace {
 
-// The vertex that a wire led to.
-int32_t next_of(const InnerComplex& complex, const Collapse& collapse, int32_t vertex) {
-  return other_end(complex, collapse.edge_of_vertex[vertex], vertex);
-}
-
 // By elongation: where branches meet, that with the larger one goes on.
 Array<double> lengths(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
                       const Run& run) {
   auto longest = array<double>(complex.cell.size(), 0, run);  // of what has arrived
   auto elder = array<int32_t>(complex.cell.size(), -1, run);  // from where
   auto value = array<double>(complex.cell.size(), 0, run);
-  for (const int32_t v : wires.order) {
+  const size_t count = wires.order.size();
+  for (size_t i = 0; i < count; ++i) {
+    const int32_t v = wires.order[i], next = wires.next[i];
     value[v] = std::max(longest[v], wires.elongation[v]);
-    const int32_t next = next_of(complex, collapse, v);
     if (elder[next] < 0 || value[v] > longest[next]) {
       longest[next] = value[v];
       elder[next] = v;
     }
   }
-  for (auto v = wires.order.rbegin(); v != wires.order.rend(); ++v) {
-    const int32_t next = next_of(complex, collapse, *v);
-    if (collapse.vertex_gone(next) && elder[next] == *v) value[*v] = value[next];
+  for (size_t i = count; i-- > 0;) {
+    const int32_t v = wires.order[i], next = wires.next[i];
+    if (elder[next] == v && collapse.vertex_gone(next)) value[v] = value[next];
   }
   return value;
 }
@@ -80,11 +76,11 @@ Array<float> limb_values(const InnerComplex& complex, const Collapse& collapse, 
   throw_if_cancelled(run.progress);
   Protrusion protrusion(complex, run);
   auto tip = array<int32_t>(complex.cell.size(), -1, run);
-  for (const int32_t v : wires.order) {
-    tip[v] = protrusion.go_on(v, next_of(complex, collapse, v));
+  for (size_t i = 0; i < wires.order.size(); ++i) {
+    const int32_t v = wires.order[i];
+    tip[v] = protrusion.go_on(v, wires.next[i]);
   }
-  for (const int32_t v : wires.order) {
-    const int32_t next = next_of(complex, collapse, v);
+  for (const int32_t next : wires.next) {
     if (!collapse.vertex_gone(next)) protrusion.stop_at(next);
   }
   auto value = array<float>(complex.cell.size(), run);

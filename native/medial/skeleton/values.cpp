@@ -39,9 +39,9 @@ Values with_vertices(const InnerComplex& complex, Array<Thickness> facets, const
 
 void go_along(const Wires& wires, const InnerComplex& complex, const Collapse& collapse,
               Values& values, const Run& run) {
-  for (const int32_t v : wires.order) {
-    Thickness& next = values.vertex[other_end(complex, collapse.edge_of_vertex[v], v)];
-    next = larger(next, values.vertex[v]);
+  for (size_t i = 0; i < wires.order.size(); ++i) {
+    Thickness& next = values.vertex[wires.next[i]];
+    next = larger(next, values.vertex[wires.order[i]]);
   }
   parallel_for(complex.vertices(), run, [&](int64_t v) {
     if (!collapse.vertex_gone(static_cast<int32_t>(v))) values.vertex[v] = kEndless;

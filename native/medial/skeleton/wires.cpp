@@ -9,7 +9,7 @@ namespace {
 // Below this share of the diagonal the order matters for nothing but for which vertex of a small
 // tree stays: what is loose stays loose, and the elongation comes from what lies behind.
 constexpr double kAtOnce = 1.0 / 1024;
-constexpr size_t kBuckets = 1024;
+constexpr size_t kBuckets = 512;
 
 // A fire front on a wire: lengths are measured from an anchor, not summed over edges, for the
 // Voronoi edges zigzag.
@@ -25,11 +25,13 @@ class WireFire {
         burning_(burning),
         collapse_(collapse),
         progress_(run.progress),
-        queue_(complex.diagonal / kBuckets, kBuckets),
+        queue_(kAtOnce * complex.diagonal / kBuckets, kBuckets),
         left_(edges_left(complex, collapse, {run.threads, nullptr, run.arena})),
         front_(array<Front>(complex.cell.size(), Front{}, run)) {
     wires_.order = array<int32_t>(0, run);
     wires_.order.reserve(complex.cell.size());
+    wires_.next = array<int32_t>(0, run);
+    wires_.next.reserve(complex.cell.size());
     wires_.elongation = array<double>(complex.cell.size(), run);
   }
 
@@ -82,6 +84,7 @@ class WireFire {
     shared_store(collapse_.partner[edge], with_vertex(vertex));
     collapse_.edge_of_vertex[vertex] = edge;
     wires_.order.push_back(vertex);
+    wires_.next.push_back(other);
     if (wires_.order.size() % (1 << 14) == 0) throw_if_cancelled(progress_);
     left_[vertex].remove(edge);
     left_[other].remove(edge);

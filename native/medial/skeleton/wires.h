@@ -9,6 +9,7 @@ namespace medial {
 struct Wires {
   // Vertices in the order in which they went, each with the edge that it went with.
   Array<int32_t> order;
+  Array<int32_t> next;  // of each of these, the other end of that edge
   // Per vertex that went here: how much later than sideways the fire comes along the wire to the
   // middle of the edge; without meaning for others.
   Array<double> elongation;
