@@ -76,7 +76,6 @@ def race(arguments: argparse.Namespace) -> None:
     blender = find_blender(arguments.blender)
     python, _ = blender_python(blender)
     modules.build_modules(blender)
-    run("cmake", "--build", "--preset", "release", "--target", "power_shape")
     page = Path(arguments.page).resolve()
     run(python, "-m", "tests.benchmarks.race", "--sizes", *arguments.sizes, "--page", page)
 

@@ -36,6 +36,7 @@ __all__ = [
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",
+    "Method",
     "NativeModuleError",
     "OutOfMemoryError",
     "Progress",

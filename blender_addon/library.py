@@ -45,12 +45,14 @@ from .core.settings import (
     ANALYSED,
     BALL_OPTIONS,
     OPTIONS,
+    RIVAL_OPTIONS,
     SAMPLING_OPTIONS,
     BallSettings,
     Choice,
     CoverMode,
     Criteria,
     Form,
+    Method,
     Rule,
     SamplingMode,
     Settings,
@@ -75,6 +77,7 @@ __all__ = [
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",
+    "Method",
     "NativeModuleError",
     "OutOfMemoryError",
     "Progress",
@@ -98,7 +101,8 @@ __all__ = [
 ]
 
 # What selects facets of an analysis that is there.
-_THRESHOLDS = [name for name in OPTIONS if name not in (*ANALYSED, *SAMPLING_OPTIONS)]
+_THRESHOLDS = [name for name in OPTIONS if name not in (*ANALYSED, *SAMPLING_OPTIONS)] + ["length"]
+_ALL = {**OPTIONS, **RIVAL_OPTIONS}
 
 
 def compute(
@@ -134,7 +138,7 @@ def compute(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    wanted = Settings(**_checked(settings, list(OPTIONS)))
+    wanted = Settings(**_checked(settings, list(_ALL)))
     return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
 
 
@@ -145,9 +149,9 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     ----------
     computation : Computation
     **thresholds
-        `form`, `simplify`, `erode`, `limb`, `theta`, `rho`, `rule`, `criteria` and `limit_set` of `Settings`; what is
-        not given stays as it was. Forms are milliseconds, too, once the hierarchy was computed for `theta`, `rho`,
-        `rule` and `criteria`.
+        `form`, `simplify`, `erode`, `limb`, `theta`, `rho`, `rule`, `criteria`, `limit_set` and `length` of
+        `Settings`; what is not given stays as it was. Forms are milliseconds, too, once the hierarchy was computed
+        for `theta`, `rho`, `rule` and `criteria`.
 
     Raises
     ------
@@ -360,11 +364,11 @@ def _checked(given: dict[str, Any], names: list[str]) -> dict[str, Any]:
     """What `Settings` takes, of what a caller gave."""
     unknown = next((name for name in given if name not in names), None)
     if unknown is not None:
-        what = "; compute again for others" if unknown in OPTIONS else ""
+        what = "; compute again for others" if unknown in _ALL else ""
         raise InvalidInputError(
             f"Expected settings among {', '.join(names)}, found '{unknown}'{what}"
         )
-    return {name: _value(value, name, OPTIONS[name]) for name, value in given.items()}
+    return {name: _value(value, name, _ALL[name]) for name, value in given.items()}
 
 
 def _value(value: Any, name: str, option: Any) -> Any:

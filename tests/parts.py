@@ -137,7 +137,6 @@ def native(blender: Path) -> None:
 
 
 def python(blender: Path) -> None:
-    run("cmake", "--build", "--preset", "release", "--target", "power_shape")
     run_pytest(blender, "--slow", "tests/python")
 
 

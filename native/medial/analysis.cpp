@@ -4,6 +4,7 @@
 #include "analysis_parts.h"
 #include "axis/feature_size.h"
 #include "axis/medial_mesh.h"
+#include "axis/pole_balls.h"
 #include "axis/thickness.h"
 #include "cocone/labelled_poles.h"
 #include "cocone/watertight_surface.h"
@@ -31,6 +32,15 @@ void require_solid(SidesFrom from, const WatertightSurface* tight_cocone) {
         std::to_string(tight_cocone->left_outside) + " of " +
         std::to_string(tight_cocone->samples.size()) +
         " that enclose nothing; sample more densely and evenly, or choose side Both.");
+  }
+}
+
+// Of what follows theta and rho; other criteria only select facets.
+void require_theta_or_rho(const Thresholds& thresholds) {
+  if (!is_by_theta_or_rho(thresholds.criteria)) {
+    throw InvalidInputError(
+        "Expected criteria ANGLE_OR_RATIO, ANGLE or RATIO, found ones that only select facets; "
+        "choose one of these, or extract.");
   }
 }
 
@@ -243,8 +253,13 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
   {
     const Umbrellas u = umbrellas(points, made.triangulation, made.voronoi, incident, run);
     watch.lap("umbrellas");
+    Poles vectors;
+    if (options.against != Against::umbrella) {
+      vectors = poles(points, made.triangulation, made.voronoi, incident, made.run());
+    }
     if (!needs_poles(made.sides_from)) incident = {};
-    made.significance = medial::significance(points, made.edges, u, run);
+    made.significance =
+        medial::significance(points, made.edges, u, run, options.against, vectors.vector);
     watch.lap("significance");
   }
   tell_sides(made, surface, corners.points, input.normals.value_or(std::span<const Vec3>()),
@@ -311,6 +326,20 @@ MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progr
   return mesh;
 }
 
+MedialMesh MedialAnalysis::poles(Side side, Progress* progress) const {
+  begin_stage(progress, "Poles", 0, 1);
+  const Parts& made = *parts_;
+  selection(made, {.side = side});  // it throws what is wrong with the side
+  const Run quiet = made.run();
+  const auto incident = incident_cells(made.triangulation, made.samples.count(), quiet);
+  throw_if_cancelled(progress);
+  MedialMesh mesh =
+      pole_balls(made.samples, made.triangulation, made.voronoi, incident, made.sides, side, quiet);
+  bring_outward(mesh, made.frame);
+  advance(progress, 1);
+  return mesh;
+}
+
 Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
                                     Progress* progress) const {
   if (side != Side::inner) {
@@ -318,6 +347,7 @@ Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
         "Expected side INNER for a hierarchy, found another one; the outer axis reaches infinity, "
         "where fire has no rim to start from.");
   }
+  require_theta_or_rho(thresholds);
   require_solid(parts_->sides_from, parts_->tight_cocone.get());
   CellSides in_parts;
   if (!parts_->pockets.empty()) in_parts = without(parts_->pockets, parts_->sides);
@@ -346,6 +376,7 @@ std::vector<double> MedialAnalysis::spacing() const {
 std::vector<double> MedialAnalysis::feature_size(const Thresholds& thresholds,
                                                  std::optional<std::span<const int32_t>> rows,
                                                  Progress* progress) const {
+  require_theta_or_rho(thresholds);
   begin_stage(progress, "Feature size", 0, 1);
   const auto at = rows ? samples_of(*rows, parts_->samples) : samples_by_row(parts_->samples);
   std::vector<int32_t> all(parts_->edges.ends.size());
@@ -366,6 +397,7 @@ WallThickness MedialAnalysis::thickness(const ThicknessInput& input,
         "Expected side INNER for a thickness or OUTER for a gap, found another one; choose one of "
         "them.");
   }
+  require_theta_or_rho(options.thresholds);
   require_solid(parts_->sides_from, parts_->tight_cocone.get());
   const size_t rows = parts_->samples.point_of_row.size();
   if (options.mode != ThicknessMode::scan) require_normals(input.normals, rows);

@@ -51,11 +51,24 @@ class Rule:
     BOTH: Rule  # 1: p and q, per criterion
 
 class Criteria:
-    """Which conditions select (Dey & Zhao, sect. 3.1 and 3.2; figures 5 and 7 show one alone)."""
+    """Which conditions select: those of Dey & Zhao (sect. 3.1 and 3.2; figures 5 and 7 show one alone), or of others
+    on the same facets."""
 
     ANGLE_OR_RATIO: Criteria  # 0
     ANGLE: Criteria  # 1
     RATIO: Criteria  # 2
+    ANGLE_AND_LENGTH: Criteria  # 3: after Attali & Lachaud (2001): every ball of the facet
+    # sees pq under at least twice theta, and |pq| is at least `length`
+    LAMBDA: Criteria  # 4: Chazal & Lieutier (2005): the nearest samples fit in no ball
+    # with a diameter below `length`, twice their lambda. Of edges, too
+
+class Against:
+    """What theta and rho at a sample are measured against (Dey & Zhao, the Remark in sect. 3.2)."""
+
+    UMBRELLA: Against  # 0: the normals and the circumradii of its umbrella
+    POLE: Against  # 1: the pole vector for the normals; edges of umbrellas are tried, too
+    POLYGON: Against  # 2: the farthest corner of the tangent polygon for the circumradii
+    POLE_AND_POLYGON: Against  # 3: both
 
 @final
 class Progress:
@@ -223,6 +236,10 @@ class MedialMesh:
     @property
     def generators(self) -> NDArray[np.int32]:
         """(f, 2) int32: rows p < q of the two samples whose cells meet in the facet."""
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """(e, 2) int32: vertices of the edges without a facet, whose three facets all lie on the side; only LAMBDA has
+        such."""
     @property
     def unbounded(self) -> int:
         """Selected facets that reach infinity; they are counted, never emitted."""
@@ -507,6 +524,8 @@ class MedialAnalysis:
     bounding_sphere : bool
         Add 200 points at twice the radius (Dey & Zhao, sect. 4.2). It bounds the outer axis and removes
         its far junk; only edges between true samples are analysed and selected.
+    against : Against
+        What theta and rho are measured against; default UMBRELLA.
     progress : Progress, optional
     threads : int
         0: as many as the machine has. The result does not depend on it.
@@ -526,6 +545,7 @@ class MedialAnalysis:
         sides: SidesFrom = ...,
         cocone: CoconeOptions | None = None,
         bounding_sphere: bool = False,
+        against: Against = ...,
         progress: Progress | None = None,
         threads: int = 0,
     ) -> None: ...
@@ -692,6 +712,7 @@ class MedialAnalysis:
         criteria: Criteria = ...,
         *,
         limit_set: bool = False,
+        length: float = 0.05,
     ) -> NDArray[np.int32]:
         """Ids (rows of `edges`), ascending, of the edges that satisfy Angle[theta] or Ratio[rho]: the set F of
         MEDIAL, unbounded and zero-area facets included. An edge of U_p is not tried from p (step 5 of MEDIAL), which
@@ -705,6 +726,7 @@ class MedialAnalysis:
         criteria: Criteria = ...,
         *,
         limit_set: bool = False,
+        length: float = 0.05,
         progress: Progress | None = None,
     ) -> MedialMesh:
         """The closure of the selected facets.
@@ -720,10 +742,24 @@ class MedialAnalysis:
         rule : Rule
             EITHER (default) or BOTH.
         criteria : Criteria
-            ANGLE_OR_RATIO (default), ANGLE or RATIO.
+            ANGLE_OR_RATIO (default), ANGLE, RATIO, ANGLE_AND_LENGTH or LAMBDA.
         limit_set : bool
             Keep a facet selected by the Ratio condition alone only if |pq| >= eps^(1/4) mu (Definition 4), where
             mu is the smallest ball radius at the facet's vertices and eps = |pq| / (rho mu). Default off.
+        length : float
+            Of ANGLE_AND_LENGTH and LAMBDA, a share of the diagonal of the samples' box, at least 0; default 0.05. It
+            is reached, not exceeded.
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        DegenerateInputError
+            INNER or OUTER, and `TightCocone.encloses` is false.
+        """
+    def poles(self, side: Side = ..., *, progress: Progress | None = None) -> MedialMesh:
+        """The poles as balls: a MedialMesh of vertices without facets (Amenta & Bern 1998; Boissonnat & Cazals 2001).
+        They are the farthest Voronoi vertex of each cell and the farthest against it, on one side or on both, where
+        they are finite. In the order of `samples`.
 
         Raises
         ------
@@ -954,6 +990,38 @@ def umbrellas(points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[n
     offsets : (k + 1,) int64
     triangles : (t, 3) int32
         Rows (p, a, b), a < b, sorted; U_p of the i-th sample is `triangles[offsets[i] : offsets[i + 1]]`.
+    """
+
+def power_shape(
+    centres: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    wanted: NDArray[np.bool_],
+    *,
+    progress: Progress | None = None,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
+    """The power shape (Amenta, Choi & Kolluri 2001): where the power cells of balls meet.
+
+    Parameters
+    ----------
+    centres : (n, 3) float64
+    radii : (n,) float64
+        At least 0.
+    wanted : (n,) bool
+        The balls of the shape, say the inner poles; the others take their cells of space.
+    progress : Progress, optional
+
+    Returns
+    -------
+    balls : (k,) int32
+        Rows, ascending, of the wanted balls that have a cell. Of equal balls the first has it.
+    triangles : (t, 3) int32
+        Rows of three wanted balls whose cells meet, ascending, in lexicographic order.
+    edges : (e, 2) int32
+        Of two, in no such triangle.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
     """
 
 def cocone(

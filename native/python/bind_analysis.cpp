@@ -41,6 +41,7 @@ constexpr const char* kAnalysisDoc =
     "bounding_sphere : bool\n    Add 200 points at twice the radius (Dey & Zhao, sect. 4.2); only "
     "edges between true\n"
     "    samples are analysed and selected.\n"
+    "against : Against\n    What theta and rho are measured against; default UMBRELLA.\n"
     "progress : Progress, optional\n"
     "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
     "Raises\n------\nInvalidInputError, DegenerateInputError, Cancelled";
@@ -56,7 +57,9 @@ constexpr const char* kExtractDoc =
     "rho : float\n    rho0 of the Ratio condition, >= 0; default 8.\n"
     "side : Side\n    BOTH (default), INNER or OUTER; INNER and OUTER need sides.\n"
     "rule : Rule\n    EITHER (default) or BOTH ends of a Delaunay edge must pass.\n"
-    "criteria : Criteria\n    ANGLE_OR_RATIO (default), ANGLE or RATIO.\n"
+    "criteria : Criteria\n    ANGLE_OR_RATIO (default), ANGLE, RATIO, ANGLE_AND_LENGTH or LAMBDA.\n"
+    "length : float\n    Of ANGLE_AND_LENGTH and LAMBDA, a share of the diagonal of the samples' "
+    "box; default 0.05.\n"
     "limit_set : bool\n    Keep a facet selected by the Ratio condition alone only if |pq| >= "
     "eps^(1/4) mu\n"
     "    (Definition 4), mu: smallest ball radius at its vertices, eps = |pq| / (rho mu). Default "
@@ -106,6 +109,13 @@ constexpr const char* kThicknessDoc =
     "Raises\n------\nInvalidInputError, Cancelled\n"
     "DegenerateInputError\n    `TightCocone.encloses` is false.";
 
+constexpr const char* kPoleBallsDoc =
+    "The poles as balls: a MedialMesh of vertices without facets (Amenta & Bern 1998; Boissonnat & "
+    "Cazals 2001).\nThey are the farthest Voronoi vertex of each cell and the farthest against it, "
+    "on one side or on both, where\nthey are finite. In the order of `samples`.\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled\n"
+    "DegenerateInputError\n    INNER or OUTER, and `TightCocone.encloses` is false.";
+
 constexpr const char* kSelectDoc =
     "Ids (rows of `edges`), ascending, of the selected edges: the set F of MEDIAL, unbounded and "
     "zero-area\n"
@@ -122,13 +132,14 @@ std::optional<std::span<const int32_t>> optional_ids(const py::object& ids, cons
 std::unique_ptr<MedialAnalysis> analyse(const py::object& points, const py::object& triangles,
                                         const py::object& vertices, const py::object& normals,
                                         SidesFrom sides, const CoconeOptions* cocone,
-                                        bool bounding_sphere, Progress* progress, int threads) {
+                                        bool bounding_sphere, Against against, Progress* progress,
+                                        int threads) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
   const auto oriented = optional_points(normals, "normals");
   const auto corners = optional_points(vertices, "vertices");
   const AnalysisOptions options{sides, cocone ? *cocone : CoconeOptions{}, bounding_sphere,
-                                thread_argument(threads)};
+                                thread_argument(threads), against};
   AnalysisInput input{rows.span(), faces.span()};
   if (oriented) input.normals = oriented->span();
   if (corners) input.vertices = corners->span();
@@ -149,8 +160,8 @@ WallThickness thickness_of(const MedialAnalysis& analysis, const py::object& nor
 }
 
 Extraction extraction(double theta, double rho, Side side, Rule rule, Criteria criteria,
-                      bool limit_set) {
-  return {{theta, rho, rule, criteria}, side, limit_set};
+                      bool limit_set, double length) {
+  return {{theta, rho, rule, criteria, length}, side, limit_set};
 }
 
 void bind_enums(py::module_& m) {
@@ -182,10 +193,25 @@ void bind_enums(py::module_& m) {
       .value("EITHER", Rule::either, "p or q, the paper's text.")
       .value("BOTH", Rule::both, "p and q, per criterion.");
   py::enum_<Criteria>(m, "Criteria", py::module_local(),
-                      "Which conditions select (Dey & Zhao, sect. 3.1 and 3.2).")
+                      "Which conditions select: those of Dey & Zhao (sect. 3.1 and 3.2), or of "
+                      "others on the same facets.")
       .value("ANGLE_OR_RATIO", Criteria::angle_or_ratio)
       .value("ANGLE", Criteria::angle)
-      .value("RATIO", Criteria::ratio);
+      .value("RATIO", Criteria::ratio)
+      .value("ANGLE_AND_LENGTH", Criteria::angle_and_length,
+             "After Attali & Lachaud (2001): every ball of the facet sees pq under at least twice "
+             "theta, and |pq| is at least `length`.")
+      .value("LAMBDA", Criteria::lambda,
+             "Chazal & Lieutier (2005): the nearest samples fit in no ball with a diameter below "
+             "`length`, twice their lambda. Of edges, too.");
+  py::enum_<Against>(m, "Against", py::module_local(),
+                     "What theta and rho at a sample are measured against (Dey & Zhao, the Remark "
+                     "in sect. 3.2).")
+      .value("UMBRELLA", Against::umbrella, "The normals and the circumradii of its umbrella.")
+      .value("POLE", Against::pole, "The pole vector for the normals.")
+      .value("POLYGON", Against::polygon,
+             "The farthest corner of the tangent polygon for the circumradii.")
+      .value("POLE_AND_POLYGON", Against::pole_and_polygon, "Both.");
 }
 
 void bind_progress(py::module_& m) {
@@ -222,6 +248,9 @@ void bind_mesh(py::module_& m) {
       .def_property_readonly(
           "generators", view_property<int32_t>(&MedialMesh::generators),
           "(f, 2) int32: rows p < q of the two samples whose cells meet in the facet.")
+      .def_property_readonly(
+          "edges", view_property<int32_t>(&MedialMesh::edges),
+          "(e, 2) int32: vertices of the edges without a facet; only LAMBDA has such.")
       .def_readonly("unbounded", &MedialMesh::unbounded,
                     "Selected facets that reach infinity; they are counted, never emitted.")
       .def_readonly(
@@ -259,8 +288,8 @@ void bind_analysis(py::module_& m) {
       .def(py::init(&analyse), py::arg("points"), py::arg("triangles") = py::none(), py::kw_only(),
            py::arg("vertices") = py::none(), py::arg("normals") = py::none(),
            py::arg("sides") = SidesFrom::automatic, py::arg("cocone") = py::none(),
-           py::arg("bounding_sphere") = false, py::arg("progress") = nullptr,
-           py::arg("threads") = 0)
+           py::arg("bounding_sphere") = false, py::arg("against") = Against::umbrella,
+           py::arg("progress") = nullptr, py::arg("threads") = 0)
       .def_property_readonly(
           "samples", [](const MedialAnalysis& a) { return array_of<int32_t>(a.sample_rows()); },
           "(k,) int32: rows of the distinct points, ascending.")
@@ -359,27 +388,37 @@ void bind_analysis(py::module_& m) {
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,
-             Criteria criteria, bool limit_set) {
+             Criteria criteria, bool limit_set, double length) {
             std::vector<int32_t> ids;
             {
               const py::gil_scoped_release release;
-              ids = a.select(extraction(theta, rho, side, rule, criteria, limit_set));
+              ids = a.select(extraction(theta, rho, side, rule, criteria, limit_set, length));
             }
             return array_of<int32_t>(std::move(ids));
           },
           kSelectDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho,
           py::arg("side") = Side::both, py::arg("rule") = paper.rule,
-          py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false)
+          py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false,
+          py::arg("length") = paper.length)
       .def(
           "extract",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,
-             Criteria criteria, bool limit_set, Progress* progress) {
+             Criteria criteria, bool limit_set, double length, Progress* progress) {
             const py::gil_scoped_release release;
-            return a.extract(extraction(theta, rho, side, rule, criteria, limit_set), progress);
+            return a.extract(extraction(theta, rho, side, rule, criteria, limit_set, length),
+                             progress);
           },
           kExtractDoc, py::arg("theta") = paper.theta, py::arg("rho") = paper.rho,
           py::arg("side") = Side::both, py::arg("rule") = paper.rule,
           py::arg("criteria") = paper.criteria, py::kw_only(), py::arg("limit_set") = false,
+          py::arg("length") = paper.length, py::arg("progress") = nullptr)
+      .def(
+          "poles",
+          [](const MedialAnalysis& a, Side side, Progress* progress) {
+            const py::gil_scoped_release release;
+            return a.poles(side, progress);
+          },
+          kPoleBallsDoc, py::arg("side") = Side::both, py::kw_only(),
           py::arg("progress") = nullptr);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stages by themselves, for study and tests: each starts from the points and ends with ids of
 // input rows.
+#include <medial/power_shape.h>
+
 #include "arrays.h"
 #include "axis/umbrellas.h"
 #include "base/polygon_edges.h"
@@ -40,6 +42,17 @@ constexpr const char* kUmbrellasDoc =
     "offsets : (k + 1,) int64\n"
     "triangles : (t, 3) int32\n    Rows (p, a, b), a < b, sorted; U_p of the i-th sample is\n"
     "    triangles[offsets[i] : offsets[i + 1]].";
+
+constexpr const char* kPowerShapeDoc =
+    "The power shape (Amenta, Choi & Kolluri 2001): where the power cells of balls meet.\n\n"
+    "Parameters\n----------\ncentres : (n, 3) float64\nradii : (n,) float64\n"
+    "wanted : (n,) bool\n    The balls of the shape, say the inner poles; the others take their "
+    "cells of space.\n"
+    "progress : Progress, optional\n\nReturns\n-------\n"
+    "balls : (k,) int32\n    Rows, ascending, of the wanted balls that have a cell.\n"
+    "triangles : (t, 3) int32\n    Rows of three wanted balls whose cells meet, ascending.\n"
+    "edges : (e, 2) int32\n    Of two, in no such triangle.\n\n"
+    "Raises\n------\nInvalidInputError, Cancelled";
 
 constexpr const char* kCoconeDoc =
     "Cocone's flat samples and candidate triangles; samples are the distinct rows in ascending "
@@ -218,6 +231,22 @@ py::tuple umbrella_triangles(const py::object& points) {
                         array_of<int32_t>(std::move(triangles)));
 }
 
+py::tuple shape_of_balls(const py::object& centres, const py::object& radii,
+                         const py::object& wanted, Progress* progress) {
+  const Points rows(centres, "centres");
+  const auto sizes = column_of<double>(radii, "radii", "(n,) float64");
+  const auto flags = flags_of(wanted, "wanted");
+  PowerShape found;
+  {
+    const auto span = rows.span();
+    const py::gil_scoped_release release;
+    found = power_shape(span, sizes, flags, progress);
+  }
+  return py::make_tuple(array_of<int32_t>(std::move(found.balls)),
+                        array_of<int32_t>(std::move(found.triangles)),
+                        array_of<int32_t>(std::move(found.edges)));
+}
+
 std::vector<std::array<int32_t, 3>> candidate_rows(const Stages& s, const FaceSet& candidates) {
   std::vector<std::array<int32_t, 3>> rows;
   for_faces(s.triangulation, candidates, [&](const CellFace& f) {
@@ -389,6 +418,8 @@ void bind_stages(py::module_& m) {
   m.def("delaunay", &delaunay, kDelaunayDoc, py::arg("points"));
   m.def("poles", &pole_vectors, kPolesDoc, py::arg("points"));
   m.def("umbrellas", &umbrella_triangles, kUmbrellasDoc, py::arg("points"));
+  m.def("power_shape", &shape_of_balls, kPowerShapeDoc, py::arg("centres"), py::arg("radii"),
+        py::arg("wanted"), py::kw_only(), py::arg("progress") = nullptr);
   m.def("cocone", &cocone_parts, kCoconeDoc, py::arg("points"), py::arg("options") = py::none());
   m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
   m.def("solid_betti", &betti_of_solid, kSolidBettiDoc, py::arg("points"), py::arg("triangles"));

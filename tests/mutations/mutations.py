@@ -245,9 +245,33 @@ MUTATIONS = (
     ),
     Mutation(
         "axis/selection.cpp",
-        "wanted_.limit_set && !satisfies_angle(edge);",
-        "wanted_.limit_set;",
+        "is_by_theta_or_rho(criteria) && !satisfies_angle(edge);",
+        "is_by_theta_or_rho(criteria);",
         "Definition 4 is asked of the Angle condition, too",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "size(edge) >= length_;",
+        "size(edge) > length_;",
+        "the length of lambda is exceeded, not reached",
+    ),
+    Mutation(
+        "axis/selection.cpp",
+        "largest = std::max(largest, radius);",
+        "largest = radius;",
+        "one ball alone is asked for its angle",
+    ),
+    Mutation(
+        "axis/pole_balls.cpp",
+        "squared_length(v) > most)",
+        "squared_length(v) > 2 * most)",
+        "balls at poles are not the farthest",
+    ),
+    Mutation(
+        "delaunay/power_shape.cpp",
+        "return std::all_of(",
+        "return std::any_of(",
+        "one wanted ball is enough for a simplex of the power shape",
     ),
     Mutation(
         "axis/medial_mesh.cpp",

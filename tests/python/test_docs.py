@@ -8,7 +8,14 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT
-from medial_axis.core.settings import LIMITS, LOOKS, OPTIONS, THICKNESS_OPTIONS, Switch
+from medial_axis.core.settings import (
+    LIMITS,
+    LOOKS,
+    OPTIONS,
+    RIVAL_OPTIONS,
+    THICKNESS_OPTIONS,
+    Switch,
+)
 from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
 from tests.wrap_docs import WRITTEN, wrap
@@ -92,7 +99,8 @@ def words(sources):
 @pytest.fixture(scope="session")
 def options(sources):
     """Every option of a command line in the sources, and those of the method."""
-    made = {"--" + name.replace("_", "-") for name in (*OPTIONS, *LIMITS, *THICKNESS_OPTIONS)}
+    names = (*OPTIONS, *RIVAL_OPTIONS, *LIMITS, *THICKNESS_OPTIONS)
+    made = {"--" + name.replace("_", "-") for name in names}
     switches = [name for name, option in OPTIONS.items() if isinstance(option, Switch)]
     made |= {"--no-" + name.replace("_", "-") for name in switches}
     return made | set(OPTION.findall(sources))

@@ -184,6 +184,7 @@ PUBLIC = {
     "medial_mesh.h": {"axis"},
     "watertight_surface.h": {"cocone"},
     "hierarchy.h": {"skeleton"},
+    "power_shape.h": {"delaunay"},
     "sphere_mesh.h": {"reduce"},
     "thickness.h": {"axis"},
     "ball_cover.h": {"axis"},
@@ -207,8 +208,9 @@ def test_public_headers_see_only_public_ones(path):
 
 
 def test_cgal_has_one_home():
-    """Triangulations of points and of polygons; both set CGAL up alike."""
-    homes = [MEDIAL / "delaunay" / name for name in ("polygon_triangles.cpp", "triangulation.cpp")]
+    """Triangulations of points, of balls and of polygons; all set CGAL up alike."""
+    units = ("polygon_triangles.cpp", "power_shape.cpp", "triangulation.cpp")
+    homes = [MEDIAL / "delaunay" / name for name in units]
     assert sorted(set(users_of("CGAL/")) - {MEDIAL / "delaunay" / "cgal.h"}) == homes
     assert all("delaunay/cgal.h" in includes_of(home) for home in homes)
 

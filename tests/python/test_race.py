@@ -409,10 +409,8 @@ def test_variants_with_nothing_replaced_are_the_method(rivals, torus, medial):
 
 def test_power_shape_is_dual_to_cells_that_meet(rivals, torus, tmp_path):
     """Every triangle has a point as far, by power, from its three balls, and from no other ball less."""
-    if not rivals.POWER_SHAPE.exists():
-        pytest.skip("power_shape is not built: cmake --build --preset release --target power_shape")
     few = rivals.Samples(np.ascontiguousarray(torus.points[::3]))
-    rivals.write_power_shape(few, tmp_path / "a.off")
+    rivals.write_off(rivals.power_shape(few), tmp_path / "a.off")
     found = read_axis.read(tmp_path / "a.off")
     balls = rivals.polar_balls(few)
     centres, weights, inner = balls[:, :3], balls[:, 3] ** 2, balls[:, 4] == 1

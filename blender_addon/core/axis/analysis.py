@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..machine import native
 from ..machine.cache import CACHE, key_of
-from ..settings import Settings, Side, SidesFrom
+from ..settings import Method, Settings, Side, SidesFrom
 from .levels import Levels
 
 if TYPE_CHECKING:
@@ -23,6 +23,14 @@ if TYPE_CHECKING:
     from .shape import Shape
     from .sides import Sides
     from .walls import Walls
+
+
+# What theta and rho are measured against, by the names of `_medial.Against`; others: the umbrella.
+_AGAINST = {
+    Method.POLE_VECTOR: "POLE",
+    Method.TANGENT_POLYGON: "POLYGON",
+    Method.POLE_AND_POLYGON: "POLE_AND_POLYGON",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +120,17 @@ class Request:
     limit: MemoryLimit
     gaps: int
 
+    @property
+    def bounding_sphere(self) -> bool:
+        """Whether the samples lie in a sphere of other points. It gives every sample an outer pole."""
+        wanted = self.settings
+        return wanted.side is not Side.INNER or wanted.method is Method.POWER_SHAPE
+
+    @property
+    def against(self) -> str:
+        """The name of a `_medial.Against`."""
+        return _AGAINST.get(self.settings.method, "UMBRELLA")
+
     @cached_property
     def solid_betti(self) -> tuple[int, int, int] | None:
         """Pieces, loops and cavities of the solid, as its closed faces tell; None where they cannot. The same for all
@@ -153,7 +172,8 @@ def analyse(
             vertices=shape.points if separate else None,
             normals=normals,
             sides=getattr(module.SidesFrom, sides.source.name),
-            bounding_sphere=request.settings.side is not Side.INNER,
+            bounding_sphere=request.bounding_sphere,
+            against=getattr(module.Against, request.against),
             progress=progress,
         )
 
@@ -184,10 +204,10 @@ def kept_or_made(
     ----------
     request : Request
     parts : tuple
-        Everything that the samples depend on, besides the bounding sphere.
+        Everything that the samples depend on, besides the bounding sphere and what is measured against.
     make : callable
     """
-    key = key_of(request.settings.side is not Side.INNER, *parts)
+    key = key_of(request.bounding_sphere, request.against, *parts)
     found = CACHE.get(key)
     if found is None:
         found = replace(make(), key=key)

@@ -129,7 +129,7 @@ def compute_axis(
         settings=settings,
         chosen=chosen,
         warnings=tuple(axis_warnings(shape, settings, chosen, axis)),
-        topology=topology_sentence(axis, wanted, chosen.samples),
+        topology=topology_sentence(axis, wanted, chosen.samples, settings.method),
         seconds=time.perf_counter() - start,
     )
 

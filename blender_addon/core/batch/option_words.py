@@ -13,6 +13,7 @@ from ..settings import (
     BALL_OPTIONS,
     LIMITS,
     OPTIONS,
+    RIVAL_OPTIONS,
     SAMPLING_OPTIONS,
     SKELETON_OPTIONS,
     THICKNESS_OPTIONS,
@@ -28,11 +29,17 @@ from ..settings import (
 _UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB", "length": "LENGTH"}
 # Of the method only what is measured depends on: thresholds do not change it.
 _MEASURED = ("sides", "sampling", *SAMPLING_OPTIONS)
+_ALL = {**OPTIONS, **RIVAL_OPTIONS}
 
 
 def add_options(parser: argparse._ArgumentGroup) -> None:
     """An argument `--name` for every option of the method; what is not given is left to Settings."""
     _add(parser, OPTIONS)
+
+
+def add_rivals(parser: argparse._ArgumentGroup) -> None:
+    """As `add_options`, for the methods of others."""
+    _add(parser, RIVAL_OPTIONS)
 
 
 def add_limits(parser: argparse._ArgumentGroup) -> None:
@@ -95,7 +102,7 @@ def settings_from(words: argparse.Namespace) -> Settings:
     InvalidInputError
         A number out of its range.
     """
-    return Settings(**_given(words, OPTIONS))
+    return Settings(**_given(words, _ALL))
 
 
 def thickness_from(words: argparse.Namespace) -> ThicknessSettings:
@@ -149,7 +156,7 @@ def sampling_from(words: argparse.Namespace) -> Settings:
 
 def as_words(settings: Settings) -> dict[str, str | float | bool]:
     """{option: value} as one would write it on the command line."""
-    return {name: _outward(option, getattr(settings, name)) for name, option in OPTIONS.items()}
+    return {name: _outward(option, getattr(settings, name)) for name, option in _ALL.items()}
 
 
 def thickness_as_words(wanted: ThicknessSettings) -> dict[str, str | float | bool]:

@@ -10,11 +10,18 @@ namespace {
 struct Shapes {
   Array<Vec3> normal;
   Array<double> radius;  // infinite for an empty umbrella
+  // What the Remark puts in their place; empty where it is not asked for.
+  Array<Vec3> pole;  // unit vectors
+  Array<double> reach;
+
+  const Array<double>& width() const { return reach.empty() ? radius : reach; }
 };
 
 Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Run& run) {
   Shapes result{array<Vec3>(umbrellas.items.size(), run),
-                array<double>(static_cast<size_t>(umbrellas.size()), HUGE_VAL, run)};
+                array<double>(static_cast<size_t>(umbrellas.size()), HUGE_VAL, run),
+                {},
+                {}};
   parallel_for(umbrellas.size(), run, [&](int64_t p) {
     if (!umbrellas[p].empty()) result.radius[p] = 0;
     for (int64_t i = umbrellas.offsets[p]; i < umbrellas.offsets[p + 1]; ++i) {
@@ -24,6 +31,39 @@ Shapes shapes(std::span<const Vec3> points, const Umbrellas& umbrellas, const Ru
     }
   });
   return result;
+}
+
+// Where the Voronoi edge that is dual to the triangle (p, p + a, p + b) crosses the plane through p
+// normal to the pole vector, seen from p: a corner of the tangent polygon (Definition 2).
+Vec3 polygon_corner(const Vec3& normal, const Vec3& a, const Vec3& b, const Vec3& pole) {
+  const double aa = squared_length(a), bb = squared_length(b);
+  const double twice_area = length(cross(a, b));
+  const Vec3 centre = (1 / (2 * twice_area)) * (aa * cross(b, normal) + bb * cross(normal, a));
+  return centre - (dot(centre, pole) / dot(normal, pole)) * normal;
+}
+
+Array<Vec3> unit_vectors(std::span<const Vec3> vectors, const Run& run) {
+  auto result = array<Vec3>(vectors.size(), run);
+  parallel_for(static_cast<int64_t>(vectors.size()), run,
+               [&](int64_t p) { result[p] = normalized(vectors[p]); });
+  return result;
+}
+
+// Per sample the distance of the farthest corner of its tangent polygon; infinite without corners.
+Array<double> polygon_reaches(std::span<const Vec3> points, const Umbrellas& umbrellas,
+                              const Array<Vec3>& normals, std::span<const Vec3> poles,
+                              const Run& run) {
+  auto reach = array<double>(static_cast<size_t>(umbrellas.size()), HUGE_VAL, run);
+  parallel_for(umbrellas.size(), run, [&](int64_t p) {
+    if (!umbrellas[p].empty()) reach[p] = 0;
+    for (int64_t i = umbrellas.offsets[p]; i < umbrellas.offsets[p + 1]; ++i) {
+      const auto& [a, b] = umbrellas.items[i];
+      const Vec3 corner =
+          polygon_corner(normals[i], points[a] - points[p], points[b] - points[p], poles[p]);
+      reach[p] = std::max(reach[p], length(corner));
+    }
+  });
+  return reach;
 }
 
 // One end of an edge.
@@ -45,7 +85,11 @@ End end_at(int32_t p, int32_t q, const Vec3& direction, double size, const Umbre
     const auto& [a, b] = umbrellas.items[i];
     end.umbrella |= a == q || b == q;
   }
-  end.ratio = size / shapes.radius[p];
+  if (!shapes.pole.empty()) {
+    end.sine = std::abs(dot(shapes.pole[p], direction));
+    end.umbrella = false;  // without umbrellas every edge is tried
+  }
+  end.ratio = size / shapes.width()[p];
   return end;
 }
 
@@ -76,9 +120,17 @@ double largest_sine(double theta) {
 }
 
 Significance significance(std::span<const Vec3> points, const Edges& edges,
-                          const Umbrellas& umbrellas, const Run& run) {
+                          const Umbrellas& umbrellas, const Run& run, Against against,
+                          std::span<const Vec3> pole_vectors) {
   begin_stage(run.progress, "Angles and ratios", 0.8, 0.88);
-  Shapes s = shapes(points, umbrellas, {run.threads, nullptr, run.arena});
+  const Run quiet{run.threads, nullptr, run.arena};
+  Shapes s = shapes(points, umbrellas, quiet);
+  if (against == Against::pole || against == Against::pole_and_polygon) {
+    s.pole = unit_vectors(pole_vectors, quiet);
+  }
+  if (against == Against::polygon || against == Against::pole_and_polygon) {
+    s.reach = polygon_reaches(points, umbrellas, s.normal, pole_vectors, quiet);
+  }
   const auto count = static_cast<size_t>(edges.count());
   Significance result;
   for (auto* values : {&result.sine, &result.rho, &result.sine_both, &result.rho_both})

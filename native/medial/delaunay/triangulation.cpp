@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/triangulation.h"
 
-#include "base/random.h"
 #include "base/sort.h"
 #include "delaunay/cgal.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
@@ -10,6 +9,7 @@
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 // clang-format on
+#include "delaunay/insertion_order.h"
 
 namespace medial {
 namespace {
@@ -26,27 +26,6 @@ using CellHandle = Delaunay::Cell_handle;
 using CellRange = Delaunay::Triangulation_data_structure::Cell_range;
 static_assert(std::is_same_v<CellRange::allocator_type, RunAllocator<CellRange::value_type>>,
               "CGAL no longer takes its memory by CGAL_ALLOCATOR");
-
-// Biased randomized insertion order (Amenta, Choi, Rote 2003): each round is an eighth of the next,
-// and keeps the spatial order of the ids.
-std::vector<int32_t> insertion_order(int32_t count) {
-  std::vector<std::vector<int32_t>> rounds(1);
-  for (int32_t id = 0; id < count; ++id) {
-    size_t level = 0;
-    for (uint64_t bits = scrambled(static_cast<uint64_t>(id)); bits % 8 == 0 && level < 20;
-         bits /= 8) {
-      ++level;
-    }
-    if (level >= rounds.size()) rounds.resize(level + 1);
-    rounds[level].push_back(id);
-  }
-  std::vector<int32_t> order;
-  order.reserve(static_cast<size_t>(count));
-  for (auto round = rounds.rbegin(); round != rounds.rend(); ++round) {
-    order.insert(order.end(), round->begin(), round->end());
-  }
-  return order;
-}
 
 void insert_all(Delaunay& delaunay, std::span<const Vec3> points, Progress* progress) {
   constexpr size_t kStep = 512;

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The methods that the paper compares itself with, on the Voronoi diagram that is ours, as programs of the race.
 
+All but the shrinking ball are options of the product, too (`--method`); what is restated here, with NumPy, is what
+its tests compare with.
+
     python3 -m tests.benchmarks.race.rivals METHOD INPUT OUTPUT.off [--side OUTER] [option=value ...]
 
 INPUT is .xyz or .xyzn. Inside is what Tight Cocone says.
 
 poles            the farthest Voronoi vertices of the cells, on either side (Amenta & Bern 1998; Boissonnat &
                  Cazals 2001)
-power-shape      where power cells of inner poles meet, by CGAL (Amenta, Choi & Kolluri 2001)
+power-shape      where power cells of inner poles meet (Amenta, Choi & Kolluri 2001)
 angle-length     facets whose balls see pq under an angle at least `angle` degrees, with |pq| at least `length`
                  diagonals (after Attali & Lachaud 2001)
 lambda           facets and edges whose nearest samples fit in no ball smaller than `radius` diagonals (Chazal &
@@ -21,8 +24,6 @@ shrinking-ball   balls that shrink until they are empty, from given normals (Ma,
 from __future__ import annotations
 
 import argparse
-import subprocess
-import tempfile
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -31,7 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from . import ROOT, product
+from . import product
 
 medial = product.load()
 
@@ -40,7 +41,6 @@ Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 THETA, RHO = np.pi / 8, 8.0
-POWER_SHAPE = ROOT / "build" / "release" / "tests" / "benchmarks" / "power_shape"
 
 
 @dataclass(frozen=True)
@@ -66,9 +66,9 @@ class Samples:
 
     @cached_property
     def facets(self):
-        """All Voronoi facets of the side, which both conditions select at threshold 0."""
+        """All Voronoi facets of the side: no pq is shorter than 0."""
         analysis = medial.MedialAnalysis(self.points, sides=medial.SidesFrom.TIGHT_COCONE)
-        return analysis.extract(theta=0.0, rho=0.0, side=self.side)
+        return analysis.extract(criteria=medial.Criteria.LAMBDA, length=0.0, side=self.side)
 
     @cached_property
     def lengths(self) -> Array:
@@ -147,11 +147,14 @@ def polar_balls(samples: Samples) -> Array:
     return np.column_stack((centres[rows], radii[rows], there[rows]))
 
 
-def write_power_shape(samples: Samples, output: Path) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "balls")
-        np.ascontiguousarray(polar_balls(samples)).tofile(path)
-        subprocess.run([POWER_SHAPE, path, output], check=True)
+def power_shape(samples: Samples) -> Found:
+    balls = polar_balls(samples)
+    centres, radii = np.ascontiguousarray(balls[:, :3]), np.ascontiguousarray(balls[:, 3])
+    rows, triangles, edges = medial.power_shape(centres, radii, balls[:, 4] == 1.0)
+    place = np.full(len(balls), -1)
+    place[rows] = np.arange(len(rows))
+    offsets = np.arange(0, 3 * len(triangles) + 1, 3)
+    return Found(centres[rows], offsets, place[triangles].ravel(), place[edges])
 
 
 # --- facets by other conditions
@@ -268,6 +271,7 @@ def write_off(found: Found, path: Path) -> None:
 
 METHODS = {
     "poles": poles,
+    "power-shape": power_shape,
     "angle-length": angle_length,
     "lambda": lambda_axis,
     "pole-normal": lambda samples: variant(samples, True, False),
@@ -281,7 +285,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("method", choices=[*METHODS, "power-shape"])
+    parser.add_argument("method", choices=METHODS)
     parser.add_argument("input", type=Path)
     parser.add_argument("output", type=Path)
     parser.add_argument("options", nargs="*", metavar="option=value")
@@ -290,11 +294,8 @@ def main() -> None:
     rows = np.loadtxt(given.input, ndmin=2)
     normals = np.ascontiguousarray(rows[:, 3:6]) if rows.shape[1] > 3 else None
     samples = Samples(np.ascontiguousarray(rows[:, :3]), normals, given.side == "OUTER")
-    if given.method == "power-shape":
-        write_power_shape(samples, given.output)
-    else:
-        options = {name: float(x) for name, x in (word.split("=") for word in given.options)}
-        write_off(METHODS[given.method](samples, **options), given.output)
+    options = {name: float(x) for name, x in (word.split("=") for word in given.options)}
+    write_off(METHODS[given.method](samples, **options), given.output)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace medial {
+
+// In which order points go into a triangulation: biased and randomized (Amenta, Choi, Rote 2003).
+// Each round is an eighth of the next, and keeps the spatial order of the ids.
+std::vector<int32_t> insertion_order(int32_t count);
+
+}  // namespace medial
