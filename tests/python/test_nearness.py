@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nearness where squares of distances leave the range of a double: as in a unit of which they do not, and no warning."""
+"""Nearness where squares of distances leave the range of a double: as in another unit, and no warning."""
 
 import warnings
 
