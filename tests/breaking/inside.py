@@ -402,8 +402,7 @@ def words_out_of_range(random: Random, folder: Path) -> None:
         "simplify",
         "erode",
         "limb",
-        "threads",
-        "memory",
+        "memory-limit",
         "frames",
     ]
     words = [str(shape), str(folder / "a.ply")]
