@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 from medial_axis.core.machine.memory_limit import Use, memory_needed
+from medial_axis.core.settings import Side
 from test_memory import PEAK, ball
 
 from .inside import ROOT, Random
@@ -37,7 +38,7 @@ def told(random: Random, folder: Path) -> None:
     assert done.returncode == 0, done.stderr[-300:]
     code, found = map(int, done.stdout.split()[-2:])
     said = memory_needed(
-        len(points), Use(faces, side != "inner", levels=form != "published", output=suffix)
+        len(points), Use(faces, Side[side.upper()], levels=form != "published", output=suffix)
     )
     at = f"{len(points):,} points, {faces=}, {side}, {form}, {suffix}: {found / said:.3f} of {said:,}"
     print(f"memory {at}", flush=True)

@@ -46,7 +46,9 @@ def near(
     reach = float(reaches)
     cell_size = max(reach, _SMALLEST_CELL)
     lowest, highest = others.min(axis=0), others.max(axis=0)
-    size = np.floor((highest - lowest) / cell_size).astype(np.int64) + 5  # two cells of rim all round
+    size = (
+        np.floor((highest - lowest) / cell_size).astype(np.int64) + 5
+    )  # two cells of rim all round
     cells = _cells(others, lowest, cell_size, size)
     order = np.argsort(cells, kind="stable")
     others, cells = others[order], cells[order]
