@@ -14,7 +14,7 @@ from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..settings import BallSettings, CoverMode, Settings, Side, SidesFrom
-from .choose_samples import ChosenSamples, choose_samples
+from .choose_samples import ChosenSamples, OfChosenSamples, choose_samples
 from .sampling_warnings import sampling_warnings
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class Balls:
 
 
 @dataclass(frozen=True, eq=False)
-class BallCover:
+class BallCover(OfChosenSamples):
     """Balls of a solid, and how they came about.
 
     Parameters
@@ -80,16 +80,6 @@ class BallCover:
     chosen: ChosenSamples
     warnings: tuple[str, ...]
     seconds: float
-
-    @property
-    def points(self) -> int:
-        """Rows that were analysed, duplicates included."""
-        return len(self.chosen.samples.points)
-
-    @property
-    def duplicates(self) -> int:
-        """Those of them that were merged into an earlier row with the same coordinates."""
-        return int(self.chosen.samples.analysis.duplicates)
 
 
 def cover_by_balls(

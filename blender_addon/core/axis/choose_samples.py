@@ -93,6 +93,22 @@ class ChosenSamples:
     sparse: bool = False
 
 
+class OfChosenSamples:
+    """How many samples there are, for whatever was computed of them."""
+
+    chosen: ChosenSamples
+
+    @property
+    def points(self) -> int:
+        """Rows that were analysed, duplicates included."""
+        return len(self.chosen.samples.points)
+
+    @property
+    def duplicates(self) -> int:
+        """Those of them that were merged into an earlier row with the same coordinates."""
+        return int(self.chosen.samples.analysis.duplicates)
+
+
 def choose_samples(
     shape: Shape, settings: Settings, progress: Progress, limit: MemoryLimit = WHAT_IS_FREE
 ) -> ChosenSamples:

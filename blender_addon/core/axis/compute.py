@@ -14,7 +14,7 @@ from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Form, Settings
 from .axis_warnings import axis_warnings
-from .choose_samples import ChosenSamples, choose_samples
+from .choose_samples import ChosenSamples, OfChosenSamples, choose_samples
 from .extract import extract
 from .medial_axis import MedialAxis
 from .shape import Shape
@@ -32,7 +32,7 @@ _ANALYSIS = 0.6
 
 
 @dataclass(frozen=True, eq=False)
-class Computation:
+class Computation(OfChosenSamples):
     """A medial axis and how it came about.
 
     Parameters
@@ -75,16 +75,6 @@ class Computation:
     def key(self) -> str:
         """Names the analysis for `refilter`."""
         return self.chosen.samples.key
-
-    @property
-    def points(self) -> int:
-        """Rows that were analysed, duplicates included."""
-        return len(self.chosen.samples.points)
-
-    @property
-    def duplicates(self) -> int:
-        """Those of them that were merged into an earlier row with the same coordinates."""
-        return self.chosen.samples.analysis.duplicates
 
 
 def compute(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..axis.choose_samples import ChosenSamples, choose_samples
+from ..axis.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
 from ..axis.nearness import nearest
 from ..errors import DegenerateInputError
 from ..machine import native
@@ -41,7 +41,7 @@ _ANALYSIS = 0.6
 
 
 @dataclass(frozen=True, eq=False)
-class Skeletonization:
+class Skeletonization(OfChosenSamples):
     """A skeleton and how it came about.
 
     Parameters
@@ -70,16 +70,6 @@ class Skeletonization:
     chosen: ChosenSamples
     warnings: tuple[str, ...]
     seconds: float
-
-    @property
-    def points(self) -> int:
-        """Rows that were analysed, duplicates included."""
-        return len(self.chosen.samples.points)
-
-    @property
-    def duplicates(self) -> int:
-        """Those of them that were merged into an earlier row with the same coordinates."""
-        return int(self.chosen.samples.analysis.duplicates)
 
 
 def compute_skeleton(

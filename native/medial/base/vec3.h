@@ -5,6 +5,7 @@
 #include <medial/types.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace medial {
@@ -28,6 +29,14 @@ inline double max_abs(const Vec3& a) {
 inline Vec3 normalized(const Vec3& a) {
   const double l = length(a);
   return l > 0 ? (1 / l) * a : a;
+}
+// Two unit vectors across a unit vector and each other; the first is also across the axis of its
+// smallest coordinate.
+inline std::array<Vec3, 2> across(const Vec3& unit) {
+  const double x = std::abs(unit.x), y = std::abs(unit.y), z = std::abs(unit.z);
+  const Vec3 least = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 first = normalized(cross(unit, least));
+  return {first, cross(unit, first)};
 }
 
 inline double coordinate(const Vec3& v, int axis) {

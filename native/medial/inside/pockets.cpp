@@ -112,10 +112,9 @@ constexpr double kWidth = 0.01;  // half of that of a way at its end, as a share
 // any, for Voronoi vertices of pockets may lie close beneath the surface.
 bool is_wide_way(const Vec3& from, const Vec3& to, const WindingNumber& winding) {
   const Vec3 way = to - from;
-  const Vec3 across = std::abs(way.x) < std::abs(way.y) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   const double width = kWidth * length(way);
-  const Vec3 u = width * normalized(cross(way, across)), v = width * normalized(cross(way, u));
-  const std::array<Vec3, 5> beside{Vec3{}, u, -u, v, -v};
+  const auto [u, v] = across(normalized(way));
+  const std::array<Vec3, 5> beside{Vec3{}, width * u, -width * u, width * v, -width * v};
   return std::all_of(beside.begin(), beside.end(), [&](const Vec3& offset) {
     return winding.is_inside_along(from, to + offset);
   });

@@ -36,7 +36,7 @@ class Painter {
     if (!(std::abs(rise) < whole)) return;
     const Vec3 axis = (1 / whole) * along;
     const double k = rise / whole, flat = std::sqrt(1 - k * k);
-    const Vec3 across = normalized(cross(axis, least_of(axis))), third = cross(axis, across);
+    const auto [u, v] = across(axis);
     const int64_t rings = steps(whole);
     const int64_t round = steps(2 * std::numbers::pi * std::max(mesh_.radius[a], mesh_.radius[b]));
     for (int64_t i = 0; i <= rings; ++i) {
@@ -46,7 +46,7 @@ class Painter {
       for (int64_t j = 0; j < round; ++j) {
         const double turn =
             2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(round);
-        const Vec3 n = flat * (std::cos(turn) * across + std::sin(turn) * third) - k * axis;
+        const Vec3 n = flat * (std::cos(turn) * u + std::sin(turn) * v) - k * axis;
         keep(centre + radius * n, out);
       }
     }
@@ -74,11 +74,6 @@ class Painter {
  private:
   int64_t steps(double whole) const {
     return std::max<int64_t>(1, static_cast<int64_t>(std::ceil(whole / spacing_)));
-  }
-  static Vec3 least_of(const Vec3& axis) {
-    const Vec3 size{std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
-    if (size.x <= size.y && size.x <= size.z) return {1, 0, 0};
-    return size.y <= size.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   }
   void keep(const Vec3& point, std::vector<Vec3>& out) const {
     if (envelope_.find(point).nearest.distance >= -kCovered * spacing_) out.push_back(point);

@@ -86,13 +86,7 @@ class Places {
         if (corner != a && corner != b) third = corner;
       }
     }
-    if (third < 0) {
-      const Vec3 least = std::abs(axis.x) <= std::min(std::abs(axis.y), std::abs(axis.z))
-                             ? Vec3{1, 0, 0}
-                         : std::abs(axis.y) <= std::abs(axis.z) ? Vec3{0, 1, 0}
-                                                                : Vec3{0, 0, 1};
-      return {normalized(cross(axis, least)), std::numbers::pi};
-    }
+    if (third < 0) return {across(axis).front(), std::numbers::pi};
     const Vec3 inward = at(third) - at(a);
     const Vec3 outward = -normalized(inward - dot(inward, axis) * axis);
     const TangentNormals tangents = tangent_normals(sphere(a), sphere(b), sphere(third));

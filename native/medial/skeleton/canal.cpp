@@ -81,14 +81,6 @@ class Normals {
   Row right_{};
 };
 
-// Two unit vectors across a unit vector and each other.
-std::array<Vec3, 2> across(const Vec3& tangent) {
-  const double x = std::abs(tangent.x), y = std::abs(tangent.y), z = std::abs(tangent.z);
-  const Vec3 least = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  const Vec3 first = normalized(cross(tangent, least));
-  return {first, cross(tangent, first)};
-}
-
 double smoothstep(double x) {
   x = std::clamp(x, 0.0, 1.0);
   return x * x * (3 - 2 * x);
