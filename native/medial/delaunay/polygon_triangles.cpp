@@ -312,7 +312,8 @@ bool is_convex_at_first_diagonal(std::span<const Vec3> corners) {
 std::vector<Triangle> triangles_of(std::span<const Vec3> corners) {
   if (corners.size() == 3) return {{0, 1, 2}};
   if (corners.size() == 4) {
-    if (has_an_extent(corners) && is_convex_at_first_diagonal(corners)) return {{0, 1, 2}, {0, 2, 3}};
+    if (has_an_extent(corners) && is_convex_at_first_diagonal(corners))
+      return {{0, 1, 2}, {0, 2, 3}};
     return {{0, 1, 3}, {1, 2, 3}};
   }
   std::vector<Triangle> cut;
