@@ -318,6 +318,14 @@ def test_ctrl_c_while_the_compiled_module_is_loaded(folder, monkeypatch, capsys)
     assert cli.main(["egg.xyz", "egg.ma"]) == cli.DONE
 
 
+def test_the_package_loads_nothing_before_signals_are_ours(program):  # noqa: F811
+    """Python imports it before `__main__` can ask for them; what it loads is a time in which Ctrl-C is a traceback."""
+    code = "import sys; known = {*sys.modules}; import medial_axis; print({*sys.modules} - known)"
+    command = [sys.executable, "-c", code]
+    said = subprocess.run(command, env=program.environment, capture_output=True, check=True)
+    assert said.stdout == b"{'medial_axis'}\n"
+
+
 @pytest.mark.parametrize("seed", repeats(6))
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_fuzzed_signals_from_the_first_instant(folder, program, number, seed):  # noqa: F811
