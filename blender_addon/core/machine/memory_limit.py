@@ -118,8 +118,8 @@ WHAT_IS_FREE = MemoryLimit()
 
 # Bytes per point at the peak of the process, as measured (docs/performance.md). Levels are of the inner side.
 _OF_LEVELS = {
-    False: {"": 2150, ".ma": 3130},
-    True: {"": 2150, ".ma": 3050},
+    False: {"": 2150, ".ply": 2380, ".ma": 3130},
+    True: {"": 2150, ".ply": 2390, ".ma": 3050},
 }  # {faces: {output: bytes}}
 # In Blender those of the outer side alone were not measured; they are told as those of both.
 _AT_PEAK = {  # {faces: {side: {output: bytes}}}
