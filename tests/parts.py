@@ -56,6 +56,7 @@ QUICK_TESTS = (
     "test_checklist.py",
     "test_build_addon.py",
     "test_manual.py",
+    "test_manual_api.py",
     "test_parts.py",
     "test_matrix.py",
 )

@@ -21,7 +21,7 @@ BUILD = {
     "NumPy for Blender's Python": "python3-numpy",
     "Blender": "blender",
     "GoogleTest": "libgtest-dev",
-    "Markdown, for the manual": "python3-markdown",
+    "mkdocs, for the manual": "mkdocs",
 }
 WINDOWS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
 DEMO = {

@@ -48,7 +48,7 @@ def contents(blender: Path | str = "blender") -> dict[str, bytes]:
     files["LICENSE"] = (paths.ROOT / "LICENSE").read_bytes()
     with tempfile.TemporaryDirectory() as name:
         made = Path(name)
-        _make_manual(made / "manual")
+        make_manual(made / "manual")
         _make_presets(made / "presets" / paths.PACKAGE)
         files.update(_read(made, made.rglob("*")))
     library = node_groups.library(blender)
@@ -78,9 +78,11 @@ def _sources() -> list[Path]:
     ]
 
 
-def _make_manual(folder: Path) -> None:
-    python = python_that("import markdown", "install python3-markdown")
-    run(python, Path(__file__).with_name("manual.py"), paths.ROOT / "docs", folder)
+def make_manual(folder: Path) -> None:
+    """The manual as web pages; mkdocs.yml says how."""
+    python = python_that("import mkdocs", "install mkdocs")
+    options = ["--strict", "--config-file", paths.ROOT / "mkdocs.yml"]
+    run(python, "-B", "-m", "mkdocs", "build", *options, "--site-dir", folder)
 
 
 def _make_presets(folder: Path) -> None:

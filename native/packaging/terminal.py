@@ -57,7 +57,7 @@ def succeeds(*command: object) -> bool:
 
 
 def python_that(statement: str, advice: str) -> str:
-    """The first Python, out of this one and the system's, that runs a statement such as `import markdown`."""
+    """The first Python, out of this one and the system's, that runs a statement such as `import mkdocs`."""
     for python in (sys.executable, "/usr/bin/python3"):
         if succeeds(python, "-c", statement):
             return python

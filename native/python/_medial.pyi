@@ -13,7 +13,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__version__: str
+__version__: str  # Of the add-on and of the package, such as "0.1.0".
 
 class InvalidInputError(ValueError):
     """An argument has the wrong shape, type, range or a value that is not finite; the message says which."""
@@ -69,7 +69,8 @@ class Progress:
     def stage(self) -> str:
         """Name of the running stage, for people: 'Delaunay triangulation', 'Poles', ..."""
     @property
-    def cancelled(self) -> bool: ...
+    def cancelled(self) -> bool:
+        """Whether `cancel` was called."""
     def cancel(self) -> None:
         """Ask the computation to stop; it raises `Cancelled` within 0.3 s."""
 

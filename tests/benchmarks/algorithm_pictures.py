@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The drawings of docs/algorithm.md, as SVG: a cell with its pole and umbrella, theta and rho of an edge, and peeling.
+"""Drawings for the docs, as SVG: a cell with its pole and umbrella, theta and rho of an edge, and peeling.
 
     python3 tests/benchmarks/algorithm_pictures.py [--output docs/pictures]
 
@@ -344,7 +344,7 @@ def lines(points, triangles, middle: float, colour: str, width: float) -> list[s
 
 
 def on_cut(points, middle: float):
-    return np.asarray(points) * (165, -165) + (middle, 235)
+    return np.asarray(points) * (165, -165) + (middle, 195)
 
 
 def main() -> None:

@@ -803,8 +803,8 @@ TEST(MethodSides, BySurfaceWithVerticesOfItsOwn) {
   }
 }
 
-// The corners of a cell vote, as user_guide and algorithm.md have it; beyond the box all is outside
-// because the normals look outwards.
+// The corners of a cell vote, as user_guide and stage_inside.md have it; beyond the box all is
+// outside because the normals look outwards.
 TEST(MethodSides, ByNormals) {
   for (uint32_t seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -10,6 +10,7 @@ import tarfile
 import zipfile
 
 import pytest
+from support.manual import one_page_config
 
 import build_addon
 from native.packaging import (
@@ -54,6 +55,7 @@ def sources(tmp_path, monkeypatch):
     (tmp_path / "LICENSE").write_text("licence", encoding="utf-8")
     (tmp_path / "docs").mkdir()
     (tmp_path / "docs" / "guide.md").write_text("# Guide\n", encoding="utf-8")
+    one_page_config(tmp_path, "guide.md")
     for name, path in {"ROOT": tmp_path, "ADDON": addon, "DIST": tmp_path / "dist"}.items():
         monkeypatch.setattr(paths, name, path)
     return addon
@@ -146,6 +148,8 @@ def test_zip_holds_what_is_needed_and_nothing_else(sources):
         "medial_axis/core/a.py",
         "medial_axis/lib/_medial.cpython-311-x86_64-linux-gnu.so",
         "medial_axis/manual/guide.html",
+        "medial_axis/manual/search.js",
+        "medial_axis/manual/search_index.js",
         "medial_axis/manual/style.css",
         *(f"medial_axis/presets/medial_axis/{name}.py" for name in sorted(presets.PRESETS)),
     ]

@@ -2,6 +2,7 @@
 """Every code word in the docs exists: identifiers, files and options between backticks occur in the sources."""
 
 import ast
+import functools
 import re
 from pathlib import Path
 
@@ -9,6 +10,8 @@ import pytest
 from conftest import ROOT
 from medial_axis.core.settings import LIMITS, LOOKS, OPTIONS, THICKNESS_OPTIONS, Switch
 from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
+
+from tests.wrap_docs import WRITTEN, wrap
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
@@ -35,6 +38,7 @@ FOREIGN = {
     "suzanne_axis.py": "the user's own script",
     "template.yaml": "Open Job Description",
     "demo_output/": "made by build_addon.py demo",
+    "build/": "made by cmake",
     "dist/medial_axis-0.1.0.zip": "made by build_addon.py build",
     "OUTPUT.json": "made by the command line",
     "FOLDER/__main__.py": "FOLDER is the user's",
@@ -62,6 +66,7 @@ def spans(page):
     return [span for span in SPAN.findall(prose(page)) if span not in FOREIGN]
 
 
+@functools.cache
 def files():
     tops = [path for path in ROOT.iterdir() if path.is_file() and path.name != "README.md"]
     found = [path for folder in SOURCES for path in (ROOT / folder).rglob("*") if path.is_file()]
@@ -204,3 +209,159 @@ def test_names_of_the_library_in_the_examples_are_there():
     ]
     used = {name for block in blocks for name in re.findall(r"\bmedial_axis\.(\w+)", block)}
     assert len(used) > 3 and used <= set(offered)
+
+
+# --- the stage pages
+
+STAGES = (
+    "stage_sampling",
+    "stage_delaunay",
+    "stage_inside",
+    "stage_tight_cocone",
+    "stage_selection",
+    "hierarchy",
+    "skeleton",
+    "thickness",
+    "balls",
+    "small_mesh",
+)
+HEADINGS = ["What", "Code", "Options", "Quality", "Cost", "Source"]
+
+
+def stage_parts(stage):
+    """The text below each heading of a stage page, by heading."""
+    text = (ROOT / "docs" / f"{stage}.md").read_text(encoding="utf-8")
+    _, *pieces = re.split(r"^## (.+)\n", text, flags=re.MULTILINE)
+    return dict(zip(pieces[::2], pieces[1::2], strict=True))
+
+
+def code_of(stage):
+    """Every path between backticks below Code, as in a room, the core or the sources."""
+    paths = [span for span in SPAN.findall(stage_parts(stage)["Code"]) if PATH.fullmatch(span)]
+    assert paths, stage
+    return paths
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_stage_pages_have_the_same_skeleton(stage):
+    """The same headings in the same order, none of them empty; and a drawing of what is done."""
+    parts = stage_parts(stage)
+    assert list(parts) == HEADINGS
+    assert [heading for heading, text in parts.items() if not text.strip()] == []
+    assert re.search(r"^!\[.+\]\(pictures/.+\)$", parts["What"], re.MULTILINE)
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_code_of_a_stage_is_there(stage):
+    assert [path for path in code_of(stage) if not in_the_sources(path)] == []
+
+
+def in_the_sources(path):
+    """As the docs name files: from a room's folder, or below the folder that the table's head names."""
+    return is_there(path) or (ROOT / "blender_addon" / "core" / "skeleton" / path).is_file()
+
+
+def test_stage_pages_name_every_room_of_the_native_core():
+    rooms = {path.name for path in (ROOT / "native" / "medial").iterdir() if path.is_dir()}
+    named = " ".join(path for stage in STAGES for path in code_of(stage))
+    assert {room for room in rooms if f"{room}/" in named} == rooms
+
+
+def test_every_stage_page_is_in_the_index():
+    index = (ROOT / "docs" / "algorithm.md").read_text(encoding="utf-8")
+    assert [stage for stage in STAGES if f"({stage}.md)" not in index] == []
+    found = {path.stem for path in (ROOT / "docs").glob("stage_*.md")}
+    assert found <= set(STAGES)
+
+
+def test_every_picture_has_an_alt_text(page):
+    text = page.read_text(encoding="utf-8")
+    assert [words for words in re.findall(r"!\[(.*?)\]\(", text) if len(words.split()) < 3] == []
+
+
+def anchors(path):
+    """What links may lead to on a page: its headings, as code hosts name them, and places with an id."""
+    text = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.M | re.S)
+    headings = re.findall(r"^#+ (.+)$", text, re.MULTILINE)
+    made = {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+    return made | set(re.findall(r'<a id="([^"]+)">', text))
+
+
+def test_links_lead_somewhere(page):
+    """To a file, and to a heading of it; addresses of the network are not asked."""
+    wrong = []
+    for target in re.findall(r"\]\((?!https?:|mailto:)([^)\s]+)\)", prose(page)):
+        name, _, place = target.partition("#")
+        path = page.parent / name if name else page
+        if not path.exists() or (place and place not in anchors(path)):
+            wrong.append(target)
+    assert wrong == []
+
+
+# --- the width of lines
+
+# What cannot be broken: rows of tables, pictures, and commands, also those of a session of a shell.
+WHOLE = re.compile(r"\|.*\|$|!\[|\s*(\$ |[A-Z_]+=\S+ )?(blender|openjd|python3|curl|sudo) ")
+
+
+@pytest.mark.parametrize("path", [*PAGES, ROOT / "CONTRIBUTING.md"], ids=lambda path: path.name)
+def test_lines_are_at_most_100_wide(path):
+    text = path.read_text(encoding="utf-8")
+    for mark in WRITTEN:
+        text = text.partition(mark)[0]
+    wide = [line for line in text.splitlines() if len(line) > 100 and not WHOLE.match(line)]
+    assert wide == []
+
+
+LONG = """\
+# A heading that is kept
+
+A paragraph whose words are moved, with `a code span that stays whole` and [a link](page.md#place) and
+a number - such as 7. that is no item, and so on and on and on until the line is much too wide for it.
+
+- An item, the second line of which is indented as the first one is, and which is a little longer than that.
+
+    code = "is kept as it is, however long the line may be, for nobody knows where it may be broken"  # so
+
+| a table | is kept as it is, however long the row may be, for it cannot be broken at all in any way |
+"""
+
+
+def test_wrapping_moves_words_and_changes_none():
+    text = wrap(LONG)
+    assert text.split() == LONG.split() and wrap(text) == text != LONG
+    kept = [line for line in LONG.splitlines() if line.startswith(("#", "    ", "|"))]
+    assert [line for line in text.splitlines() if line.startswith(("#", "    ", "|"))] == kept
+    assert max(len(line) for line in text.splitlines() if line not in kept) <= 100
+    assert "`a code span that stays whole`" in text
+    assert not re.search(r"^(-|7\.) (such|that)", text, re.MULTILINE)
+
+
+def test_the_docs_are_wrapped(page):
+    """`python3 tests/wrap_docs.py` wraps them."""
+    text = page.read_text(encoding="utf-8")
+    assert wrap(text) == text
+
+
+# --- the length of sentences
+
+# Lists of what was done, and of what the add-on says.
+LISTS = {"changelog.md", "checklist.md", "troubleshooting.md"}
+LONGEST = 40  # words
+
+
+def sentences(path):
+    """Of paragraphs and items: not of tables, pictures, headings and what scripts write."""
+    text = prose(path)
+    for mark in WRITTEN:
+        text = text.partition(mark)[0]
+    text = "\n".join(line for line in text.splitlines() if not line.startswith(("|", "!", "#")))
+    for paragraph in re.split(r"\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )", text):
+        words = re.sub(r"\]\([^)]*\)", "]", paragraph)
+        yield from re.split(r"(?<=[.!?])\*{0,2}\s+(?=[A-Z*`|(\[])", words)
+
+
+def test_sentences_are_short(page):
+    if page.name in LISTS:
+        pytest.skip(f"{page.name} is a list")
+    assert [text for text in sentences(page) if len(text.split()) > LONGEST] == []

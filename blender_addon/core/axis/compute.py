@@ -59,10 +59,12 @@ class Computation(OfChosenSamples):
 
     @property
     def sides(self) -> Sides:
+        """What told inside from outside, and why."""
         return self.chosen.sides
 
     @property
     def density(self) -> Density:
+        """How densely the samples lie, in the terms of the theorem."""
         return self.chosen.samples.density
 
     @property

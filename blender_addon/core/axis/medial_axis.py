@@ -63,7 +63,7 @@ class MedialAxis:
         Rows of the two samples of each facet; where only some points of a cloud were analysed, rows of
         the whole cloud.
     unbounded, zero_area : int
-        Selected facets that reach infinity, or that cannot be told from a point or a segment (docs/algorithm.md);
+        Selected facets that reach infinity, or that cannot be told from a point or a segment (docs/stage_delaunay.md);
         neither is here.
     edges : (w, 2) int32
         Ends of the edges that stand by themselves.

@@ -16,6 +16,7 @@
 
 namespace medial {
 
+// A surface, or points alone; what is left out is not known.
 struct AnalysisInput {
   std::span<const Vec3> points;                        // samples of the surface
   std::span<const Triangle> triangles = {};            // its outward faces, as rows of `vertices`
@@ -23,6 +24,7 @@ struct AnalysisInput {
   std::optional<std::span<const Vec3>> vertices = {};  // none: `points`
 };
 
+// How it is analysed.
 struct AnalysisOptions {
   SidesFrom sides = SidesFrom::automatic;
   CoconeOptions cocone = {};

@@ -14,6 +14,7 @@ namespace medial {
 //           they reach out of it is stated.
 enum class CoverMode : int32_t { inside = 0, around = 1 };
 
+// Candidates, and the solid that they are to cover.
 struct BallCoverInput {
   std::span<const Vec3> centres;    // of the balls to choose from, such as those of an inner axis
   std::span<const double> radii;    // one for each
@@ -21,6 +22,7 @@ struct BallCoverInput {
   std::span<const Triangle> faces;  // outward, rows of `vertices`
 };
 
+// How many balls, and where they may be.
 struct BallCoverOptions {
   int64_t count = 64;  // of balls, at most
   CoverMode mode = CoverMode::inside;

@@ -6,6 +6,7 @@
 
 namespace medial {
 
+// Convex, planar polygons that share their vertices.
 struct MedialMesh {
   Column<Vec3> vertices;          // (v) Voronoi vertices in order of first use; no two coincide
   Column<double> radius;          // (v) of the empty ball

@@ -9,6 +9,7 @@
 
 namespace medial {
 
+// How far a job is, what it does, and whether it is to end.
 class Progress {
  public:
   // For those who watch; safe to use from any thread at any time. A job that is cancelled throws

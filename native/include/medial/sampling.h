@@ -13,6 +13,7 @@ namespace medial {
 // An opening is where closing_samples lie; sample_surface makes none.
 enum class SampleKind : int32_t { corner, sharp, boundary, vertex, surface, opening };
 
+// How densely, what counts as sharp, and what else is a sample.
 struct SamplingOptions {
   std::optional<int64_t> count = {};  // one of count, spacing and sites
   std::optional<double> spacing = {};
@@ -26,6 +27,7 @@ struct SamplingOptions {
   uint64_t seed = 0;
 };
 
+// One row per sample, corners first.
 struct SurfaceSamples {
   std::vector<Vec3> points;
   std::vector<Vec3> normals;      // outward; where sides meet their mean; zero where there is none

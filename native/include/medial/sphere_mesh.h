@@ -10,6 +10,7 @@
 
 namespace medial {
 
+// The spheres, and which of them are joined.
 struct SphereMesh {
   Column<Vec3> vertices;
   Column<double> radius;       // (v) 0 or more
@@ -17,6 +18,7 @@ struct SphereMesh {
   Column<Edge> wires;          // edges that are on no triangle, i < j, each once, ascending
 };
 
+// How small it is to be.
 struct ReduceOptions {
   int32_t vertices = 200;  // that are wanted at most
   int threads = 0;         // 0: as many as the machine has; the result does not depend on it

@@ -24,6 +24,7 @@ enum class ThicknessMode : int32_t { wall = 0, ball = 1, scan = 2 };
 
 inline constexpr double kScanTheta = 5 * std::numbers::pi / 18;  // 50 degrees, above a right edge's
 
+// What is known of the samples beside their places.
 struct ThicknessInput {
   // Outward, one per point, of any length; what has none, or a zero one, is not measured but
   // filled. Not for scan.
@@ -33,6 +34,7 @@ struct ThicknessInput {
   std::optional<std::span<const uint8_t>> at_edge = {};
 };
 
+// What is measured, on which side.
 struct ThicknessOptions {
   ThicknessMode mode = ThicknessMode::wall;
   Side side = Side::inner;     // outer: the gap between walls

@@ -10,6 +10,7 @@
 
 namespace medial {
 
+// The surface, the side of every cell, and how well the samples lie.
 struct WatertightSurface {
   std::vector<Triangle> triangles;              // outward, lowest row first, in lexicographic order
   std::vector<Side> sides;                      // per Delaunay cell: inner or outer

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scripts of the README and the user guide run as these pages say, and print what they promise."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from scene import MODULE, program
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = (ROOT / "README.md", ROOT / "docs" / "user_guide.md")
+# What stands in each script alone, what it prints, and about how many facets these are.
+SCRIPTS = {
+    "suzanne.ma": (r"Suzanne Medial Axis: (\d+) facets, radius", 73_072),
+    "memory_limit": (None, 0),
+    "primitive_torus_add": (r"\{'FINISHED'\} Torus Medial Axis (\d+)", None),
+    "tight_cocone_surface": (r"scan Medial Axis (\d+) Inside from Tight Cocone", 10_824),
+}
+
+
+def scripts():
+    text = "".join(page.read_text(encoding="utf-8") for page in PAGES)
+    blocks = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    return [block for block in blocks if "import bpy" in block]
+
+
+def test_every_script_is_known():
+    assert len(scripts()) == len(SCRIPTS)
+
+
+SLOW = pytest.param("suzanne.ma", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("word", [SLOW, *list(SCRIPTS)[1:]])
+def test_script(tmp_path, word):
+    """In a Blender of its own, by the command of the page."""
+    (script,) = (text for text in scripts() if word in text)
+    path = tmp_path / "script.py"
+    path.write_text(script.replace('"medial_axis"', repr(MODULE)), encoding="utf-8")
+    command = [program(), "--background", "--python-exit-code", "1", "--python", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    printed, count = SCRIPTS[word]
+    if printed:
+        found = re.search(printed, done.stdout)
+        assert found, done.stdout
+        assert int(found[1]) == pytest.approx(count, rel=0.05) if count else int(found[1]) > 0
+    if word.endswith(".ma"):
+        assert (tmp_path / word).stat().st_size > 0
