@@ -8,7 +8,9 @@ Importing this package is cheap: NumPy and the compiled module are first touched
 (library.py), `bpy` by `register`.
 """
 
-from typing import TYPE_CHECKING
+# As typing's, which type checkers know by this name. To load `typing` takes a while in which Ctrl-C would still be
+# Python's own: a traceback.
+TYPE_CHECKING = False
 
 bl_info = {
     "name": "Medial Axis",

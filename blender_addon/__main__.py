@@ -4,7 +4,6 @@
 """
 
 import os
-import signal
 import sys
 
 
@@ -15,12 +14,16 @@ def _cancel(_number: int, _frame: object) -> None:
 
 
 if __name__ == "__main__" and "bpy" not in sys.modules:
-    # Ctrl-C and a polite kill from the first instant: to load NumPy takes a while.
-    for _signal in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(_signal, _cancel)
+    # Ctrl-C and a polite kill from the first instant: to load NumPy takes a while, and so does `signal`, whose names
+    # are made while it is loaded; what it wraps is part of Python itself.
+    import _signal  # type: ignore[import-not-found,unused-ignore]
+
+    for _number in (_signal.SIGINT, _signal.SIGTERM):
+        _signal.signal(_number, _cancel)
 
 import importlib  # noqa: E402
 import importlib.util  # noqa: E402
+import signal  # noqa: E402
 from pathlib import Path  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent

@@ -2,12 +2,13 @@
 """Breaks, kind after kind, for so many seconds: `python3 -m tests.breaking SECONDS [SEED [KIND ...]]`.
 
 A batch of trials runs in a process of its own, so that a crash, too, is an outcome and not the end. Prints what broke,
-with the seed of its trial, and at the end a table for the docs.
+with the seed of its trial, and at the end, or when it is stopped, a table for the docs.
 """
 
 import itertools
 import os
 import resource
+import signal
 import subprocess
 import sys
 import time
@@ -27,21 +28,25 @@ LIMIT_SECONDS = 300.0  # after which it has hung
 def main(seconds: float, seed: int, kinds: list[str]) -> int:
     from tests.breaking.kinds import KINDS
 
-    end = time.monotonic() + seconds
+    begun = time.monotonic()
     tried, broke, spent = Counter(), Counter(), Counter()
-    for number in itertools.count():
-        for kind in kinds or KINDS:
-            if time.monotonic() > end:
-                return _table(tried, broke, spent)
-            before = _processor_time()
-            said = _batch(kind, seed + number)
-            spent[kind] += _processor_time() - before
-            tried[kind] += said.count("\ntried ")
-            faults = [line for line in said.splitlines() if line.startswith("BROKE ")]
-            broke[kind] += len(faults)
-            for line in faults:
-                print(line, flush=True)
-    return 0
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        for number in itertools.count():
+            for kind in kinds or KINDS:
+                if time.monotonic() > begun + seconds:
+                    return _table(tried, broke, spent, begun)
+                before = _processor_time()
+                said = _batch(kind, seed + number)
+                spent[kind] += _processor_time() - before
+                tried[kind] += said.count("\ntried ")
+                faults = [line for line in said.splitlines() if line.startswith("BROKE ")]
+                broke[kind] += len(faults)
+                for line in faults:
+                    print(line, flush=True)
+    except KeyboardInterrupt:
+        pass
+    return _table(tried, broke, spent, begun)
 
 
 def _processor_time() -> float:
@@ -50,24 +55,40 @@ def _processor_time() -> float:
 
 
 def _batch(kind: str, seed: int) -> str:
+    """What a batch said. Its temporary folders lie in one that goes with it, however it ends."""
     command = [sys.executable, "-m", "tests.breaking", "--batch", kind, str(seed)]
-    try:
-        done = subprocess.run(
+    with TemporaryDirectory(prefix="breaking_", ignore_cleanup_errors=True) as folder:
+        process = subprocess.Popen(
             command,
             cwd=ROOT,
-            capture_output=True,
+            env={**os.environ, "TMPDIR": folder},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
             text=True,
             errors="replace",
-            timeout=LIMIT_SECONDS,
+            start_new_session=True,
         )
-    except subprocess.TimeoutExpired as hung:
-        return (
-            f"{(hung.stdout or b'').decode()}\nBROKE {kind} {seed}: no end in {LIMIT_SECONDS:g} s"
-        )
-    if done.returncode != 0:
-        last = done.stdout.splitlines()[-1:] + done.stderr.splitlines()[-3:]
-        return f"{done.stdout}\nBROKE {kind} {seed}: exit code {done.returncode}: {last}"
-    return done.stdout
+        try:
+            out, err = process.communicate(timeout=LIMIT_SECONDS)
+        except subprocess.TimeoutExpired:
+            _kill(process)
+            out, _ = process.communicate()
+            return f"{out}\nBROKE {kind} {seed}: no end in {LIMIT_SECONDS:g} s"
+        finally:
+            _kill(process)
+    if process.returncode != 0:
+        last = out.splitlines()[-1:] + err.splitlines()[-3:]
+        return f"{out}\nBROKE {kind} {seed}: exit code {process.returncode}: {last}"
+    return out
+
+
+def _kill(process: subprocess.Popen) -> None:
+    """And all that it has started, which would hold its pipes and its folder."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        return
+    process.wait()
 
 
 def batch(kind: str, seed: int) -> None:
@@ -90,11 +111,12 @@ def batch(kind: str, seed: int) -> None:
             return
 
 
-def _table(tried: Counter, broke: Counter, spent: Counter) -> int:
+def _table(tried: Counter, broke: Counter, spent: Counter, begun: float) -> int:
     print("| kind | tried | broke | processor time |\n|---|---|---|---|")
     for kind in tried:
         print(f"| {kind} | {tried[kind]:,} | {broke[kind]:,} | {spent[kind]:,.0f} s |")
     print(f"| all | {tried.total():,} | {broke.total():,} | {spent.total():,.0f} s |")
+    print(f"by the clock: {time.monotonic() - begun:,.0f} s")
     return min(1, broke.total())
 
 

@@ -5,7 +5,7 @@ import zlib
 
 import numpy as np
 
-from . import inside, outside
+from . import inside, memory, outside, written
 
 KINDS = {
     "files: tokens, pieces, other extensions": inside.files,
@@ -21,6 +21,13 @@ KINDS = {
     "names of any bytes": outside.odd_names,
     "four at once in one folder": outside.at_once,
     "batches with bad items": outside.bad_items,
+    "axes written and read again": written.axes,
+    "skeletons written and read again": written.skeletons,
+    "balls written and read again": written.balls,
+    "full disks": written.full_disks,
+    "memory told and taken": memory.told,
+    "few addresses, every command": memory.few_addresses_of_any_command,
+    "few threads, every command": memory.few_threads,
 }
 
 

@@ -22,7 +22,7 @@ LIMIT_SECONDS = 200
 
 
 @cache
-def _environment() -> dict[str, str]:
+def environment() -> dict[str, str]:
     """In which `python3 -m medial_axis` is the add-on's folder."""
     folder = Path(mkdtemp(prefix="breaking_package_"))
     (folder / "medial_axis").symlink_to(ROOT / "blender_addon", target_is_directory=True)
@@ -32,7 +32,7 @@ def _environment() -> dict[str, str]:
 def _start(folder: Path, *words: object, **options) -> subprocess.Popen:
     command = [sys.executable, "-m", "medial_axis", *words]
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "cwd": folder, **options}
-    return subprocess.Popen(command, env=_environment(), **options)
+    return subprocess.Popen(command, env=environment(), **options)
 
 
 def _run(folder: Path, *words: object, **options) -> tuple[int, bytes, bytes]:

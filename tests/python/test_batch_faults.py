@@ -318,6 +318,18 @@ def test_ctrl_c_while_the_compiled_module_is_loaded(folder, monkeypatch, capsys)
     assert cli.main(["egg.xyz", "egg.ma"]) == cli.DONE
 
 
+def test_the_package_loads_nothing_before_signals_are_ours(program):  # noqa: F811
+    """What it loads before takes a time in which Ctrl-C is a traceback."""
+    code = (
+        "import _signal, runpy, sys; known = {*sys.modules}\n"
+        "_signal.signal = lambda *_: sys.exit(' '.join({*sys.modules} - known))\n"
+        "runpy.run_module('medial_axis', run_name='__main__', alter_sys=True)\n"
+    )
+    command = [sys.executable, "-c", code]
+    said = subprocess.run(command, env=program.environment, capture_output=True)
+    assert said.stderr == b"medial_axis\n"
+
+
 @pytest.mark.parametrize("seed", repeats(6))
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_fuzzed_signals_from_the_first_instant(folder, program, number, seed):  # noqa: F811

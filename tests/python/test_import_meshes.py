@@ -169,6 +169,39 @@ def test_ply_refused(refuse, content, words):
     refuse("a.ply", content, words)
 
 
+PASSED_OVER = """ply
+format ascii 1.0
+element vertex 3
+property double x
+property double y
+property double z
+property float quality
+element face 1
+property list uchar int vertex_indices
+property double rho
+end_header
+0 0 0 nan
+1 0 0 1e999
+0 1 0 -inf
+3 0 1 2 inf
+"""
+
+
+def test_what_is_passed_over_in_a_ply_need_not_be_finite(read, refuse):
+    """Programs write so what they do not know; an axis may have an infinite rho. In text as in binary."""
+    found = read("a.ply", PASSED_OVER.encode())
+    assert found.vertices.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    assert found.face_vertices.tolist() == [0, 1, 2] and found.warnings == ()
+    for right, wrong in (("1 0 0 1e999", "1 0 1e999 0"), ("0 1 0 -inf", "nan 1 0 0")):
+        line = PASSED_OVER[: PASSED_OVER.index(right)].count("\n") + 1
+        refuse(
+            "a.ply", PASSED_OVER.replace(right, wrong).encode(), f"finite numbers in line {line}"
+        )
+    refuse("a.ply", PASSED_OVER.replace("nan", "none").encode(), "numbers in line 12 .* 'none'")
+    for corners in ("inf 0 1 2", "3 0 1 inf", "nan 0 1 2", "3 0 nan 2"):
+        refuse("a.ply", PASSED_OVER.replace("3 0 1 2", corners).encode(), "corners")
+
+
 # --- OBJ
 
 

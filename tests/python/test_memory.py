@@ -22,7 +22,7 @@ from medial_axis.core.machine import cache, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
 from medial_axis.core.machine.memory_limit import MemoryLimit, Use, memory_needed
-from medial_axis.core.settings import MEGABYTE, OPTIONS, AboveLimit, SamplingMode, Settings
+from medial_axis.core.settings import MEGABYTE, OPTIONS, AboveLimit, SamplingMode, Settings, Side
 from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)
@@ -504,6 +504,7 @@ print(code, peak() - before)
     ("form", "suffix", "side"),
     [
         *[("published", suffix, side) for suffix in (".npz", ".ply", ".ma") for side in SIDES],
+        ("published", ".ma", "outer"),
         *[("clean", suffix, "inner") for suffix in (".npz", ".ma")],
     ],
 )
@@ -520,6 +521,6 @@ def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side):
     words = [os.path.dirname(__file__), tmp_path / "in.npz", tmp_path / f"out{suffix}", side, form]
     command = [sys.executable, "-c", PEAK, *map(str, words)]
     said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
-    use = Use(faces, side == "both", levels=form != "published", output=suffix)
+    use = Use(faces, Side[side.upper()], levels=form != "published", output=suffix)
     told = memory_needed(len(shape.points), use)
     assert said[-2] == "0" and int(said[-1]) == pytest.approx(told, rel=0.15)

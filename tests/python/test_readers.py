@@ -39,6 +39,20 @@ def test_others_read_triangles(axis, reader, suffix, tmp_path):
     assert verdict(reader, path, len(axis.vertices), area) == "whole"
 
 
+@pytest.mark.parametrize("reader", ["ours", *NAMES])
+def test_an_infinite_rho_is_read_too(axis, reader, tmp_path):
+    """As small medial meshes have."""
+    without = replace(axis, rho=np.full(axis.facets, np.inf), theta=np.full(axis.facets, np.inf))
+    path = medial_axis.write(without, tmp_path / "a.ply", triangles=True)
+    if reader == "ours":
+        np.testing.assert_array_equal(medial_axis.read(path).points, axis.vertices)
+    elif reader not in READERS:
+        pytest.skip(f"{reader} is not installed")
+    else:
+        area = area_of(axis.vertices, polygons(axis))
+        assert verdict(reader, path, len(axis.vertices), area) == "whole"
+
+
 @pytest.mark.parametrize("suffix", [".ply", ".obj", ".off"])
 def test_triangles_are_those_of_the_polygons(axis, suffix, tmp_path):
     path = medial_axis.write(axis, tmp_path / f"a{suffix}", triangles=True)

@@ -109,7 +109,7 @@ def cover_by_balls(
     start = time.perf_counter()
     progress = progress or Progress()
     settings = replace(settings, side=Side.INNER)
-    limit = limit.used(faces=len(shape.triangles) > 0, both=False, levels=True)
+    limit = limit.used(faces=len(shape.triangles) > 0, side=Side.INNER, levels=True)
     progress.until(_ANALYSIS)
     chosen = choose_samples(shape, settings, progress, limit)
     progress.until(_AXIS)

@@ -12,7 +12,7 @@ import numpy as np
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
-from ..settings import Form, Settings, Side
+from ..settings import Form, Settings
 from .axis_warnings import axis_warnings
 from .choose_samples import ChosenSamples, OfChosenSamples, choose_samples
 from .extract import extract
@@ -116,7 +116,7 @@ def compute_axis(
     form, wanted = settings.form_of_side, settings.form
     limit = limit.used(
         faces=len(shape.triangles) > 0,
-        both=settings.side is not Side.INNER,
+        side=settings.side,
         levels=form is not Form.PUBLISHED,
     )
     progress.until(_ANALYSIS if form is not Form.PUBLISHED else 1.0)

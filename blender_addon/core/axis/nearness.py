@@ -14,6 +14,9 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+# Of a unit in which no coordinate is larger than 1; in smaller cells their numbers would leave 64 bits.
+_SMALLEST_CELL = 2.0**-60
+
 
 def same_place(points: NDArray[np.float64]) -> NDArray[np.int64]:
     """(n,) a number for each of (n, 3) points, the same where the coordinates are; from 0 upwards."""
@@ -39,14 +42,19 @@ def near(
     found = np.zeros(len(points), bool)
     if not len(others) or not reach > 0.0:
         return found
+    points, others, reaches = _in_unit(points, others, np.array(reach))
+    reach = float(reaches)
+    cell_size = max(reach, _SMALLEST_CELL)
     lowest, highest = others.min(axis=0), others.max(axis=0)
-    size = np.floor((highest - lowest) / reach).astype(np.int64) + 5  # two cells of rim all round
-    cells = _cells(others, lowest, reach, size)
+    size = (
+        np.floor((highest - lowest) / cell_size).astype(np.int64) + 5
+    )  # two cells of rim all round
+    cells = _cells(others, lowest, cell_size, size)
     order = np.argsort(cells, kind="stable")
     others, cells = others[order], cells[order]
     inside = (points >= lowest - reach) & (points <= highest + reach)
     left = np.flatnonzero(inside.all(axis=1))
-    home = _cells(points[left], lowest, reach, size)
+    home = _cells(points[left], lowest, cell_size, size)
     for step in product((-1, 0, 1), repeat=2):  # three cells in a row follow each other
         cell = home + np.dot((*step, 0), _strides(size))
         first = np.searchsorted(cells, cell - 1, "left")
@@ -76,6 +84,7 @@ def nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray
         A row of others; the lower of two equally near ones.
     """
     found, left = np.zeros(len(points), np.int64), np.arange(len(points))
+    points, others = _in_unit(points, others)
     size = np.ptp(np.concatenate((points, others)), axis=0)
     reach = max(float(size.max()) / np.sqrt(len(others)), np.finfo(float).tiny)
     while len(left):
@@ -84,6 +93,12 @@ def nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray
         found[left[sure]] = row[sure]
         left, reach = left[~sure], 2.0 * reach
     return found
+
+
+def _in_unit(*lengths: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
+    """In a unit in which none is larger than 1, so that no square overflows; a power of two, so that nothing rounds."""
+    largest = max(float(np.abs(some).max(initial=0.0)) for some in lengths)
+    return tuple(np.ldexp(some, -int(np.frexp(largest)[1])) for some in lengths)
 
 
 def _nearest_in_cells(
@@ -118,4 +133,5 @@ def _cells(
 
 
 def _strides(size: NDArray[np.int64]) -> NDArray[np.int64]:
-    return np.array([size[1] * size[2], size[2], 1])
+    """Of many cells they wrap round without a word, and cells that are far apart may have one number."""
+    return np.array([size[1:].prod(), size[2], 1])

@@ -162,7 +162,7 @@ class _Text:
         text = io.TextIOWrapper(stream, encoding="latin-1")
         lines = Lines(text, name)
         lines.number += header
-        self._rows, self._next, self._name = lines.rows(), 0, name
+        self._rows, self._next, self._name = lines.rows(finite=False), 0, name
         text.detach()
 
     def read(self, element: _Element) -> _Table:
@@ -174,9 +174,22 @@ class _Text:
             return _Table({}, np.zeros(0, np.int64), np.zeros(0))
         if not element.lists:
             table = rows.table(len(element.properties), f"{len(element.properties)} numbers")
+            self._check_finite(element, rows, table)
             columns = {entry.name: table[:, i] for i, entry in enumerate(element.properties)}
             return _Table(columns, np.zeros(0, np.int64), np.zeros(0))
         return self._read_lists(element, rows)
+
+    def _check_finite(self, element: _Element, rows: Rows, table: NDArray[np.float64]) -> None:
+        """Of what is read; what is passed over may be as its program left it."""
+        names = [entry.name for entry in element.properties]
+        used = [i for i, name in enumerate(names) if name in _POSITION + _NORMAL]
+        bad = np.argwhere(~np.isfinite(table[:, used]))
+        if len(bad):
+            row, column = bad[0]
+            raise ReadError(
+                f"Expected finite numbers in {rows.place(row)}, found '{table[row, used[column]]:g}'; "
+                "mend or remove that line"
+            )
 
     def _read_lists(self, element: _Element, rows: Rows) -> _Table:
         """The corners of each row; what stands behind them is left."""

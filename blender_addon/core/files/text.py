@@ -36,7 +36,7 @@ class Rows:
     Parameters
     ----------
     values : (t,) float64
-        Finite, line after line.
+        Line after line. Finite, unless whoever took the lines looks at that himself.
     offsets : (r + 1,) int64
         Row i is `values[offsets[i]:offsets[i + 1]]`, never empty.
     lines : (r,) int64
@@ -118,9 +118,12 @@ class Lines:
         """Where the line is, for messages."""
         return f"line {self.number} of '{self.name}'"
 
-    def rows(self, delimiter: str = "") -> Rows:
-        """Take all lines that are left: numbers with `delimiter`, or else blanks, between them."""
-        parts = [self._parse(text, first, delimiter) for first, text in self._chunks()]
+    def rows(self, delimiter: str = "", finite: bool = True) -> Rows:
+        """Take all lines that are left: numbers with `delimiter`, or else blanks, between them.
+
+        Where some of them are passed over, these need not be `finite`: then those that are read have to be looked at.
+        """
+        parts = [self._parse(text, first, delimiter, finite) for first, text in self._chunks()]
         found: Any = map(np.concatenate, zip(*parts, strict=True))
         values, widths, lines = found
         return Rows(values, np.concatenate([[0], np.cumsum(widths)]), lines, self.name)
@@ -140,7 +143,7 @@ class Lines:
         return _COMMENT.sub("", text) if "#" in text or "//" in text else text
 
     def _parse(
-        self, text: str, first: int, delimiter: str
+        self, text: str, first: int, delimiter: str, finite: bool
     ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
         """Numbers of a piece, how many each line has, and the numbers of those lines."""
         if delimiter:
@@ -150,10 +153,11 @@ class Lines:
         words, widths = data.split(), _words_per_line(data)
         try:
             values = np.array(list(map(float, words)), np.float64)
+            fit = b"_" not in data and (not finite or np.isfinite(values).all())
         except ValueError:
-            values = np.array([np.nan])
-        if b"_" in data or not np.isfinite(values).all():
-            bad = next(i for i, word in enumerate(words) if not _is_finite(word))
+            fit = False
+        if not fit:
+            bad = next(i for i, word in enumerate(words) if not _is_fit(word, finite))
             line = first + np.searchsorted(np.cumsum(widths), bad, side="right")
             raise ReadError(
                 f"Expected finite numbers in line {line} of '{self.name}', "
@@ -210,8 +214,9 @@ def is_number(word: str | bytes) -> bool:
     return True
 
 
-def _is_finite(word: bytes) -> bool:
-    return is_number(word) and math.isfinite(float(word)) and b"_" not in word
+def _is_fit(word: bytes, finite: bool) -> bool:
+    known = is_number(word) and b"_" not in word
+    return known and (not finite or math.isfinite(float(word)))
 
 
 def _shown(word: bytes) -> str:

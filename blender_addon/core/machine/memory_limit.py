@@ -7,7 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 
 from ..errors import MemoryLimitError
-from ..settings import LIMITS, MEGABYTE, AboveLimit, check_ranges
+from ..settings import LIMITS, MEGABYTE, AboveLimit, Side, check_ranges
 from . import native
 from .cache import CACHE
 from .free_memory import free_memory
@@ -27,8 +27,8 @@ class Use:
     ----------
     faces : bool
         The surface has faces, so that Tight Cocone is not needed.
-    both : bool
-        Facets of both sides are wanted, or of the outer one.
+    side : Side
+        Of which facets are wanted; AUTOMATIC is INNER.
     levels : bool
         A level of the hierarchy is wanted, not the facets as published.
     output : str
@@ -36,7 +36,7 @@ class Use:
     """
 
     faces: bool = True
-    both: bool = False
+    side: Side = Side.INNER
     levels: bool = False
     output: str = ""
 
@@ -118,21 +118,29 @@ WHAT_IS_FREE = MemoryLimit()
 
 # Bytes per point at the peak of the process, as measured (docs/performance.md). Levels are of the inner side.
 _OF_LEVELS = {
-    False: {"": 2150, ".ma": 3130},
-    True: {"": 2150, ".ma": 3050},
+    False: {"": 2150, ".ply": 2380, ".ma": 3130},
+    True: {"": 2150, ".ply": 2390, ".ma": 3050},
 }  # {faces: {output: bytes}}
-_AT_PEAK = {  # {(faces, both): {output: bytes}}
-    (False, False): {"": 1930, ".ply": 2050, ".ma": 2600, OBJECT: 2260},
-    (False, True): {"": 2030, ".ply": 2250, ".ma": 3160, OBJECT: 2740},
-    (True, False): {"": 1960, ".ply": 2050, ".ma": 2600, OBJECT: 2000},
-    (True, True): {"": 1970, ".ply": 2290, ".ma": 3060, OBJECT: 2520},
+# In Blender those of the outer side alone were not measured; they are told as those of both.
+_AT_PEAK = {  # {faces: {side: {output: bytes}}}
+    False: {
+        Side.INNER: {"": 1930, ".ply": 2050, ".ma": 2600, OBJECT: 2260},
+        Side.OUTER: {"": 1750, ".ply": 1780, ".ma": 2250, OBJECT: 2740},
+        Side.BOTH: {"": 2030, ".ply": 2250, ".ma": 3160, OBJECT: 2740},
+    },
+    True: {
+        Side.INNER: {"": 1960, ".ply": 2050, ".ma": 2600, OBJECT: 2000},
+        Side.OUTER: {"": 1780, ".ply": 1780, ".ma": 2260, OBJECT: 2520},
+        Side.BOTH: {"": 1970, ".ply": 2290, ".ma": 3060, OBJECT: 2520},
+    },
 }
 
 
 def memory_needed(points: int, use: Use | None = None) -> int:
     """About how many bytes so many points need at most: to be analysed, and what becomes of that."""
     if use is not None:
-        peaks = _OF_LEVELS[use.faces] if use.levels else _AT_PEAK[use.faces, use.both]
+        side = Side.INNER if use.side is Side.AUTOMATIC else use.side
+        peaks = _OF_LEVELS[use.faces] if use.levels else _AT_PEAK[use.faces][side]
         return points * peaks.get(use.output, peaks[""])
     with native.own_errors() as module:
         return module.memory_needed(points)

@@ -4,11 +4,13 @@
 #include <medial/errors.h>
 
 #include <climits>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>
 
 #include "base/polygon_edges.h"
+#include "base/text.h"
 #include "delaunay/cgal.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -34,10 +36,23 @@ using Plane = CGAL::Constrained_Delaunay_triangulation_2<
 
 using Ring = std::vector<int32_t>;  // places of corners in their polygon
 
-// Whether coordinates and differences of corners are finite; no polygon with others has a region.
-bool is_finite(std::span<const Vec3> corners) {
+bool is_finite(const Vec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+void require_finite_corners(std::span<const Vec3> points, std::span<const int32_t> corners) {
+  for (const int32_t corner : corners) {
+    if (is_finite(points[corner])) continue;
+    throw InvalidInputError("Expected finite coordinates, found " + text(points[corner]) +
+                            " in row " + std::to_string(corner) +
+                            "; repair or remove this vertex.");
+  }
+}
+
+// Whether the differences of corners are finite, too; no polygon with others has a region.
+bool has_an_extent(std::span<const Vec3> corners) {
   return std::all_of(corners.begin(), corners.end(),
-                     [&](const Vec3& p) { return std::isfinite(max_abs(p - corners[0])); });
+                     [&](const Vec3& p) { return is_finite(p - corners[0]); });
 }
 
 // A polygon whose corners lie round the origin, in a unit by which none is farther than 2 from it
@@ -297,11 +312,12 @@ bool is_convex_at_first_diagonal(std::span<const Vec3> corners) {
 std::vector<Triangle> triangles_of(std::span<const Vec3> corners) {
   if (corners.size() == 3) return {{0, 1, 2}};
   if (corners.size() == 4) {
-    if (is_finite(corners) && is_convex_at_first_diagonal(corners)) return {{0, 1, 2}, {0, 2, 3}};
+    if (has_an_extent(corners) && is_convex_at_first_diagonal(corners))
+      return {{0, 1, 2}, {0, 2, 3}};
     return {{0, 1, 3}, {1, 2, 3}};
   }
   std::vector<Triangle> cut;
-  if (!is_finite(corners)) {
+  if (!has_an_extent(corners)) {
     Ring ring(corners.size());
     std::iota(ring.begin(), ring.end(), 0);
     cut_every_other_corner(std::move(ring), cut);
@@ -331,6 +347,7 @@ std::vector<Triangle> polygon_triangles(std::span<const Vec3> points,
                             std::to_string(face_offsets[face + 1] - face_offsets[face]) +
                             "; leave it out.");
   }
+  require_finite_corners(points, face_vertices);
   std::vector<Triangle> result(face_vertices.size() - 2 * static_cast<size_t>(faces));
   parallel_chunks(
       faces, run,

@@ -20,7 +20,7 @@ namespace medial {
 // as where a hole is joined to its rim by a bridge. One that crosses itself bounds no region: every
 // other of its corners is cut off, again and again.
 //
-// Throws InvalidInputError.
+// Throws InvalidInputError, as for corners whose coordinates are not finite.
 std::vector<Triangle> polygon_triangles(std::span<const Vec3> points,
                                         std::span<const int32_t> face_offsets,
                                         std::span<const int32_t> face_vertices, const Run& run);

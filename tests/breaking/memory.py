@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Trials of memory: what is told before against what a process took; few addresses and few threads in every command."""
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+from medial_axis.core.machine.memory_limit import Use, memory_needed
+from medial_axis.core.settings import Side
+from test_memory import PEAK, ball
+
+from .inside import ROOT, Random
+from .outside import _no_traceback, _run, _shapes, environment
+from .written import WORKS
+
+MEGABYTE = 1 << 20
+SMALL = (
+    16 * MEGABYTE
+)  # what a process takes beside, for modules, threads and the input, whatever the points
+NOBODY = 61_234  # who has no processes, so that a limit of them is one of threads
+
+
+def told(random: Random, folder: Path) -> None:
+    """What is told is the peak within 15 %, and what every process takes; solids without symmetry."""
+    points, triangles = _solid(random)
+    faces, side = bool(random.integers(0, 2)), str(random.choice(["inner", "both", "outer"]))
+    form = str(random.choice(["published", "clean"])) if side == "inner" else "published"
+    suffix = str(random.choice([".npz", ".ply", ".ma"]))
+    arrays = {"points": points, **({"triangles": triangles} if faces else {})}
+    np.savez(folder / "in.npz", **arrays)
+    words = [ROOT / "tests/python", folder / "in.npz", folder / f"out{suffix}", side, form]
+    command = [sys.executable, "-c", PEAK, *map(str, words)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-300:]
+    code, found = map(int, done.stdout.split()[-2:])
+    said = memory_needed(
+        len(points), Use(faces, Side[side.upper()], levels=form != "published", output=suffix)
+    )
+    at = f"{len(points):,} points, {faces=}, {side}, {form}, {suffix}: {found / said:.3f} of {said:,}"
+    print(f"memory {at}", flush=True)
+    assert code == 0, at
+    assert 0.85 * said - SMALL <= found <= 1.15 * said + SMALL, at
+
+
+def _solid(random: Random) -> tuple[np.ndarray, np.ndarray]:
+    """An ellipsoid with waves on it, of 20,000 to 250,000 vertices."""
+    shape = ball(rings=int(10.0 ** random.uniform(2.0, 2.55)))
+    sphere = shape.points / np.linalg.norm(shape.points, axis=1)[:, None]
+    phase, many = random.uniform(0, 6, 3), random.integers(2, 9, 3)
+    waves = 1 + random.uniform(0.05, 0.3) * np.sin(many * sphere + phase).prod(axis=1)
+    size = 10.0 ** random.uniform(-3, 3) * random.uniform(0.3, 1, 3)
+    return sphere * waves[:, None] * size, shape.triangles
+
+
+def few_addresses_of_any_command(random: Random, folder: Path) -> None:
+    size = int(random.uniform(250, 1500)) << 20
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (size, size))
+
+    _limited(random, folder, limit, f"{size >> 20} MB")
+
+
+def few_threads(random: Random, folder: Path) -> None:
+    """Fewer processes than it asks for threads: it goes on with fewer, or says so."""
+    count = int(random.integers(1, 5))
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_NPROC, (count, count))
+        if os.geteuid() == 0:  # whom no limit binds
+            os.setgid(NOBODY)
+            os.setuid(NOBODY)
+
+    for room in (folder, folder.parent, Path(environment()["PYTHONPATH"])):
+        room.chmod(room.stat().st_mode | 0o055)
+    folder.chmod(0o777)
+    _limited(random, folder, limit, f"{count} processes")
+
+
+def _limited(random: Random, folder: Path, limit, what: str) -> None:
+    """A result with exit code 0, or 1 or 3 and one sentence, and then no file at all."""
+    (name,) = _shapes(folder, random, 1, int(10 ** random.uniform(2, 4.3)))
+    command = str(random.choice(sorted(WORKS)))
+    words, suffixes = WORKS[command]
+    output = f"a{random.choice(suffixes)}"
+    if command == "axis":
+        words = ["--side", str(random.choice(["inner", "both", "outer"]))]
+    code, _, err = _run(folder, *words, name, output, preexec_fn=limit)
+    if code == -signal.SIGSEGV or any(
+        word in err for word in (b"OpenBLAS", b"ImportError", b"failed to map")
+    ):
+        return  # NumPy itself does not load in so little
+    at = (what, command, output, code, err.decode(errors="replace")[-400:])
+    _no_traceback(err)
+    assert code in (0, 1, 3), at
+    (folder / name).unlink()
+    there = {path.name for path in folder.iterdir()}
+    if code == 0:
+        assert output in there and there <= {output, f"{output}.json"}, (at, there)
+        return
+    assert err.startswith(b"medial_axis: "), at
+    assert not there, (at, there)
