@@ -9,7 +9,7 @@ from medial_axis.core.axis.compute import compute
 from medial_axis.core.settings import Settings
 from support import meshes, messy, resampled
 from support.levels import betti_of_mesh
-from support.shapes import SHAPES, Cyclide
+from support.shapes import SHAPES, Cyclide, RoundCone
 
 CLEAN = {"spacings": 1.0}
 CURVE = {"sheet": math.inf}
@@ -95,6 +95,20 @@ def test_bent_tube_of_changing_radius_has_its_axis(medial, noise, mean, largest)
     off = shape.axis_distance(level.vertices)
     assert off.mean() < mean and off.max() < largest
     assert np.abs(level.radius - shape.axis_radius(level.vertices)).max() < 0.6 * largest
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.25])
+@pytest.mark.parametrize("seed", range(2))
+def test_a_limb_that_begins_with_a_turn_is_whole(medial, noise, seed):
+    """Noise bends the first wires of the thick end back: by its tip alone the limb went, with half of the axis."""
+    shape = RoundCone()
+    points = shape.sample(8000, seed)
+    way = np.random.default_rng(seed).uniform(-noise, noise, (len(points), 1))
+    points = points + way * math.sqrt(shape.area / len(points)) * shape.normals(points)
+    level = medial.MedialAnalysis(points).hierarchy().extract(**CURVE, limb=0.04, relaxed=True)
+    x = level.vertices[:, 0]
+    assert x.min() < -0.9 * shape.length and x.max() > 0.9 * shape.length
+    assert np.bincount(level.wires.ravel()).max() == 2
 
 
 def test_steps_are_a_quarter_of_the_spacing(sampled):

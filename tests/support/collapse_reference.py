@@ -422,10 +422,32 @@ class Collapse:
             tip[v] = goes_on[0][1] if goes_on else v
             for _, x in arrived[len(goes_on) :]:
                 ended[tip[v]] = max(ended.get(tip[v], 0.0), sticks_out[x])
-        result = [0.0] * len(self.log)
+        result, behind = [0.0] * len(self.log), {}
         for i, v in log:
-            result[i] = min(value[v], sticks_out[tip[v]]) / self.diagonal
+            out = sticks_out[tip[v]]
+            farthest = self.farthest_out(v, children, leads_to, length)
+            out = farthest if farthest > 4 * out else out
+            own = min(value[v], out) / self.diagonal
+            result[i] = behind[v] = max([own, *(behind[u] for u in children.get(v, []))])
         return result
+
+    def farthest_out(self, v, children, leads_to, length):
+        """Of the branch by elongation: how far a ball of it sticks out of the one at its end, at most; 0 before the
+        last one that does so alike, and where it is no more than the radius of that at the end."""
+        # Of equal ones the first.
+        elder = {w: max(children[w], key=lambda u: length[u]) for w in children}
+        before, end = [v], v
+        while before[-1] in elder:
+            before.append(elder[before[-1]])
+        after = []
+        while True:
+            w = leads_to[end]
+            if w not in leads_to or elder[w] != end:
+                break
+            after.append(end := w)
+        most = max(out_of(self.c, x, w) for x in before + after)
+        alike = (out_of(self.c, x, w) >= most - 0.05 * self.c.radius[x] for x in after)
+        return 0.0 if any(alike) or most <= self.c.radius[w] else most
 
     def by_cell(self, values):
         """Values of facets, edges and vertices; infinite for those that are left."""

@@ -4,29 +4,75 @@
 namespace medial {
 namespace {
 
-// By elongation: where branches meet, that with the larger one goes on.
-Array<double> lengths(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
-                      const Run& run) {
+constexpr double kAlike = 0.05;  // of its radius: a ball that sticks out so much less does likewise
+constexpr double kLost = 4;      // times what its tip says: then the tip is not that of the limb
+
+// Branches by elongation: where they meet, that with the larger one goes on.
+struct Branches {
+  Array<double> length;  // per vertex: of its branch
+  Array<int32_t> elder;  // per vertex: from where the branch that goes on has come; or -1
+};
+
+Branches by_length(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
+                   const Run& run) {
   auto longest = array<double>(complex.cell.size(), 0, run);  // of what has arrived
-  auto elder = array<int32_t>(complex.cell.size(), -1, run);  // from where
-  auto value = array<double>(complex.cell.size(), 0, run);
+  Branches b{array<double>(complex.cell.size(), 0, run),
+             array<int32_t>(complex.cell.size(), -1, run)};
   const size_t count = wires.order.size();
   for (size_t i = 0; i < count; ++i) {
     const int32_t v = wires.order[i], next = wires.next[i];
-    value[v] = std::max(longest[v], wires.elongation[v]);
-    if (elder[next] < 0 || value[v] > longest[next]) {
-      longest[next] = value[v];
-      elder[next] = v;
+    b.length[v] = std::max(longest[v], wires.elongation[v]);
+    if (b.elder[next] < 0 || b.length[v] > longest[next]) {
+      longest[next] = b.length[v];
+      b.elder[next] = v;
     }
   }
   for (size_t i = count; i-- > 0;) {
     const int32_t v = wires.order[i], next = wires.next[i];
-    if (elder[next] == v && collapse.vertex_gone(next)) value[v] = value[next];
+    if (b.elder[next] == v && collapse.vertex_gone(next)) b.length[v] = b.length[next];
   }
-  return value;
+  return b;
 }
 
-// By protrusion: a branch is known by its tip x, and at a vertex w by |x - w| + R(x) - R(w).
+// How far the ball at x sticks out of that at w.
+double out_of(const InnerComplex& complex, int32_t x, int32_t w) {
+  return distance(complex.position[x], complex.position[w]) + complex.radius[x] - complex.radius[w];
+}
+
+// Of branches by elongation, per vertex: how far that ball of the branch sticks out of the one at
+// its end which does so most; 0 before the last one that does so alike, for in the end of a limb
+// all balls do, and 0 where that is not more than the radius of the ball there.
+Array<double> farthest_out(const InnerComplex& complex, const Collapse& collapse,
+                           const Wires& wires, const Branches& branches, const Run& run) {
+  const size_t count = wires.order.size();
+  const auto goes_on = [&](size_t i) {
+    return branches.elder[wires.next[i]] == wires.order[i] && collapse.vertex_gone(wires.next[i]);
+  };
+  auto end = array<int32_t>(complex.cell.size(), -1, run);
+  for (size_t i = count; i-- > 0;) {
+    end[wires.order[i]] = goes_on(i) ? end[wires.next[i]] : wires.next[i];
+  }
+  auto most = array<double>(complex.cell.size(), -HUGE_VAL, run);
+  for (size_t i = 0; i < count; ++i) {
+    const int32_t v = wires.order[i];
+    most[v] = std::max(most[v], out_of(complex, v, end[v]));
+    if (goes_on(i)) most[wires.next[i]] = most[v];
+  }
+  auto result = array<double>(complex.cell.size(), 0, run);
+  const auto is_alike = [&](int32_t v) {
+    return out_of(complex, v, end[v]) >= most[v] - kAlike * complex.radius[v];
+  };
+  for (size_t i = count; i-- > 0;) {
+    const int32_t v = wires.order[i], next = wires.next[i];
+    if (goes_on(i)) most[v] = most[next];
+    const bool is_before = goes_on(i) && (result[next] == 0 || is_alike(next));
+    result[v] = is_before || most[v] <= complex.radius[end[v]] ? 0 : most[v];
+  }
+  return result;
+}
+
+// By protrusion: a branch is known by its tip, and at a vertex by how far the tip's ball sticks
+// out.
 class Protrusion {
  public:
   Protrusion(const InnerComplex& complex, const Run& run)
@@ -39,8 +85,7 @@ class Protrusion {
   int32_t go_on(int32_t v, int32_t next) {
     const int32_t tip = best_[v].tip < 0 ? v : best_[v].tip;
     of_tip_[tip] = std::max(of_tip_[tip], ended_[v]);
-    Arrived arrived{tip, distance(complex_.position[tip], complex_.position[next]) +
-                             complex_.radius[tip] - complex_.radius[next]};
+    Arrived arrived{tip, out_of(complex_, tip, next)};
     Arrived& best = best_[next];
     if (best.tip < 0 || arrived.height > best.height) std::swap(best, arrived);
     if (arrived.tip >= 0) {
@@ -72,7 +117,7 @@ class Protrusion {
 
 Array<float> limb_values(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
                          const Run& run) {
-  const auto length = lengths(complex, collapse, wires, run);
+  const Branches branches = by_length(complex, collapse, wires, run);
   throw_if_cancelled(run.progress);
   Protrusion protrusion(complex, run);
   auto tip = array<int32_t>(complex.cell.size(), -1, run);
@@ -83,15 +128,20 @@ Array<float> limb_values(const InnerComplex& complex, const Collapse& collapse, 
   for (const int32_t next : wires.next) {
     if (!collapse.vertex_gone(next)) protrusion.stop_at(next);
   }
+  const auto farthest = farthest_out(complex, collapse, wires, branches, run);
   auto value = array<float>(complex.cell.size(), run);
   parallel_for(complex.vertices(), run, [&](int64_t v) {
     value[v] = collapse.vertex_gone(static_cast<int32_t>(v)) ? 0 : HUGE_VALF;
   });
-  parallel_for(static_cast<int64_t>(wires.order.size()), run, [&](int64_t i) {
+  // In order, for a vertex may not go before those that it waits for.
+  for (size_t i = 0; i < wires.order.size(); ++i) {
     const int32_t v = wires.order[i];
-    value[v] =
-        static_cast<float>(std::min(length[v], protrusion.of_tip(tip[v])) / complex.diagonal);
-  });
+    const double of_tip = protrusion.of_tip(tip[v]);
+    const double out = farthest[v] > kLost * of_tip ? farthest[v] : of_tip;
+    const auto own = static_cast<float>(std::min(branches.length[v], out) / complex.diagonal);
+    value[v] = std::max(value[v], own);
+    value[wires.next[i]] = std::max(value[wires.next[i]], value[v]);
+  }
   return value;
 }
 
