@@ -17,14 +17,19 @@ from support.data import DATA  # noqa: E402, F401 - found through the line above
 
 def load():
     """The compiled module, through the add-on's own loader."""
+    if "medial_axis" not in sys.modules:
+        _register_package()
+    from medial_axis.core.machine import native
+
+    return native.load()
+
+
+def _register_package():
     spec = importlib.util.spec_from_file_location(
         "medial_axis", PACKAGE / "__init__.py", submodule_search_locations=[str(PACKAGE)]
     )
     sys.modules["medial_axis"] = package = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(package)
-    from medial_axis.core.machine import native
-
-    return native.load()
 
 
 def markdown(header: list[str], rows: list[list[str]]) -> str:

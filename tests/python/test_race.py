@@ -13,13 +13,21 @@ pytest.importorskip("tomllib", reason="Python has tomllib from 3.11 on")
 
 sys.path.insert(0, str(ROOT))
 
-from tests.benchmarks.race import betti, judge, read_axis, solids
+import medial_axis
+
+from tests.benchmarks.race import betti, judge, product, read_axis, solids
 
 NO_EDGES = np.empty((0, 2), int)
 
 
 def complex_of(vertices, polygons=(), edges=NO_EDGES):
     return read_axis.complex_of(np.array(vertices, float), [np.array(p) for p in polygons], edges)
+
+
+def test_a_package_that_is_known_stays():
+    """Another one would leave the modules that are imported already without a parent."""
+    product.load()
+    assert sys.modules["medial_axis"] is medial_axis and hasattr(medial_axis, "core")
 
 
 # --- the solids: brute force over dense random points of the surface

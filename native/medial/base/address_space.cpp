@@ -2,7 +2,7 @@
 #include "base/address_space.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <memory>
 
 #include "base/huge_pages.h"
 
@@ -55,11 +55,9 @@ bool AddressSpace::release(size_t, size_t) const { return false; }
 
 void prefer_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] size_t bytes) {
 #ifdef MADV_HUGEPAGE  // Linux
-  constexpr uintptr_t kHugePage = 2 << 20;
-  const auto begin = reinterpret_cast<uintptr_t>(memory), end = begin + bytes;
-  const uintptr_t from = (begin + kHugePage - 1) / kHugePage * kHugePage;
-  const uintptr_t until = end / kHugePage * kHugePage;
-  if (from < until) madvise(reinterpret_cast<void*>(from), until - from, MADV_HUGEPAGE);
+  constexpr size_t kHugePage = 2 << 20;
+  if (std::align(kHugePage, kHugePage, memory, bytes) == nullptr) return;
+  madvise(memory, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
 #endif
 }
 
