@@ -148,7 +148,7 @@ def run_pytest(blender: Path, *options: str, **environment: str) -> None:
     """pytest with the Python that Blender uses, on all cores where pytest-xdist is installed."""
     interpreter, _ = blender_python(blender)
     spread = succeeds(interpreter, "-c", "import xdist")
-    workers = ["-n", parallel_jobs()] if spread else []
+    workers = ["-n", parallel_jobs(), "--dist", "loadgroup"] if spread else []
     words = ["-q", f"--durations={LONGEST}", *workers, *options]
     environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", **environment}
     run(interpreter, "-m", "pytest", *words, env=environment)

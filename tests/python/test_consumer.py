@@ -10,6 +10,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 INCLUDE = ROOT / "native" / "include"
 CONSUMER = ROOT / "tests" / "consumer"
+# Headers by themselves are quick; what needs a build of the library waits for the same one.
+LIBRARY = pytest.mark.xdist_group("consumer")
 HEADERS = sorted(path.relative_to(INCLUDE).as_posix() for path in INCLUDE.rglob("*.h"))
 
 
@@ -61,6 +63,7 @@ def configure(folder, *definitions):
 
 
 @slow
+@LIBRARY
 def test_sources_as_a_part_of_another_project(with_sources):
     text = run(with_sources / "cube")
     assert ": 192 facets, largest ball 4\n" in text  # as in tests/native/analysis_test.cpp
@@ -70,6 +73,7 @@ def test_sources_as_a_part_of_another_project(with_sources):
 
 
 @slow
+@LIBRARY
 def test_installed_library(with_sources, installed, tmp_path):
     """Found by its package; the same program."""
     configure(tmp_path, f"-DCMAKE_PREFIX_PATH={installed}")
@@ -78,6 +82,7 @@ def test_installed_library(with_sources, installed, tmp_path):
 
 
 @slow
+@LIBRARY
 def test_what_is_installed(installed):
     files = {
         path.relative_to(installed).as_posix() for path in installed.rglob("*") if path.is_file()
@@ -98,6 +103,7 @@ def test_what_is_installed(installed):
 
 
 @slow
+@LIBRARY
 def test_another_version_is_refused(installed, tmp_path):
     lists = tmp_path / "CMakeLists.txt"
     lists.write_text(

@@ -6,6 +6,8 @@ import pytest
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "slow: minutes long; left out unless --slow is given")
+    # Of pytest-xdist: what compiles everything first does it once, not in each worker.
+    config.addinivalue_line("markers", "xdist_group(name): of tests that run in one worker")
 
 
 def pytest_addoption(parser):
