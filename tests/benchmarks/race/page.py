@@ -77,7 +77,7 @@ LOST = ["solid", "samples", "measure", "who", "theirs", "ours", "times"]
 def _loss(loss: compare.Loss) -> list[str]:
     theirs, measure = loss.theirs, loss.measure
     return [
-        theirs["solid"] + (", outside" if theirs["outer"] else ""),
+        _solid(theirs),
         _samples(theirs),
         WORDS[measure],
         theirs["program"],
@@ -131,6 +131,10 @@ def _topology(rows: list[Row]) -> list[list[str]]:
 def table(header: list[str], rows: list[list[str]]) -> str:
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(row) + " |" for row in lines) + "\n"
+
+
+def _solid(row: Row) -> str:
+    return row["solid"] + (", outside" if row["outer"] else "")
 
 
 def _samples(row: Row) -> str:
@@ -254,7 +258,7 @@ def _middle(rows: list[Row]) -> str:
 
 
 def _failures(rows: list[Row], skipped: dict[str, list[str]]) -> str:
-    failed = [[r["solid"], _samples(r), r["program"], r["failed"]] for r in rows if "failed" in r]
+    failed = [[_solid(r), _samples(r), r["program"], r["failed"]] for r in rows if "failed" in r]
     parts = ["## Without a result\n"]
     parts.append(
         table(["solid", "samples", "program", "what happened"], failed) if failed else "None.\n"
