@@ -179,8 +179,11 @@ def test_relaxed_levels_far_from_the_origin(medial, factor):
         np.testing.assert_array_equal(far.face_vertices, level.face_vertices)
         assert np.array_equal(far.betti, level.betti)
         distance, nearest = cKDTree(level.vertices).query(far.vertices / factor - offset)
-        assert distance.max() < 0.05  # of a length of 6; wires are divided into pieces of 0.06
-        np.testing.assert_allclose(far.radius / factor, level.radius[nearest], atol=0.02)
+        change = np.abs(far.radius / factor - level.radius[nearest])
+        # Of a length of 6. Wires are divided into pieces of 0.06, and along an axis the radius of the
+        # balls changes by no more than the way: so much at any place, and much less at most of them.
+        assert distance.max() < 0.05 and change.max() < 0.05
+        assert np.median(distance) < 0.02 and np.median(change) < 0.005
 
 
 def delaunay_edges(points):
