@@ -553,9 +553,21 @@ MUTATIONS = (
     ),
     Mutation(
         "skeleton/canal.cpp",
-        "canal.radius = from_.radius + f[0];",
-        "canal.radius = from_.radius - f[0];",
+        "canal.radius += f[0];",
+        "canal.radius -= f[0];",
         "radii of canals are corrected the wrong way",
+    ),
+    Mutation(
+        "skeleton/canal.cpp",
+        "is_cone_ ? straight : place_on_canal(to, straight);",
+        "straight;",
+        "samples are taken for those of a straight canal",
+    ),
+    Mutation(
+        "skeleton/canal.cpp",
+        "away = d - from_.radius - t * (slope_ + t * flare_);",
+        "away = d - from_.radius - t * t * flare_;",
+        "a canal that grows is taken for an even one",
     ),
     Mutation(
         "skeleton/chains.cpp",

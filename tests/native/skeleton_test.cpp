@@ -297,6 +297,44 @@ TEST(Canal, IsFoundFromBesideItsAxisAndNotBetweenTwoWalls) {
   EXPECT_EQ(between.centre, (Vec3{0.03, -0.02, 0}));
 }
 
+TEST(Canal, IsBentAndGrowsLikeItsBalls) {
+  // Balls of the radius 1 + 0.3 t round (0.2 t^2, 0, t) touch the canal all round, where the way to
+  // the centre takes -(1 + 0.3 t) 0.3 of the axis' derivative.
+  std::vector<Vec3> samples;
+  for (int i = -60; i <= 60; ++i) {
+    const double t = 0.025 * i, radius = 1 + 0.3 * t;
+    const Vec3 way{0.4 * t, 0, 1};
+    const double back = radius * 0.3, size = length(way);
+    const Vec3 aside = (1 / size) * Vec3{1, 0, -0.4 * t};
+    const double across = std::sqrt(radius * radius - back * back / (size * size));
+    for (int k = 0; k < 60; ++k) {
+      const double angle = 2 * 3.14159265358979 * (k + 0.5 * (i & 1)) / 60;
+      samples.push_back(Vec3{0.2 * t * t, 0, t} - (back / (size * size)) * way +
+                        across * (std::cos(angle) * aside + std::sin(angle) * Vec3{0, 1, 0}));
+    }
+  }
+  Canal canal{.centre = {0.03, -0.02, 0}, .radius = 0.97, .slope = 0.25, .tangent = {0, 0, 1}};
+  canal.bend = {0.2 * 0.5 * 0.5, 0, 0};
+  for (int fit = 0; fit < 6; ++fit) canal = fit_canal(PointTree(samples), canal, 0.5);
+  EXPECT_LT(length(canal.centre), 1e-4);
+  EXPECT_NEAR(canal.radius, 1, 1e-4);
+  EXPECT_NEAR(canal.slope, 0.3, 1e-3);
+  EXPECT_NEAR(canal.flare, 0, 2e-3);
+  EXPECT_GT(canal.trust, 0.9);
+}
+
+TEST(Canal, AsSteepAsAllThatIsNotFitted) {
+  std::vector<Vec3> cone;
+  for (int i = 0; i < 80; ++i) {
+    for (int k = 0; k < 40; ++k) {
+      const double away = 0.05 * i, angle = 2 * 3.14159265358979 * (k + 0.5 * (i % 2)) / 40;
+      cone.push_back({away * std::cos(angle), away * std::sin(angle), 0.3 * away});
+    }
+  }
+  const Canal from{.centre = {0, 0, 1}, .radius = 0.958, .slope = 0.89, .tangent = {0, 0, 1}};
+  EXPECT_EQ(fit_canal(PointTree(cone), from, 0.2).trust, 0);
+}
+
 TEST(Rims, RelaxAndNeverFold) {
   // A fan of triangles with a deep notch: its tip would cross over the hub.
   std::vector<Vec3> places{{0, 0, 0}};

@@ -13,12 +13,17 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 constexpr double kBand = 0.1;  // of the radius: samples nearer to it or farther are other walls
 constexpr double kFarthest = 0.05;  // of the radius: more it does not move at once
 constexpr double kTooFar = 0.15;    // of the radius: who wants to move so far sees something else
+constexpr double kSteep = 0.7;      // slope from which on trust falls, up to kSteepest
 constexpr int kFewest = 12;         // samples
+constexpr int kSteps = 1;           // of Newton's method
+constexpr double kStraight = 0.25;  // part of its curvature on a cone that a distance keeps
 constexpr double kPivot = 1e-9;     // of a column: below, the samples do not tell all unknowns
 
-// For every sample: distance from the axis - radius = r . q + u . (x . q), where q = (1, s, s^2), s
-// goes along the tangent, and u is the direction across it. So the unknowns are three of the radius
-// and thrice two of the axis: its shift, tilt and curvature.
+// For every sample: distance from the ball that it is nearest to = r . q + u . (x . q), where
+// q = (1, t, t^2), t is the place of the ball's centre along the axis, and u what the direction
+// from there has across the tangent. Where the ball lies a little farther on makes no difference of
+// first order, as no ball is nearer. So the unknowns are three of the radius and thrice two of the
+// axis: its shift, tilt and curvature.
 constexpr int kPowers = 3, kUnknowns = 3 * kPowers;
 using Row = std::array<double, kUnknowns>;
 
@@ -89,9 +94,17 @@ double smoothstep(double x) {
 class Fit {
  public:
   Fit(const PointTree& samples, const Canal& from, double half_width)
-      : from_(from), basis_(across(from.tangent)), half_width_(half_width) {
-    const double outer = (1 + kBand) * from.radius;
-    reach_ = std::sqrt(outer * outer + half_width * half_width);
+      : from_(from),
+        basis_(across(from.tangent)),
+        half_width_(half_width),
+        slope_(from.slope * half_width),
+        flare_(from.flare * half_width * half_width),
+        is_cone_(flare_ == 0 && squared_length(from.bend) == 0) {
+    const double change = std::abs(slope_) + std::abs(flare_),
+                 outer = (1 + kBand) * from.radius + change, aside = length(from.bend);
+    along_ = half_width + outer * std::min(1.0, (change + 2 * aside) / half_width);
+    reach_ = length(half_width, aside) + outer;
+    inner_ = (1 - kBand) * from.radius - change - reach_ + outer;
     samples.visit([&](const Box& box) { return may_meet(box); },
                   [&](int32_t id) { meet(samples[id]); });
   }
@@ -110,14 +123,16 @@ class Fit {
     const auto& f = *found;
     const double size = length(f[3], f[6]) / from_.radius;
     canal.trust *= 1 - smoothstep((size - kFarthest) / (kTooFar - kFarthest));
+    canal.slope += f[1] / half_width_;
+    canal.trust *= 1 - smoothstep((std::abs(canal.slope) - kSteep) / (kSteepest - kSteep));
+    canal.slope = std::clamp(canal.slope, -kSteepest, kSteepest);
     const auto part = [&](int i) {
       return canal.trust * (f[i] * basis_[0] + f[i + 3] * basis_[1]);
     };
     canal.centre = from_.centre + (size > kFarthest ? kFarthest / size : 1) * part(3);
-    canal.radius = from_.radius + f[0];
-    canal.slope = f[1] / half_width_;
+    canal.radius += f[0];
+    canal.flare += f[2] / (half_width_ * half_width_);
     canal.tangent = normalized(from_.tangent + (1 / half_width_) * part(4));
-    canal.bend = from_.bend + part(5);
     return canal;
   }
 
@@ -126,36 +141,59 @@ class Fit {
     const Vec3 half = 0.5 * box.extent(), middle = box.centre() - from_.centre, &t = from_.tangent;
     const double along = std::abs(dot(middle, t)),
                  wide = std::abs(half.x * t.x) + std::abs(half.y * t.y) + std::abs(half.z * t.z);
-    if (along - wide > half_width_) return false;
-    const double size = length(half), inner = (1 - kBand) * from_.radius - size,
-                 near = squared_length(middle);
+    if (along - wide > along_) return false;
+    const double size = length(half), inner = inner_ - size, near = squared_length(middle);
     return near < (reach_ + size) * (reach_ + size) && (inner < 0 || near > inner * inner);
   }
 
   void meet(const Vec3& sample) {
     const Vec3 to = sample - from_.centre;
-    const double s = dot(to, from_.tangent) / half_width_;
-    if (!(std::abs(s) < 1)) return;
-    const Vec3 beside = to - s * s * from_.bend;
-    const double x = dot(beside, basis_[0]), y = dot(beside, basis_[1]), d = length(x, y);
-    if (!(std::abs(d - from_.radius) < kBand * from_.radius)) return;
-    const double rest = 1 - s * s;
-    normals_.add(s, x / d, y / d, d - from_.radius, rest * rest);
+    const double straight = place_on_cone(to);
+    if (!(std::abs(straight) < 1)) return;
+    const double t = is_cone_ ? straight : place_on_canal(to, straight);
+    const Vec3 out = to - t * half_width_ * from_.tangent - t * t * from_.bend;
+    const double d = length(out), away = d - from_.radius - t * (slope_ + t * flare_);
+    if (!(std::abs(away) < kBand * from_.radius)) return;
+    const double rest = 1 - straight * straight;
+    normals_.add(t, dot(out, basis_[0]) / d, dot(out, basis_[1]) / d, away, rest * rest);
     ++met_;
+  }
+
+  // In half widths, of the ball that a sample is nearest to: there distance - radius is least. On
+  // the cone that is the canal's tangent, and, from there by Newton's method, on the canal.
+  double place_on_cone(const Vec3& to) const {
+    const double s = dot(to, from_.tangent), d = length(to - s * from_.tangent),
+                 slope = from_.slope;
+    return (s + slope * d / std::sqrt(1 - slope * slope)) / half_width_;
+  }
+
+  double place_on_canal(const Vec3& to, double t) const {
+    for (int step = 0; step < kSteps; ++step) {
+      const Vec3 out = to - t * half_width_ * from_.tangent - t * t * from_.bend,
+                 way = half_width_ * from_.tangent + 2 * t * from_.bend;
+      const double size = length(out), towards = dot(out, way) / size,
+                   first = -towards - slope_ - 2 * t * flare_,
+                   straight = (squared_length(way) - towards * towards) / size,
+                   second = straight - 2 * dot(out, from_.bend) / size - 2 * flare_;
+      t -= first / std::max(second, kStraight * straight);
+    }
+    return t;
   }
 
   // Whether samples lie all round, by the directions u: 0 where they lie on two opposite walls, by
   // the lesser principal moment (1/2 on a circle), or all on one side, by their mean.
   double all_round() const {
-    const double xx = normals_.mean(3), xy = normals_.mean(4), yy = normals_.mean(5),
-                 least = 0.5 * (xx + yy) - length(0.5 * (xx - yy), xy),
-                 aside = length(normals_.mean(1), normals_.mean(2));
+    const double xx = normals_.mean(3), xy = normals_.mean(4), yy = normals_.mean(5), all = xx + yy,
+                 least = (0.5 * all - length(0.5 * (xx - yy), xy)) / all,
+                 aside = length(normals_.mean(1), normals_.mean(2)) / std::sqrt(all);
     return smoothstep((2 * least - 0.3) / 0.4) * (1 - smoothstep((aside - 0.2) / 0.4));
   }
 
   Canal from_;
   std::array<Vec3, 2> basis_;
-  double half_width_, reach_;
+  double half_width_, slope_, flare_;         // the latter two in half widths
+  double along_ = 0, reach_ = 0, inner_ = 0;  // of samples that may count, from the centre
+  bool is_cone_;
   Normals normals_;
   int met_ = 0;
 };

@@ -8,22 +8,23 @@
 
 namespace medial {
 
+// Near its centre the axis is c(t) = centre + t tangent + (t / half width)^2 bend, and the ball
+// there has the radius radius + t slope + t^2 flare.
 struct Canal {
   Vec3 centre{};
-  double radius = 0;  // across the tangent
-  double slope = 0;   // of the radius along the axis
-  Vec3 tangent{};     // of the axis
-  Vec3 bend{};        // how far the axis is away from the tangent, half a width on
+  double radius = 0, slope = 0, flare = 0;
+  Vec3 tangent{};
+  Vec3 bend{};
   // How much of it the samples tell: 1 where they lie all round, 0 where they do not.
   double trust = 0;
 };
 
-// Of the ball that touches the canal: less than its radius where that changes along the axis.
-inline double radius_of_ball(const Canal& canal) {
-  return canal.radius / std::sqrt(1 + canal.slope * canal.slope);
-}
+// Of the radius. The steeper the canal, the farther from its centre is what its ball touches; what
+// is as steep as this is not fitted.
+inline constexpr double kSteepest = 0.9;
 
-// One step from a canal that is nearly right. Uses samples up to `half_width` before and behind it.
+// One step from a canal that is nearly right. Uses samples that touch balls up to `half_width`
+// before and behind it.
 Canal fit_canal(const PointTree& samples, const Canal& from, double half_width);
 
 }  // namespace medial

@@ -8,8 +8,9 @@
 namespace medial {
 namespace {
 
-constexpr int kSmoothings = 20, kFits = 2;
+constexpr int kSmoothings = 20, kFits = 3;
 constexpr double kSettled = 0.002;    // of the radius: another fit would change the square of it
+constexpr double kStraight = 2e-5;    // of the radius
 constexpr double kStep = 0.25;        // of the spacing
 constexpr double kHalfWidth = 2;      // of the piece that is fitted, in spacings
 constexpr size_t kNeighbours = 12;    // that tell the spacing
@@ -97,28 +98,67 @@ Curve divided(const Chain& chain, std::span<const Vec3> places, const PointTree&
     curve.canal.push_back({.centre = line[k] + share * (line[k + 1] - line[k])});
   }
   curve.canal.back().centre = line.back();
+  for (Canal& canal : curve.canal) canal.radius = samples.nearest(canal.centre).distance;
   return curve;
 }
 
-// Of the piece of the curve round a vertex that will be fitted, at most a quarter of it to either
-// side.
-Vec3 tangent_at(const Curve& curve, bool closed, size_t vertex) {
-  const auto steps = static_cast<int64_t>(curve.canal.size()) - 1,
-             here = static_cast<int64_t>(vertex);
-  const Vec3& centre = curve.canal[vertex].centre;
-  const auto end = [&](int direction) {
-    Vec3 last = centre;
-    for (int64_t i = 1; i <= std::max<int64_t>(1, steps / 4); ++i) {
-      int64_t k = here + direction * i;
-      if (closed) k = (k + steps) % steps;
-      if (k < 0 || k > steps) break;
-      const Vec3& place = curve.canal[k].centre;
-      if (i > 1 && distance(place, centre) > kHalfWidth * curve.spacing[vertex]) break;
-      last = place;
-    }
-    return last;
-  };
-  return normalized(end(1) - end(-1));
+// A place `way` along the curve from one of its vertices, or at its end, of a closed curve up to a
+// quarter away.
+struct Place {
+  Vec3 centre;
+  double radius, way;
+};
+
+Place walk(const Curve& curve, bool closed, size_t vertex, int direction, double way) {
+  const auto steps = static_cast<int64_t>(curve.canal.size()) - 1;
+  auto next = static_cast<int64_t>(vertex);
+  Place now{curve.canal[vertex].centre, curve.canal[vertex].radius, 0};
+  for (int64_t i = 0; i < (closed ? std::max<int64_t>(1, steps / 4) : steps); ++i) {
+    next += direction;
+    if (closed) next = (next + steps) % steps;
+    if (next < 0 || next > steps) break;
+    const Canal& canal = curve.canal[next];
+    const double left = way - now.way, step = distance(now.centre, canal.centre),
+                 share = step > left ? left / step : 1;
+    now = {now.centre + share * (canal.centre - now.centre),
+           std::lerp(now.radius, canal.radius, share), now.way + share * step};
+    if (step > left) break;
+  }
+  return now;
+}
+
+// Where the fits begin: the cone that touches the empty balls half a width to either side.
+Canal cone_round(const Curve& curve, bool closed, size_t vertex, double half_width) {
+  const Place before = walk(curve, closed, vertex, -1, half_width),
+              behind = walk(curve, closed, vertex, 1, half_width);
+  const Vec3 along = behind.centre - before.centre;
+  const double size = length(along), growth = behind.radius - before.radius;
+  Canal cone = curve.canal[vertex];
+  cone.tangent = normalized(along);
+  cone.slope = size > 0 ? std::clamp(growth / size, -kSteepest, kSteepest) : 0;
+  return cone;
+}
+
+// The canal at a vertex with the bend of the curve there: how far the middle of two places, half a
+// width to either side, is from it. A fit could tell it, too, but under noise so badly that inside
+// the bend the canal would touch no ball. Near an end, as much of that as there is.
+Canal bent(const Curve& curve, bool closed, size_t vertex, double half_width) {
+  double way = half_width;
+  for (const int direction : {-1, 1}) way = walk(curve, closed, vertex, direction, way).way;
+  const Place before = walk(curve, closed, vertex, -1, way),
+              behind = walk(curve, closed, vertex, 1, way);
+  Canal canal = curve.canal[vertex];
+  canal.bend = 0.5 * (before.centre + behind.centre) - canal.centre;
+  return canal;
+}
+
+// Whether another fit would change next to nothing: the last one did not move the canal much, and
+// that it took the axis for straight tells little, across it and where the ball touches that the
+// samples across it belong to, R R' farther on.
+bool is_settled(const Canal& canal, double moved, double half_width) {
+  const double on = canal.radius * canal.slope / half_width, bend = length(canal.bend);
+  return canal.trust == 0 || (moved < kSettled * canal.radius &&
+                              bend * (on * on + bend / canal.radius) < kStraight * canal.radius);
 }
 
 struct OnCurve {
@@ -139,55 +179,71 @@ std::vector<OnCurve> to_fit(const std::vector<Chain>& chains, const std::vector<
   return all;
 }
 
-// Where the samples do not tell the radius, it is that of the empty ball.
-Canal fitted(Canal canal, const PointTree& samples, double half_width) {
-  canal.radius = samples.nearest(canal.centre).distance;
-  for (int fit = 0; fit < kFits; ++fit) {
-    const Canal before = canal;
-    canal = fit_canal(samples, before, half_width);
-    const double change = distance(canal.centre, before.centre) + distance(canal.bend, before.bend);
-    if (change < kSettled * canal.radius) break;
-  }
-  const double empty = samples.nearest(canal.centre).distance;
-  canal.radius = canal.trust > 0 ? std::lerp(empty, radius_of_ball(canal), canal.trust) : empty;
-  return canal;
-}
+// Fits canals at vertices of curves, all of them once and again where that helps.
+class Fitting {
+ public:
+  Fitting(const std::vector<Chain>& chains, std::vector<Curve>& curves, const PointTree& samples)
+      : chains_(chains),
+        curves_(curves),
+        samples_(samples),
+        vertices_(to_fit(chains, curves)),
+        found_(vertices_.size()),
+        moved_(vertices_.size()) {}
 
-// Along the curve from one of its vertices, `way` on or up to its end, of a closed curve a quarter.
-struct Walk {
-  Vec3 place;
-  double way = 0;  // that was gone
+  void fit(const Run& run) {
+    for (int fit = 0; fit < kFits; ++fit) {
+      for_all(run, [&](int64_t i) { found_[i] = fit == 0 ? first(i) : next(i); });
+    }
+    for_all(run, [&](int64_t i) { found_[i] = finished(i); });
+  }
+
+ private:
+  // New canals are seen only when all of them are there.
+  template <class Function>
+  void for_all(const Run& run, const Function& function) {
+    parallel_for(static_cast<int64_t>(vertices_.size()), run, function, kFewVertices);
+    for (size_t i = 0; i < vertices_.size(); ++i) {
+      curves_[vertices_[i].curve].canal[vertices_[i].vertex] = found_[i];
+    }
+  }
+
+  Canal first(int64_t i) {
+    const auto& [c, k] = vertices_[i];
+    return stepped(i, cone_round(curves_[c], chains_[c].closed, k, half_width(i)));
+  }
+
+  Canal next(int64_t i) {
+    const auto& [c, k] = vertices_[i];
+    const Canal from = bent(curves_[c], chains_[c].closed, k, half_width(i));
+    return is_settled(from, moved_[i], half_width(i)) ? from : stepped(i, from);
+  }
+
+  Canal stepped(int64_t i, const Canal& from) {
+    const Canal canal = fit_canal(samples_, from, half_width(i));
+    moved_[i] =
+        distance(canal.centre, from.centre) + std::abs(canal.slope - from.slope) * from.radius;
+    return canal;
+  }
+
+  // Where the samples do not tell the radius, it is that of the empty ball.
+  Canal finished(int64_t i) const {
+    Canal canal = found_[i];
+    const double empty = samples_.nearest(canal.centre).distance;
+    canal.radius = canal.trust > 0 ? std::lerp(empty, canal.radius, canal.trust) : empty;
+    return canal;
+  }
+
+  double half_width(int64_t i) const {
+    return kHalfWidth * curves_[vertices_[i].curve].spacing[vertices_[i].vertex];
+  }
+
+  const std::vector<Chain>& chains_;
+  std::vector<Curve>& curves_;
+  const PointTree& samples_;
+  std::vector<OnCurve> vertices_;
+  std::vector<Canal> found_;
+  std::vector<double> moved_;  // by the last fit
 };
-
-Walk walk(const Curve& curve, bool closed, size_t vertex, int direction, double way) {
-  const auto steps = static_cast<int64_t>(curve.canal.size()) - 1;
-  auto next = static_cast<int64_t>(vertex);
-  Walk walk{curve.canal[vertex].centre};
-  for (int64_t i = 0; i < (closed ? steps / 4 : steps); ++i) {
-    next += direction;
-    if (closed) next = (next + steps) % steps;
-    if (next < 0 || next > steps) break;
-    const Vec3 step = curve.canal[next].centre - walk.place;
-    const double left = way - walk.way, all = length(step);
-    if (all >= left) return {all > 0 ? walk.place + (left / all) * step : walk.place, way};
-    walk = {curve.canal[next].centre, walk.way + all};
-  }
-  return walk;
-}
-
-// From the fitted centre at a vertex to the axis. What the samples show lies across the curve, but
-// touches a ball that is R R' farther on, where R is the radius across and R' its slope. If the
-// axis is bent it has turned away there, and what lies across has its middle k (R R')^2 / 2 outside
-// the bend, k the curvature: as far as the middle of two places of the curve, R R' to either side,
-// lies inside. Near an end, as much of that as there is.
-Vec3 to_axis(const Curve& curve, bool closed, size_t vertex) {
-  const auto& [centre, radius, slope, tangent, bend, trust] = curve.canal[vertex];
-  double way = radius * std::sqrt(1 + slope * slope) * std::abs(slope);
-  for (const int direction : {-1, 1}) way = walk(curve, closed, vertex, direction, way).way;
-  const Vec3 before = walk(curve, closed, vertex, -1, way).place,
-             behind = walk(curve, closed, vertex, 1, way).place;
-  return trust * (0.5 * (before + behind) - centre);
-}
 
 }  // namespace
 
@@ -197,31 +253,7 @@ std::vector<Curve> fit_curves(const std::vector<Chain>& chains, std::span<const 
   parallel_for(
       static_cast<int64_t>(chains.size()), run,
       [&](int64_t c) { curves[c] = divided(chains[c], places, samples); }, 1);
-  const auto vertices = to_fit(chains, curves);
-  std::vector<Canal> found(vertices.size());
-  parallel_for(
-      static_cast<int64_t>(vertices.size()), run,
-      [&](int64_t i) {
-        const auto& [c, k] = vertices[i];
-        Canal canal = curves[c].canal[k];
-        canal.tangent = tangent_at(curves[c], chains[c].closed, k);
-        found[i] = fitted(canal, samples, kHalfWidth * curves[c].spacing[k]);
-      },
-      kFewVertices);
-  const auto bring = [&] {
-    for (size_t i = 0; i < vertices.size(); ++i) {
-      curves[vertices[i].curve].canal[vertices[i].vertex] = found[i];
-    }
-  };
-  bring();
-  parallel_for(
-      static_cast<int64_t>(vertices.size()), run,
-      [&](int64_t i) {
-        const auto& [c, k] = vertices[i];
-        found[i].centre = found[i].centre + to_axis(curves[c], chains[c].closed, k);
-      },
-      kFewVertices);
-  bring();
+  Fitting(chains, curves, samples).fit(run);
   for (size_t c = 0; c < curves.size(); ++c) {
     if (chains[c].closed) curves[c].canal.back() = curves[c].canal.front();
   }
