@@ -96,8 +96,6 @@ def reason(loss: compare.Loss) -> str:
         return "a"
     if solid.parts == "sheets to sharp edges" or theirs["solid"] in ("cylinder", "cone"):
         return "b"
-    if theirs["solid"] == "cyclide":
-        return "h"
     if not solid.sheets:
         return "c" if loss.measure in compare.COVERAGE else "d"
     return "e" if loss.measure in compare.COVERAGE else "f"
