@@ -25,7 +25,7 @@ from mutations import MUTATIONS, Mutation
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "docs/mutations.md"
 MARK = "<!-- The rest is written by tests/mutations/sweep.py. -->\n"
-TARGETS = ("medial_tests", "medial_cost_tests")
+TARGETS = ("medial_tests", "medial_thread_tests", "medial_cost_tests")
 EQUIVALENT, SURVIVED, UNDECIDED = "equivalent", "survived", "not noticed by ctest"
 
 
@@ -104,7 +104,8 @@ class Copy:
         )
         if succeeded:
             return ""
-        failed = re.search(r"^\s*\d+ - (\S+).*\((?:Failed|Timeout|\S.*)\)$", text, re.MULTILINE)
+        failures = text.partition("The following tests FAILED:")[2]  # skipped ones stand before it
+        failed = re.search(r"^\s*\d+ - (\S+)", failures, re.MULTILINE)
         return failed[1] if failed else "?"
 
     def noticed_by_python(self, files: tuple[str, ...]) -> str:

@@ -164,7 +164,7 @@ def test_a_corner_that_no_number_holds(folder, run):  # noqa: F811
     Path("huge.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 99999999999999999999 1 2\n")
     code, reports, _ = run("huge.obj", "last.xyz", "out/")
     assert code == cli.INPUT and [r["status"] for r in reports] == ["failed", "done"]
-    assert "Expected corners from 0 to 2" in reports[0]["error"]
+    assert "after 'f' in line 4 of 'huge.obj', found '999999" in reports[0]["error"]
 
 
 def test_a_report_that_cannot_be_written(folder, run):  # noqa: F811

@@ -74,8 +74,8 @@ def _three(words: list[str]) -> list[float]:
 
 
 def _corner(word: str, points: int) -> int:
-    """'7/2/3' is the seventh point, '-1' the last one so far; what no point can be is the one before the first."""
+    """'7/2/3' is the seventh point, '-1' the last one so far."""
     corner = int(word.partition("/")[0])
     if abs(corner) > _MOST:
-        return -1
+        raise ValueError
     return corner - 1 if corner > 0 else points + corner if corner < 0 else -1
