@@ -119,6 +119,8 @@ def compute_axis(
         side=settings.side,
         levels=form is not Form.PUBLISHED,
     )
+    if form is Form.CURVE:
+        limit = limit.used(output="")  # a curve is small, whatever it is written to
     progress.until(_ANALYSIS if form is not Form.PUBLISHED else 1.0)
     chosen = choose_samples(shape, settings, progress, limit)
     progress.until(1.0)
