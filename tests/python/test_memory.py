@@ -22,7 +22,15 @@ from medial_axis.core.machine import cache, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
 from medial_axis.core.machine.memory_limit import MemoryLimit, Use, memory_needed
-from medial_axis.core.settings import MEGABYTE, OPTIONS, AboveLimit, SamplingMode, Settings, Side
+from medial_axis.core.settings import (
+    MEGABYTE,
+    OPTIONS,
+    AboveLimit,
+    Method,
+    SamplingMode,
+    Settings,
+    Side,
+)
 from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)
@@ -493,7 +501,7 @@ native.load()
 peak = lambda: 1024 * int(re.search(r"VmHWM:\\s+(\\d+)", open("/proc/self/status").read())[1])
 before = peak()
 code = cli.main([sys.argv[2], sys.argv[3], "--sampling", "vertices", "--side", sys.argv[4],
-    "--form", sys.argv[5], "--quiet"])
+    "--form", sys.argv[5], "--method", sys.argv[6], "--quiet"])
 print(code, peak() - before)
 """
 
@@ -501,15 +509,22 @@ print(code, peak() - before)
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="kilobytes are those of Linux")
 @pytest.mark.parametrize(
-    ("form", "suffix", "side"),
+    ("form", "suffix", "side", "method"),
     [
-        *[("published", suffix, side) for suffix in (".npz", ".ply", ".ma") for side in SIDES],
-        ("published", ".ma", "outer"),
-        *[("clean", suffix, "inner") for suffix in (".npz", ".ma")],
+        *[
+            ("published", suffix, side, "medial")
+            for suffix in (".npz", ".ply", ".ma")
+            for side in SIDES
+        ],
+        ("published", ".ma", "outer", "medial"),
+        *[("clean", suffix, "inner", "medial") for suffix in (".npz", ".ma")],
+        ("curve", ".ma", "inner", "medial"),
+        ("published", ".ma", "inner", "poles"),
+        *[("published", ".ma", side, "power-shape") for side in SIDES],
     ],
 )
 @pytest.mark.parametrize("faces", [False, True], ids=["bare", "surface"])
-def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side):
+def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side, method):
     """Within 15 %, on a shape without symmetry."""
     shape = ball(rings=316)
     sphere = shape.points / np.linalg.norm(shape.points, axis=1)[:, None]
@@ -518,9 +533,15 @@ def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side):
     if not faces:
         del arrays["triangles"]
     np.savez(tmp_path / "in.npz", **arrays)
-    words = [os.path.dirname(__file__), tmp_path / "in.npz", tmp_path / f"out{suffix}", side, form]
-    command = [sys.executable, "-c", PEAK, *map(str, words)]
+    paths = [os.path.dirname(__file__), tmp_path / "in.npz", tmp_path / f"out{suffix}"]
+    command = [sys.executable, "-c", PEAK, *map(str, paths), side, form, method]
     said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
-    use = Use(faces, Side[side.upper()], levels=form != "published", output=suffix)
+    use = Use(
+        faces,
+        Side[side.upper()],
+        levels=form != "published",
+        method=Method[method.upper().replace("-", "_")],
+        output="" if form == "curve" else suffix,
+    )
     told = memory_needed(len(shape.points), use)
     assert said[-2] == "0" and int(said[-1]) == pytest.approx(told, rel=0.15)

@@ -118,6 +118,7 @@ def compute_axis(
         faces=len(shape.triangles) > 0,
         side=settings.side,
         levels=form is not Form.PUBLISHED,
+        method=settings.method,
     )
     if form is Form.CURVE:
         limit = limit.used(output="")  # a curve is small, whatever it is written to
