@@ -509,21 +509,22 @@ print(code, peak() - before)
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="kilobytes are those of Linux")
 @pytest.mark.parametrize(
-    ("form", "suffix", "side", "method"),
+    ("faces", "form", "suffix", "side", "method"),
     [
         *[
-            ("published", suffix, side, "medial")
+            (faces, "published", suffix, side, "medial")
+            for faces in (False, True)
             for suffix in (".npz", ".ply", ".ma")
             for side in SIDES
         ],
-        ("published", ".ma", "outer", "medial"),
-        *[("clean", suffix, "inner", "medial") for suffix in (".npz", ".ma")],
-        ("curve", ".ma", "inner", "medial"),
-        ("published", ".ma", "inner", "poles"),
-        *[("published", ".ma", side, "power-shape") for side in SIDES],
+        *[(faces, "published", ".ma", "outer", "medial") for faces in (False, True)],
+        *[(faces, "clean", ".ma", "inner", "medial") for faces in (False, True)],
+        (True, "clean", ".npz", "inner", "medial"),
+        (True, "curve", ".ma", "inner", "medial"),
+        (False, "published", ".ma", "inner", "poles"),
+        *[(False, "published", ".ma", side, "power-shape") for side in SIDES],
     ],
 )
-@pytest.mark.parametrize("faces", [False, True], ids=["bare", "surface"])
 def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side, method):
     """Within 15 %, on a shape without symmetry."""
     shape = ball(rings=316)
