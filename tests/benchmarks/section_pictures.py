@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The drawings of the stage pages, as SVG: samples, Delaunay and Voronoi, inside and outside, the selection.
+"""The drawings of the stage pages, as SVG: samples, Delaunay and Voronoi, inside and outside, the selection,
+labels of poles.
 
     python3 tests/benchmarks/section_pictures.py [--output docs/pictures]
 
@@ -321,6 +322,42 @@ def cut_page(points, middle: float):
     return (np.asarray(points) - (0, CENTRE)) * (165, -165) + (middle, 180)
 
 
+# --- labels of poles
+
+
+def labels() -> str:
+    points = SHAPES["shell"].sample(6000, 0)
+    parts = []
+    kinds = ((medial.SidesFrom.TIGHT_COCONE, "Tight Cocone"), (medial.SidesFrom.POLES, "Labels"))
+    for middle, (kind, name) in zip((200, 560), kinds, strict=True):
+        analysis = medial.MedialAnalysis(points, sides=kind)
+        parts.append(text(middle, 30, name, INK, "middle", size=15))
+        for side, colour in ((medial.Side.OUTER, BLUE), (medial.Side.INNER, RED)):
+            found = slab(analysis.poles(side).vertices, 0.08)
+            parts += [dot(p, colour, 2.6) for p in shell_page(found, middle)]
+        parts += [dot(p, INK, 1.6) for p in shell_page(slab(points, 0.03), middle)]
+    legend = [
+        (INK, "samples near the section of a thin shell with a cavity"),
+        (RED, "poles inside: by Tight Cocone the cavity's are among them"),
+        (
+            BLUE,
+            "poles outside: the labels find those of the cavity, which no walk from outside reaches",
+        ),
+    ]
+    return picture("Sides of the poles of a shell", 420, parts, legend)
+
+
+def slab(points, width: float):
+    """Those near the plane y = 0 and not far from the shell."""
+    points = np.asarray(points)
+    near = np.abs(points[:, 1]) < width
+    return points[near & (np.abs(points[:, 0]) < 1.15) & (np.abs(points[:, 2]) < 0.85)][:, [0, 2]]
+
+
+def shell_page(points, middle: float):
+    return points * (145, -145) + (middle, 185)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     default = Path(__file__).resolve().parents[2] / "docs" / "pictures"
@@ -331,6 +368,7 @@ def main() -> None:
         ("delaunay", delaunay),
         ("inside", sides),
         ("selection", selection),
+        ("labels", labels),
     )
     for name, draw in drawings:
         (output / f"stage_{name}.svg").write_text(draw(), encoding="utf-8")

@@ -16,7 +16,13 @@ PICTURES = ROOT / "docs" / "pictures"
 NAMES = {
     "algorithm_pictures": ("cell", "theta_rho", "peeling"),
     "stage_pictures": ("stage_fringe", "stage_fire", "stage_wires"),
-    "section_pictures": ("stage_sampling", "stage_delaunay", "stage_inside", "stage_selection"),
+    "section_pictures": (
+        "stage_sampling",
+        "stage_delaunay",
+        "stage_inside",
+        "stage_selection",
+        "stage_labels",
+    ),
 }
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 # Another processor's last bit may turn a rounded coordinate, and the smoothed ends of a wire a little more.
