@@ -42,10 +42,10 @@ from .core.files.write import export_axis
 from .core.files.write_balls import export_balls
 from .core.machine.progress import Progress
 from .core.settings import (
+    ALL_OPTIONS,
     ANALYSED,
     BALL_OPTIONS,
     OPTIONS,
-    RIVAL_OPTIONS,
     SAMPLING_OPTIONS,
     BallSettings,
     Choice,
@@ -102,7 +102,6 @@ __all__ = [
 
 # What selects facets of an analysis that is there.
 _THRESHOLDS = [name for name in OPTIONS if name not in (*ANALYSED, *SAMPLING_OPTIONS)] + ["length"]
-_ALL = {**OPTIONS, **RIVAL_OPTIONS}
 
 
 def compute(
@@ -138,7 +137,7 @@ def compute(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    wanted = Settings(**_checked(settings, list(_ALL)))
+    wanted = Settings(**_checked(settings, list(ALL_OPTIONS)))
     return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
 
 
@@ -364,11 +363,11 @@ def _checked(given: dict[str, Any], names: list[str]) -> dict[str, Any]:
     """What `Settings` takes, of what a caller gave."""
     unknown = next((name for name in given if name not in names), None)
     if unknown is not None:
-        what = "; compute again for others" if unknown in _ALL else ""
+        what = "; compute again for others" if unknown in ALL_OPTIONS else ""
         raise InvalidInputError(
             f"Expected settings among {', '.join(names)}, found '{unknown}'{what}"
         )
-    return {name: _value(value, name, _ALL[name]) for name, value in given.items()}
+    return {name: _value(value, name, ALL_OPTIONS[name]) for name, value in given.items()}
 
 
 def _value(value: Any, name: str, option: Any) -> Any:

@@ -419,6 +419,7 @@ RIVAL_OPTIONS: dict[str, Any] = {
         unit="%",
     ),
 }
+ALL_OPTIONS: dict[str, Any] = {**OPTIONS, **RIVAL_OPTIONS}  # of Settings
 
 # Options of a machine and not of a result; in Blender they stand in the preferences.
 LIMITS: dict[str, Any] = {
@@ -641,7 +642,7 @@ class Settings:
         return replace(self, side=Side.INNER) if self.side is Side.AUTOMATIC else self
 
     def __post_init__(self) -> None:
-        check_ranges(self, {**OPTIONS, **RIVAL_OPTIONS})
+        check_ranges(self, ALL_OPTIONS)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..machine.memory_limit import MemoryLimit
 from ..settings import (
+    ALL_OPTIONS,
     BALL_OPTIONS,
     LIMITS,
     OPTIONS,
@@ -29,7 +30,6 @@ from ..settings import (
 _UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB", "length": "LENGTH"}
 # Of the method only what is measured depends on: thresholds do not change it.
 _MEASURED = ("sides", "sampling", *SAMPLING_OPTIONS)
-_ALL = {**OPTIONS, **RIVAL_OPTIONS}
 
 
 def add_options(parser: argparse._ArgumentGroup) -> None:
@@ -102,7 +102,7 @@ def settings_from(words: argparse.Namespace) -> Settings:
     InvalidInputError
         A number out of its range.
     """
-    return Settings(**_given(words, _ALL))
+    return Settings(**_given(words, ALL_OPTIONS))
 
 
 def thickness_from(words: argparse.Namespace) -> ThicknessSettings:
@@ -156,7 +156,7 @@ def sampling_from(words: argparse.Namespace) -> Settings:
 
 def as_words(settings: Settings) -> dict[str, str | float | bool]:
     """{option: value} as one would write it on the command line."""
-    return {name: _outward(option, getattr(settings, name)) for name, option in _ALL.items()}
+    return {name: _outward(option, getattr(settings, name)) for name, option in ALL_OPTIONS.items()}
 
 
 def thickness_as_words(wanted: ThicknessSettings) -> dict[str, str | float | bool]:
