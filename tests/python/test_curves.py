@@ -17,8 +17,8 @@ CURVE = {"sheet": math.inf}
 # (shape, n, noise in spacings) -> distances of the vertices to the axis: mean, largest; of the middles of the wires:
 # largest, None where not measured; how far the radius is off: largest
 BARS = {
-    ("torus", 2000, 0.0): (5.3e-5, 1.6e-4, 2.0e-4, 9.6e-5),
-    ("torus", 8000, 0.0): (8.9e-6, 2.4e-5, 4.2e-5, 1.8e-5),
+    ("torus", 2000, 0.0): (2.7e-5, 5.0e-5, 2.0e-4, 2.1e-5),
+    ("torus", 8000, 0.0): (1.7e-6, 3.0e-6, 4.2e-5, 1.2e-6),
     ("torus", 20000, 0.0): (2.7e-6, 8.4e-6, 1.8e-5, 5.9e-6),
     ("torus", 8000, 0.1): (1.4e-3, 4.2e-3, 4.2e-3, 2.1e-3),
     ("torus", 2000, 0.1): (4.2e-3, 9.0e-3, None, 6.8e-3),
@@ -27,8 +27,8 @@ BARS = {
     ("capsule", 20000, 0.0): (6e-8, 6.5e-6, 6.5e-6, 2.9e-5),
     ("capsule", 8000, 0.1): (6.5e-4, 1.7e-3, None, 1.3e-3),
     ("capsule", 2000, 0.1): (1.5e-3, 3.6e-3, None, 3.2e-3),
-    ("knot", 2000, 0.0): (1.3e-4, 8.1e-4, 9.2e-4, 5.1e-4),
-    ("knot", 8000, 0.0): (1.1e-5, 7.7e-5, 1.1e-4, 4.5e-5),
+    ("knot", 2000, 0.0): (5.3e-5, 2.4e-4, 9.2e-4, 1.3e-4),
+    ("knot", 8000, 0.0): (3.6e-6, 1.8e-5, 1.1e-4, 9.0e-6),
     ("knot", 20000, 0.0): (3.5e-6, 2.3e-5, 3.5e-5, 1.3e-5),
     ("knot", 8000, 0.1): (2.3e-3, 6.6e-3, 6.6e-3, 4.2e-3),
     ("knot", 2000, 0.1): (7.4e-3, 2.6e-2, None, 4.4e-2),
