@@ -419,7 +419,7 @@ RIVAL_OPTIONS: dict[str, Any] = {
         unit="%",
     ),
 }
-ALL_OPTIONS: dict[str, Any] = {**OPTIONS, **RIVAL_OPTIONS}  # of Settings
+ALL_OPTIONS = {**OPTIONS, **RIVAL_OPTIONS}  # of Settings
 
 # Options of a machine and not of a result; in Blender they stand in the preferences.
 LIMITS: dict[str, Any] = {
