@@ -39,6 +39,16 @@ def reduced_of(source: bpy.types.Object) -> bpy.types.Object | None:
     return output_of(source, is_reduced)
 
 
+def check_reduced_writable(result: bpy.types.Object) -> None:
+    """Check that `write_reduced` can change the object that there is.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+    check_mode(reduced_of(source_of(result) or result))
+
+
 def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> bpy.types.Object:
     """Make the small medial mesh beside a result, or update the one there is; all or nothing.
 

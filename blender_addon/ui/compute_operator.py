@@ -32,7 +32,8 @@ class ComputeOperator(FromSelection):
     A subclass names its `product` and has three steps: `check_writable(thing)` raises MedialAxisError when the
     product of a source cannot be written now; `work(shape)` gives the function that a task calls with
     its progress; `write(thing, value, frame)` makes an object of what that returned, or None when
-    there is nothing to make. `summary(value)` and `value.warnings` are for people.
+    there is nothing to make. What does not compute from a shape has a `read` of its own.
+    `summary(value)` and `value.warnings` are for people.
 
     A script has what was made selected, as Blender's own operators do; a person, who runs it in a window, keeps the
     source selected, for the outline of a selected result hides it.
@@ -92,6 +93,10 @@ class ComputeOperator(FromSelection):
         """The objects to compute from."""
         return sources(context)
 
+    def read(self, thing, depsgraph):
+        """What `work` takes; it has the `frame` that `write` gets."""
+        return read_object(thing, depsgraph)
+
     def _stop_watching(self, context):
         context.window_manager.event_timer_remove(self._timer)
         current_job.finish(self._job)
@@ -120,7 +125,7 @@ class ComputeOperator(FromSelection):
         for thing in self.sources(context):
             try:
                 self.check_writable(thing)
-                shape = read_object(thing, depsgraph)
+                shape = self.read(thing, depsgraph)
                 tasks.append(Task(thing.name, self.work(shape)))
             except MedialAxisError as error:
                 self._tell(context, "ERROR", f"'{thing.name}': {error}")

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reduce to Few Vertices: a small medial mesh for games and animation."""
 
+import time
+from dataclasses import dataclass
+
 import bpy
 
 from ..bridge.axis_object import is_result, result_of
@@ -8,10 +11,33 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import read_axis
 from ..bridge.read_object import read_object
 from ..bridge.rebuilt_object import in_frame_of, is_rebuilt
-from ..bridge.reduced_object import is_reduced, write_reduced
+from ..bridge.reduced_object import check_reduced_writable, is_reduced, write_reduced
+from ..core.axis.medial_axis import MedialAxis
 from ..core.axis.reduce import reduce_axis, reduced_difference
-from ..core.errors import MedialAxisError
+from ..core.axis.shape import Shape
+from ..core.axis.solid_difference import PointDifference
+from . import current_job
+from .compute_operator import ComputeOperator
 from .translation import say
+
+
+@dataclass(frozen=True, eq=False)
+class _Whole:
+    """What is reduced: an axis, and the faces that it was computed of in its frame, where there are some."""
+
+    axis: MedialAxis
+    shape: Shape | None
+    frame: None = None
+
+
+@dataclass(frozen=True, eq=False)
+class _Reduced:
+    """The small axis, and how far its solid is from the faces."""
+
+    axis: MedialAxis
+    difference: PointDifference | None
+    seconds: float
+    warnings: tuple[str, ...] = ()
 
 
 def _axis(context):
@@ -26,7 +52,7 @@ def _axis(context):
     return thing if is_result(thing) else result_of(thing)
 
 
-class OBJECT_OT_medial_axis_reduce(bpy.types.Operator):
+class OBJECT_OT_medial_axis_reduce(ComputeOperator, bpy.types.Operator):
     bl_idname = "object.medial_axis_reduce"
     bl_label = "Reduce to Few Vertices"
     bl_description = (
@@ -34,6 +60,10 @@ class OBJECT_OT_medial_axis_reduce(bpy.types.Operator):
         "with the same topology and nearly the same solid"
     )
     bl_options = {"REGISTER", "UNDO"}
+
+    product = "small medial mesh"
+    parent = False  # it lies where its axis lies
+    check_writable = staticmethod(check_reduced_writable)
 
     vertices: bpy.props.IntProperty(
         name="Vertices",
@@ -45,46 +75,52 @@ class OBJECT_OT_medial_axis_reduce(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        if _axis(context) is None:
-            cls.poll_message_set(
-                say("Select a medial axis, or an object whose medial axis was computed before")
-            )
-            return False
-        return True
+        reason = current_job.obstacle()
+        if not reason and _axis(context) is None:
+            reason = "Select a medial axis, or an object whose medial axis was computed before"
+        if reason:
+            cls.poll_message_set(say(reason))
+        return not reason
 
-    def execute(self, context):
+    def sources(self, context):
         context.view_layer.update()
-        result = _axis(context)
-        try:
-            axis = reduce_axis(read_axis(result), self.vertices)
-            made = write_reduced(result, axis, self.vertices)
-            found = _difference(context, result, axis)
-        except MedialAxisError as error:
-            self.report({"ERROR"}, say(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, say(_sentence(made.name, axis, found)))
-        return {"FINISHED"}
+        return [_axis(context)]
+
+    def read(self, thing, depsgraph):
+        return _Whole(read_axis(thing), _faces(thing, depsgraph))
+
+    def work(self, whole):
+        count = self.vertices
+        return lambda progress: _reduced(whole, count, progress)
+
+    def write(self, thing, found, _frame):
+        return write_reduced(thing, found.axis, self.vertices)
+
+    def summary(self, found):
+        axis, away = found.axis, found.difference
+        known = f"{len(axis.vertices):,} vertices, {axis.facets:,} triangles, edges alone {len(axis.edges):,}"
+        if away is None:
+            return known
+        return (
+            f"{known}; {100 * away.mean:.3f} % of the diagonal away (mean), at most "
+            f"{100 * away.largest:.2f} %"
+        )
 
 
-def _difference(context, result, axis):
-    """How far the solid is from the object that the axis was computed of; None where that has no faces, or is gone."""
+def _faces(result, depsgraph):
+    """The object that an axis was computed of, in the frame of the axis; None where that has no faces, or is gone."""
     source = source_of(result)
     if is_gone(source):
         return None
-    shape = read_object(source, context.evaluated_depsgraph_get())
-    if not len(shape.triangles):
-        return None
-    return reduced_difference(axis, in_frame_of(shape, result))
+    shape = read_object(source, depsgraph)
+    return in_frame_of(shape, result) if len(shape.triangles) else None
 
 
-def _sentence(name, axis, found):
-    known = f"'{name}': {len(axis.vertices):,} vertices, {axis.facets:,} triangles, edges alone {len(axis.edges):,}"
-    if found is None:
-        return known
-    return (
-        f"{known}; {100 * found.mean:.3f} % of the diagonal away (mean), at most "
-        f"{100 * found.largest:.2f} %"
-    )
+def _reduced(whole, vertices, progress):
+    start = time.perf_counter()
+    axis = reduce_axis(whole.axis, vertices, progress)
+    away = None if whole.shape is None else reduced_difference(axis, whole.shape)
+    return _Reduced(axis, away, time.perf_counter() - start)
 
 
 def _menu(self, _context):

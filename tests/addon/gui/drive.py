@@ -32,6 +32,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "cancel_surface_with_escape": True,
     "cancel_with_escape": True,
     "cancel_with_button": True,
+    "reduce_with_escape": True,
     "source_deleted": True,
     "undo_while_running": True,
     "undo_storm": True,

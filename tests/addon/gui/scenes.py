@@ -637,6 +637,40 @@ def scene_cancel_with_escape():
     assert "cancelled" in bpy.context.scene.medial_axis.note
 
 
+def scene_reduce_with_escape():
+    """A small medial mesh takes seconds: Blender goes on, Escape ends it, and once more it comes."""
+    source = monkey()
+    source.modifiers["Subdivision"].levels = 2
+    assert bpy.ops.object.medial_axis(form="CLEAN", side="INNER") == {"FINISHED"}
+    before = len(bpy.data.objects)
+    start_reducing()
+    gaps, last = [], time.monotonic()
+    while len(gaps) < 10:
+        yield 0.05
+        gaps.append(time.monotonic() - last)
+        last = time.monotonic()
+    assert job() is not None, "the run was too short to be cancelled"
+    assert max(gaps) < patience(2.0), f"Blender stood still for {max(gaps):.2f} s"
+    look("running")
+    yield from key("Escape")
+    yield no_job
+    assert len(bpy.data.objects) == before
+    assert "cancelled" in bpy.context.scene.medial_axis.note
+    start_reducing()
+    yield no_job
+    assert len(bpy.data.objects) == before + 1
+    yield patience(1.0)
+    look("reduced")
+
+
+def start_reducing():
+    area = viewport()
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window(), area=area, region=region):
+        started = bpy.ops.object.medial_axis_reduce("INVOKE_DEFAULT", vertices=100)
+    assert started == {"RUNNING_MODAL"}
+
+
 def scene_cancel_with_button():
     cloud()
     yield from start_long_run()
