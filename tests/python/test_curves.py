@@ -101,7 +101,7 @@ def test_bent_tube_of_changing_radius_has_its_axis(medial, n, noise, mean, large
     assert hierarchy.betti == level.betti == (1, 1, 0) and len(level.generators) == 0
     off = shape.axis_distance(level.vertices)
     assert off.mean() < mean and off.max() < largest
-    assert np.abs(level.radius - shape.axis_radius(level.vertices)).max() < largest
+    assert np.abs(level.radius - shape.axis_radius(level.vertices)).max() < 0.6 * largest
 
 
 @pytest.mark.parametrize("n, mean, largest", [(2000, 2e-6, 4e-5), (8000, 5e-7, 2.5e-5)])

@@ -518,8 +518,11 @@ print(code, peak() - before)
             for side in SIDES
         ],
         *[(faces, "published", ".ma", "outer", "medial") for faces in (False, True)],
-        *[(faces, "clean", ".ma", "inner", "medial") for faces in (False, True)],
-        (True, "clean", ".npz", "inner", "medial"),
+        *[
+            (faces, "clean", suffix, "inner", "medial")
+            for faces in (False, True)
+            for suffix in (".npz", ".ma")
+        ],
         (True, "curve", ".ma", "inner", "medial"),
         (False, "published", ".ma", "inner", "poles"),
         *[(False, "published", ".ma", side, "power-shape") for side in SIDES],

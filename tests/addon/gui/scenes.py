@@ -612,16 +612,21 @@ def scene_cancel_surface_with_escape():
     assert "cancelled" in bpy.context.scene.medial_axis.note
 
 
-def scene_cancel_with_escape():
-    cloud()
-    yield from start_long_run()
+def blender_goes_on(steps):
+    """While a job runs, that is not over after so many steps."""
     gaps, last = [], time.monotonic()
-    for _ in range(20):
+    for _ in range(steps):
         yield 0.05
         gaps.append(time.monotonic() - last)
         last = time.monotonic()
     assert job() is not None, "the run was too short to be cancelled"
     assert max(gaps) < patience(2.0), f"Blender stood still for {max(gaps):.2f} s"
+
+
+def scene_cancel_with_escape():
+    cloud()
+    yield from start_long_run()
+    yield from blender_goes_on(20)
     look("running")
     with bpy.context.temp_override(window=window(), area=viewport()):
         assert not bpy.ops.object.medial_axis.poll(), "a second run must be refused"
@@ -644,13 +649,7 @@ def scene_reduce_with_escape():
     assert bpy.ops.object.medial_axis(form="CLEAN", side="INNER") == {"FINISHED"}
     before = len(bpy.data.objects)
     start_reducing()
-    gaps, last = [], time.monotonic()
-    while len(gaps) < 10:
-        yield 0.05
-        gaps.append(time.monotonic() - last)
-        last = time.monotonic()
-    assert job() is not None, "the run was too short to be cancelled"
-    assert max(gaps) < patience(2.0), f"Blender stood still for {max(gaps):.2f} s"
+    yield from blender_goes_on(10)
     look("running")
     yield from key("Escape")
     yield no_job
