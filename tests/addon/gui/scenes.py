@@ -96,6 +96,13 @@ def drag(start, end):
     yield 0.5
 
 
+def in_viewport():
+    """Operators run as if from the viewport."""
+    area = viewport()
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    return bpy.context.temp_override(window=window(), area=area, region=region)
+
+
 def key(name):
     """Press a key with the mouse over the viewport, left of its middle."""
     area = viewport()
@@ -382,9 +389,7 @@ def scene_first_glance():
 
 
 def show_colours():
-    area = viewport()
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window(), area=area, region=region):
+    with in_viewport():
         assert bpy.ops.view3d.medial_axis_show_colours() == {"FINISHED"}
 
 
@@ -592,9 +597,7 @@ def report_exists():
 
 
 def frame_selected():
-    area = viewport()
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window(), area=area, region=region):
+    with in_viewport():
         bpy.ops.view3d.view_selected()
 
 
@@ -663,9 +666,7 @@ def scene_reduce_with_escape():
 
 
 def start_reducing():
-    area = viewport()
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window(), area=area, region=region):
+    with in_viewport():
         started = bpy.ops.object.medial_axis_reduce("INVOKE_DEFAULT", vertices=100)
     assert started == {"RUNNING_MODAL"}
 
@@ -840,8 +841,7 @@ def scene_edit_mode():
 
 
 def start_sequence(folder):
-    region = next(region for region in viewport().regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window(), area=viewport(), region=region):
+    with in_viewport():
         begun = bpy.ops.object.medial_axis_sequence("INVOKE_DEFAULT", directory=str(folder))
     assert begun == {"RUNNING_MODAL"}
 
