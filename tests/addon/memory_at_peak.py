@@ -70,9 +70,14 @@ def main():
     Path("/proc/self/clear_refs").write_text("5")
     before = resident("VmRSS")
     bpy.ops.object.medial_axis("EXEC_DEFAULT", sampling="VERTICES", side=side, form=form)
-    output = "" if form == "CURVE" else memory.OBJECT
-    use = memory.Use(faces == "faces", settings.Side[side], form != "PUBLISHED", output)
-    print("PEAK", resident("VmHWM") - before, memory.memory_needed(points, use))
+    peak = resident("VmHWM") - before
+    use = memory.Use(
+        faces=faces == "faces",
+        side=settings.Side[side],
+        levels=form != "PUBLISHED",
+        output="" if form == "CURVE" else memory.OBJECT,
+    )
+    print("PEAK", peak, memory.memory_needed(points, use))
 
 
 main()

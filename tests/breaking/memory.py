@@ -38,7 +38,8 @@ def told(random: Random, folder: Path) -> None:
     assert done.returncode == 0, done.stderr[-300:]
     code, found = map(int, done.stdout.split()[-2:])
     said = memory_needed(
-        len(points), Use(faces, Side[side.upper()], levels=form != "published", output=suffix)
+        len(points),
+        Use(faces=faces, side=Side[side.upper()], levels=form != "published", output=suffix),
     )
     at = f"{len(points):,} points, {faces=}, {side}, {form}, {suffix}: {found / said:.3f} of {said:,}"
     print(f"memory {at}", flush=True)

@@ -541,8 +541,8 @@ def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side, method):
     command = [sys.executable, "-c", PEAK, *map(str, paths), side, form, method]
     said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
     use = Use(
-        faces,
-        Side[side.upper()],
+        faces=faces,
+        side=Side[side.upper()],
         levels=form != "published",
         method=Method[method.upper().replace("-", "_")],
         output="" if form == "curve" else suffix,

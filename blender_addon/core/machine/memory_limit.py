@@ -19,7 +19,7 @@ _MOST = 1 << 28  # points that one analysis can have
 _DIGITS = 4
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Use:
     """What becomes of an analysis, on which the peak of the memory depends.
 
