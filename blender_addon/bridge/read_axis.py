@@ -14,6 +14,7 @@ from ..core.axis.medial_axis import LevelValues, MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes, level_attributes
 from .axis_object import BETTI, UNBOUNDED, ZERO_AREA, is_result, result_of
+from .mesh_arrays import read_corner_edges, read_edges, read_polygons
 from .output_object import is_gone
 from .reduced_object import is_reduced
 
@@ -37,7 +38,7 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
         An attribute of the table is missing.
     """
     with _readable_mesh(result) as mesh:
-        offsets, corners = _faces(mesh)
+        offsets, corners = read_polygons(mesh)
         positions = np.empty(3 * len(mesh.vertices), np.float32)
         mesh.vertices.foreach_get("co", positions)
         edges, alone = _edges_alone(mesh)
@@ -74,28 +75,11 @@ def _readable_mesh(result: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
         bpy.data.meshes.remove(mesh)
 
 
-def _faces(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """`face_offsets` and `face_vertices` of a mesh."""
-    starts, totals = (np.empty(len(mesh.polygons), np.int32) for _ in range(2))
-    mesh.polygons.foreach_get("loop_start", starts)
-    mesh.polygons.foreach_get("loop_total", totals)
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    offsets = np.zeros(len(totals) + 1, np.int32)
-    np.cumsum(totals, out=offsets[1:])
-    places = np.arange(offsets[-1]) + np.repeat(starts - offsets[:-1], totals)
-    return offsets, corners[places]
-
-
 def _edges_alone(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
     """(w, 2) the ends of the edges without a face, and (w,) which edges these are."""
-    ends = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    of_faces = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("edge_index", of_faces)
     alone = np.ones(len(mesh.edges), bool)
-    alone[of_faces] = False
-    return ends.reshape(-1, 2)[alone], np.flatnonzero(alone)
+    alone[read_corner_edges(mesh)] = False
+    return read_edges(mesh)[alone], np.flatnonzero(alone)
 
 
 def _level(

@@ -20,6 +20,7 @@ from ..core.axis.polygon_triangles import polygon_triangles
 from ..core.axis.shape import Shape
 from ..core.errors import InvalidInputError
 from .attributes import read_normals, read_vectors
+from .mesh_arrays import read_edges, read_polygons
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -181,28 +182,13 @@ def _read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float64]:
 
 def _read_triangles(mesh: bpy.types.Mesh, points: NDArray[np.float64]) -> NDArray[np.int32]:
     """Not Blender's, which differ from version to version, but those of a file with these polygons."""
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    starts, counts = np.empty((2, len(mesh.polygons)), np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
-    mesh.polygons.foreach_get("loop_total", counts)
-    offsets = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
-    # Up to 3.6 polygons need not lie in the order of their corners.
-    places = np.repeat(starts - offsets[:-1], counts) + np.arange(offsets[-1])
-    return polygon_triangles(points, offsets, corners[places])
-
-
-def _read_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
-    """(e, 2). Unsigned, as Blender keeps them, they are copied in one go."""
-    ends = np.empty(2 * len(mesh.edges), np.uint32)
-    mesh.edges.foreach_get("vertices", ends)
-    return ends.view(np.int32).reshape(-1, 2)
+    return polygon_triangles(points, *read_polygons(mesh))
 
 
 def _read_sharp_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32] | None:
     """(e, 2) the edges that are marked sharp; None where there is none."""
     marked = _read_marks(mesh, mesh.edges, "use_edge_sharp", "sharp_edge")
-    return _read_edges(mesh)[marked] if marked.any() else None
+    return read_edges(mesh)[marked] if marked.any() else None
 
 
 def _is_shaded_smooth(mesh: bpy.types.Mesh) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 from ..core.axis.nearness import nearest
 from ..core.errors import InvalidInputError
 from .attributes import set_attribute
+from .mesh_arrays import read_polygons
 from .output_object import check_mode, new_object, output_of, place, remember
 from .read_object import split_transform
 
@@ -141,11 +142,9 @@ def write_parts(source: bpy.types.Object, found: Skeletonization) -> None:
     """Give the faces of a source `ma_part`: the branch of most of their corners, -1 for those of single points."""
     mesh = source.data
     part = found.parts.vertices.branch[rows_of_vertices(source, found.shape)]
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    sizes = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    values = _most_frequent(np.repeat(np.arange(len(sizes)), sizes), part[corners], len(sizes))
+    offsets, corners = read_polygons(mesh)
+    face = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    values = _most_frequent(face, part[corners], len(offsets) - 1)
     set_attribute(mesh, PART, "INT", "FACE", values)
     mesh.update()
 

@@ -20,6 +20,7 @@ from ..core.axis.triangle_faces import TriangleFaces
 from .attributes import as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
 from .material import FLAT
+from .mesh_arrays import read_loop_triangles
 from .output_object import (
     SAMPLED,
     SECONDS,
@@ -140,16 +141,6 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
     _remember_parts(carrier, parts)
 
 
-def own_surface(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """(m, 3) the triangles of a mesh, and (m,) the polygon of each."""
-    mesh.calc_loop_triangles()
-    corners = np.empty(3 * len(mesh.loop_triangles), np.uint32)
-    mesh.loop_triangles.foreach_get("vertices", corners)
-    polygons = np.empty(len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("polygon_index", polygons)
-    return corners.view(np.int32).reshape(-1, 3), polygons
-
-
 def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
     """Whether the vertices and faces of a source are those that were measured, and can be written."""
     if source.type != "MESH" or source.data.library is not None or source.mode != "OBJECT":
@@ -162,7 +153,7 @@ def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
 
 
 def _thin_polygons(mesh: bpy.types.Mesh, parts: ThinParts) -> NDArray[np.bool_]:
-    _, polygons = own_surface(mesh)
+    _, polygons = read_loop_triangles(mesh)
     thin = np.zeros(len(mesh.polygons), bool)
     thin[polygons[parts.patch_of_faces >= 0]] = True
     return thin

@@ -12,7 +12,8 @@ import numpy as np
 
 from ..core.machine.native import own_errors
 from .attributes import read_vectors
-from .thickness_object import AREA, LEAST, MINIMUM, PLACES, THIN, own_surface
+from .mesh_arrays import read_corner_edges, read_corners, read_loop_triangles, read_spans
+from .thickness_object import AREA, LEAST, MINIMUM, PLACES, THIN
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -68,7 +69,7 @@ def _thin(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
 def _connected(
     mesh: bpy.types.Mesh, thin: NDArray[np.bool_], near: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    triangles, polygons = own_surface(mesh)
+    triangles, polygons = read_loop_triangles(mesh)
     some = thin if thin.any() else np.ones(len(thin), bool)
     centres = read_vectors(mesh.polygons, "center")
     away = np.where(some, np.linalg.norm(centres - near, axis=1), np.inf)
@@ -84,18 +85,17 @@ def _connected(
 
 def _set_selection(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
     """Faces, and the edges and vertices that they have, so that any select mode shows the same."""
-    starts, totals = (np.empty(len(mesh.polygons), np.int32) for _ in range(2))
-    mesh.polygons.foreach_get("loop_start", starts)
-    mesh.polygons.foreach_get("loop_total", totals)
+    starts, sizes = read_spans(mesh)
     of_corner = np.empty(len(mesh.loops), bool)
     of_corner[:] = False
-    for start, total in zip(starts[wanted].tolist(), totals[wanted].tolist(), strict=True):
-        of_corner[start : start + total] = True
-    for elements, name in ((mesh.vertices, "vertex_index"), (mesh.edges, "edge_index")):
-        index = np.empty(len(mesh.loops), np.int32)
-        mesh.loops.foreach_get(name, index)
+    for start, size in zip(starts[wanted].tolist(), sizes[wanted].tolist(), strict=True):
+        of_corner[start : start + size] = True
+    for elements, at in (
+        (mesh.vertices, read_corners(mesh)),
+        (mesh.edges, read_corner_edges(mesh)),
+    ):
         flags = np.zeros(len(elements), bool)
-        flags[index[of_corner]] = True
+        flags[at[of_corner]] = True
         elements.foreach_set("select", flags)
     mesh.polygons.foreach_set("select", wanted)
 

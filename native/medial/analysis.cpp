@@ -104,10 +104,20 @@ bool needs_poles(SidesFrom from) {
   return from == SidesFrom::tight_cocone || from == SidesFrom::poles;
 }
 
-// `surface` is that of the solid, `vertices` are its own.
-void find_pockets(Parts& made, std::span<const Vec3> vertices, const Surface& surface,
-                  const Run& run) {
-  made.pockets = pockets(made.samples.points, made.significance.spacing, vertices, surface,
+// Of the surface of the solid, whose vertices are given; made while CGAL inserts points, which
+// leaves the other cores idle. Without other cores it is made when it is asked for. All that it
+// refers to outlives it, for it is waited for where it ends.
+std::shared_future<WindingNumber> winding_number(std::span<const Vec3> vertices,
+                                                 const Surface& surface, std::launch when,
+                                                 const Run& run) {
+  return std::async(when, [vertices, &surface, run] {
+    return WindingNumber(vertices, surface.triangles, surface.boundary, run.progress);
+  });
+}
+
+// `winding` is that of the surface of the solid.
+void find_pockets(Parts& made, const std::shared_future<WindingNumber>& winding, const Run& run) {
+  made.pockets = pockets(made.samples.points, made.significance.spacing, winding,
                          made.triangulation, made.voronoi, made.sides, run);
 }
 
@@ -116,7 +126,8 @@ void take_tight_cocone(Parts& made, TightCocone found, const Csr<int32_t>& incid
   SolidBoundary boundary = solid_boundary(made.triangulation, incident, found.sides, run);
   made.sides = sides_in_solid(made.samples.points, found.sides, boundary.triangles,
                               made.triangulation, made.voronoi, run);
-  find_pockets(made, made.samples.points, {boundary.triangles, {}}, run);
+  const Surface surface{boundary.triangles, {}};
+  find_pockets(made, winding_number(made.samples.points, surface, std::launch::deferred, run), run);
   found.sides = {};
   made.tight_cocone = std::make_shared<WatertightSurface>(
       describe(std::move(found), std::move(boundary), made.samples, run));
@@ -160,13 +171,14 @@ void tell_sides_of_poles(Parts& made, const Csr<int32_t>& incident, bool automat
 }
 
 void tell_sides(Parts& made, const Surface& surface, std::span<const Vec3> vertices,
-                std::span<const Vec3> normals, const Csr<int32_t>& incident, bool automatic,
-                const CoconeOptions& options, const Run& run) {
+                const std::shared_future<WindingNumber>& winding, std::span<const Vec3> normals,
+                const Csr<int32_t>& incident, bool automatic, const CoconeOptions& options,
+                const Run& run) {
   const std::vector<Vec3>& points = made.samples.points;
   if (made.sides_from == SidesFrom::surface) {
-    made.sides =
-        sides_from_surface(points, vertices, surface, made.triangulation, made.voronoi, run);
-    find_pockets(made, vertices, surface, run);
+    made.sides = sides_from_surface(points, vertices, surface, winding.get(), made.triangulation,
+                                    made.voronoi, run);
+    find_pockets(made, winding, run);
   } else if (made.sides_from == SidesFrom::normals) {
     made.sides = sides_from_normals(points, unit_normals(normals, made.samples), made.triangulation,
                                     made.voronoi, run);
@@ -237,6 +249,9 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
   if (options.bounding_sphere) add_bounding_sphere(made.samples);
   const std::vector<Vec3>& points = made.samples.points;
   watch.lap("samples");
+  const bool is_early = made.threads > 1 && made.sides_from == SidesFrom::surface;
+  const auto when = is_early ? std::launch::async | std::launch::deferred : std::launch::deferred;
+  const auto winding = winding_number(corners.points, surface, when, run);
   {
     // CGAL leaves the other cores idle: they have memory ready for the stages that follow.
     std::optional<ArenaToucher> toucher;
@@ -262,8 +277,9 @@ std::unique_ptr<const Parts> analysed(const AnalysisInput& input, const Analysis
         medial::significance(points, made.edges, u, run, options.against, vectors.vector);
     watch.lap("significance");
   }
-  tell_sides(made, surface, corners.points, input.normals.value_or(std::span<const Vec3>()),
-             incident, options.sides == SidesFrom::automatic, options.cocone, run);
+  tell_sides(made, surface, corners.points, winding,
+             input.normals.value_or(std::span<const Vec3>()), incident,
+             options.sides == SidesFrom::automatic, options.cocone, run);
   watch.lap("sides");
   begin_stage(progress, "Inside and outside", 0.99, 1);
   advance(progress, 1);

@@ -280,15 +280,13 @@ py::tuple cocone_parts(const py::object& points, const CoconeOptions* options) {
                         array_of<int32_t>(candidate_rows(stages, found.candidates)));
 }
 
-int64_t open_edges(const py::object& points, const py::object& triangles) {
+int64_t count_open_edges(const py::object& points, const py::object& triangles) {
   const Points rows(points, "points");
   const Triangles faces(triangles);
   const auto row_span = rows.span();
   const auto face_span = faces.span();
   const py::gil_scoped_release release;
-  require_corners(face_span, row_span.size());
-  const Samples samples = distinct_rows(row_span, "point", all_cores());
-  return make_surface(face_span, samples.point_of_row, samples.count(), all_cores()).open_edges();
+  return open_edges(row_span, face_span, all_cores());
 }
 
 py::object betti_of_solid(const py::object& points, const py::object& triangles) {
@@ -421,7 +419,7 @@ void bind_stages(py::module_& m) {
   m.def("power_shape", &shape_of_balls, kPowerShapeDoc, py::arg("centres"), py::arg("radii"),
         py::arg("wanted"), py::kw_only(), py::arg("progress") = nullptr);
   m.def("cocone", &cocone_parts, kCoconeDoc, py::arg("points"), py::arg("options") = py::none());
-  m.def("open_edges", &open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
+  m.def("open_edges", &count_open_edges, kOpenEdgesDoc, py::arg("points"), py::arg("triangles"));
   m.def("solid_betti", &betti_of_solid, kSolidBettiDoc, py::arg("points"), py::arg("triangles"));
   m.def("polygon_edges", &edges_of_polygons, kPolygonEdgesDoc, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));

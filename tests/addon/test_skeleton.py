@@ -157,6 +157,23 @@ def test_parts_on_the_faces_of_the_source():
         assert (part[far] == number).all()
 
 
+@pytest.mark.skipif(
+    bpy.app.version >= (3, 6, 0), reason="polygons lie in the order of their corners"
+)
+def test_parts_of_faces_in_another_order():
+    source = cross()
+    extract(parts=True)
+    before = attribute(source.data, "ma_part")
+    for name in ("loop_start", "loop_total"):
+        values = np.empty(len(source.data.polygons), np.int32)
+        source.data.polygons.foreach_get(name, values)
+        source.data.polygons.foreach_set(name, values[::-1].copy())
+    source.data.update()
+    select(source)
+    extract(parts=True)
+    np.testing.assert_array_equal(attribute(source.data, "ma_part"), before[::-1])
+
+
 def test_parts_are_refused_where_there_are_no_faces():
     bpy.ops.curve.primitive_bezier_circle_add()
     bpy.context.object.data.bevel_depth = 0.2

@@ -71,9 +71,10 @@ TEST_P(CostOf, AnalysisAndExtract) {
   EXPECT_LE(one.beside, most.beside);
   EXPECT_LE(one.allocations, most.allocations);
   EXPECT_LE(one.rings, most.rings);
-  // A second thread needs room for what it works on, and nothing per point.
+  // A second thread needs room for what it works on, and nothing per point. But with one the tree
+  // of the faces is there early, beside what the triangulation takes.
   EXPECT_LE(two.held, 1.02 * one.held);
-  EXPECT_LE(two.beside, 1.1 * one.beside);
+  EXPECT_LE(two.beside, (GetParam().sides == SidesFrom::surface ? 1.2 : 1.1) * one.beside);
   EXPECT_LE(two.allocations, 1.1 * one.allocations);
   EXPECT_EQ(two.rings, one.rings);
   RecordProperty("held_bytes_per_point", std::to_string(one.held));

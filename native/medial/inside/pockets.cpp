@@ -4,8 +4,6 @@
 #include <array>
 #include <unordered_map>
 
-#include "inside/winding_number.h"
-
 namespace medial {
 namespace {
 
@@ -123,7 +121,7 @@ bool is_wide_way(const Vec3& from, const Vec3& to, const WindingNumber& winding)
 }  // namespace
 
 std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const double> spacing,
-                             std::span<const Vec3> vertices, const Surface& surface,
+                             const std::shared_future<WindingNumber>& winding,
                              const Triangulation& t, const Voronoi& voronoi, const CellSides& sides,
                              const Run& run) {
   const auto parts = SmallParts(points, spacing, t, voronoi, sides, run)();
@@ -133,7 +131,6 @@ std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const doubl
     for (const int32_t cell : parts[i]) part_of.emplace(cell, i);
   }
   const CellsAtSample beside = inner_cells_at(parts, t, sides);
-  const WindingNumber winding(vertices, surface.triangles, surface.boundary, run.progress);
   const auto is_pocket = [&](size_t i) {
     std::vector<Way> ways;
     for (const int32_t from : parts[i]) {
@@ -147,7 +144,7 @@ std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const doubl
     }
     std::sort(ways.begin(), ways.end());  // the shortest are the likeliest
     return std::any_of(ways.begin(), ways.end(), [&](const Way& way) {
-      return is_wide_way(voronoi.centre[way.from], voronoi.centre[way.to], winding);
+      return is_wide_way(voronoi.centre[way.from], voronoi.centre[way.to], winding.get());
     });
   };
   std::vector<int32_t> cells;

@@ -3,6 +3,8 @@
 // the rims of openings.
 #pragma once
 
+#include <future>
+
 #include "inside/sides.h"
 
 namespace medial {
@@ -11,11 +13,11 @@ namespace medial {
 // their triangles with two properties: none of its balls is larger than the hole between the
 // samples at it (`spacing` is the radius of the hole round each sample), so that they cannot tell
 // its shape; and from one of its Voronoi vertices a straight way of some width leads through the
-// solid, where the winding number of `surface` exceeds 1/2, to one of a larger part that shares a
-// sample with it. So bodies of their own, however small, and those that touch in an edge, are none.
-// `vertices` are those of the surface.
+// solid, where `winding` exceeds 1/2, to one of a larger part that shares a sample with it. So
+// bodies of their own, however small, and those that touch in an edge, are none. The number is
+// waited for where there are small parts.
 std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const double> spacing,
-                             std::span<const Vec3> vertices, const Surface& surface,
+                             const std::shared_future<WindingNumber>& winding,
                              const Triangulation& triangulation, const Voronoi& voronoi,
                              const CellSides& sides, const Run& run);
 

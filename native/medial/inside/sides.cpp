@@ -5,7 +5,6 @@
 
 #include "delaunay/circumcentre.h"
 #include "delaunay/face_set.h"
-#include "inside/winding_number.h"
 
 namespace medial {
 namespace {
@@ -179,10 +178,9 @@ bool is_between(const Vec3& x, const Vec3& low, const Vec3& high) {
 }  // namespace
 
 CellSides sides_from_surface(std::span<const Vec3> points, std::span<const Vec3> vertices,
-                             const Surface& surface, const Triangulation& t, const Voronoi& voronoi,
-                             const Run& run) {
+                             const Surface& surface, const WindingNumber& winding,
+                             const Triangulation& t, const Voronoi& voronoi, const Run& run) {
   begin_stage(run.progress, "Inside and outside", 0.9, 0.99);
-  const WindingNumber winding(vertices, surface.triangles, surface.boundary, run.progress);
   const bool of_samples = vertices.data() == points.data() && surface.closed();
   const double widest =
       of_samples ? widened(largest_squared_reach(points, surface.triangles, run)) : HUGE_VAL;

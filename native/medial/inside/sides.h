@@ -7,6 +7,7 @@
 
 #include "delaunay/voronoi.h"
 #include "inside/surface.h"
+#include "inside/winding_number.h"
 
 namespace medial {
 
@@ -14,10 +15,11 @@ namespace medial {
 using CellSides = std::vector<Side>;
 
 // Inner exactly where the winding number of the surface at the Voronoi vertex exceeds 1/2.
-// `vertices` are those of the surface: the points themselves, or others.
+// `vertices` are those of the surface: the points themselves, or others. `winding` is its number.
 CellSides sides_from_surface(std::span<const Vec3> points, std::span<const Vec3> vertices,
-                             const Surface& surface, const Triangulation& triangulation,
-                             const Voronoi& voronoi, const Run& run);
+                             const Surface& surface, const WindingNumber& winding,
+                             const Triangulation& triangulation, const Voronoi& voronoi,
+                             const Run& run);
 
 // A vote of the corners of each cell: inner where their outward normals point away from its Voronoi
 // vertex, by the sum of the cosines. `normals` are per sample, unit or zero; zero ones do not vote.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "inside/surface.h"
 
+#include <numeric>
 #include <string>
+
+#include "base/rows.h"
 
 namespace medial {
 
@@ -27,6 +30,19 @@ Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_
   const auto fans = rows_containing(std::span<const Triangle>(surface.triangles), vertices, run);
   surface.boundary = boundary_edges(surface.triangles, fans, run);
   return surface;
+}
+
+int64_t open_edges(std::span<const Vec3> rows, std::span<const Triangle> triangles,
+                   const Run& run) {
+  require_corners(triangles, rows.size());
+  require_finite(rows, "point");
+  std::vector<int32_t> apart(rows.size());
+  std::iota(apart.begin(), apart.end(), 0);
+  // What is closed by its rows stays closed where some become one: as many edges lead there and
+  // back as before.
+  if (make_surface(triangles, apart, static_cast<int32_t>(rows.size()), run).closed()) return 0;
+  const DistinctRows distinct = distinct_rows(rows, "point", run);
+  return make_surface(triangles, distinct.point_of_row, distinct.count(), run).open_edges();
 }
 
 int64_t Surface::open_edges() const {

@@ -24,4 +24,7 @@ void require_corners(std::span<const Triangle> triangles, size_t rows);
 Surface make_surface(std::span<const Triangle> triangles, std::span<const int32_t> vertex_of_row,
                      int32_t vertices, const Run& run);
 
+// Surface::open_edges of triangles that hold rows.
+int64_t open_edges(std::span<const Vec3> rows, std::span<const Triangle> triangles, const Run& run);
+
 }  // namespace medial

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Polygons and edges of a Blender mesh -> arrays, each copied in one go where Blender can.
+
+It can where the array has the type that Blender keeps; else it converts number by number, which takes 10 to 20 times
+as long. Attributes of corners, from 3.6 or so, are signed; what older names give is unsigned.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def read_polygons(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """(m + 1,) where the corners of each polygon begin, and (c,) the vertices of the corners, polygon by polygon."""
+    starts, sizes = read_spans(mesh)
+    offsets = np.zeros(len(sizes) + 1, np.int32)
+    np.cumsum(sizes, out=offsets[1:])
+    # Up to 3.6 polygons need not lie in the order of their corners.
+    places = np.arange(offsets[-1]) + np.repeat(starts - offsets[:-1], sizes)
+    return offsets, read_corners(mesh)[places]
+
+
+def read_spans(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """(m,) the first corner of each polygon, and (m,) how many it has."""
+    starts = _read_unsigned(mesh.polygons, "loop_start")
+    if bpy.app.version < (4, 1, 0):
+        return starts, _read_unsigned(mesh.polygons, "loop_total")
+    return starts, np.diff(starts, append=np.int32(len(mesh.loops)))
+
+
+def read_corners(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    """(c,) the vertex of each corner."""
+    return _read_of_corners(mesh, ".corner_vert", "vertex_index")
+
+
+def read_corner_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    """(c,) the edge that begins at each corner."""
+    return _read_of_corners(mesh, ".corner_edge", "edge_index")
+
+
+def read_edges(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
+    """(e, 2) the ends of each edge."""
+    return _read_unsigned(mesh.edges, "vertices", 2).reshape(-1, 2)
+
+
+def read_loop_triangles(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """(t, 3) Blender's own triangles, and (t,) the polygon of each."""
+    mesh.calc_loop_triangles()
+    triangles = mesh.loop_triangles
+    corners = _read_unsigned(triangles, "vertices", 3).reshape(-1, 3)
+    return corners, _read_unsigned(triangles, "polygon_index")
+
+
+def _read_of_corners(mesh: bpy.types.Mesh, attribute: str, older: str) -> NDArray[np.int32]:
+    if attribute not in mesh.attributes:
+        return _read_unsigned(mesh.loops, older)
+    values = np.empty(len(mesh.loops), np.int32)
+    mesh.attributes[attribute].data.foreach_get("value", values)
+    return values
+
+
+def _read_unsigned(
+    elements: bpy.types.bpy_prop_collection, name: str, each: int = 1
+) -> NDArray[np.int32]:
+    """`each` numbers of every element."""
+    values = np.empty(each * len(elements), np.uint32)
+    elements.foreach_get(name, values)
+    return values.view(np.int32)
