@@ -31,11 +31,8 @@ from .core.batch.option_words import (
     add_sampling,
     add_skeleton_options,
     add_thickness,
-    limit_from,
     sampling_from,
     settings_from,
-    skeleton_settings_from,
-    thickness_from,
 )
 from .core.errors import (
     Cancelled,
@@ -51,7 +48,8 @@ from .core.files.read_shape import read_shape
 from .core.files.write import FORMATS
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
-from .core.settings import Method, Settings, Side
+from .core.machine.memory_limit import MemoryLimit
+from .core.settings import Method, Settings, Side, SkeletonSettings, ThicknessSettings
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
 CLOSED_PIPE = 128 + 13  # as shells say of a program that SIGPIPE ended
@@ -193,7 +191,7 @@ def _axis_parser() -> argparse.ArgumentParser:
 
 
 def _axis_work(wanted: argparse.Namespace) -> Work:
-    settings = settings_from(wanted)
+    settings = settings_from(wanted, Settings)
     _check_vertices(wanted.vertices, settings)
     return AxisWork(settings, wanted.triangles, wanted.vertices)
 
@@ -220,7 +218,9 @@ def _thickness_parser() -> argparse.ArgumentParser:
 def _thickness_work(wanted: argparse.Namespace) -> Work:
     from .core.batch.thickness_work import ThicknessWork
 
-    return ThicknessWork(settings_from(wanted), thickness_from(wanted), wanted.unit)
+    return ThicknessWork(
+        settings_from(wanted, Settings), settings_from(wanted, ThicknessSettings), wanted.unit
+    )
 
 
 def _skeleton_parser() -> argparse.ArgumentParser:
@@ -241,7 +241,7 @@ def _skeleton_parser() -> argparse.ArgumentParser:
 def _skeleton_work(wanted: argparse.Namespace) -> Work:
     from .core.batch.skeleton_work import SkeletonWork
 
-    return SkeletonWork(sampling_from(wanted), skeleton_settings_from(wanted))
+    return SkeletonWork(sampling_from(wanted), settings_from(wanted, SkeletonSettings))
 
 
 # By the first word, where no axes are wanted. What only one of them needs is imported when it is asked for.
@@ -304,7 +304,7 @@ def _with_paths_behind_dashes(words: Sequence[str]) -> list[str]:
 def _complete(wanted: argparse.Namespace) -> None:
     """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
     *wanted.inputs, output = wanted.paths
-    wanted.work, wanted.limit = wanted.work_from(wanted), limit_from(wanted)
+    wanted.work, wanted.limit = wanted.work_from(wanted), settings_from(wanted, MemoryLimit)
     wanted.frames = None if wanted.frames is None else parse_frames(wanted.frames)
     if "" in wanted.paths:
         raise ValueError(

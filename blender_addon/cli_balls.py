@@ -12,9 +12,8 @@ from .core.batch.option_words import (
     add_ball_options,
     add_limits,
     add_sampling,
-    ball_settings_from,
-    limit_from,
     sampling_from,
+    settings_from,
 )
 from .core.errors import (
     Cancelled,
@@ -26,6 +25,8 @@ from .core.errors import (
 from .core.files.read_shape import read_shape
 from .core.files.write_balls import ball_format, export_balls
 from .core.machine import native
+from .core.machine.memory_limit import MemoryLimit
+from .core.settings import BallSettings
 
 DONE, FAILED, USAGE, INPUT, CANCELLED = range(5)
 
@@ -63,8 +64,8 @@ def _parse(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--quiet", action="store_true", help="no warnings")
     wanted = parser.parse_args(words)
     try:
-        wanted.settings, wanted.limit = sampling_from(wanted), limit_from(wanted)
-        wanted.balls = ball_settings_from(wanted)
+        wanted.settings, wanted.limit = sampling_from(wanted), settings_from(wanted, MemoryLimit)
+        wanted.balls = settings_from(wanted, BallSettings)
         ball_format(wanted.output)
     except MedialAxisError as error:
         parser.error(str(error))

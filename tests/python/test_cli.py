@@ -170,7 +170,7 @@ def test_every_option_arrives(name):
     for key, value in values.items():
         settings = cli._parse(["a.off", *words[key], "a.ma"]).work.settings
         assert getattr(settings, name) == value
-        assert getattr(option_words.settings_from(argparse_of(settings)), name) == value
+        assert getattr(option_words.settings_from(argparse_of(settings), Settings), name) == value
 
 
 def argparse_of(settings):

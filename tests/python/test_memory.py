@@ -447,11 +447,10 @@ def test_command_line_says_what_it_expects(here, capsys):
 def test_words_of_the_limits_are_those_of_the_settings():
     parser = argparse.ArgumentParser()
     option_words.add_limits(parser)
-    found = option_words.limit_from(
-        parser.parse_args(["--memory-limit", "7", "--above-limit", "thin"])
-    )
+    words = parser.parse_args(["--memory-limit", "7", "--above-limit", "thin"])
+    found = option_words.settings_from(words, MemoryLimit)
     assert found == MemoryLimit(7, THIN)
-    assert option_words.limit_from(parser.parse_args([])) == MemoryLimit()
+    assert option_words.settings_from(parser.parse_args([]), MemoryLimit) == MemoryLimit()
 
 
 # --- before, not after

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 from ..machine.memory_limit import MemoryLimit
 from ..settings import (
@@ -30,6 +30,14 @@ from ..settings import (
 _UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB", "length": "LENGTH"}
 # Of the method only what is measured depends on: thresholds do not change it.
 _MEASURED = ("sides", "sampling", *SAMPLING_OPTIONS)
+_OPTIONS_OF: dict[type, Mapping[str, Any]] = {
+    Settings: ALL_OPTIONS,
+    ThicknessSettings: THICKNESS_OPTIONS,
+    SkeletonSettings: SKELETON_OPTIONS,
+    BallSettings: BALL_OPTIONS,
+    MemoryLimit: LIMITS,
+}
+T = TypeVar("T")
 
 
 def add_options(parser: argparse._ArgumentGroup) -> None:
@@ -94,83 +102,26 @@ def _add(parser: argparse._ArgumentGroup, options: Mapping[str, Any]) -> None:
         parser.add_argument(flag, help=_help(option, shown), **words)
 
 
-def settings_from(words: argparse.Namespace) -> Settings:
-    """The settings that a parsed command line means.
+def settings_from(words: argparse.Namespace, kind: type[T]) -> T:
+    """The settings of a kind, or the MemoryLimit, that a parsed command line means.
 
     Raises
     ------
     InvalidInputError
         A number out of its range.
     """
-    return Settings(**_given(words, ALL_OPTIONS))
-
-
-def thickness_from(words: argparse.Namespace) -> ThicknessSettings:
-    """What is to be measured, as a parsed command line means it.
-
-    Raises
-    ------
-    InvalidInputError
-        A number out of its range.
-    """
-    return ThicknessSettings(**_given(words, THICKNESS_OPTIONS))
-
-
-def limit_from(words: argparse.Namespace) -> MemoryLimit:
-    """The limit that a parsed command line means.
-
-    Raises
-    ------
-    InvalidInputError
-        A number out of its range.
-    """
-    return MemoryLimit(**_given(words, LIMITS))
-
-
-def skeleton_settings_from(words: argparse.Namespace) -> SkeletonSettings:
-    """The settings of a skeleton that a parsed command line means.
-
-    Raises
-    ------
-    InvalidInputError
-        A number out of its range.
-    """
-    return SkeletonSettings(**_given(words, SKELETON_OPTIONS))
-
-
-def ball_settings_from(words: argparse.Namespace) -> BallSettings:
-    """The balls that a parsed command line means.
-
-    Raises
-    ------
-    InvalidInputError
-        A number out of its range.
-    """
-    return BallSettings(**_given(words, BALL_OPTIONS))
+    return kind(**_given(words, _OPTIONS_OF[kind]))
 
 
 def sampling_from(words: argparse.Namespace) -> Settings:
-    """As `settings_from`, of what `add_sampling` adds."""
+    """The settings of what `add_sampling` adds."""
     return Settings(**_given(words, {name: OPTIONS[name] for name in _MEASURED}))
 
 
-def as_words(settings: Settings) -> dict[str, str | float | bool]:
-    """{option: value} as one would write it on the command line."""
-    return {name: _outward(option, getattr(settings, name)) for name, option in ALL_OPTIONS.items()}
-
-
-def thickness_as_words(wanted: ThicknessSettings) -> dict[str, str | float | bool]:
-    """The same of what is measured."""
-    return {
-        name: _outward(option, getattr(wanted, name)) for name, option in THICKNESS_OPTIONS.items()
-    }
-
-
-def skeleton_as_words(wanted: SkeletonSettings) -> dict[str, str | float | bool]:
-    """The same of a skeleton."""
-    return {
-        name: _outward(option, getattr(wanted, name)) for name, option in SKELETON_OPTIONS.items()
-    }
+def as_words(settings: Any) -> dict[str, str | float | bool]:
+    """{option: value} of settings of any kind, as one would write it on the command line."""
+    options = _OPTIONS_OF[type(settings)]
+    return {name: _outward(option, getattr(settings, name)) for name, option in options.items()}
 
 
 def _given(words: argparse.Namespace, options: Mapping[str, Any]) -> dict[str, Any]:

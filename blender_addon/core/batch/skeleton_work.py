@@ -15,7 +15,7 @@ from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, SkeletonSettings
 from ..skeleton.compute import Skeletonization, compute_skeleton
-from .option_words import as_words, skeleton_as_words
+from .option_words import as_words
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class SkeletonWork:
 
     def words(self) -> dict[str, Any]:
         """The settings, as one would write them."""
-        return {**as_words(self.settings), **skeleton_as_words(self.wanted)}
+        return {**as_words(self.settings), **as_words(self.wanted)}
 
     def figures(self, found: Skeletonization) -> dict[str, Any]:
         skeleton = found.skeleton

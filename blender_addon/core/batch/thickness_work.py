@@ -16,7 +16,7 @@ from ..files.write_thickness import export_thickness, summary_of
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..settings import Settings, ThicknessSettings
-from .option_words import as_words, thickness_as_words
+from .option_words import as_words
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class ThicknessWork:
 
     def words(self) -> dict[str, Any]:
         """The settings, as one would write them."""
-        return {**as_words(self.settings), **thickness_as_words(self.wanted)}
+        return {**as_words(self.settings), **as_words(self.wanted)}
 
     def figures(self, found: Measurement) -> dict[str, Any]:
         summary = summary_of(found, find_thin_parts(found, self.wanted.limit), self.unit)
