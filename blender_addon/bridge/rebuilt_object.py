@@ -37,6 +37,11 @@ def is_rebuilt(thing: bpy.types.Object) -> bool:
     return thing.type == "MESH" and REBUILT in thing
 
 
+def unrebuilt(thing: bpy.types.Object | None) -> bpy.types.Object | None:
+    """What a rebuilt solid was made of; any other object as it is."""
+    return source_of(thing) if thing is not None and is_rebuilt(thing) else thing
+
+
 def rebuilt_of(result: bpy.types.Object) -> bpy.types.Object | None:
     """The solid that was rebuilt of a result."""
     return output_of(result, is_rebuilt)

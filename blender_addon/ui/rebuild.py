@@ -4,17 +4,16 @@
 import bpy
 
 from ..bridge.nodes.inputs import row_of
-from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis
 from ..bridge.rebuilt_object import (
     LARGEST,
     MEAN,
     VOLUME,
-    is_rebuilt,
     measure,
     modifier_of,
     rebuild,
     rebuilt_of,
+    unrebuilt,
 )
 from ..core.errors import MedialAxisError
 from .tab import Closed, settings_column
@@ -25,10 +24,7 @@ _INPUTS = ("Voxel", "Factor", "Offset", "Min Radius", "Merge")
 
 def _axis(context):
     """The axis that the active object is, has, or was rebuilt of."""
-    thing = context.active_object
-    if thing is not None and is_rebuilt(thing):
-        thing = source_of(thing)
-    return None if is_gone(thing) else find_axis(thing)
+    return find_axis(unrebuilt(context.active_object))
 
 
 class OBJECT_OT_medial_axis_rebuild(bpy.types.Operator):

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..bridge.axis_object import is_result, result_of
 from ..bridge.output_object import is_gone, source_of
-from ..bridge.read_axis import read_axis
+from ..bridge.read_axis import find_axis, read_axis
 from ..bridge.read_object import read_object
-from ..bridge.rebuilt_object import in_frame_of, is_rebuilt
+from ..bridge.rebuilt_object import in_frame_of, unrebuilt
 from ..bridge.reduced_object import check_reduced_writable, is_reduced, write_reduced
 from ..core.axis.medial_axis import MedialAxis
 from ..core.axis.reduce import reduce_axis, reduced_difference
@@ -42,14 +41,8 @@ class _Reduced:
 
 def _axis(context):
     """The whole axis that the active object is, has, or was made of."""
-    thing = context.active_object
-    if thing is not None and is_rebuilt(thing):
-        thing = source_of(thing)
-    if not is_gone(thing) and is_reduced(thing):
-        thing = source_of(thing)
-    if is_gone(thing):
-        return None
-    return thing if is_result(thing) else result_of(thing)
+    axis = find_axis(unrebuilt(context.active_object))
+    return find_axis(source_of(axis)) if axis is not None and is_reduced(axis) else axis
 
 
 class OBJECT_OT_medial_axis_reduce(ComputeOperator, bpy.types.Operator):

@@ -8,6 +8,7 @@
 
 #include "base/vec3.h"
 #include "reduce/checked_mesh.h"
+#include "reduce/collapse.h"
 #include "reduce/sphere_complex.h"
 
 namespace medial {
@@ -95,6 +96,39 @@ TEST(Reduce, KeepsWhatIsExactAndWhateverTheThreads) {
   const SphereMesh one = reduce(some, {20, 1}), three = reduce(some, {20, 3});
   EXPECT_EQ(one.vertices, three.vertices);
   EXPECT_EQ(one.triangles, three.triangles);
+}
+
+// A round sheet of squares, cut in two, in the plane of x and y; its rim goes in steps.
+SphereMesh round_sheet() {
+  constexpr int kAcross = 21;
+  SphereMesh sheet;
+  for (int i = 0; i < kAcross * kAcross; ++i) {
+    sheet.vertices.push_back({double(i % kAcross), double(i / kAcross), 0});
+    sheet.radius.push_back(0.3);
+  }
+  for (int32_t y = 0; y + 1 < kAcross; ++y) {
+    for (int32_t x = 0; x + 1 < kAcross; ++x) {
+      if (std::hypot(x - 9.5, y - 9.5) > 10) continue;
+      const int32_t at = y * kAcross + x, up = at + kAcross;
+      sheet.triangles.push_back({at, at + 1, up + 1});
+      sheet.triangles.push_back({at, up + 1, up});
+    }
+  }
+  return sheet;
+}
+
+TEST(Reduce, CollapsesTurnNoTriangleOver) {
+  const SphereMesh sheet = round_sheet();
+  const SphereComplex complex(sheet);
+  const auto places = tangent_places(sheet, complex, {});
+  for (const int32_t wanted : {260, 200, 150, 100, 60}) {
+    const SphereMesh small = collapse_edges(sheet, complex, places, wanted, {}).mesh;
+    for (const auto& [a, b, c] : small.triangles) {
+      const Vec3 u = small.vertices[b] - small.vertices[a],
+                 v = small.vertices[c] - small.vertices[a];
+      EXPECT_GT(cross(u, v).z, 0) << wanted;
+    }
+  }
 }
 
 TEST(Reduce, SurfaceLiesWhereTheDistanceIsNought) {

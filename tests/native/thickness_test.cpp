@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "axis/ball_reach.h"
 #include "base/nearest_ball.h"
 #include "base/patches.h"
 #include "shapes.h"
@@ -48,6 +49,25 @@ TEST(NearestBall, OfEqualOnesIsTheFirst) {
   const std::vector<Ball> balls(30, Ball{{1, 2, 3}, 0.5});
   EXPECT_EQ(NearestBall(balls).find({}), 0);
   EXPECT_EQ(NearestBall({}).find({}), -1);
+}
+
+TEST(NeededRadii, AreThoseOfAllPlacesOfATriangle) {
+  const std::vector<Vec3> corners{{-0.5, -0.5, 0.5}, {2, 0, 0.5}, {0, 2, 0.5}};
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  const auto balls = random_balls(20, 3);
+  constexpr double kPiece = 0.01;
+  constexpr int kSteps = 400;
+  std::vector<double> least(balls.size(), 0);
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int j = 0; i + j <= kSteps; ++j) {
+      const Vec3 place = corners[0] + (double(i) / kSteps) * (corners[1] - corners[0]) +
+                         (double(j) / kSteps) * (corners[2] - corners[0]);
+      double& most = least[nearest_by_loop(balls, place)];
+      most = std::max(most, distance(place, balls[nearest_by_loop(balls, place)].centre));
+    }
+  }
+  const auto radii = needed_radii(balls, corners, triangles, {}, kPiece, {});
+  for (size_t b = 0; b < balls.size(); ++b) EXPECT_NEAR(radii[b], least[b], kPiece) << b;
 }
 
 TEST(Patches, ShareCornersAndAreNumberedInOrder) {

@@ -16,7 +16,7 @@ constexpr double kTooFar = 0.15;    // of the radius: who wants to move so far s
 constexpr double kSteep = 0.7;      // slope from which on trust falls, up to kSteepest
 constexpr int kFewest = 12;         // samples
 constexpr int kSteps = 1;           // of Newton's method
-constexpr double kStraight = 0.25;  // part of its curvature on a cone that a distance keeps
+constexpr double kKept = 0.25;      // part of its curvature on a cone that a distance keeps
 constexpr double kPivot = 1e-9;     // of a column: below, the samples do not tell all unknowns
 
 // For every sample: distance from the ball that it is nearest to = r . q + u . (x . q), where
@@ -175,7 +175,7 @@ class Fit {
                    first = -towards - slope_ - 2 * t * flare_,
                    straight = (squared_length(way) - towards * towards) / size,
                    second = straight - 2 * dot(out, from_.bend) / size - 2 * flare_;
-      t -= first / std::max(second, kStraight * straight);
+      t -= first / std::max(second, kKept * straight);
     }
     return t;
   }
