@@ -774,6 +774,13 @@ MUTATIONS = (
         python=("test_reduce.py",),
     ),
     Mutation(
+        "reduce/fit.cpp",
+        "dot(normals_[t], normal(corners)) > 0) continue;",
+        "squared_length(normal(corners)) >= 0) continue;",
+        "the fit turns triangles over",
+        python=("test_reduce.py",),
+    ),
+    Mutation(
         "reduce/cone_and_slab.cpp",
         "(at + height * k / std::sqrt(1 - k * k)) / whole",
         "(at - height * k / std::sqrt(1 - k * k)) / whole",

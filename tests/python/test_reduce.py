@@ -126,6 +126,23 @@ def test_a_flat_sheet_becomes_two_triangles_without_an_error(medial):
     assert np.abs(medial.solid_distances(points, *left)).max() < 1e-12
 
 
+@pytest.mark.parametrize("wanted", [200, 100, 60, 25])
+@pytest.mark.parametrize("radii", ["wavy", "random"])
+def test_no_triangle_of_a_sheet_turns_over(medial, wanted, radii):
+    vertices, radius, triangles, edges = grid(21, 21)
+    away = np.linalg.norm(vertices[triangles].mean(axis=1) - (3, 2, 0), axis=1)
+    triangles = triangles[(away > 0.6) & (away < 2)]
+    used, corners = np.unique(triangles, return_inverse=True)
+    x, y, _ = vertices[used].T
+    wavy = 0.3 + 0.1 * np.sin(3 * x) * np.cos(5 * y)
+    uneven = np.random.default_rng(1).uniform(0.1, 0.3, len(used))
+    balls = vertices[used], wavy if radii == "wavy" else uneven
+    ring = corners.reshape(-1, 3).astype(np.int32)
+    places, _, left, _ = medial.reduce_sphere_mesh(*balls, ring, edges, wanted)
+    a, b, c = places[left].transpose(1, 0, 2)
+    assert len(left) > wanted / 2 and (np.cross(b - a, c - a)[:, 2] > 0).all()
+
+
 @pytest.mark.parametrize("radii", [(0.5, 0.5), (0.5, 0.2), (0.05, 1.0)])
 def test_a_cone_becomes_its_two_ends(medial, radii):
     found = medial.reduce_sphere_mesh(*wire(radii=radii), 2)

@@ -39,7 +39,9 @@ double dot_all(const Step& a, const Step& b) {
 class Fitter {
  public:
   Fitter(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run)
-      : mesh_(mesh), places_(places), run_(run), envelope_(mesh), found_(places.size()) {}
+      : mesh_(mesh), places_(places), run_(run), envelope_(mesh), found_(places.size()) {
+    for (const Triangle& t : mesh_.triangles) normals_.push_back(normal(t));
+  }
 
   bool fit() {
     double now = measure();
@@ -161,6 +163,28 @@ class Fitter {
     return x;
   }
 
+  Vec3 normal(const Triangle& t) const {
+    const Vec3& a = mesh_.vertices[t[0]];
+    return cross(mesh_.vertices[t[1]] - a, mesh_.vertices[t[2]] - a);
+  }
+
+  // Corners of triangles that would have turned over stay where they were. Each round stops some
+  // more, so it ends.
+  void stop_turning(const auto& vertices, const auto& radius) {
+    for (bool again = true; again;) {
+      again = false;
+      for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        const Triangle& corners = mesh_.triangles[t];
+        if (normals_[t] == Vec3{} || dot(normals_[t], normal(corners)) > 0) continue;
+        for (const int32_t v : corners) {
+          again |= mesh_.vertices[v] != vertices[v];
+          mesh_.vertices[v] = vertices[v];
+          mesh_.radius[v] = radius[v];
+        }
+      }
+    }
+  }
+
   // Goes the whole step, or a half or a quarter of it, and returns what is measured there.
   double improve(const Step& step, double now) {
     const auto vertices = mesh_.vertices;
@@ -172,6 +196,7 @@ class Fitter {
         mesh_.vertices[v] = vertices[v] + share * Vec3{x, y, z};
         mesh_.radius[v] = std::max(0.0, radius[v] + share * r);
       }
+      stop_turning(vertices, radius);
       if (const double then = measure(); then < now) return then;
     }
     mesh_.vertices = vertices;
@@ -185,6 +210,7 @@ class Fitter {
   Run run_;
   Envelope envelope_;
   std::vector<Envelope::Found> found_;
+  std::vector<Vec3> normals_;  // of the triangles before anything moved
   double largest_ = 0, square_ = 0, weight_ = 0;
 };
 
