@@ -47,7 +47,7 @@ Cost cost(const Case& c, int threads) {
   } else {
     mesh.vertices = test::ellipsoid(30000, 3);
   }
-  const double count = static_cast<double>(mesh.vertices.size());
+  const auto count = static_cast<double>(mesh.vertices.size());
   const int64_t before = test::live_bytes;
   test::peak_bytes = before;
   test::allocations = 0;

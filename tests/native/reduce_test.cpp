@@ -102,10 +102,10 @@ TEST(Reduce, KeepsWhatIsExactAndWhateverTheThreads) {
 SphereMesh round_sheet() {
   constexpr int kAcross = 21;
   SphereMesh sheet;
-  for (int i = 0; i < kAcross * kAcross; ++i) {
-    sheet.vertices.push_back({double(i % kAcross), double(i / kAcross), 0});
-    sheet.radius.push_back(0.3);
+  for (int y = 0; y < kAcross; ++y) {
+    for (int x = 0; x < kAcross; ++x) sheet.vertices.push_back({double(x), double(y), 0});
   }
+  sheet.radius.assign(sheet.vertices.size(), 0.3);
   for (int32_t y = 0; y + 1 < kAcross; ++y) {
     for (int32_t x = 0; x + 1 < kAcross; ++x) {
       if (std::hypot(x - 9.5, y - 9.5) > 10) continue;
