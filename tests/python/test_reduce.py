@@ -129,7 +129,7 @@ def test_a_flat_sheet_becomes_two_triangles_without_an_error(medial):
 @pytest.mark.parametrize("wanted", [200, 100, 60, 25])
 @pytest.mark.parametrize("radii", ["wavy", "random"])
 def test_no_triangle_of_a_sheet_turns_over(medial, wanted, radii):
-    vertices, radius, triangles, edges = grid(21, 21)
+    vertices, _, triangles, edges = grid(21, 21)
     away = np.linalg.norm(vertices[triangles].mean(axis=1) - (3, 2, 0), axis=1)
     triangles = triangles[(away > 0.6) & (away < 2)]
     used, corners = np.unique(triangles, return_inverse=True)
