@@ -126,14 +126,14 @@ _OF_LEVELS = {  # {faces: {output: bytes}}
 }
 _AT_PEAK = {  # {faces: {side: {output: bytes}}}
     False: {
-        Side.INNER: {"": 1930, ".ply": 2050, ".ma": 2600, OBJECT: 2330},
+        Side.INNER: {"": 1930, ".ply": 2100, ".ma": 2800, OBJECT: 2330},
         Side.OUTER: {"": 1750, ".ply": 1780, ".ma": 2250, OBJECT: 2050},
-        Side.BOTH: {"": 2030, ".ply": 2250, ".ma": 3160, OBJECT: 3100},
+        Side.BOTH: {"": 1970, ".ply": 2280, ".ma": 3300, OBJECT: 3100},
     },
     True: {
-        Side.INNER: {"": 1960, ".ply": 2050, ".ma": 2600, OBJECT: 2200},
+        Side.INNER: {"": 1900, ".ply": 2150, ".ma": 2800, OBJECT: 2200},
         Side.OUTER: {"": 1780, ".ply": 1780, ".ma": 2260, OBJECT: 1920},
-        Side.BOTH: {"": 1970, ".ply": 2290, ".ma": 3060, OBJECT: 3010},
+        Side.BOTH: {"": 1880, ".ply": 2150, ".ma": 3200, OBJECT: 3010},
     },
 }
 
