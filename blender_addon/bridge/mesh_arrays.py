@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polygons and edges of a Blender mesh -> arrays, each copied in one go where Blender can.
+"""Vertices, polygons and edges of a Blender mesh -> arrays, each copied in one go where Blender can.
 
 It can where the array has the type that Blender keeps; else it converts number by number, which takes 10 to 20 times
 as long. Attributes of corners, from 3.6 or so, are signed; what older names give is unsigned.
@@ -12,8 +12,17 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from .attributes import read_vectors
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+
+def read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float64]:
+    """(n, 3) the vertices."""
+    if "position" in mesh.attributes:  # from 3.6 or so; then it alone is copied in one go
+        return read_vectors(mesh.attributes["position"].data, "vector")
+    return read_vectors(mesh.vertices, "co")
 
 
 def read_polygons(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

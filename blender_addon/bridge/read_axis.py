@@ -14,7 +14,7 @@ from ..core.axis.medial_axis import LevelValues, MedialAxis
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes, level_attributes
 from .axis_object import BETTI, UNBOUNDED, ZERO_AREA, is_result, result_of
-from .mesh_arrays import read_corner_edges, read_edges, read_polygons
+from .mesh_arrays import read_corner_edges, read_edges, read_polygons, read_positions
 from .output_object import is_gone
 from .reduced_object import is_reduced
 
@@ -39,13 +39,12 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
     """
     with _readable_mesh(result) as mesh:
         offsets, corners = read_polygons(mesh)
-        positions = np.empty(3 * len(mesh.vertices), np.float32)
-        mesh.vertices.foreach_get("co", positions)
+        vertices = read_positions(mesh)
         edges, alone = _edges_alone(mesh)
         fields = _fields(mesh, attributes(), result.name)
         level = _level(mesh, alone, result)
     return MedialAxis(
-        vertices=positions.reshape(-1, 3).astype(np.float64),
+        vertices=vertices,
         face_offsets=offsets,
         face_vertices=corners,
         unbounded=int(result.get(UNBOUNDED, 0)),

@@ -20,7 +20,7 @@ from ..core.axis.polygon_triangles import polygon_triangles
 from ..core.axis.shape import Shape
 from ..core.errors import InvalidInputError
 from .attributes import read_normals, read_vectors
-from .mesh_arrays import read_edges, read_polygons
+from .mesh_arrays import read_edges, read_polygons, read_positions
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -127,7 +127,7 @@ def _read_data(evaluated: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> S
     if evaluated.type != "POINTCLOUD":
         with _evaluated_mesh(evaluated) as mesh:
             if mesh is not None and len(mesh.vertices):
-                points = _read_positions(mesh)
+                points = read_positions(mesh)
                 return Shape(
                     points=points,
                     triangles=_read_triangles(mesh, points),
@@ -172,12 +172,6 @@ def _evaluated_cloud(
         ):
             return part.object.data
     return None
-
-
-def _read_positions(mesh: bpy.types.Mesh) -> NDArray[np.float64]:
-    if "position" in mesh.attributes:  # from 3.6 or so; then it alone is copied in one go
-        return read_vectors(mesh.attributes["position"].data, "vector")
-    return read_vectors(mesh.vertices, "co")
 
 
 def _read_triangles(mesh: bpy.types.Mesh, points: NDArray[np.float64]) -> NDArray[np.int32]:

@@ -11,7 +11,7 @@ import numpy as np
 from ..core.axis.nearness import nearest
 from ..core.errors import InvalidInputError
 from .attributes import set_attribute
-from .mesh_arrays import read_polygons
+from .mesh_arrays import read_polygons, read_positions
 from .output_object import check_mode, new_object, output_of, place, remember
 from .read_object import split_transform
 
@@ -123,10 +123,8 @@ def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> NDArray[np.int64
     count = len(source.data.vertices)
     if count == len(shape.points):
         return np.arange(count)
-    values = np.empty(3 * count, np.float32)
-    source.data.vertices.foreach_get("co", values)
     _, rest = split_transform(np.array(source.matrix_world, np.float64))
-    return nearest(values.reshape(-1, 3).astype(np.float64) @ rest.T, shape.points)
+    return nearest(read_positions(source.data) @ rest.T, shape.points)
 
 
 def check_parts_writable(source: bpy.types.Object) -> None:
