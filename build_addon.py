@@ -63,12 +63,12 @@ def bench(arguments: argparse.Namespace) -> None:
     modules.build_modules(blender)
     run("cmake", "--build", "--preset", "release", "--target", "bare_triangulation")
     say("Measuring; leave the machine alone meanwhile")
-    options = ["--bare", paths.BUILD / "release/tests/benchmarks/bare_triangulation"]
+    options = ["--bare", paths.BUILD / "release/lab/benchmarks/bare_triangulation"]
     options += ["--largest", min(arguments.largest, 200_000 if arguments.quick else 10**9)]
     options += ["--repeats", 1 if arguments.quick else arguments.repeats]
     options += ["--blender", blender, "--output", Path(arguments.output).resolve()]
     options += ["--table", Path(arguments.table).resolve()] if arguments.table else []
-    run(python, "tests/benchmarks/bench.py", *options, "--only", *arguments.only)
+    run(python, "lab/benchmarks/bench.py", *options, "--only", *arguments.only)
 
 
 def race(arguments: argparse.Namespace) -> None:
@@ -77,7 +77,7 @@ def race(arguments: argparse.Namespace) -> None:
     python, _ = blender_python(blender)
     modules.build_modules(blender)
     page = Path(arguments.page).resolve()
-    run(python, "-m", "tests.benchmarks.race", "--sizes", *arguments.sizes, "--page", page)
+    run(python, "-m", "lab.race", "--sizes", *arguments.sizes, "--page", page)
 
 
 def clean(arguments: argparse.Namespace) -> None:
@@ -123,8 +123,8 @@ operator in Blender, and what a change of a threshold costs there. Prints and wr
 half an hour; --quick takes some minutes."""
 
 
-RACE_HELP = """Builds, then runs every program of tests/benchmarks/race/recipes.toml that is on this machine on samples
-of solids whose medial axes are known exactly, and writes the tables and plots of docs/benchmark.md."""
+RACE_HELP = """Builds, then runs every program of lab/race/recipes.toml that is on this machine on samples
+of solids whose medial axes are known exactly, and writes the tables and plots of docs/lab/benchmark.md."""
 
 
 def parse(words: list[str]) -> argparse.Namespace:
@@ -149,7 +149,7 @@ def parse(words: list[str]) -> argparse.Namespace:
     sizes = {"type": int, "nargs": "+", "default": [2000, 8000, 20_000], "metavar": "N"}
     racing.add_argument("--sizes", **sizes, help="samples; default: 2000 8000 20000")
     page = {"default": paths.ROOT / "docs" / "benchmark.md"}
-    racing.add_argument("--page", **page, help="default: docs/benchmark.md")
+    racing.add_argument("--page", **page, help="default: docs/lab/benchmark.md")
     cleaning = add(clean, "remove what the other commands made")
     cleaning.add_argument("--all", action="store_true", help="the results of the demo as well")
     for name in ("build", "demo", "test", "bench", "race"):

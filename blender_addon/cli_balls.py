@@ -7,7 +7,6 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from .core.axis.ball_cover import cover_by_balls
 from .core.batch.option_words import (
     add_ball_options,
     add_limits,
@@ -27,6 +26,7 @@ from .core.files.write_balls import ball_format, export_balls
 from .core.machine import native
 from .core.machine.memory_limit import MemoryLimit
 from .core.settings import BallSettings
+from .core.solid.ball_cover import cover_by_balls
 
 DONE, FAILED, USAGE, INPUT, CANCELLED = range(5)
 

@@ -13,8 +13,8 @@ import os
 import sys
 from typing import Any, TextIO
 
-from .core.axis.density import percent
 from .core.files.names import shown
+from .core.samples.density import percent
 
 
 class ClosedPipeError(Exception):

@@ -17,14 +17,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .core.axis import ball_cover, reconstruction
 from .core.axis import compute as axis
-from .core.axis.ball_cover import BallCover, Balls
 from .core.axis.compute import Computation
 from .core.axis.medial_axis import MedialAxis
-from .core.axis.reconstruction import Reconstruction
-from .core.axis.reduce import reduce_axis
-from .core.axis.shape import Shape
 from .core.errors import (
     Cancelled,
     DegenerateInputError,
@@ -41,6 +36,7 @@ from .core.files.read_shape import read_shape
 from .core.files.write import export_axis
 from .core.files.write_balls import export_balls
 from .core.machine.progress import Progress
+from .core.samples.shape import Shape
 from .core.settings import (
     ALL_OPTIONS,
     ANALYSED,
@@ -60,6 +56,10 @@ from .core.settings import (
     SidesFrom,
     Switch,
 )
+from .core.solid import ball_cover, reconstruction
+from .core.solid.ball_cover import BallCover, Balls
+from .core.solid.reconstruction import Reconstruction
+from .core.solid.reduce import reduce_axis
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.axis.medial_axis import LevelValues, MedialAxis
-    from ..core.axis.sampling_report import SamplingReport
+    from ..core.samples.sampling_report import SamplingReport
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.axis.ball_cover import Balls
 from ..core.errors import InvalidInputError
 from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
+from ..core.solid.ball_cover import Balls
 from .attributes import RADIUS, read_vectors
 from .nodes.groups import add_modifier
 from .output_object import check_mode, new_object, output_of, place, remember, replace_mesh
@@ -22,7 +22,7 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.axis.ball_cover import BallCover
+    from ..core.solid.ball_cover import BallCover
 
 SUFFIX = " Balls"
 MODE, COVERED = "ma_balls_mode", "ma_balls_covered"

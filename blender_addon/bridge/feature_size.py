@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import bpy
     from numpy.typing import NDArray
 
-    from ..core.axis.sampling_report import SamplingReport
+    from ..core.samples.sampling_report import SamplingReport
 
 FEATURE_SIZE = "ma_feature_size"  # of the attribute and of the vertex group
 _STEPS = 100  # weights are written in so many steps, each in one call

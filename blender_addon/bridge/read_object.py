@@ -17,8 +17,8 @@ import bpy
 import numpy as np
 
 from ..core.axis.polygon_triangles import polygon_triangles
-from ..core.axis.shape import Shape
 from ..core.errors import InvalidInputError
+from ..core.samples.shape import Shape
 from .attributes import read_normals, read_vectors
 from .mesh_arrays import read_edges, read_polygons, read_positions
 

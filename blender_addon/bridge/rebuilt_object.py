@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.axis.solid_difference import SolidDifference, solid_difference
 from ..core.errors import InvalidInputError
 from ..core.settings import Side
+from ..core.solid.solid_difference import SolidDifference, solid_difference
 from .axis_object import radius_range, settings_of
 from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
@@ -25,7 +25,7 @@ from .read_object import read_object
 from .reduced_object import is_reduced
 
 if TYPE_CHECKING:
-    from ..core.axis.shape import Shape
+    from ..core.samples.shape import Shape
 
 SUFFIX = " Rebuilt"
 REBUILT = "ma_rebuilt"  # marks the object

@@ -34,7 +34,7 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.axis.sampling_report import SamplingReport
+    from ..core.samples.sampling_report import SamplingReport
 
 SUFFIX = " Sampling"
 MEDIAN = "ma_epsilon_median"

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.axis.nearness import nearest
 from ..core.errors import InvalidInputError
+from ..core.samples.nearness import nearest
 from .attributes import set_attribute
 from .mesh_arrays import read_polygons, read_positions
 from .output_object import check_mode, new_object, output_of, place, remember
@@ -18,7 +18,7 @@ from .read_object import split_transform
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.axis.shape import Shape
+    from ..core.samples.shape import Shape
     from ..core.skeleton.compute import Skeletonization
     from ..core.skeleton.skeleton import Skeleton
 

@@ -14,7 +14,7 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..core.axis.reconstruction import Reconstruction
+    from ..core.solid.reconstruction import Reconstruction
 
 SUFFIX = " Surface"
 OFF_SURFACE = "ma_off_surface"

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ..core.axis.thickness import Measurement
-from ..core.axis.thickness_colours import colour_limits, coloured
-from ..core.axis.thin_parts import ThinParts
-from ..core.axis.triangle_faces import TriangleFaces
+from ..core.samples.triangle_faces import TriangleFaces
+from ..core.solid.thickness import Measurement
+from ..core.solid.thickness_colours import colour_limits, coloured
+from ..core.solid.thin_parts import ThinParts
 from .attributes import as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
 from .material import FLAT

@@ -13,12 +13,12 @@ from ..bridge.balls_object import is_balls, read_balls
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis, read_axis, world_matrix
 from ..bridge.read_object import read_object
-from ..core.axis.ball_cover import cover_by_balls
 from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError, MedialAxisError
 from ..core.files.write import FORMATS, export_axis
 from ..core.files.write_balls import export_balls
 from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode
+from ..core.solid.ball_cover import cover_by_balls
 from .paths import RELATIVE
 from .preferences import memory_limit
 from .properties import choice_of

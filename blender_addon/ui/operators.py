@@ -17,9 +17,9 @@ from ..bridge.report_object import (
 )
 from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
 from ..core.axis.compute import compute_axis
-from ..core.axis.reconstruction import reconstruct
-from ..core.axis.sampling_report import report_sampling
+from ..core.samples.sampling_report import report_sampling
 from ..core.settings import LOOKS, OPTIONS, SAMPLING_OPTIONS, Form, applies_to_form
+from ..core.solid.reconstruction import reconstruct
 from . import current_job
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit

@@ -17,9 +17,9 @@ from ..bridge.thickness_object import (
     write_thickness,
 )
 from ..bridge.thin_selection import least_of, patch_at, patches_of, select_thin
-from ..core.axis.thickness import measure_thickness
-from ..core.axis.thin_parts import find_thin_parts
 from ..core.settings import LOOKS, THICKNESS_OPTIONS, Noise
+from ..core.solid.thickness import measure_thickness
+from ..core.solid.thin_parts import find_thin_parts
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
 from .properties import SamplingProperties, choice, draw_sampling, settings_from, switch

@@ -7,8 +7,8 @@ from ..bridge import thickness_object as of
 from ..bridge.colours import colour_range
 from ..bridge.output_object import WARNINGS
 from ..bridge.thin_selection import patch_at, patches_of
-from ..core.axis.thickness_colours import BLUE
 from ..core.settings import THICKNESS_OPTIONS, Noise
+from ..core.solid.thickness_colours import BLUE
 from . import current_job
 from .figures import length_text
 from .legend import draw_legend

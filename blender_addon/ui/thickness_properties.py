@@ -5,10 +5,10 @@ import bpy
 
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.thickness_object import KEY, carrier_of, is_copy, show_limit
-from ..core.axis.thickness import kept_measurement
-from ..core.axis.thin_parts import find_thin_parts
 from ..core.errors import MedialAxisError
 from ..core.settings import THICKNESS_OPTIONS, Choice, ThicknessSettings
+from ..core.solid.thickness import kept_measurement
+from ..core.solid.thin_parts import find_thin_parts
 from . import current_job
 from .properties import choice_of, number
 

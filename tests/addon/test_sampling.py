@@ -469,7 +469,7 @@ def test_cancel_works_in_every_pass(delay):
     wanted = settings.Settings(
         sampling=settings.SamplingMode.ADAPTIVE, samples=200_000, budget=1_000_000, epsilon=0.02
     )
-    work = partial(addon("core.axis.sampling_report").report_sampling, shape, wanted)
+    work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)
     job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
     seen, end = [], time.monotonic() + delay
     while time.monotonic() < end:
@@ -486,7 +486,7 @@ def test_progress_is_one_bar_over_all_passes():
     shape = addon("bridge.read_object").read_object(source, bpy.context.evaluated_depsgraph_get())
     settings = addon("core.settings")
     wanted = settings.Settings(sampling=settings.SamplingMode.ADAPTIVE, samples=3_000)
-    work = partial(addon("core.axis.sampling_report").report_sampling, shape, wanted)
+    work = partial(addon("core.samples.sampling_report").report_sampling, shape, wanted)
     job = addon("core.machine.job").Job([addon("core.machine.job").Task("Rod", work)])
     seen = []
     while not job.done:

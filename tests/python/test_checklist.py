@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every test and scene that docs/checklist.md names is there."""
+"""Every test and scene that docs/lab/checklist.md names is there."""
 
 import re
 from pathlib import Path

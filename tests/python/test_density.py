@@ -3,12 +3,12 @@
 
 import numpy as np
 import pytest
-from medial_axis.core.axis import choose_samples
-from medial_axis.core.axis.density import Density, estimate, percent
-from medial_axis.core.axis.nearness import near
-from medial_axis.core.axis.sampling_report import report_sampling
-from medial_axis.core.axis.shape import Shape
 from medial_axis.core.machine.cache import CACHE
+from medial_axis.core.samples import choose_samples
+from medial_axis.core.samples.density import Density, estimate, percent
+from medial_axis.core.samples.nearness import near
+from medial_axis.core.samples.sampling_report import report_sampling
+from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings
 from support.meshes import icosphere
 from support.shapes import SHAPES

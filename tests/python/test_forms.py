@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute_axis, refilter, refiltered_topology
-from medial_axis.core.axis.shape import Shape
 from medial_axis.core.axis.topology import betti_words
 from medial_axis.core.machine.cache import CACHE
+from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     OPTIONS,
     Form,

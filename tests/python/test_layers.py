@@ -17,7 +17,16 @@ NATIVE = ROOT / "native"
 
 BLENDER_MODULES = {"bpy", "bpy_extras", "bmesh", "mathutils", "gpu", "blf", "addon_utils"}
 # What each room may import of the package beside itself; "" is the package itself (its name and version).
-CORE = {"core", "core/machine", "core/axis", "core/skeleton", "core/files", "core/batch"}
+CORE = {
+    "core",
+    "core/machine",
+    "core/samples",
+    "core/axis",
+    "core/solid",
+    "core/skeleton",
+    "core/files",
+    "core/batch",
+}
 MAY_IMPORT = {
     "core": {
         "core/machine",
@@ -26,9 +35,25 @@ MAY_IMPORT = {
     },  # errors and settings, which all may see; the known box on top
     "core/machine": {"core", "lib"},
     "core/axis": {"core", "core/machine"},
-    "core/skeleton": {"core", "core/machine", "core/axis"},
-    "core/files": {"core", "core/machine", "core/axis", "core/skeleton"},
-    "core/batch": {"core", "core/machine", "core/axis", "core/skeleton", "core/files", ""},
+    "core/skeleton": {"core", "core/machine", "core/samples", "core/axis", "core/solid"},
+    "core/files": {
+        "core",
+        "core/machine",
+        "core/samples",
+        "core/axis",
+        "core/solid",
+        "core/skeleton",
+    },
+    "core/batch": {
+        "core",
+        "core/machine",
+        "core/samples",
+        "core/axis",
+        "core/solid",
+        "core/skeleton",
+        "core/files",
+        "",
+    },
     "bridge": {*CORE, "bridge/nodes", ""},
     "bridge/nodes": {"core/axis", "bridge"},
     "ui": {*CORE, "bridge", "bridge/nodes", ""},

@@ -9,12 +9,7 @@ import sys
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.axis import analysis
 from medial_axis.core.axis.compute import compute_axis, refilter
-from medial_axis.core.axis.reconstruction import reconstruct
-from medial_axis.core.axis.sampling_report import report_sampling
-from medial_axis.core.axis.shape import Shape
-from medial_axis.core.axis.thinning import fewer_samples, spread_rows
 from medial_axis.core.batch import option_words
 from medial_axis.core.errors import InvalidInputError, MemoryLimitError
 from medial_axis.core.files import numpy_arrays
@@ -22,6 +17,10 @@ from medial_axis.core.machine import cache, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
 from medial_axis.core.machine.memory_limit import MemoryLimit, Use, memory_needed
+from medial_axis.core.samples import analysis
+from medial_axis.core.samples.sampling_report import report_sampling
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.samples.thinning import fewer_samples, spread_rows
 from medial_axis.core.settings import (
     MEGABYTE,
     OPTIONS,
@@ -31,6 +30,7 @@ from medial_axis.core.settings import (
     Settings,
     Side,
 )
+from medial_axis.core.solid.reconstruction import reconstruct
 from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)

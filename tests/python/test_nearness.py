@@ -5,7 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
-from medial_axis.core.axis.nearness import near, nearest
+from medial_axis.core.samples.nearness import near, nearest
 
 
 @pytest.fixture(autouse=True)

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.facet_triangles import triangulate_facets
 from medial_axis.core.axis.medial_axis import MedialAxis
-from medial_axis.core.axis.reduce import reduce_axis, reduced_difference
-from medial_axis.core.axis.shape import Shape
 from medial_axis.core.errors import InvalidInputError, ReadError
 from medial_axis.core.files.read_ma import read_ma
 from medial_axis.core.files.write import export_axis
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.solid.reduce import reduce_axis, reduced_difference
 from support import meshes
 
 NO_EDGES = np.zeros((0, 2), np.int32)

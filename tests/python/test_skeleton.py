@@ -6,12 +6,12 @@ import json
 import numpy as np
 import pytest
 from medial_axis.cli import main
-from medial_axis.core.axis.nearness import nearest
-from medial_axis.core.axis.shape import Shape
 from medial_axis.core.errors import DegenerateInputError, ExportError, ReadError
 from medial_axis.core.files.load_skeleton import load_skeleton
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.files.write_skeleton import export_skeleton
+from medial_axis.core.samples.nearness import nearest
+from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.skeleton.bones import bones_of
 from medial_axis.core.skeleton.centre import centre_of_mass

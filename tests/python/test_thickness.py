@@ -8,11 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from medial_axis.core.axis.shape import Shape
-from medial_axis.core.axis.thickness import measure_thickness
-from medial_axis.core.axis.thin_parts import find_thin_parts
 from medial_axis.core.errors import ExportError, InvalidInputError
 from medial_axis.core.files.write_thickness import export_thickness
+from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     Between,
     Edges,
@@ -21,6 +19,8 @@ from medial_axis.core.settings import (
     Settings,
     ThicknessSettings,
 )
+from medial_axis.core.solid.thickness import measure_thickness
+from medial_axis.core.solid.thin_parts import find_thin_parts
 from support import inputs
 from support.thick_meshes import (
     block,

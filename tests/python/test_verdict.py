@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
-from medial_axis.core.axis.shape import Shape
 from medial_axis.core.axis.verdict import Light, Severe, plainly, verdict
+from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings
 from support.meshes import icosphere
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute
-from medial_axis.core.axis.walls import Walls
+from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings
 from support import meshes
 

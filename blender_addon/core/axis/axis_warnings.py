@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..samples.choose_samples import ChosenSamples
+from ..samples.sampling_warnings import sampling_warnings
+from ..samples.shape import Shape
+from ..samples.sides import cocone_warnings, look_inward
 from ..settings import SamplingMode, Settings, Side, SidesFrom
-from .choose_samples import ChosenSamples
 from .medial_axis import MedialAxis
-from .sampling_warnings import sampling_warnings
-from .shape import Shape
-from .sides import cocone_warnings, look_inward
 from .verdict import Severe
 
 

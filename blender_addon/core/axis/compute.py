@@ -12,19 +12,19 @@ import numpy as np
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
+from ..samples.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
+from ..samples.shape import Shape
 from ..settings import Form, Settings
 from .axis_warnings import axis_warnings
-from .choose_samples import ChosenSamples, OfChosenSamples, choose_samples
 from .extract import extract
 from .medial_axis import MedialAxis
-from .shape import Shape
 from .topology import topology_sentence
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .density import Density
-    from .sides import Sides
+    from ..samples.density import Density
+    from ..samples.sides import Sides
 
 
 # The share of the work before the hierarchy begins.

@@ -15,7 +15,7 @@ from .pole_axes import pole_axis, power_shape_axis
 
 if TYPE_CHECKING:
     from ..machine.progress import Progress
-    from .analysis import AnalysedSamples
+    from ..samples.analysis import AnalysedSamples
 
 # The fields of both `_medial.MedialMesh` and `MedialAxis`.
 _SAME = (

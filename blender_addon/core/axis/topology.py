@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..settings import OPTIONS, Form, Method
 
 if TYPE_CHECKING:
-    from .analysis import AnalysedSamples
+    from ..samples.analysis import AnalysedSamples
     from .medial_axis import MedialAxis
 
 

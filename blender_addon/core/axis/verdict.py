@@ -12,7 +12,7 @@ from ..settings import SamplingMode
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .choose_samples import ChosenSamples
+    from ..samples.choose_samples import ChosenSamples
 
 
 class Light(Enum):

@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 
 from ..axis.compute import Computation, compute_axis
-from ..axis.reduce import reduced
-from ..axis.shape import Shape
 from ..errors import MedialAxisError
 from ..files.write import export_axis, left_out
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
+from ..samples.shape import Shape
 from ..settings import Settings
+from ..solid.reduce import reduced
 from .option_words import as_words
 
 

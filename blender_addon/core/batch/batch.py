@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ... import __version__
-from ..axis.shape import Shape
 from ..errors import (
     ExportError,
     InvalidInputError,
@@ -30,6 +29,7 @@ from ..machine.cache import CACHE, key_of
 from ..machine.job import Outcome, Task
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
+from ..samples.shape import Shape
 
 
 class Work(Protocol):

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ..axis.shape import Shape
 from ..files.write_skeleton import export_skeleton
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
+from ..samples.shape import Shape
 from ..settings import Settings, SkeletonSettings
 from ..skeleton.compute import Skeletonization, compute_skeleton
 from .option_words import as_words

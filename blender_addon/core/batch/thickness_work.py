@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ..axis.shape import Shape
-from ..axis.thickness import Measurement, measure_thickness
-from ..axis.thin_parts import find_thin_parts
 from ..files.write_thickness import export_thickness, summary_of
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
+from ..samples.shape import Shape
 from ..settings import Settings, ThicknessSettings
+from ..solid.thickness import Measurement, measure_thickness
+from ..solid.thin_parts import find_thin_parts
 from .option_words import as_words
 
 

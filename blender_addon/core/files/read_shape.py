@@ -6,8 +6,8 @@ from __future__ import annotations
 import os
 
 from ..axis.polygon_triangles import polygon_triangles
-from ..axis.shape import Shape
 from ..machine.memory_limit import MemoryLimit
+from ..samples.shape import Shape
 from ..settings import AboveLimit
 from .numpy_arrays import points_of_cloud
 from .read import import_points

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
-from ..axis.ball_cover import Balls
+from ..solid.ball_cover import Balls
 from .extensions import extension_of
 from .placing import is_identity, parts_of
 from .rows_of_text import write_rows

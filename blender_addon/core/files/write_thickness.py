@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ..axis.colours import colours
-from ..axis.thickness import Measurement
-from ..axis.thickness_colours import colour_limits, coloured
-from ..axis.thin_parts import ThinParts
+from ..solid.thickness import Measurement
+from ..solid.thickness_colours import colour_limits, coloured
+from ..solid.thin_parts import ThinParts
 from .extensions import extension_of
 from .whole_file import write_whole
 

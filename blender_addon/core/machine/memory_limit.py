@@ -119,7 +119,7 @@ class MemoryLimit:
 WHAT_IS_FREE = MemoryLimit()
 
 
-# Bytes per point at the peak of the process, as measured (docs/performance.md). Levels are of the inner side.
+# Bytes per point at the peak of the process, as measured (docs/lab/performance.md). Levels are of the inner side.
 _OF_LEVELS = {  # {faces: {output: bytes}}
     False: {"": 2150, ".ply": 2380, ".ma": 3130, OBJECT: 2840},
     True: {"": 2150, ".ply": 2390, ".ma": 3050, OBJECT: 2870},

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..axis.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
-from ..axis.nearness import nearest
 from ..errors import DegenerateInputError
 from ..machine import native
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..machine.progress import Progress
+from ..samples.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
+from ..samples.nearness import nearest
 from ..settings import Settings, Side, SkeletonSettings
 from .centre import centre_of_mass
 from .ends import end_limbs
@@ -33,8 +33,8 @@ from .warnings import skeleton_warnings
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..axis.analysis import AnalysedSamples
-    from ..axis.shape import Shape
+    from ..samples.analysis import AnalysedSamples
+    from ..samples.shape import Shape
 
 # The share of the work before the hierarchy begins.
 _ANALYSIS = 0.6

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..axis.nearness import near, nearest
+from ..samples.nearness import near, nearest
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..axis.nearness import nearest
+from ..samples.nearness import nearest
 from .ends import Balls, balls_of
 from .spread import graph_of, spread
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..axis.analysis import AnalysedSamples
+    from ..samples.analysis import AnalysedSamples
 
 
 def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArray[np.int64], Balls]:

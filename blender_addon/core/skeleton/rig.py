@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..axis.shape import Shape
     from ..machine.progress import Progress
+    from ..samples.shape import Shape
     from ..settings import Settings, SkeletonSettings
 
 

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What has to be said about the samples that were chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..axis.verdict import Severe
+from ..settings import SamplingMode
+from .density import percent
+
+if TYPE_CHECKING:
+    from .choose_samples import ChosenSamples
+    from .shape import Shape
+
+_SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning
+
+
+def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
+    """What was left out, and where the samples are too sparse to trust the axis; a sentence each."""
+    samples, density = chosen.samples, chosen.samples.density
+    if chosen.thinned:
+        yield chosen.thinned
+    if loose := _loose_vertices(shape, chosen):
+        yield (
+            f"{loose:,} vertices without a face were left out; choose Sampling Vertices to use them"
+        )
+    if samples.buried:
+        yield (
+            f"{samples.buried:,} samples were left out because the surface there bounds nothing: "
+            "overlapping parts, walls inside, or sheets without thickness"
+        )
+    walls = samples.walls
+    if walls is not None and walls.are_missed:
+        yield Severe(
+            f"at {percent(walls.missed)} of the surface the walls are closer to each other, about "
+            f"{walls.thickness:.2g}, than the samples, so the inner axis is missing or torn there; "
+            "more samples, a smaller Spacing or a larger Budget help"
+        )
+    if density.share > _SPARSE:
+        yield Severe(
+            f"{percent(density.share)} of the samples are too sparse for what the shape has there "
+            f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"
+        )
+
+
+def _loose_vertices(shape: Shape, chosen: ChosenSamples) -> int:
+    """How many vertices belong to no face where faces were sampled; 0 for curves and texts, whose vertices are none."""
+    if chosen.sampling is SamplingMode.VERTICES or not shape.of_samples:
+        return 0
+    return len(shape.points) - len(np.unique(shape.triangles))

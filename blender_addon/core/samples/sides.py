@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What tells inside from outside: which of faces, normals and Tight Cocone, why, and how well."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..axis.verdict import Severe
+from ..errors import InvalidInputError
+from ..settings import OPTIONS, SidesFrom
+from .buried_samples import bounding_share
+from .nearness import same_place
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .shape import Shape
+
+# A larger share of samples that are not flat is worth a warning; clean scans stay below 0.06, sharp edges included.
+_UNEVEN = 0.1
+# A triangle so many times as wide as the median one spans an opening.
+_WIDE = 10.0
+# Where a larger share of the edges lies between faces that are turned against each other, their normals mean nothing.
+_TURNED = 0.01
+_CHUNK = 1 << 16  # triangles measured at once; bounds the memory
+# A smaller share of the faces that bounds the solid is that of a sheet: half of a wavy one does.
+_BOUNDING = 0.75
+
+
+@dataclass(frozen=True)
+class Sides:
+    """What tells inside from outside, and the reason, for people.
+
+    AUTOMATIC is left only where points alone must tell: their analysis decides (`decided`).
+    """
+
+    source: SidesFrom
+    reason: str
+
+    def __str__(self) -> str:
+        return f"Inside from {OPTIONS['sides'].items[self.source][0]}: {self.reason}"
+
+
+def resolve_sides(
+    wanted: SidesFrom, triangles: NDArray[np.int32], gaps: int, normals: NDArray[np.float64] | None
+) -> Sides:
+    """Decide AUTOMATIC; anything else must be possible.
+
+    Parameters
+    ----------
+    wanted : SidesFrom
+    triangles : (m, 3) int32
+    gaps : int
+        Edges at which the triangles are open.
+    normals : (n, 3) float64 or None
+
+    Raises
+    ------
+    InvalidInputError
+        What is wanted is not there.
+    """
+    has_normals = normals is not None and bool(normals.any())
+    if wanted is SidesFrom.AUTOMATIC:
+        return _automatic(len(triangles) > 0, gaps, has_normals)
+    if wanted is SidesFrom.SURFACE and not len(triangles):
+        raise InvalidInputError(
+            "Expected faces for Inside From Surface, found points only; "
+            "choose Inside From Automatic or Tight Cocone"
+        )
+    if wanted is SidesFrom.NORMALS and not has_normals:
+        raise InvalidInputError(
+            "Expected an attribute 'normal' of the points, vectors that are not all zero, for "
+            "Inside From Normals, found none; choose Inside From Automatic or Tight Cocone"
+        )
+    return Sides(wanted, "as chosen")
+
+
+def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing: float) -> Sides:
+    """As `resolve_sides`, for samples of the faces, which have the normals of those.
+
+    The solid of an open mesh is where its winding number is above one half, as long as most of its faces are the
+    boundary of that. Those of a sheet are not; there the votes of the normals tell what lies behind it.
+
+    Parameters
+    ----------
+    wanted : SidesFrom
+    shape : Shape
+    gaps : int
+        The number of edges at which the faces are open.
+    spacing : float
+        The distance of neighbouring samples.
+    """
+    if wanted is not SidesFrom.AUTOMATIC:
+        return Sides(wanted, "as chosen")
+    if gaps == 0:
+        return Sides(SidesFrom.SURFACE, "the faces are closed")
+    if _turned(shape.points, shape.triangles) > _TURNED:
+        reason = f"the mesh is open at {gaps:,} edges, and its faces are turned either way"
+        return Sides(SidesFrom.TIGHT_COCONE, reason)
+    if bounding_share(shape, spacing) >= _BOUNDING:
+        reason = f"the winding number of the faces, for the mesh is open at {gaps:,} edges"
+        return Sides(SidesFrom.SURFACE, reason)
+    return Sides(SidesFrom.NORMALS, f"those of the faces, for the mesh is open at {gaps:,} edges")
+
+
+def _turned(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
+    """The share of edges that another triangle runs through in the same direction."""
+    ends = same_place(points)[triangles]
+    edges = (ends * (len(points) + 1) + np.roll(ends, -1, axis=1)).ravel()
+    return 1.0 - len(np.unique(edges)) / len(edges)
+
+
+def _automatic(has_faces: bool, gaps: int, has_normals: bool) -> Sides:
+    if has_faces and gaps == 0:
+        return Sides(SidesFrom.SURFACE, "the faces are closed")
+    if has_faces:
+        reason = f"the mesh is open at {gaps:,} edges"
+    else:
+        reason = "the points have no faces" + ("" if has_normals else " and no normals")
+    return Sides(SidesFrom.NORMALS if has_normals else SidesFrom.AUTOMATIC, reason)
+
+
+def decided(sides: Sides, analysis: Any) -> Sides:
+    """The same; where it is AUTOMATIC, what the analysis took: Tight Cocone, or poles where many contradict it."""
+    if sides.source is not SidesFrom.AUTOMATIC:
+        return sides
+    source, reason = SidesFrom[analysis.sides_from.name], sides.reason
+    if source is SidesFrom.POLES:
+        against = f"{analysis.pole_disagreement:.0%}"
+        reason = f"{reason}, and the poles of {against} of the points contradict Tight Cocone"
+    return Sides(source, reason)
+
+
+def look_inward(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
+    """Whether the normals of the outermost samples along the axes look inward, on the whole."""
+    lowest, highest = points.argmin(axis=0), points.argmax(axis=0)
+    lengths = np.maximum(np.linalg.norm(normals, axis=1), np.finfo(np.float64).tiny)
+    low, high = (normals[rows, range(3)] / lengths[rows] for rows in (lowest, highest))
+    return bool(high.sum() < low.sum())
+
+
+def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
+    """What looks wrong with a surface that Tight Cocone found.
+
+    Parameters
+    ----------
+    found : _medial.TightCocone
+    points : (n, 3) float64
+        The points that it was made of.
+    """
+    if not found.encloses:
+        yield Severe(
+            "the points enclose nothing, so inner and outer facets mean little; more points may help"
+        )
+        return
+    samples, off = len(found.samples), int(np.count_nonzero(~found.on_surface))
+    if off:
+        yield (
+            f"{off:,} of {samples:,} points are not on the surface that Tight Cocone found: "
+            "noise, points inside the shape, or too few of them there"
+        )
+    edges, vertices = found.nonmanifold_edges, found.nonmanifold_vertices
+    if edges or vertices:
+        yield (
+            f"the surface that Tight Cocone found touches itself at {edges:,} edges and "
+            f"{vertices:,} points: noise, or too few points for thin parts"
+        )
+    if wide := _wide_triangles(points, found.triangles):
+        yield (
+            f"Tight Cocone closed openings, by {wide:,} triangles more than {_WIDE:g} times as wide "
+            "as most: inside is a guess near them"
+        )
+    if found.cavities:
+        yield (
+            f"{found.cavities:,} patches of points lie inside like walls of closed cavities, "
+            "which Tight Cocone fills; faces, normals or Inside From Poles would keep them"
+        )
+    uneven = np.count_nonzero(~found.flat) / samples
+    if uneven > _UNEVEN:
+        yield (
+            f"{uneven:.0%} of the points do not look like samples of a smooth surface: too few, "
+            "too noisy, or many sharp edges; inside may be wrong there"
+        )
+
+
+def _wide_triangles(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
+    edges = np.empty(len(triangles))
+    for start in range(0, len(triangles), _CHUNK):
+        corners = points[triangles[start : start + _CHUNK]]
+        sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+        edges[start : start + _CHUNK] = sides.max(axis=1)
+    return int(np.count_nonzero(edges > _WIDE * np.median(edges)))

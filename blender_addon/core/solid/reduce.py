@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Few spheres with edges and triangles instead of a whole medial axis: a small medial mesh (docs/small_mesh.md)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..axis.facet_triangles import triangulate_facets
+from ..axis.medial_axis import MedialAxis
+from ..errors import InvalidInputError
+from ..machine.native import own_errors
+from ..machine.progress import Progress
+from .solid_difference import PointDifference, difference_of_points
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..axis.compute import Computation
+    from ..samples.shape import Shape
+
+_INNER = 1  # value of `_medial.Side`
+_SPACING = 1 / 400  # of points on the solid, as a share of the diagonal
+
+
+@dataclass(frozen=True)
+class SphereMesh:
+    """The arrays that the compiled module takes, in its order."""
+
+    vertices: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    edges: NDArray[np.int32]
+
+    @property
+    def arrays(self) -> tuple[NDArray[Any], ...]:
+        return self.vertices, self.radius, self.triangles, self.edges
+
+
+def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = None) -> MedialAxis:
+    """The same solid with few vertices, as triangles and edges of the same topology.
+
+    Edges collapse, those first that change the surface of the solid least, as long as the link condition holds; then
+    the spheres are fitted to that surface.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+        Of the inside.
+    vertices : int
+        That are wanted at most. Where no more edge can collapse, more stay: a loop keeps three.
+    progress : Progress, optional
+
+    Returns
+    -------
+    reduced : MedialAxis
+        Of triangles and edges, with radii. Facets have no samples of their own: `generators` are -1, `theta` and
+        `rho` infinite, as of what any thresholds keep.
+
+    Raises
+    ------
+    InvalidInputError
+        Less than one vertex, or an axis that is not of the inside.
+    NativeModuleError, OutOfMemoryError, Cancelled
+    """
+    if (axis.side != _INNER).any():
+        raise InvalidInputError(
+            "Expected a medial axis of the inside, found one of another side; compute it with side Inner"
+        )
+    whole = sphere_mesh(axis)
+    with own_errors() as module:
+        found = module.reduce_sphere_mesh(
+            *whole.arrays, vertices, progress=progress and progress.part()
+        )
+    return _as_axis(SphereMesh(*found))
+
+
+def reduced(found: Computation, vertices: int, progress: Progress | None = None) -> Computation:
+    """A computation with its axis reduced."""
+    return replace(found, axis=reduce_axis(found.axis, vertices, progress))
+
+
+def sphere_mesh(axis: MedialAxis) -> SphereMesh:
+    """An axis as spheres with triangles and edges."""
+    triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
+    return SphereMesh(
+        np.ascontiguousarray(axis.vertices),
+        np.ascontiguousarray(axis.radius),
+        triangles,
+        np.ascontiguousarray(axis.edges, np.int32).reshape(-1, 2),
+    )
+
+
+def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
+    """How far the solid of a reduced axis, its balls, cones and slabs, is from a surface, in both directions.
+
+    Measured between points of both surfaces, those of the solid a 400th of the diagonal apart.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+    shape : Shape
+        In the same coordinates.
+
+    Raises
+    ------
+    InvalidInputError
+        The shape has no faces.
+    NativeModuleError, OutOfMemoryError
+    """
+    mesh = sphere_mesh(axis)
+    used = shape.points[np.unique(shape.triangles)] if len(shape.triangles) else shape.points
+    diagonal = float(np.linalg.norm(np.ptp(used, axis=0)))
+
+    def signed(queries: NDArray[np.float64]) -> NDArray[np.float64]:
+        with own_errors() as module:
+            return np.asarray(module.solid_distances(queries, *mesh.arrays))
+
+    with own_errors() as module:
+        points = np.asarray(module.solid_surface(*mesh.arrays, _SPACING * diagonal))
+    return difference_of_points(shape, points, signed)
+
+
+def _as_axis(mesh: SphereMesh) -> MedialAxis:
+    count = len(mesh.triangles)
+    always = np.full(count, np.inf)
+    return MedialAxis(
+        vertices=mesh.vertices,
+        radius=mesh.radius,
+        face_offsets=np.arange(0, 3 * count + 1, 3, dtype=np.int32),
+        face_vertices=mesh.triangles.reshape(-1),
+        theta=always,
+        rho=always,
+        side=np.full(count, _INNER, np.int32),
+        generators=np.full((count, 2), -1, np.int32),
+        unbounded=0,
+        zero_area=0,
+        edges=mesh.edges,
+    )

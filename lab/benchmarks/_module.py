@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lets the benchmarks find the compiled module and the shapes of the tests from a plain checkout."""
+
+import argparse
+import importlib.util
+import os
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = Path(os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon"))
+
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+
+from support.data import DATA  # noqa: E402, F401 - found through the line above
+
+
+def load():
+    """The compiled module, through the add-on's own loader."""
+    if "medial_axis" not in sys.modules:
+        _register_package()
+    from medial_axis.core.machine import native
+
+    return native.load()
+
+
+def _register_package():
+    spec = importlib.util.spec_from_file_location(
+        "medial_axis", PACKAGE / "__init__.py", submodule_search_locations=[str(PACKAGE)]
+    )
+    sys.modules["medial_axis"] = package = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(package)
+
+
+def markdown(header: list[str], rows: list[list[str]]) -> str:
+    """A Markdown table with aligned columns."""
+    widths = [max(len(row[i]) for row in [header, *rows]) for i in range(len(header))]
+    lines = [header, ["-" * width for width in widths], *rows]
+    return (
+        "\n".join(
+            "| " + " | ".join(x.ljust(w) for x, w in zip(row, widths)) + " |" for row in lines
+        )
+        + "\n"
+    )
+
+
+def parser(description: str) -> argparse.ArgumentParser:
+    """Of a script that prints a table, with the option to write it to a file."""
+    made = argparse.ArgumentParser(
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    made.add_argument("--output", type=Path, help="also write the table to this file")
+    return made
+
+
+def publish(text: str, output: Path | None) -> None:
+    print(text)
+    if output:
+        output.write_text(text)

@@ -1,0 +1,288 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of the race: what is measured goes below a mark in it, what people wrote above stays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from . import compare, plot
+from .compare import WORDS, Row
+from .solids import SOLIDS
+
+MARK = "<!-- Below this line stands what `python3 -m lab.race` measured. -->"
+END = "<!-- Above this line stands what was measured. -->"
+FULL = 8000
+"""The size whose rows are shown whole."""
+
+
+def write(rows: list[Row], skipped: dict[str, list[str]], path: Path) -> None:
+    """The tables, into a page that has the marks, else into a new one; the plots beside it."""
+    rows = sorted(rows, key=_order)
+    text = path.read_text(encoding="utf-8") if path.exists() else f"# The race\n\n{MARK}\n{END}\n"
+    above, mark, rest = text.partition(MARK)
+    below = rest.partition(END)[2]
+    if not mark:
+        raise SystemExit(f"Expected the line '{MARK}' in {path}, found none; add it")
+    pictures = path.parent / "pictures"
+    pictures.mkdir(exist_ok=True)
+    plots = "\n".join(_plot(rows, measure, pictures) for measure in ("mean", "missed_mean"))
+    parts = [_better(rows), plots, _overview(rows), _wholes(rows), _outer(rows), _cost(rows)]
+    parts.append(_failures(rows, skipped))
+    path.write_text(f"{above}{MARK}\n\n" + "\n".join(parts) + f"\n{END}{below}", encoding="utf-8")
+
+
+def _order(row: Row) -> tuple:
+    groups = ["ours", "rival", "peer"]
+    return (
+        row["size"],
+        row["noisy"],
+        list(SOLIDS).index(row["solid"]),
+        groups.index(row["group"]),
+        row["program"],
+    )
+
+
+# --- where somebody is better
+
+
+def _better(rows: list[Row]) -> str:
+    found = compare.losses(rows)
+    plain = [loss for loss in found if not loss.pays]
+    paid = [loss for loss in found if loss.pays]
+    topology = _topology(rows)
+    return "\n".join(
+        [
+            "## Where somebody is better\n",
+            f"Of {_cells(rows)} places in the tables (a solid, a number of samples, clean or noisy, a measure) the "
+            f"best of the others is more than a tenth better than our default in {len(plain)} and worse in no other "
+            f"measure, and in {len(paid)} at a price. Why stands [above](#why-they-are-better).\n",
+            table([*LOST, "why"], [[*_loss(loss), reason(loss)] for loss in plain]),
+            "<details><summary>At a price: every row</summary>\n",
+            table([*LOST, "its price", "why"], [[*_loss(x), x.pays, reason(x)] for x in paid]),
+            "</details>\n",
+            "Others have the topology of the solid where ours, clean, has not:\n"
+            if topology
+            else "",
+            table(["solid", "samples", "theirs", "ours", "the solid"], topology)
+            if topology
+            else "",
+        ]
+    )
+
+
+LOST = ["solid", "samples", "measure", "who", "theirs", "ours", "times"]
+
+
+def _loss(loss: compare.Loss) -> list[str]:
+    theirs, measure = loss.theirs, loss.measure
+    return [
+        _solid(theirs),
+        _samples(theirs),
+        WORDS[measure],
+        theirs["program"],
+        f"{theirs[measure]:.1e}",
+        f"{loss.ours[measure]:.1e}",
+        f"{loss.ratio:.1f}",
+    ]
+
+
+def reason(loss: compare.Loss) -> str:
+    """A letter of the list that people wrote on the page."""
+    theirs, solid = loss.theirs, SOLIDS[loss.theirs["solid"]]
+    if theirs["outer"]:
+        return "g"
+    if theirs["solid"] in ("shell", "eccentric shell"):
+        return "a"
+    if solid.parts == "sheets to sharp edges" or theirs["solid"] in ("cylinder", "cone"):
+        return "b"
+    if not solid.sheets:
+        return "c" if loss.measure in compare.COVERAGE else "d"
+    return "e" if loss.measure in compare.COVERAGE else "f"
+
+
+def _cells(rows: list[Row]) -> int:
+    return 5 * len({compare.key(row) for row in compare.scored(rows)})
+
+
+def _topology(rows: list[Row]) -> list[list[str]]:
+    scored = [row for row in compare.scored(rows) if not row["outer"]]
+    clean = {compare.key(row): row for row in scored if row["program"] == "ours, clean"}
+    found = []
+    for place, own in clean.items():
+        right = [
+            row["program"]
+            for row in scored
+            if compare.key(row) == place and row["group"] != "ours" and compare.exact(row)
+        ]
+        if right and not compare.exact(own):
+            truth = SOLIDS[own["solid"]].shape.betti
+            found.append(
+                [own["solid"], _samples(own), ", ".join(right), _betti(own), _numbers(truth)]
+            )
+    return found
+
+
+# --- tables
+
+
+def table(header: list[str], rows: list[list[str]]) -> str:
+    lines = [header, ["---"] * len(header), *rows]
+    return "\n".join("| " + " | ".join(row) + " |" for row in lines) + "\n"
+
+
+def _solid(row: Row) -> str:
+    return row["solid"] + (", outside" if row["outer"] else "")
+
+
+def _samples(row: Row) -> str:
+    return f"{row['size']:,}{', noisy' if row['noisy'] else ''}"
+
+
+def _numbers(betti: tuple | list) -> str:
+    return ", ".join(map(str, betti))
+
+
+def _betti(row: Row) -> str:
+    if row["betti"] is None or row["faces"] + row["edges"] == 0:
+        return "points"
+    return _numbers(row["betti"])
+
+
+def _overview(rows: list[Row]) -> str:
+    """Mean accuracy and coverage of every program at every size."""
+    parts = [
+        "## Accuracy and coverage\n",
+        "Mean distance off the exact axis / of the exact axis missed.\n",
+    ]
+    scored = [row for row in compare.scored(rows) if not row["outer"]]
+    for noisy in (False, True):
+        for size in sorted({row["size"] for row in scored if row["noisy"] == noisy}):
+            chosen = [r for r in scored if r["size"] == size and r["noisy"] == noisy]
+            programs = list(
+                dict.fromkeys(sorted((r["program"] for r in chosen), key=_rank(chosen)))
+            )
+            solids = [name for name in SOLIDS if any(r["solid"] == name for r in chosen)]
+            cells = {(r["program"], r["solid"]): r for r in chosen}
+            body = [
+                [name, *(_pair(cells.get((name, solid))) for solid in solids)] for name in programs
+            ]
+            title = f"{size:,} samples, {'noisy' if noisy else 'clean'}"
+            parts.append(f"<details><summary>{title}</summary>\n")
+            parts.append(table(["program", *solids], body) + "\n</details>\n")
+    return "\n".join(parts)
+
+
+def _rank(rows: list[Row]) -> Callable[[str], tuple]:
+    groups = {row["program"]: ["ours", "rival", "peer"].index(row["group"]) for row in rows}
+    return lambda name: (groups[name], name)
+
+
+def _pair(row: Row | None) -> str:
+    return f"{row['mean']:.0e} / {row['missed_mean']:.0e}" if row else "—"
+
+
+def _wholes(rows: list[Row]) -> str:
+    """All that was measured at one size, solid by solid."""
+    parts = [f"## Every measure, {FULL:,} samples\n"]
+    header = ["program", *WORDS.values(), "Betti", "area", "length", "CPU s", "MB"]
+    for noisy in (False, True):
+        for name, solid in SOLIDS.items():
+            chosen = [
+                row
+                for row in compare.scored(rows)
+                if row["solid"] == name
+                and row["size"] == FULL
+                and row["noisy"] == noisy
+                and not row["outer"]
+            ]
+            if chosen:
+                truth = f"axis: {solid.parts}, Betti {_numbers(solid.shape.betti)}, "
+                truth += f"area {solid.area:.3f}, length {solid.length:.3f}"
+                parts.append(f"<details><summary>{name}{', noisy' if noisy else ''}</summary>\n")
+                parts += [
+                    truth + "\n",
+                    table(header, [_whole(row) for row in chosen]),
+                    "</details>\n",
+                ]
+    return "\n".join(parts)
+
+
+def _whole(row: Row) -> list[str]:
+    sizes = [f"{row['area']:.3f}", f"{row['length']:.3f}", f"{row['cpu']:.2f}"]
+    sizes.append(f"{row['bytes'] / 1e6:.0f}")
+    return [row["program"], *(f"{row[m]:.1e}" for m in WORDS), _betti(row), *sizes]
+
+
+def _outer(rows: list[Row]) -> str:
+    chosen = [row for row in compare.scored(rows) if row["outer"]]
+    body = [
+        [row["solid"], row["program"], *(_number(row[m]) for m in WORDS)]
+        for row in sorted(chosen, key=lambda r: list(SOLIDS).index(r["solid"]))
+    ]
+    words = "In the box of the surface; convex solids have none, that of the knot is not known.\n"
+    header = ["solid", "program", *WORDS.values()]
+    return f"## Outer axes, {FULL:,} samples\n\n{words}\n{table(header, body)}" if body else ""
+
+
+def _number(value: float) -> str:
+    return "—" if value != value else f"{value:.1e}"
+
+
+def _cost(rows: list[Row]) -> str:
+    """Median over the solids, clean."""
+    chosen = [row for row in compare.scored(rows) if not row["outer"] and not row["noisy"]]
+    sizes = sorted({row["size"] for row in chosen})
+    programs = list(dict.fromkeys(sorted((r["program"] for r in chosen), key=_rank(chosen))))
+    body = []
+    for name in programs:
+        cells = [name]
+        for size in sizes:
+            found = [r for r in chosen if r["program"] == name and r["size"] == size]
+            cells.append(_middle(found))
+        body.append(cells)
+    words = (
+        "Processor time and memory of the whole process, the start of Python included where it is one; median over the "
+        "solids. The rivals compute our analysis first.\n"
+    )
+    return f"## Cost\n\n{words}\n{table(['program', *(f'{s:,}' for s in sizes)], body)}"
+
+
+def _middle(rows: list[Row]) -> str:
+    if not rows:
+        return "—"
+    cpu, memory = (sorted(row[what] for row in rows)[len(rows) // 2] for what in ("cpu", "bytes"))
+    return f"{cpu:.2f} s, {memory / 1e6:.0f} MB"
+
+
+def _failures(rows: list[Row], skipped: dict[str, list[str]]) -> str:
+    failed = [[_solid(r), _samples(r), r["program"], r["failed"]] for r in rows if "failed" in r]
+    parts = ["## Without a result\n"]
+    parts.append(
+        table(["solid", "samples", "program", "what happened"], failed) if failed else "None.\n"
+    )
+    for name, missing in skipped.items():
+        parts.append(f"- {name} was skipped: `{', '.join(missing)}` is not on the machine.")
+    return "\n".join(parts) + "\n"
+
+
+# --- plots
+
+
+def _plot(rows: list[Row], measure: str, folder: Path) -> str:
+    """Of clean samples, over their number."""
+    data: dict[str, dict[str, list[tuple[float, float]]]] = {}
+    for row in compare.scored(rows):
+        if row["noisy"] or row["outer"] or row["program"] not in plot.COLOURS:
+            continue
+        lines = data.setdefault(row["solid"], {})
+        place = (float(row["size"]), max(row[measure], compare.FLOOR))
+        lines.setdefault(row["program"], []).append(place)
+    name = f"race_{measure}.svg"
+    title = {
+        "mean": "Mean distance of the output from the exact axis",
+        "missed_mean": "Mean distance of the exact axis from the output",
+    }[measure]
+    ordered = {solid: data[solid] for solid in SOLIDS if solid in data}
+    (folder / name).write_text(plot.panels(ordered, title), encoding="utf-8")
+    return f"![{title}, over the number of samples, a panel for each solid](pictures/{name})\n"

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The drawings of the docs are what their scripts draw of the module's results."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PICTURES = ROOT / "docs" / "pictures"
+NAMES = {
+    "algorithm_pictures": ("cell", "theta_rho", "peeling"),
+    "stage_pictures": ("stage_fringe", "stage_fire", "stage_wires"),
+    "section_pictures": (
+        "stage_sampling",
+        "stage_delaunay",
+        "stage_inside",
+        "stage_selection",
+        "stage_labels",
+    ),
+}
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+# Another processor's last bit may turn a rounded coordinate, and the smoothed ends of a wire a little more.
+PIXELS = 1.5
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory):
+    """In processes of their own: the scripts load the package by themselves."""
+    folder = tmp_path_factory.mktemp("drawings")
+    environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+    for script in NAMES:
+        words = [sys.executable, ROOT / "lab/benchmarks" / f"{script}.py", "--output", folder]
+        subprocess.run(words, check=True, env=environment)
+    return folder
+
+
+def elements(path):
+    return list(ElementTree.parse(path).iter())
+
+
+def places(element):
+    """All coordinates and lengths of an element."""
+    kinds = ("d", "x", "y", "cx", "cy", "r")
+    return [float(n) for kind in kinds for n in NUMBER.findall(element.get(kind, ""))]
+
+
+@pytest.mark.parametrize("name", [name for names in NAMES.values() for name in names])
+def test_drawing_is_as_its_script_draws_it(drawn, name):
+    """Words and colours to the letter; places to a pixel or so."""
+    new, old = (elements(folder / f"{name}.svg") for folder in (drawn, PICTURES))
+    assert [e.text for e in new] == [e.text for e in old]
+    assert [(e.tag, e.get("stroke")) for e in new] == [(e.tag, e.get("stroke")) for e in old]
+    for one, other in zip(new, old, strict=True):
+        assert np.allclose(places(one), places(other), rtol=0, atol=PIXELS)
+
+
+def test_every_drawing_has_a_script_or_is_drawn_by_hand():
+    """Race plots are made by the benchmark's page, and the rooms by hand."""
+    known = {name for names in NAMES.values() for name in names}
+    others = {"race_mean", "race_missed_mean", "rooms"}
+    assert {path.stem for path in PICTURES.glob("*.svg")} == known | others
