@@ -22,7 +22,8 @@ bl_info = {
     "category": "Object",
 }
 
-__version__ = ".".join(str(part) for part in bl_info["version"])
+COMMIT = ""  # native/packaging fills it in for a development build
+__version__ = ".".join(str(part) for part in bl_info["version"]) + (COMMIT and f"+{COMMIT}")
 
 # What library.py offers; a test compares.
 __all__ = [

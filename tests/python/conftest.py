@@ -17,7 +17,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]  # native.packaging, tests.parts
 
 from support.data import DATA  # noqa: E402 - the line above makes it found
 from support.sampled import Sampled  # noqa: E402
-from support.slow import (  # noqa: E402, F401 - hooks, which pytest finds here
+from support.tiers import (  # noqa: E402, F401 - hooks, which pytest finds here
     pytest_addoption,
     pytest_collection_modifyitems,
     pytest_configure,
