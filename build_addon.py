@@ -6,7 +6,7 @@
     python3 build_addon.py demo      build, then compute and render real models in a real Blender
     python3 build_addon.py test      what must hold before a change is taken, in about twenty minutes
     python3 build_addon.py test --full    everything, in about an hour and a half; --fast: the main things
-    python3 build_addon.py bench     what it costs beside the bare Delaunay triangulation, as tables
+    python3 build_addon.py bench     the cost compared with the bare Delaunay triangulation, as tables
     python3 build_addon.py race      how close it and others come to medial axes that are known exactly
     python3 build_addon.py clean     remove what the other commands made
 
@@ -152,7 +152,9 @@ def parse(words: list[str]) -> argparse.Namespace:
     add_build_options(add(build, "compile the native modules and pack the add-on", BUILD_HELP))
     add_demo_options(add(demo, "build, then compute and render real models in Blender", DEMO_HELP))
     add_test_options(add(test, "build and run every test", TEST_HELP))
-    add_bench_options(add(bench, "measure beside the bare Delaunay triangulation", BENCH_HELP))
+    add_bench_options(
+        add(bench, "measure the cost against the bare Delaunay triangulation", BENCH_HELP)
+    )
     racing = add(race, "run against others on exact axes", RACE_HELP)
     sizes = {"type": int, "nargs": "+", "default": [2000, 8000, 20_000], "metavar": "N"}
     racing.add_argument("--sizes", **sizes, help="samples; default: 2000 8000 20000")

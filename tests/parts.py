@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `build_addon.py test` runs, part by part.
+"""The parts of `build_addon.py test`, and which of them each tier runs.
 
 A part is a function of the Blender. It returns nothing, or a remark for the summary; it raises Failure when something
 does not hold, and Skip when a tool is missing.
@@ -68,7 +68,7 @@ QUICK_TESTS = (
 )
 
 
-# Those that send every kind of input through every stage of the compiled module, from Python's arrays and back.
+# Python tests that send every kind of input through every stage of the compiled module.
 SANITIZED_TESTS = (
     "test_equality.py",
     "test_delaunay.py",
@@ -118,7 +118,7 @@ def run_parts(tier: str, parts: Mapping[str, Part], blender: Path) -> None:
 
 
 def write_times(tier: str, results: Mapping[str, tuple[str, float]], total: float) -> None:
-    """What each part took and how it ended, for whoever wants to know where the minutes go."""
+    """Keep the seconds and the outcome of each part, for whoever wants to know where the minutes go."""
     parts = {
         name: {"seconds": round(seconds, 1), "verdict": verdict}
         for name, (verdict, seconds) in results.items()

@@ -25,7 +25,7 @@ MARK = re.compile(r"[-+*=|·]|#+|>|\d+[.)]|\|.*")
 
 
 def words_of(text: str) -> list[str]:
-    """What may be moved to the next line; a word that looks like a mark stays with the one before it."""
+    """The pieces that may move to the next line; a word that looks like a mark stays with the one before it."""
     found, word = [], ""
     for i, part in enumerate(WHOLE.split(text)):
         pieces = [part] if i % 2 else re.split(r"(\s+)", part)

@@ -32,7 +32,7 @@ def fill(folder: Path, version: str, suite: str, windows: bool = False) -> list[
 
 
 def origin(folder: Path) -> list[str]:
-    """What a full folder came from."""
+    """The packages that filled a folder, with their versions."""
     return (folder / STAMP).read_text(encoding="utf-8").splitlines()
 
 

@@ -14,7 +14,7 @@ from typing import IO
 from . import paths
 from .terminal import Failure, run, say, succeeds
 
-# What is needed -> the Debian package that brings it.
+# Each table maps a need to the Debian package that provides it.
 CORE = {
     "C++ compiler": "g++",
     "CMake": "cmake",
@@ -89,8 +89,8 @@ def required_meanwhile(needs: dict[str, str]) -> Iterator[None]:
     rights = rights_to_install(missing) if missing else []
     if missing:
         say(f"Installing in the background: {', '.join(missing.values())}")
-    with ThreadPoolExecutor(1) as beside:
-        installed = beside.submit(_install_quietly, missing, rights) if missing else None
+    with ThreadPoolExecutor(1) as background:
+        installed = background.submit(_install_quietly, missing, rights) if missing else None
         yield
         if installed is not None:
             print("Waiting for the packages ...", flush=True)

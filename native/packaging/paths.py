@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where things lie in the checkout, and the one version number."""
+"""The folders of the checkout, and the version of what is built from it."""
 
 from __future__ import annotations
 

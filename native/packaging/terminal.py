@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands that are run for the person at the terminal, and how their failures are told."""
+"""Commands that run for the person at the terminal, and how their failures are reported."""
 
 from __future__ import annotations
 

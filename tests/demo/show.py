@@ -61,14 +61,14 @@ def run_rendering(command: list[str], environment: dict[str, str]) -> None:
     print("$ " + " ".join(map(shlex.quote, command)), flush=True)
     pipe = {"stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, cwd=paths.ROOT, env=environment, **pipe) as blender:
-        told = ""
+        shown = ""
         for line in blender.stdout:
             samples = re.search(r"Sample (\d+)/(\d+)", line)
-            part = f"{10 * int(samples[1]) // int(samples[2])}0 %" if samples else told
+            part = f"{10 * int(samples[1]) // int(samples[2])}0 %" if samples else shown
             if not line.startswith("Fra:"):
                 print(line, end="", flush=True)
-            elif part != told:
-                told = part
+            elif part != shown:
+                shown = part
                 print(f"rendering, {part}", flush=True)
     if blender.returncode != 0:
         raise Failure(f"Blender ended with exit code {blender.returncode}; its output is above")

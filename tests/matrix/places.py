@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where Blenders come from: this machine, other Debians in folders, the package index of Python."""
+"""The sources of Blenders: this machine, other Debians in folders, the package index of Python."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CHROOTS = Path(os.environ.get("MEDIAL_AXIS_BLENDERS", ROOT / "build" / "blenders"))
 INSTALL = ("-m", "pip", "install", "--only-binary", ":all:")
-# Where Pythons lie that are not on PATH.
+# Folders of Pythons that are not on PATH.
 FOLDERS = ("/usr/bin", "/usr/local/bin", str(Path.home() / ".pyenv/versions/{}*/bin"))
 READY = "ready"  # a file that is written last
 sys.path.insert(0, str(ROOT))

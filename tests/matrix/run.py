@@ -59,7 +59,7 @@ HEADER = (
 
 @dataclass
 class Row:
-    """What was found out about one Blender."""
+    """The results of one Blender."""
 
     source: str
     skipped: str = ""
