@@ -158,7 +158,7 @@ def parse(words: list[str]) -> argparse.Namespace:
     racing = add(race, "run against others on exact axes", RACE_HELP)
     sizes = {"type": int, "nargs": "+", "default": [2000, 8000, 20_000], "metavar": "N"}
     racing.add_argument("--sizes", **sizes, help="samples; default: 2000 8000 20000")
-    page = {"default": paths.ROOT / "docs" / "benchmark.md"}
+    page = {"default": paths.ROOT / "docs" / "lab" / "benchmark.md"}
     racing.add_argument("--page", **page, help="default: docs/lab/benchmark.md")
     cleaning = add(clean, "remove what the other commands made")
     cleaning.add_argument("--all", action="store_true", help="the results of the demo as well")

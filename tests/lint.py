@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
 from pathlib import Path
 from typing import Callable
 
@@ -56,10 +57,9 @@ def clang_format() -> None:
 
 
 def clang_tidy(wanted: set[str] | None = None) -> None:
-    """The units of the core and of the bindings that are wanted, with the flags that `release` compiles them with."""
-    database = paths.BUILD / "release" / "compile_commands.json"
-    if not database.is_file():
-        raise Failure(f"expected {paths.shown(database)}; run the part build first")
+    """The units of the core and of the bindings that are wanted, each by itself, as the preset `dev` compiles it."""
+    run("cmake", "--preset", "dev", "-DMEDIAL_TESTS=OFF", stdout=subprocess.DEVNULL)
+    database = paths.BUILD / "dev" / "compile_commands.json"
     # The bindings are compiled once for each Python: the first is this machine's, whose headers clang can read.
     entries = json.loads(database.read_text(encoding="utf-8"))
     first = {entry["file"]: entry for entry in reversed(entries)}

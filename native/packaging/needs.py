@@ -24,7 +24,12 @@ CORE = {
     "pybind11 headers": "pybind11-dev",
     "Python headers": "python3-dev",
 }
-BUILD = {**CORE, "NumPy for Blender's Python": "python3-numpy", "Blender": "blender"}
+BUILD = {
+    **CORE,
+    "Markdown, for the pages in the zip": "python3-markdown",
+    "NumPy for Blender's Python": "python3-numpy",
+    "Blender": "blender",
+}
 WINDOWS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
 DEMO = {
     **BUILD,

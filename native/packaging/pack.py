@@ -15,7 +15,7 @@ from .terminal import python_that, run, say
 MODULES = "lib/_medial."  # how the names of compiled modules begin
 # How they end, on each system, named as extensions.blender.org does.
 PLATFORMS = {"linux-x64": ".so", "windows-x64": ".pyd"}
-_SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".js", ".yaml"}
+_SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".yaml"}
 
 
 def pack(blender: Path | str = "blender", local: bool = False) -> Path:
@@ -94,10 +94,9 @@ def _sources() -> list[Path]:
 
 
 def make_manual(folder: Path) -> None:
-    """The manual as web pages; mkdocs.yml says how."""
-    python = python_that("import mkdocs", "install mkdocs")
-    options = ["--strict", "--config-file", paths.ROOT / "mkdocs.yml"]
-    run(python, "-B", "-m", "mkdocs", "build", *options, "--site-dir", folder)
+    """The user pages as web pages, for readers without a network."""
+    python = python_that("import markdown", "install python3-markdown")
+    run(python, "-B", Path(__file__).with_name("manual.py"), folder)
 
 
 def _make_presets(folder: Path) -> None:

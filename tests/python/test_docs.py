@@ -20,10 +20,10 @@ from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
 from tests.wrap_docs import WRITTEN, wrap
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
-SOURCES = ("native", "blender_addon", "tests", "docs")
-STARTS = ("", "native", "native/medial", "blender_addon", "tests")
+SOURCES = ("native", "blender_addon", "tests", "lab", "docs")
+STARTS = ("", "native", "native/medial", "blender_addon", "tests", "lab")
 TEXTS = {
     ".py",
     ".pyi",
