@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -177,7 +177,9 @@ def measure_thickness(
         noise=noise_of(chosen.samples.points, surface, unit(known.normals)),
         warnings=(),
         seconds=time.perf_counter() - start,
-        key=key_of("thickness", chosen.samples.key, repr(replace(wanted, limit=0.0))),
+        key=key_of(
+            "thickness", chosen.samples.key, astuple(settings), astuple(replace(wanted, limit=0.0))
+        ),
     )
     found = replace(found, warnings=(*sampling_warnings(shape, chosen), *_warnings(found)))
     CACHE.put(found.key, found, found.bytes)
