@@ -38,7 +38,6 @@ __all__ = [
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",
-    "Method",
     "NativeModuleError",
     "OutOfMemoryError",
     "Progress",

@@ -118,7 +118,6 @@ def compute_axis(
         faces=len(shape.triangles) > 0,
         side=settings.side,
         levels=form is not Form.PUBLISHED,
-        method=settings.method,
     )
     if form is Form.CURVE:
         limit = limit.used(output="")  # a curve is small, whatever it is written to
@@ -132,7 +131,7 @@ def compute_axis(
         settings=settings,
         chosen=chosen,
         warnings=tuple(axis_warnings(shape, settings, chosen, axis)),
-        topology=topology_sentence(axis, wanted, chosen.samples, settings.method),
+        topology=topology_sentence(axis, wanted, chosen.samples),
         seconds=time.perf_counter() - start,
     )
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ..axis.levels import Levels
 from ..machine import native
 from ..machine.cache import CACHE, key_of
-from ..settings import Method, Settings, Side, SidesFrom
+from ..settings import Settings, Side, SidesFrom
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,14 +23,6 @@ if TYPE_CHECKING:
     from .shape import Shape
     from .sides import Sides
     from .walls import Walls
-
-
-# What theta and rho are measured against, by the names of `_medial.Against`; others: the umbrella.
-_AGAINST = {
-    Method.POLE_VECTOR: "POLE",
-    Method.TANGENT_POLYGON: "POLYGON",
-    Method.POLE_AND_POLYGON: "POLE_AND_POLYGON",
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,13 +115,7 @@ class Request:
     @property
     def bounding_sphere(self) -> bool:
         """Whether the samples lie in a sphere of other points. It gives every sample an outer pole."""
-        wanted = self.settings
-        return wanted.side is not Side.INNER or wanted.method is Method.POWER_SHAPE
-
-    @property
-    def against(self) -> str:
-        """The name of a `_medial.Against`."""
-        return _AGAINST.get(self.settings.method, "UMBRELLA")
+        return self.settings.side is not Side.INNER
 
     @cached_property
     def solid_betti(self) -> tuple[int, int, int] | None:
@@ -173,7 +159,6 @@ def analyse(
             normals=normals,
             sides=getattr(module.SidesFrom, sides.source.name),
             bounding_sphere=request.bounding_sphere,
-            against=getattr(module.Against, request.against),
             progress=progress,
         )
 
@@ -204,10 +189,10 @@ def kept_or_made(
     ----------
     request : Request
     parts : tuple
-        Everything that the samples depend on, besides the bounding sphere and what is measured against.
+        Everything that the samples depend on, besides the bounding sphere.
     make : callable
     """
-    key = key_of(request.bounding_sphere, request.against, *parts)
+    key = key_of(request.bounding_sphere, *parts)
     found = CACHE.get(key)
     if found is None:
         found = replace(make(), key=key)
