@@ -17,7 +17,7 @@ from medial_axis.core.machine import cache, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
 from medial_axis.core.machine.memory_limit import MemoryLimit, Use, memory_needed
-from medial_axis.core.samples import analysis
+from medial_axis.core.samples import choose_samples
 from medial_axis.core.samples.sampling_report import report_sampling
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.thinning import fewer_samples, spread_rows
@@ -143,7 +143,7 @@ def test_kept_bytes_are_those_of_analyses_and_arrays():
 
 def test_an_analysis_larger_than_the_cache_serves_its_own_run(monkeypatch):
     monkeypatch.setattr(cache, "CACHE", AnalysisCache(1000))
-    monkeypatch.setattr(analysis, "CACHE", cache.CACHE)
+    monkeypatch.setattr(choose_samples, "CACHE", cache.CACHE)
     found = compute_axis(cloud(2000), Settings())
     assert found.axis.facets > 0 and len(cache.CACHE) == 0
     assert refilter(found.key, found.settings) is None

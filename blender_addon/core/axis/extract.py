@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a medial axis is extracted from analysed samples: as published, or as a level of the hierarchy."""
+"""Extraction of a medial axis from analysed samples: as published, or as a level of the hierarchy."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..machine import native
-from ..machine.cache import CACHE
 from ..settings import Form, Settings
 from .levels import extract_level
 from .medial_axis import MedialAxis
 
 if TYPE_CHECKING:
     from ..machine.progress import Progress
-    from ..samples.analysis import AnalysedSamples
+    from ..samples.analysed import AnalysedSamples
 
 # The fields of both `_medial.MedialMesh` and `MedialAxis`.
 _SAME = (
@@ -35,7 +34,7 @@ _SAME = (
 def extract(
     samples: AnalysedSamples, settings: Settings, progress: Progress | None = None
 ) -> MedialAxis:
-    """What the settings leave of the axis of analysed samples, in the form that they have for their side.
+    """Extract the axis that the settings select, in the form that they have for their side.
 
     Raises
     ------
@@ -44,15 +43,14 @@ def extract(
     if settings.form_of_side is Form.PUBLISHED:
         axis = _published(samples.analysis, settings, progress and progress.part())
     else:
-        axis = extract_level(samples.analysis, samples.levels, settings, progress)
-        CACHE.resize(samples.key, samples.bytes)
+        axis = extract_level(samples, settings, progress)
     if samples.rows is None:
         return axis
     return replace(axis, generators=samples.rows[axis.generators])
 
 
 def _published(analysis: Any, settings: Settings, progress: Any | None) -> MedialAxis:
-    """The closure of the facets that the settings select; `progress` is a `_medial.Progress`."""
+    """Return the closure of the facets that the settings select; `progress` is a `_medial.Progress`."""
     with native.own_errors() as module:
         mesh = analysis.extract(
             settings.theta,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..settings import OPTIONS, Form
 
 if TYPE_CHECKING:
-    from ..samples.analysis import AnalysedSamples
+    from ..samples.analysed import AnalysedSamples
     from .medial_axis import MedialAxis
 
 
