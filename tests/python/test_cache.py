@@ -141,7 +141,7 @@ def bent_shape():
     return Shape(points, triangles, normals)
 
 
-FEW = Settings(samples=300, budget=900, rho=1.0)
+FEW = Settings(samples=200, budget=600, rho=1.5)
 STARTS = (
     replace(FEW, sampling=SamplingMode.VERTICES, form=Form.PUBLISHED),
     replace(FEW, sampling=SamplingMode.SURFACE, form=Form.CURVE),
