@@ -39,7 +39,6 @@ __all__ = [
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",
-    "Method",
     "NativeModuleError",
     "OutOfMemoryError",
     "Progress",

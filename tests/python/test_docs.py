@@ -12,7 +12,6 @@ from medial_axis.core.settings import (
     LIMITS,
     LOOKS,
     OPTIONS,
-    RIVAL_OPTIONS,
     THICKNESS_OPTIONS,
     Switch,
 )
@@ -99,7 +98,7 @@ def words(sources):
 @pytest.fixture(scope="session")
 def options(sources):
     """Every option of a command line in the sources, and those of the method."""
-    names = (*OPTIONS, *RIVAL_OPTIONS, *LIMITS, *THICKNESS_OPTIONS)
+    names = (*OPTIONS, *LIMITS, *THICKNESS_OPTIONS)
     made = {"--" + name.replace("_", "-") for name in names}
     switches = [name for name, option in OPTIONS.items() if isinstance(option, Switch)]
     made |= {"--no-" + name.replace("_", "-") for name in switches}

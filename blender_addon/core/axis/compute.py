@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -11,8 +10,8 @@ import numpy as np
 
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..machine.progress import Progress
-from ..samples.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
+from ..samples.choose_samples import begin
+from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.shape import Shape
 from ..settings import Form, Settings
 from .axis_warnings import axis_warnings
@@ -23,8 +22,9 @@ from .topology import topology_sentence
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..machine.progress import Progress
+    from ..samples.analysed import Sides
     from ..samples.density import Density
-    from ..samples.sides import Sides
 
 
 # The share of the work before the hierarchy begins.
@@ -110,30 +110,27 @@ def compute_axis(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    start = time.perf_counter()
-    progress = progress or Progress()
     settings = settings.with_side()
     form, wanted = settings.form_of_side, settings.form
     limit = limit.used(
         faces=len(shape.triangles) > 0,
         side=settings.side,
         levels=form is not Form.PUBLISHED,
-        method=settings.method,
     )
     if form is Form.CURVE:
         limit = limit.used(output="")  # a curve is small, whatever it is written to
-    progress.until(_ANALYSIS if form is not Form.PUBLISHED else 1.0)
-    chosen = choose_samples(shape, settings, progress, limit)
-    progress.until(1.0)
+    share = 1.0 if form is Form.PUBLISHED else _ANALYSIS
+    begun = begin(shape, settings, progress, limit, share)
+    chosen = begun.chosen
     settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling, form=form)
-    axis = extract(chosen.samples, settings, progress)
+    axis = extract(chosen.samples, settings, begun.progress)
     return Computation(
         axis=axis,
         settings=settings,
         chosen=chosen,
         warnings=tuple(axis_warnings(shape, settings, chosen, axis)),
-        topology=topology_sentence(axis, wanted, chosen.samples, settings.method),
-        seconds=time.perf_counter() - start,
+        topology=topology_sentence(axis, wanted, chosen.samples),
+        seconds=begun.seconds,
     )
 
 

@@ -46,7 +46,7 @@ def no_edges() -> NDArray[np.int32]:
 class MedialAxis:
     """Facets as convex polygons that share vertices; edges without a facet, and vertices without an edge.
 
-    As published there are facets only, which are planar; by some methods of others edges or vertices, too.
+    As published there are facets only, which are planar.
 
     Parameters
     ----------

@@ -5,16 +5,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..settings import OPTIONS, Form, Method
+from ..settings import OPTIONS, Form
 
 if TYPE_CHECKING:
-    from ..samples.analysis import AnalysedSamples
+    from ..samples.analysed import AnalysedSamples
     from .medial_axis import MedialAxis
 
 
-def topology_sentence(
-    axis: MedialAxis, wanted: Form, samples: AnalysedSamples, method: Method = Method.MEDIAL
-) -> str:
+def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) -> str:
     """A sentence about the topology of an axis. Of an axis as published: why it has not the form that was wanted, or
     nothing.
 
@@ -24,14 +22,11 @@ def topology_sentence(
     wanted : Form
         That of the settings; the axis may have another one.
     samples : AnalysedSamples
-    method : Method
     """
     if axis.level is None:
         if wanted is Form.PUBLISHED:
             return ""
         name = OPTIONS["form"].items[wanted][0]
-        if method is not Method.MEDIAL:
-            return f"Form As Published: {name} is for the method MEDIAL only"
         return f"Form As Published: {name} is for the inner axis only"
     betti, by_faces = axis.level.betti, samples.by_faces
     sentence = f"{betti_words(betti)}, as the solid"

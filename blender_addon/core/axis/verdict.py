@@ -8,11 +8,12 @@ from enum import Enum
 from typing import TYPE_CHECKING
 
 from ..settings import SamplingMode
+from ..severe import Severe
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..samples.choose_samples import ChosenSamples
+    from ..samples.chosen import ChosenSamples
 
 
 class Light(Enum):
@@ -21,12 +22,6 @@ class Light(Enum):
     GOOD = "GOOD"
     LOOK = "LOOK"
     WRONG = "WRONG"
-
-
-class Severe(str):
-    """A warning that says that the axis is probably wrong, not only that something was assumed."""
-
-    __slots__ = ()
 
 
 @dataclass(frozen=True)

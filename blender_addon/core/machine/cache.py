@@ -4,28 +4,68 @@
 from __future__ import annotations
 
 import hashlib
+import numbers
 import threading
 from collections import OrderedDict
-from typing import TYPE_CHECKING, Any
+from enum import Enum
+from typing import Any
 
 import numpy as np
 
 from ..settings import CACHE_SIZE, MEGABYTE
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
+def key_of(*parts: Any) -> str:
+    """Hash everything that an analysis depends on; the hash names the analysis.
 
-def key_of(*parts: NDArray | str | bool | None) -> str:
-    """The name of an analysis: a hash of all that it depends on."""
+    Parameters
+    ----------
+    *parts : array of numbers, str, bool, int, float, None, member of an Enum, or tuple of these
+        Every array counts with all its elements. Parts of different types are different, whatever they print.
+
+    Raises
+    ------
+    TypeError
+        A part of another type.
+    """
     digest = hashlib.blake2b(digest_size=16)
-    for part in parts:
-        if isinstance(part, np.ndarray):
-            digest.update(repr((part.shape, part.dtype.str)).encode())
-            digest.update(np.ascontiguousarray(part).data)
-        else:
-            digest.update(repr(part).encode())
+    _add(digest, parts)
     return digest.hexdigest()
+
+
+def _add(digest: hashlib.blake2b, part: Any) -> None:
+    """Add a part to a hash: its type, its length, and its content, so that no two lists of parts look alike."""
+    if isinstance(part, tuple):
+        digest.update(f"tuple {len(part)};".encode())
+        for item in part:
+            _add(digest, item)
+    elif isinstance(part, np.ndarray) and part.dtype.kind in "biuf":
+        digest.update(f"array {part.dtype.str} {part.shape};".encode())
+        digest.update(np.ascontiguousarray(part).data)
+    else:
+        text = _text_of(part)
+        digest.update(f"{text[0]} {len(text[1])};".encode() + text[1])
+
+
+def _text_of(part: Any) -> tuple[str, bytes]:
+    """The type and the value of a single part; equal numbers of Python and NumPy have the same."""
+    match part:
+        case None:
+            return "None", b""
+        case Enum():
+            return f"member of {type(part).__qualname__}", part.name.encode()
+        case str():
+            return "str", part.encode("utf-8", "surrogatepass")
+        case bool() | np.bool_():
+            return "bool", str(bool(part)).encode()
+        case numbers.Integral():
+            return "int", str(int(part)).encode()
+        case numbers.Real():
+            return "float", float(part).hex().encode()
+    raise TypeError(
+        f"Expected arrays of numbers, texts, numbers, None, members of enums or tuples of these in a key, "
+        f"found {type(part).__name__}; convert it"
+    )
 
 
 class AnalysisCache:

@@ -24,6 +24,23 @@ def same_place(points: NDArray[np.float64]) -> NDArray[np.int64]:
     return place.reshape(-1).astype(np.int64)
 
 
+def sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> NDArray[np.int64]:
+    """(n,) the number of the sample that each row is.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    samples : (k,) int32
+        The first row of each distinct point, as `_medial.MedialAnalysis.samples` has them.
+    """
+    if len(samples) == len(points):
+        return np.arange(len(points))
+    which = same_place(points)
+    place = np.empty(which.max() + 1, np.int64)
+    place[which[samples]] = np.arange(len(samples))
+    return place[which]
+
+
 def near(
     points: NDArray[np.float64], others: NDArray[np.float64], reach: float
 ) -> NDArray[np.bool_]:

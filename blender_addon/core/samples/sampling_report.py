@@ -3,25 +3,25 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..machine.progress import Progress
-from .analysis import AnalysedSamples
-from .choose_samples import ChosenSamples, choose_samples
+from .choose_samples import begin
 from .density import Density, estimate
-from .nearness import same_place
+from .nearness import sample_of_row
 from .sampling_warnings import sampling_warnings
 from .triangle_faces import TriangleFaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..machine.progress import Progress
     from ..settings import Settings
+    from .analysed import AnalysedSamples
+    from .chosen import ChosenSamples
     from .shape import Shape
 
 
@@ -77,10 +77,10 @@ def report_sampling(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    start = time.perf_counter()
-    chosen = choose_samples(shape, settings.with_side(), progress or Progress(), limit)
+    begun = begin(shape, settings.with_side(), progress, limit)
+    chosen = begun.chosen
     samples, density = chosen.samples, _of_all(chosen.samples)
-    rows = _sample_of_row(samples.points, samples.analysis.samples)
+    rows = sample_of_row(samples.points, samples.analysis.samples)
     return SamplingReport(
         vertices=samples.points,
         triangles=samples.analysis.solid_triangles(),
@@ -91,7 +91,7 @@ def report_sampling(
         shape=shape,
         chosen=chosen,
         warnings=tuple(sampling_warnings(shape, chosen)),
-        seconds=time.perf_counter() - start,
+        seconds=begun.seconds,
     )
 
 
@@ -101,13 +101,3 @@ def _of_all(samples: AnalysedSamples) -> Density:
     if len(found.points) == len(analysis.samples):
         return found
     return estimate(analysis, samples.points, found.edges, found.finest, found.limit)
-
-
-def _sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> NDArray[np.int64]:
-    """(n,) which of the samples, the distinct rows, each row is."""
-    if len(samples) == len(points):
-        return np.arange(len(points))
-    which = same_place(points)
-    place = np.empty(which.max() + 1, np.int64)
-    place[which[samples]] = np.arange(len(samples))
-    return place[which]

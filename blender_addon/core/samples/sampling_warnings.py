@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..axis.verdict import Severe
 from ..settings import SamplingMode
+from ..severe import Severe
 from .density import percent
 
 if TYPE_CHECKING:
-    from .choose_samples import ChosenSamples
+    from .chosen import ChosenSamples
     from .shape import Shape
 
 _SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning

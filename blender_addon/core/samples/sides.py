@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..axis.verdict import Severe
 from ..errors import InvalidInputError
-from ..settings import OPTIONS, SidesFrom
+from ..settings import SidesFrom
+from ..severe import Severe
+from .analysed import Sides
 from .buried_samples import bounding_share
 from .nearness import same_place
 
@@ -29,20 +29,6 @@ _TURNED = 0.01
 _CHUNK = 1 << 16  # triangles measured at once; bounds the memory
 # A smaller share of the faces that bounds the solid is that of a sheet: half of a wavy one does.
 _BOUNDING = 0.75
-
-
-@dataclass(frozen=True)
-class Sides:
-    """What tells inside from outside, and the reason, for people.
-
-    AUTOMATIC is left only where points alone must tell: their analysis decides (`decided`).
-    """
-
-    source: SidesFrom
-    reason: str
-
-    def __str__(self) -> str:
-        return f"Inside from {OPTIONS['sides'].items[self.source][0]}: {self.reason}"
 
 
 def resolve_sides(

@@ -15,7 +15,7 @@ from ..settings import SamplingMode, SidesFrom
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .choose_samples import ChosenSamples
+    from .chosen import ChosenSamples
     from .shape import Shape
 
 

@@ -3,24 +3,23 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..axis.levels import hierarchy_of
 from ..machine import native
-from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..machine.progress import Progress
-from ..samples.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
+from ..samples.choose_samples import begin
+from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.sampling_warnings import sampling_warnings
 from ..settings import BallSettings, CoverMode, Settings, Side, SidesFrom
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..samples.analysis import AnalysedSamples
+    from ..machine.progress import Progress
     from ..samples.shape import Shape
 
 # The shares of the work before the axis begins, and before the balls are chosen.
@@ -106,20 +105,18 @@ def cover_by_balls(
     DegenerateInputError
         The samples span no volume, or what they bound encloses none.
     """
-    start = time.perf_counter()
-    progress = progress or Progress()
     settings = replace(settings, side=Side.INNER)
     limit = limit.used(faces=len(shape.triangles) > 0, side=Side.INNER, levels=True)
-    progress.until(_ANALYSIS)
-    chosen = choose_samples(shape, settings, progress, limit)
+    begun = begin(shape, settings, progress, limit, _ANALYSIS)
+    chosen, progress = begun.chosen, begun.progress
     progress.until(_AXIS)
-    centres, radii = _balls_of(chosen.samples, settings, progress)
+    hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
     progress.until(1.0)
     points, triangles = _surface(shape, chosen)
     with native.own_errors() as module:
         found = module.cover_by_balls(
-            centres,
-            radii,
+            hierarchy.vertices,
+            hierarchy.radius,
             points,
             triangles,
             count=wanted.count,
@@ -127,7 +124,7 @@ def cover_by_balls(
             progress=progress.part(),
         )
     balls = Balls(
-        centres=centres[found.chosen],
+        centres=hierarchy.vertices[found.chosen],
         radii=found.radii,
         mode=wanted.mode,
         covered=1.0 if wanted.mode is CoverMode.AROUND else float(found.covered[-1]),
@@ -141,7 +138,7 @@ def cover_by_balls(
         places=found.places,
         chosen=chosen,
         warnings=tuple(sampling_warnings(shape, chosen)),
-        seconds=time.perf_counter() - start,
+        seconds=begun.seconds,
     )
 
 
@@ -151,12 +148,3 @@ def _surface(shape: Shape, chosen: ChosenSamples) -> tuple[NDArray[np.float64], 
         return shape.points, shape.triangles
     with native.own_errors():
         return chosen.samples.points, chosen.samples.analysis.solid_triangles()
-
-
-def _balls_of(
-    samples: AnalysedSamples, settings: Settings, progress: Progress
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(m, 3), (m,): the empty balls of all inner cells, whatever is shown of the axis."""
-    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress.part())
-    CACHE.resize(samples.key, samples.bytes)
-    return hierarchy.vertices, hierarchy.radius

@@ -11,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .thickness import Measurement
+    from .measurement import Measurement
 
 BLUE = 3.0  # times the limit
 

@@ -13,7 +13,7 @@ from ..machine import native
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .thickness import Measurement
+    from .measurement import Measurement
 
 
 @dataclass(frozen=True)
