@@ -19,10 +19,10 @@ from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
 from tests.wrap_docs import WRITTEN, wrap
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
-SOURCES = ("native", "blender_addon", "tests", "docs")
-STARTS = ("", "native", "native/medial", "blender_addon", "tests")
+SOURCES = ("native", "blender_addon", "tests", "lab", "docs")
+STARTS = ("", "native", "native/medial", "blender_addon", "tests", "lab")
 TEXTS = {
     ".py",
     ".pyi",
@@ -45,7 +45,7 @@ FOREIGN = {
     "template.yaml": "Open Job Description",
     "demo_output/": "made by build_addon.py demo",
     "build/": "made by cmake",
-    "dist/medial_axis-0.1.0.zip": "made by build_addon.py build",
+    "dist/medial_axis-0.2.0.zip": "made by build_addon.py build",
     "OUTPUT.json": "made by the command line",
     "FOLDER/__main__.py": "FOLDER is the user's",
     "--local": "Blender's extension command",

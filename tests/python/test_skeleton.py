@@ -31,6 +31,8 @@ from scipy.spatial import cKDTree
 from support import meshes, tubes
 from support.poses import posed, random_turns, turn
 
+pytestmark = pytest.mark.oracle
+
 NO_FACES = np.zeros((0, 3), np.int32)
 
 

@@ -17,6 +17,8 @@ from support import meshes
 
 from tests.support.fuzz import repeats
 
+pytestmark = pytest.mark.oracle
+
 AREA = 1.0  # of the sheet of a plate
 TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
 TURN[:, 0] *= np.sign(np.linalg.det(TURN))
