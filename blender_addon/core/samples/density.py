@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 # No new pass is needed while at most this share of the samples is too sparse for the theorem.
 DENSE_ENOUGH = 0.1
-# Where only shares matter, this number of samples is measured. It determines shares to a percent, and costs half as much
-# as all samples of a cloud of a million.
+# Where only shares matter, this number of samples is measured. It determines shares to a percent, and costs half as
+# much as all samples of a cloud of a million.
 LOOKED_AT = 20_000
 _HOLE = 0.85  # the radius of the largest holes between even samples, in spacings
 _PLACES = 5  # the number of worst places that are reported

@@ -29,7 +29,7 @@ class Reconstruction(TriangleFaces):
     Parameters
     ----------
     vertices : (v, 3) float64
-        Those samples that a triangle uses.
+        The samples that a triangle uses.
     triangles : (f, 3) int32
         Counter-clockwise as seen from outside; every edge belongs to an even number of them.
     points, duplicates : int
