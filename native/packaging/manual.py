@@ -68,7 +68,8 @@ def prepared(name: str, text: str, titles: dict[str, str]) -> str:
         label, page, place = found.groups()
         return f"[{label}]({page}.html{place or ''})" if page in titles else label
 
-    return re.sub(r"(?<!!)\[([^\]]*)\]\((?:\.\./)?([\w/]+)\.md(#[^)]*)?\)", link, text)
+    text = re.sub(r"(?<!!)\[([^\]]*)\]\(([\w/]+)\.md(#[^)]*)?\)", link, text)
+    return re.sub(r"(?<!!)\[([^\]]*)\]\(\.\./[^)]*\)", r"\1", text)  # files of the checkout
 
 
 def copy_pictures(text: str, docs: Path, folder: Path) -> None:

@@ -189,6 +189,37 @@ def hide(thing, viewport=False, render=False, eye=False):
     bpy.context.view_layer.update()
 
 
+@pytest.fixture
+def hiding():
+    """The preference is on, as it is for those who ask for it."""
+    preferences = bpy.context.preferences.addons[addon().__name__].preferences
+    preferences.hide_with_source = True
+    yield
+    preferences.hide_with_source = False
+
+
+def own_handlers():
+    lists = (v for v in vars(bpy.app.handlers).values() if isinstance(v, list))
+    package = addon().__name__
+    return sorted(h.__name__ for found in lists for h in found if h.__module__.startswith(package))
+
+
+def test_nothing_runs_after_updates_and_frames_unless_it_is_asked_for():
+    preferences = bpy.context.preferences.addons[addon().__name__].preferences
+    usual = own_handlers()
+    assert not {"_after_update", "_after_frame"} & set(usual)
+    preferences.hide_with_source = True
+    assert own_handlers() == sorted([*usual, "_after_frame", "_after_update"])
+    preferences.hide_with_source = False
+    assert own_handlers() == usual
+
+
+def test_an_axis_stays_visible_beside_its_hidden_source():
+    source, axis = with_axis()
+    hide(source, viewport=True)
+    assert not source.visible_get() and hidden(axis) == (False, False, False)
+
+
 def with_axis(**settings):
     source = ellipsoid()
     compute(**EVEN, **settings)
@@ -197,7 +228,7 @@ def with_axis(**settings):
 
 
 @pytest.mark.parametrize("way", ["viewport", "eye"])
-def test_axis_is_hidden_and_shown_with_its_source(way):
+def test_axis_is_hidden_and_shown_with_its_source(way, hiding):
     source, axis = with_axis()
     hide(source, **{way: True})
     assert hidden(axis) == hidden(source) and any(hidden(axis))
@@ -205,13 +236,13 @@ def test_axis_is_hidden_and_shown_with_its_source(way):
     assert hidden(axis) == (False, False, False)
 
 
-def test_axis_is_rendered_without_its_source():
+def test_axis_is_rendered_without_its_source(hiding):
     source, axis = with_axis()
     hide(source, render=True)
     assert hidden(axis) == (False, False, False)
 
 
-def test_an_axis_that_an_artist_shows_stays_beside_a_hidden_source():
+def test_an_axis_that_an_artist_shows_stays_beside_a_hidden_source(hiding):
     source, axis = with_axis()
     hide(source, eye=True)
     hide(axis)
@@ -221,7 +252,7 @@ def test_an_axis_that_an_artist_shows_stays_beside_a_hidden_source():
     assert axis.visible_get() and not source.visible_get()
 
 
-def test_an_axis_that_an_artist_hid_is_not_shown_with_its_source():
+def test_an_axis_that_an_artist_hid_is_not_shown_with_its_source(hiding):
     source, axis = with_axis()
     hide(axis, eye=True)
     hide(source, eye=True)
@@ -229,13 +260,13 @@ def test_an_axis_that_an_artist_hid_is_not_shown_with_its_source():
     assert source.visible_get() and not axis.visible_get()
 
 
-def test_only_a_child_of_its_source_is_hidden_with_it():
+def test_only_a_child_of_its_source_is_hidden_with_it(hiding):
     source, axis = with_axis(parent=False)
     hide(source, viewport=True, render=True, eye=True)
     assert hidden(axis) == (False, False, False)
 
 
-def test_each_view_layer_hides_its_own():
+def test_each_view_layer_hides_its_own(hiding):
     source, axis = with_axis()
     other = bpy.context.scene.view_layers.new("Other")
     other.update()
@@ -247,7 +278,7 @@ def test_each_view_layer_hides_its_own():
     assert not axis.hide_get(view_layer=other)
 
 
-def test_an_animated_source_hides_its_axis():
+def test_an_animated_source_hides_its_axis(hiding):
     source, axis = with_axis()
     for frame, value in ((1, False), (3, True), (5, False)):
         source.hide_viewport = value

@@ -45,7 +45,7 @@ FOREIGN = {
     "template.yaml": "Open Job Description",
     "demo_output/": "made by build_addon.py demo",
     "build/": "made by cmake",
-    "dist/medial_axis-0.2.0.zip": "made by build_addon.py build",
+    "dist/medial_axis-VERSION.zip": "made by build_addon.py build",
     "OUTPUT.json": "made by the command line",
     "FOLDER/__main__.py": "FOLDER is the user's",
     "--local": "Blender's extension command",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was assumed of a shape or looks wrong with its medial axis, a sentence each."""
+"""Warnings about a shape and its medial axis: assumptions and suspicious results, a sentence each."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Of how many pieces, loops and cavities an axis is, in words, and whether the faces of the shape say the same."""
+"""The numbers of pieces, loops and cavities of an axis, in words, and whether the faces of the shape agree."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ if TYPE_CHECKING:
 
 
 def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) -> str:
-    """A sentence about the topology of an axis. Of an axis as published: why it has not the form that was wanted, or
-    nothing.
+    """Describe the topology of an axis in a sentence.
+
+    For an axis as published the sentence explains why the axis does not have the wanted form, or is empty.
 
     Parameters
     ----------
     axis : MedialAxis
     wanted : Form
-        That of the settings; the axis may have another one.
+        The form of the settings; the axis may have another one.
     samples : AnalysedSamples
     """
     if axis.level is None:
@@ -36,7 +37,7 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) 
 
 
 def betti_words(betti: tuple[int, int, int]) -> str:
-    """'1 piece, 5 loops, no cavity'."""
+    """Format Betti numbers as '1 piece, 5 loops, no cavity'."""
     pieces, loops, cavities = betti
     cavity = {0: "no cavity", 1: "1 cavity"}.get(cavities, f"{cavities:,} cavities")
     one = {0: f"no loop, {cavity}", 1: f"1 loop, {cavity}"}

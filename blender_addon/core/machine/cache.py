@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A memory of the last analyses, so that other thresholds for the same points cost milliseconds."""
+"""A cache of the last analyses, so that other thresholds for the same points cost milliseconds."""
 
 from __future__ import annotations
 
@@ -69,21 +69,21 @@ def _text_of(part: Any) -> tuple[str, bytes]:
 
 
 class AnalysisCache:
-    """The most recent analyses, as many as there is room for; the oldest go first.
+    """Keeps the most recent analyses that fit into its room, and drops the oldest first.
 
-    An analysis that is larger than all the room is not kept; it lives as long as the computation that uses it.
+    An analysis that is larger than the whole room is not kept. It lives as long as the computation that uses it.
 
     Parameters
     ----------
     room : int
-        Bytes that all kept analyses may have together.
+        The bytes that all kept analyses may take together.
     """
 
     def __init__(self, room: int) -> None:
         self._room = room
         self._kept: OrderedDict[str, tuple[Any, int]] = OrderedDict()
         self._lock = threading.Lock()
-        self.analyses = 0  # computed since Blender started
+        self.analyses = 0  # the number computed since Blender started
 
     def get(self, key: str) -> Any | None:
         with self._lock:
@@ -93,7 +93,7 @@ class AnalysisCache:
             return self._kept[key][0]
 
     def put(self, key: str, analysis: Any, size: int) -> None:
-        """Keep an analysis of so many bytes."""
+        """Keep an analysis that takes `size` bytes."""
         with self._lock:
             self.analyses += 1
             self._kept.pop(key, None)
@@ -102,7 +102,7 @@ class AnalysisCache:
                 self._kept[key] = (analysis, size)
 
     def resize(self, key: str, size: int) -> None:
-        """An analysis, where it is kept, has grown to so many bytes; others go first to make room."""
+        """Record that a kept analysis has grown to `size` bytes; others are dropped to make room."""
         with self._lock:
             if key not in self._kept:
                 return
@@ -123,11 +123,11 @@ class AnalysisCache:
 
     @property
     def bytes(self) -> int:
-        """What all kept analyses have together."""
+        """The bytes that all kept analyses take together."""
         return sum(size for _, size in tuple(self._kept.values()))
 
     def give_back(self, size: int) -> None:
-        """Drop analyses of at least so many bytes, as far as there are any."""
+        """Drop analyses until at least `size` bytes are free again, or none is left."""
         with self._lock:
             self._drop_until(max(0, self.bytes - size))
 

@@ -126,7 +126,7 @@ def _analysis(
         )
 
 
-# --- what the faces determine without an analysis, on another core: walls, and the topology of the solid
+# --- walls and the topology of the solid, which follow from the faces alone; computed in parallel with the analysis
 
 
 def _faces_of_vertices(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How densely an object is sampled, sample by sample: the theorem's condition as a diagnosis."""
+"""The density of an object's samples, one by one: the theorem's condition as a diagnosis."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class SamplingReport(TriangleFaces):
-    """The samples, the surface as they see it, and estimates for each.
+    """The samples, the surface between them, and estimates for each sample.
 
     Parameters
     ----------
     vertices : (n, 3) float64
         The samples, in the order in which the generators of a medial axis count them.
     triangles : (f, 3) int32
-        Between inside and outside, outward.
+        The surface between inside and outside, counter-clockwise as seen from outside.
     epsilon, spacing, feature_size : (n,) float64
-        As of `density`; rows with the same coordinates have the same.
+        As in `density`; rows with the same coordinates have the same values.
     density : Density
-        Of all samples.
+        The density at all samples.
     shape : Shape
-        What was sampled.
+        The shape that was sampled.
     chosen : ChosenSamples
     warnings : tuple of str
     seconds : float
@@ -64,7 +64,7 @@ def report_sampling(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> SamplingReport:
-    """Sample an object as `compute_axis` does, and estimate how dense that is.
+    """Sample an object as `compute_axis` does, and estimate the density of the samples.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def report_sampling(
 
 
 def _of_all(samples: AnalysedSamples) -> Density:
-    """The density at every sample, also where a glance at some was enough to choose them."""
+    """Return the density at every sample, also where a selection was enough to choose the samples."""
     found, analysis = samples.density, samples.analysis
     if len(found.points) == len(analysis.samples):
         return found

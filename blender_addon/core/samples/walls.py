@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How thin a shape is for its samples, measured from the faces themselves and not from the axis.
+"""The distance between opposite walls compared with the samples; it is measured from the faces, not from the axis.
 
 Between walls that are closer than the samples are apart the axis may be missing altogether. No measurement against the
 axis can then show that it is missing.

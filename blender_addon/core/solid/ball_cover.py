@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A solid as few balls of its medial axis: for collisions, physics, robots (docs/balls.md)."""
+"""A solid as few balls of its medial axis, for collisions, physics and robots (docs/balls.md)."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from ..machine.progress import Progress
     from ..samples.shape import Shape
 
-# The shares of the work before the axis begins, and before the balls are chosen.
+# The shares of the work that are done before the hierarchy begins, and before the balls are chosen.
 _ANALYSIS, _AXIS = 0.5, 0.8
 
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """Some balls, and how well they stand for the solid.
+    """Balls, and how well they represent the solid.
 
     Parameters
     ----------
@@ -36,12 +36,12 @@ class Balls:
     radii : (n,) float64
     mode : CoverMode
     covered : float
-        Share of the volume of the solid that they hold: around, all that was looked at. This and the next two are
-        NaN where nobody knows, for the balls were changed.
+        The share of the volume of the solid that they hold; 1 for AROUND. This and the next two values are NaN where
+        they are unknown because the balls were changed.
     outside : float
-        No place in a ball is farther from the solid.
+        The largest distance of a place in a ball from the solid.
     farthest : float
-        No place on the surface is farther from the balls.
+        The largest distance of a place on the surface from the balls.
     """
 
     centres: NDArray[np.float64]
@@ -54,21 +54,22 @@ class Balls:
 
 @dataclass(frozen=True, eq=False)
 class BallCover(OfChosenSamples):
-    """Balls of a solid, and how they came about.
+    """Balls of a solid, and their origin.
 
     Parameters
     ----------
     shape : Shape
     balls : Balls
-        In the order in which they were chosen. Inside, the first n are what n balls would be; around, their centres.
+        In the order in which they were chosen. For INSIDE the first n are the result for n balls; for AROUND this
+        holds for their centres only.
     shares : (n,) float64
-        Share of the volume that the first 1, 2, ... n balls hold, before they grow.
+        The shares of the volume that the first 1, 2, ... n balls hold, before they grow.
     places : int
-        Of the lattice in the solid on which volumes were counted.
+        The number of places of the lattice in the solid on which volumes were counted.
     chosen : ChosenSamples
-        What was analysed, why, and how densely it lies.
+        The analysed samples, the reasons for them, and their density.
     warnings : tuple of str
-        What was assumed or looks wrong, a sentence each.
+        A sentence for each assumption and each suspicious result.
     seconds : float
     """
 
@@ -88,13 +89,13 @@ def cover_by_balls(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> BallCover:
-    """Few balls of the axis of a shape, which is computed where it is not kept.
+    """Choose few balls of the axis of a shape; the axis is computed unless the cache has it.
 
     Parameters
     ----------
     shape : Shape
     settings : Settings
-        Of the axis. The side is always the inner one.
+        The settings of the axis. The side is always the inner one.
     wanted : BallSettings
     progress : Progress, optional
     limit : MemoryLimit
@@ -103,7 +104,7 @@ def cover_by_balls(
     ------
     NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
     DegenerateInputError
-        The samples span no volume, or what they bound encloses none.
+        The samples span no volume, or enclose none.
     """
     settings = replace(settings, side=Side.INNER)
     limit = limit.used(faces=len(shape.triangles) > 0, side=Side.INNER, levels=True)
@@ -143,7 +144,7 @@ def cover_by_balls(
 
 
 def _surface(shape: Shape, chosen: ChosenSamples) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """What bounds the solid: the faces where these told inside from outside, else the boundary of the inner cells."""
+    """Return the boundary of the solid: the faces if they decide what is inside, else that of the inner cells."""
     if chosen.sides.source is SidesFrom.SURFACE:
         return shape.points, shape.triangles
     with native.own_errors():

@@ -26,30 +26,30 @@ _ROUNDING = 4 * float(np.finfo(np.float32).eps)
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """A measured shape; which limit makes it thin is asked later.
+    """A measured shape; limits are applied later.
 
     Parameters
     ----------
     shape : Shape
     chosen : ChosenSamples
     settings : ThicknessSettings
-        What was measured; its limit is not used here.
+        The settings of the measurement; the limit is not used here.
     triangles : (f, 3) int32
         The measured surface, rows of the samples.
     lengths : (n,) float64
-        At each sample; infinite where there is no wall.
+        The thickness or the gap at each sample; infinite where there is no wall.
     measured : (n,) bool
-        At the sample itself; else filled from the nearest, or infinite.
+        The length was measured at the sample itself; else it comes from the nearest sample, or is infinite.
     at_edge : (n,) bool
-        On a sharp edge.
+        The sample lies on a sharp edge.
     normals : str
-        Where the normals come from, a sentence.
+        A sentence about the source of the normals.
     noise : float
-        Standard deviation of the samples in spacings, 0 to 0.25.
+        The standard deviation of the samples in spacings, 0 to 0.25.
     warnings : tuple of str
     seconds : float
     key : str
-        Names the measurement for `kept_measurement`.
+        The name of the measurement for `kept_measurement`.
     """
 
     shape: Shape
@@ -72,37 +72,40 @@ class Measurement:
 
     @cached_property
     def of_triangles(self) -> NDArray[np.float64]:
-        """(f,) the median of the corners, so that no single sample decides; and no less than the others where one or
-        two of them are on an edge, which belongs to two sides."""
+        """(f,) the median of the lengths at the corners, so that no single sample decides.
+
+        Where one or two corners lie on an edge, which belongs to two faces, it is no less than the largest length at
+        the other corners.
+        """
         values, on_edge = self.lengths[self.triangles].T, self.at_edge[self.triangles].T
         a, b, c = values
         median = np.maximum(np.minimum(a, b), np.minimum(np.maximum(a, b), c))
         mixed = on_edge.any(axis=0)
         others = np.where(on_edge[:, mixed], -np.inf, values[:, mixed]).max(axis=0)
         median[mixed] = np.maximum(median[mixed], others)
-        if self.settings.between is Between.GAP:  # the corner of a solid is in front of nothing
+        if self.settings.between is Between.GAP:  # no wall faces the corner of a solid
             median[on_edge.all(axis=0)] = np.inf
         return median
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
-        """(f,) of the triangles."""
+        """(f,) the areas of the triangles."""
         a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
         return np.linalg.norm(cross(b - a, c - a), axis=1) / 2
 
     @cached_property
     def minimum(self) -> float:
-        """The least of all triangles; infinite where there is nothing."""
+        """The smallest length of all triangles; infinite where there is none."""
         return float(self.of_triangles.min(initial=np.inf))
 
     @cached_property
     def slack(self) -> float:
-        """How much a length has to lie below a limit to be shorter: the rounding of the coordinates."""
+        """The rounding of the coordinates: a length is below a limit only if it differs by more than this."""
         return _ROUNDING * float(np.abs(self.points).max(initial=0.0))
 
     @cached_property
     def of_vertices(self) -> NDArray[np.float64]:
-        """(v,) at each vertex of the shape: that of the nearest sample."""
+        """(v,) the length at each vertex of the shape, taken from the nearest sample."""
         if len(self.points) == len(self.shape.points) and self.chosen.samples.kinds is None:
             return self.lengths
         with native.own_errors() as module:
@@ -110,7 +113,7 @@ class Measurement:
 
     @cached_property
     def triangle_of_faces(self) -> NDArray[np.int32]:
-        """(m,) the triangle that speaks for each face of the shape, the thinnest in it; -1: none."""
+        """(m,) the triangle that represents each face of the shape, the thinnest one in it; -1 where there is none."""
         samples = self.chosen.samples
         if self.triangles is self.shape.triangles:
             return np.arange(len(self.triangles), dtype=np.int32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How thick a shape is at every sample of its surface, or how wide the gaps between its walls are."""
+"""The thickness of a shape at every sample of its surface, or the width of the gaps between its walls."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..samples.chosen import ChosenSamples
     from ..samples.shape import Shape
 
-# From so much noise on, in spacings: Clean reads too thin; nothing reads right.
+# From this noise on, in spacings, the mode Clean measures too small lengths, and every mode measures wrong lengths.
 _SOME, _TOO_MUCH = 0.05, 0.18
 
 
@@ -39,13 +39,13 @@ def measure_thickness(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> Measurement:
-    """Measure a shape by its axis, which is computed where it is not kept.
+    """Measure a shape by its axis, which is computed unless the cache has it.
 
     Parameters
     ----------
     shape : Shape
     settings : Settings
-        How it is sampled, and what tells inside from outside; the side follows from `wanted`.
+        Its options of sampling and of inside and outside are used; the side follows from `wanted`.
     wanted : ThicknessSettings
     progress : Progress, optional
     limit : MemoryLimit
@@ -82,7 +82,7 @@ def measure_thickness(
 
 
 def kept_measurement(key: str) -> Measurement | None:
-    """A measurement that is still in memory; None when it is not."""
+    """Return a measurement that is still in memory, or None."""
     found = CACHE.get(key)
     return found if isinstance(found, Measurement) else None
 
@@ -90,7 +90,7 @@ def kept_measurement(key: str) -> Measurement | None:
 def _lengths(
     chosen: ChosenSamples, known: SurfaceNormals, wanted: ThicknessSettings, progress: Progress
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """(n,) lengths and whether they were measured, of every row."""
+    """(n,) the length at every row, and (n,) whether it was measured there."""
     analysis = chosen.samples.analysis
     scan = wanted.noise is Noise.SCAN
     with native.own_errors() as module:
