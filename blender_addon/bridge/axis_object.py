@@ -13,17 +13,15 @@ import numpy as np
 from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.axis.cut import pieces, within_box, without_small_pieces
 from ..core.axis.verdict import verdict
+from ..core.options import Choice, Integer, Switch
 from ..core.settings import (
     LOOKS,
     OPTIONS,
-    Choice,
     Criteria,
     Form,
-    Integer,
     Look,
     Settings,
     Side,
-    Switch,
 )
 from .attributes import RADIUS
 from .colours import colour_mesh, remember_colours
