@@ -16,6 +16,8 @@ HIDDEN = {
     "core/batch/batch.py",
     "core/machine/free_memory.py",
     "core/batch/option_words.py",
+    "core/batch/outputs.py",
+    "core/machine/cache.py",
     "ui/translation.py",
 }
 DATA = {
