@@ -55,14 +55,25 @@ def present():
         "context menu": f"{MODULE}.ui.menus" in menu_texts(bpy.types.VIEW3D_MT_object_context_menu),
         "export menu": f"{MODULE}.ui.export_axis" in menu_texts(bpy.types.TOPBAR_MT_file_export),
         "handler": any(h.__module__.startswith(MODULE) for h in bpy.app.handlers.load_pre),
-        "hiding": any(
-            h.__module__.startswith(MODULE) for h in bpy.app.handlers.depsgraph_update_post
-        ),
     }
 
 
 def test_everything_is_registered():
     assert all(present().values()), present()
+
+
+def test_nothing_of_ours_runs_after_changes_or_frames():
+    """Loading a file stops a computation; no other handler is registered unless a preference asks for it."""
+    names = [
+        name for name in dir(bpy.app.handlers) if isinstance(getattr(bpy.app.handlers, name), list)
+    ]
+    ours = {
+        name
+        for name in names
+        for handler in getattr(bpy.app.handlers, name)
+        if handler.__module__.startswith(MODULE)
+    }
+    assert "depsgraph_update_post" in names and ours == {"load_pre"}
 
 
 def test_disable_removes_everything_and_enable_brings_it_back():
