@@ -67,7 +67,7 @@ def _better(rows: list[Row]) -> str:
             f"Of {_cells(rows)} places in the tables (a solid, a number of samples, clean or noisy, a measure) the "
             f"best of the others is more than a tenth better than our default in {len(plain)} and worse in no other "
             f"measure, and in {len(paid)} at a price. The reasons are [above](#why-they-are-better), the rows at a "
-            "price in [benchmark_losses.csv](benchmark_losses.csv).\n",
+            "price in [`benchmark_losses.csv`](benchmark_losses.csv).\n",
             table([*LOST, "why"], [[*_loss(loss), reason(loss)] for loss in plain]),
             "Others have the topology of the solid where ours, clean, has not:\n"
             if topology
@@ -186,8 +186,8 @@ def _overview(rows: list[Row]) -> str:
     parts = [
         "## Accuracy and coverage\n",
         "Mean distance off the exact axis / of the exact axis missed. All sizes are in "
-        f"[benchmark_accuracy.csv](benchmark_accuracy.csv); every measure at {FULL:,} samples, with topology, size, "
-        "time and memory, is in [benchmark_measures.csv](benchmark_measures.csv).\n",
+        f"[`benchmark_accuracy.csv`](benchmark_accuracy.csv); every measure at {FULL:,} samples, with topology, size, "
+        "time and memory, is in [`benchmark_measures.csv`](benchmark_measures.csv).\n",
     ]
     scored = [row for row in compare.scored(rows) if not row["outer"] and row["size"] == FULL]
     for noisy in (False, True):
