@@ -37,8 +37,8 @@ def write(rows: list[Row], skipped: dict[str, list[str]], path: Path) -> None:
 
 
 def _save(page: Path, name: str, header: list[str], rows: list[list[str]]) -> None:
-    """A CSV file with the name of the page in front of its own."""
-    with page.with_name(f"{page.stem}_{name}.csv").open("w", newline="", encoding="utf-8") as file:
+    """A CSV file next to the page, under the name to which the page links."""
+    with page.with_name(f"benchmark_{name}.csv").open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows([header, *rows])
 
 

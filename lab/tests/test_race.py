@@ -564,11 +564,11 @@ def test_the_page_keeps_what_people_wrote_and_shows_losses_first(tmp_path):
     for name in ("race_mean.svg", "race_missed_mean.svg"):
         ElementTree.parse(tmp_path / "pictures" / name)
     files = {
-        name: path.with_name(f"page_{name}.csv").read_text() for name in ("losses", "accuracy")
+        name: path.with_name(f"benchmark_{name}.csv").read_text() for name in ("losses", "accuracy")
     }
     assert files["losses"].count("\n") == 1  # nothing is at a price here
     assert "8000,clean,x,slab,1e-04,1e-03\n" in files["accuracy"]
-    measures = path.with_name("page_measures.csv").read_text().splitlines()
+    measures = path.with_name("benchmark_measures.csv").read_text().splitlines()
     assert len(measures) == 3 and len({len(row) for row in csv.reader(measures)}) == 1
 
 
