@@ -8,10 +8,9 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import bpy
 import pytest
 from scene import MODULE, addon, program
-from test_cli import in_blender, reports_of, walking
+from test_cli import in_blender, walking
 
 FARM = Path(addon().__file__).resolve().parent / "farm"
 TEMPLATE = FARM / "medial_axis_sequence.openjd.yaml"
