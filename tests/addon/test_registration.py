@@ -62,20 +62,6 @@ def test_everything_is_registered():
     assert all(present().values()), present()
 
 
-def test_nothing_of_ours_runs_after_changes_or_frames():
-    """Loading a file stops a computation; no other handler is registered unless a preference asks for it."""
-    names = [
-        name for name in dir(bpy.app.handlers) if isinstance(getattr(bpy.app.handlers, name), list)
-    ]
-    ours = {
-        name
-        for name in names
-        for handler in getattr(bpy.app.handlers, name)
-        if handler.__module__.startswith(MODULE)
-    }
-    assert "depsgraph_update_post" in names and ours == {"load_pre"}
-
-
 def test_disable_removes_everything_and_enable_brings_it_back():
     for _ in range(2):
         bpy.ops.preferences.addon_disable(module=MODULE)
@@ -110,7 +96,8 @@ def test_importing_needs_no_blender():
 def test_one_version():
     manifest = (Path(addon().__file__).parent / "blender_manifest.toml").read_text(encoding="utf-8")
     assert f'version = "{addon().__version__}"' in manifest
-    assert addon("core.machine.native").load().__version__ == addon().__version__
+    release = addon().__version__.partition("+")[0]
+    assert addon("core.machine.native").load().__version__ == release
 
 
 @pytest.mark.parametrize("name", OPTIONS)
