@@ -406,7 +406,7 @@ def _is_file(path: str) -> bool:
 
 
 def _items(wanted: argparse.Namespace) -> Iterator[Item]:
-    """One after the other, for frames and files of Blender have to be loaded in between."""
+    """The items one after the other, because Blender loads frames and files in between."""
     if not wanted.inputs:
         yield from _items_of_blender(None, wanted)
     for path in wanted.inputs:
