@@ -96,7 +96,8 @@ def place(output: bpy.types.Object, frame: np.ndarray) -> None:
 def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wanted: bool) -> None:
     """Make an object that has just been placed a child of its source, or its own master again.
 
-    What an artist made it a child of stays its parent. On a source that is flat, nothing can hang.
+    What an artist made it a child of stays its parent. On a source that is flat, nothing can hang; a curve whose path
+    is animated would carry its children along that path.
 
     Parameters
     ----------
@@ -108,13 +109,28 @@ def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wa
     frame = output.matrix_world.copy()
     if output.parent == source and not wanted:
         output.parent = None
-    elif wanted and output.parent in (None, source) and world.determinant() != 0.0:
+    elif wanted and output.parent in (None, source) and _can_carry(source, world):
         output.parent = source
         output.matrix_parent_inverse = world.inverted()
     else:
         return
     output.matrix_basis = frame
     output.scale = (1.0, 1.0, 1.0)
+    if output.parent is not None and source.type == "CURVE":
+        _undo_path(output, frame, world)
+
+
+def _can_carry(source: bpy.types.Object, world: Matrix) -> bool:
+    animated = source.type == "CURVE" and source.data.use_path and source.data.animation_data
+    return world.determinant() != 0.0 and not animated
+
+
+def _undo_path(output: bpy.types.Object, frame: Matrix, world: Matrix) -> None:
+    """Blender carries the children of a curve to the start of its path; take that back."""
+    bpy.context.view_layer.update()
+    carried = output.matrix_world @ frame.inverted() @ world
+    if carried.determinant() != 0.0:
+        output.matrix_parent_inverse = carried.inverted()
 
 
 def remember(

@@ -13,6 +13,7 @@ from mathutils.kdtree import KDTree
 from ..core.errors import InvalidInputError
 from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
+from .evaluated_rows import keeps_rows
 from .feature_size import write_feature_size
 from .material import FLAT, LIMIT, epsilon_material
 from .output_object import (
@@ -152,7 +153,8 @@ def shows_well(source: bpy.types.Object, found: SamplingReport) -> bool:
     except InvalidInputError:
         return False
     vertices = len(source.data.vertices)
-    return vertices == len(found.shape.points) and vertices >= _ENOUGH * len(found.vertices)
+    enough = vertices == len(found.shape.points) and vertices >= _ENOUGH * len(found.vertices)
+    return enough and keeps_rows(source)
 
 
 def write_on_source(
@@ -172,6 +174,11 @@ def write_on_source(
         raise InvalidInputError(
             f"Expected as many vertices with modifiers as without for Write To Source, found "
             f"{vertices:,} and {original:,}; apply the modifiers, or choose Write To Copy"
+        )
+    if not keeps_rows(source):
+        raise InvalidInputError(
+            "Expected modifiers that keep the order of vertices for Write To Source, found some that "
+            "change it; apply the modifiers, or choose Write To Copy"
         )
     values = _on_vertices(found)
     set_attribute(source.data, EPSILON.name, EPSILON.type, EPSILON.domain, values)

@@ -11,6 +11,7 @@ import numpy as np
 from ..core.errors import InvalidInputError
 from ..core.samples.nearness import nearest
 from .attributes import set_attribute
+from .evaluated_rows import row_of_vertices
 from .mesh_arrays import read_polygons, read_positions
 from .output_object import check_mode, new_object, output_of, place, remember
 from .read_object import split_transform
@@ -120,9 +121,10 @@ def _add_spline(
 
 def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> NDArray[np.int64]:
     """(v,) the point of the shape for each vertex of a mesh: its own, or the nearest where modifiers make others."""
-    count = len(source.data.vertices)
-    if count == len(shape.points):
-        return np.arange(count)
+    if len(source.data.vertices) == len(shape.points):
+        rows = row_of_vertices(source)
+        if rows is not None:
+            return rows
     _, rest = split_transform(np.array(source.matrix_world, np.float64))
     return nearest(read_positions(source.data) @ rest.T, shape.points)
 

@@ -19,6 +19,7 @@ from ..core.solid.thickness_colours import colour_limits, coloured
 from ..core.solid.thin_parts import ThinParts
 from .attributes import as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
+from .evaluated_rows import keeps_rows
 from .material import FLAT
 from .mesh_arrays import read_loop_triangles
 from .output_object import (
@@ -53,6 +54,7 @@ PATCHES = "ma_thickness_patches"  # how many
 # Of the thinnest patches, as many as one goes through: x, y, z in the carrier's own frame, area, minimum of each.
 PLACES = "ma_thickness_places"
 LEAST = "ma_thickness_place"  # x, y, z of the minimum
+ON_SOURCE = "ma_thickness_on_source"  # whether the source has the attributes, too
 CURRENT = "ma_thickness_current"  # the patch that was framed last; -1: none
 _MOST_PLACES = 1000
 # A source with at least this many vertices for each sample shows its thickness.
@@ -105,17 +107,18 @@ def write_thickness(
     frame : (4, 4) float64
         Where the shape lies in the world.
     """
-    own = _has_own(source, found)
+    own = _has_own(source, found) and keeps_rows(source)
     if own:
         _write_attributes(source.data, found.of_vertices)
     copy = output_of(source, is_copy)
-    dense = len(source.data.vertices) >= _ENOUGH * len(found.points)
-    if own and copy is None and dense and len(found.shape.triangles):
+    dense = own and len(source.data.vertices) >= _ENOUGH * len(found.points)
+    if copy is None and dense and len(found.shape.triangles):
         carrier = source
         local = np.linalg.inv(np.array(source.matrix_world, np.float64)) @ frame
     else:
         carrier, local = _write_copy(source, copy, found, frame), np.identity(4)
     _remember(carrier, found, local)
+    carrier[ON_SOURCE] = own
     show_limit(carrier, found, parts)
     return carrier
 
@@ -124,7 +127,7 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
     """Flags, colours and figures for a limit, on the carrier and on its source; neither may be in edit mode."""
     on_copy = is_copy(carrier)
     source = source_of(carrier) if on_copy else carrier
-    if not is_gone(source) and _has_own(source, found):
+    if not is_gone(source) and carrier.get(ON_SOURCE, True) and _has_own(source, found):
         set_attribute(source.data, THIN, "BOOLEAN", "FACE", _thin_polygons(source.data, parts))
         source.data.update()
     lengths = found.of_vertices
@@ -142,7 +145,7 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
 
 
 def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
-    """Whether the vertices and faces of a source are those that were measured, and can be written."""
+    """Whether a source has as many vertices and faces as were measured, and can be written."""
     if source.type != "MESH" or source.data.library is not None or source.mode != "OBJECT":
         return False
     mesh = source.data

@@ -9,8 +9,10 @@ from ..bridge.armature_object import (
     bind_by_axis,
     bind_by_heat,
     check_armature_writable,
+    in_rest,
     write_armature,
 )
+from ..bridge.read_object import read_object
 from ..bridge.skeleton_object import (
     check_parts_writable,
     check_skeleton_writable,
@@ -158,15 +160,24 @@ class OBJECT_OT_medial_axis_armature(
     parent = False  # the object follows its bones
 
     sides: choice("sides")
+    replace_weights: bpy.props.BoolProperty(
+        name="Replace Weights",
+        description="Replace weights also where they were painted since they were made",
+        default=False,
+    )
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in ("bind", *SKELETON_OPTIONS, "sides", "sampling"):
+        for name in ("bind", "replace_weights", *SKELETON_OPTIONS, "sides", "sampling"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
     def check_writable(self, thing):
-        check_armature_writable(thing, self.bind != "NONE")
+        check_armature_writable(thing, self.bind != "NONE", self.replace_weights)
+
+    def read(self, thing, _depsgraph):
+        with in_rest(thing):
+            return read_object(thing, bpy.context.evaluated_depsgraph_get())
 
     def work(self, shape):
         settings, wanted = settings_from(self), skeleton_settings(self)

@@ -14,6 +14,7 @@ from scene import MODULE, addon
 HIDDEN = {
     "bridge/material.py",
     "core/batch/batch.py",
+    "core/batch/outputs.py",
     "core/machine/free_memory.py",
     "core/batch/option_words.py",
     "ui/translation.py",
