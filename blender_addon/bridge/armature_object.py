@@ -13,13 +13,12 @@ import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
-from .output_object import new_object, output_of, place, remember
+from .output_object import Product, new_object, place, remember
 from .skeleton_object import rows_of_vertices
 
 if TYPE_CHECKING:
     from ..core.skeleton.rig import Rig
 
-SUFFIX = " Armature"
 BONES = "ma_bones"
 MODIFIER = "Medial Axis Armature"
 _MADE = "ma_bone"  # on each bone that was made here: the name that it got then, which an artist may change
@@ -30,13 +29,8 @@ _GROUP = (
 _WEIGHTS = "ma_weights"  # a hash of the weights in them
 
 
-def is_armature(thing: bpy.types.Object) -> bool:
-    return thing.type == "ARMATURE" and BONES in thing
-
-
-def armature_of(source: bpy.types.Object) -> bpy.types.Object | None:
-    """The armature that the next one of this source updates."""
-    return output_of(source, is_armature)
+ARMATURE = Product(" Armature", (BONES,), type="ARMATURE")
+is_armature, armature_of = ARMATURE.has, ARMATURE.of
 
 
 def check_armature_writable(
@@ -101,7 +95,9 @@ def write_armature(source: bpy.types.Object, rig: Rig, frame: np.ndarray) -> bpy
     """
     thing = armature_of(source)
     if thing is None:
-        thing = new_object(source, SUFFIX, bpy.data.armatures.new(source.name + SUFFIX))
+        thing = new_object(
+            source, ARMATURE.suffix, bpy.data.armatures.new(source.name + ARMATURE.suffix)
+        )
         thing.show_in_front = True
     place(thing, frame)
     bpy.context.view_layer.update()

@@ -8,6 +8,7 @@ to the source.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import bpy
@@ -53,6 +54,50 @@ def output_of(
         and source_of(thing) == source
     ]
     return min(found, key=lambda thing: thing.name, default=None)
+
+
+@dataclass(frozen=True)
+class Product:
+    """One kind of object that is made of a source: how it is found, made and updated.
+
+    Parameters
+    ----------
+    suffix : str
+        The name of the object is the name of its source and this.
+    marks : tuple of str
+        Custom properties that objects of this kind, and no others, have.
+    type : str
+        Blender's type of these objects.
+    """
+
+    suffix: str
+    marks: tuple[str, ...]
+    type: str = "MESH"
+
+    def has(self, thing: bpy.types.Object) -> bool:
+        """Whether an object is of this kind."""
+        return thing.type == self.type and all(mark in thing for mark in self.marks)
+
+    def of(self, source: bpy.types.Object) -> bpy.types.Object | None:
+        """The object of this kind that the next computation of a source updates."""
+        return output_of(source, self.has)
+
+    def check_writable(self, source: bpy.types.Object) -> None:
+        """Raise InvalidInputError when the object that was made of a source cannot be updated now."""
+        check_mode(self.of(source))
+
+    def write_mesh(
+        self, source: bpy.types.Object, build: Callable[[str], bpy.types.Mesh]
+    ) -> tuple[bpy.types.Object, bool]:
+        """Make the object of a source or give it another mesh, all or nothing; and whether it is new.
+
+        `build` makes the mesh from its name.
+        """
+        thing = self.of(source)
+        if thing is None:
+            return new_object(source, self.suffix, build(source.name + self.suffix)), True
+        replace_mesh(thing, build)
+        return thing, False
 
 
 def check_mode(output: bpy.types.Object | None) -> None:

@@ -13,7 +13,7 @@ from ..core.samples.nearness import nearest
 from .attributes import set_attribute
 from .evaluated_rows import row_of_vertices
 from .mesh_arrays import read_polygons, read_positions
-from .output_object import check_mode, new_object, output_of, place, remember
+from .output_object import Product, check_mode, new_object, place, remember
 from .read_object import split_transform
 
 if TYPE_CHECKING:
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from ..core.skeleton.compute import Skeletonization
     from ..core.skeleton.skeleton import Skeleton
 
-SUFFIX = " Skeleton"
 ENDS = "ma_ends"
 LOOPS = "ma_loops"
 BRANCHES = "ma_branches"
@@ -31,18 +30,12 @@ MIRRORED = "ma_mirrored"
 PART = "ma_part"
 
 
-def is_skeleton(thing: bpy.types.Object) -> bool:
-    return thing.type == "CURVE" and ENDS in thing
-
-
-def skeleton_of(source: bpy.types.Object) -> bpy.types.Object | None:
-    """The skeleton that the next one of this source updates."""
-    return output_of(source, is_skeleton)
-
-
-def check_skeleton_writable(source: bpy.types.Object) -> None:
-    """Raise InvalidInputError when the skeleton of a source cannot be updated now."""
-    check_mode(skeleton_of(source))
+SKELETON = Product(" Skeleton", (ENDS,), type="CURVE")
+is_skeleton, skeleton_of, check_skeleton_writable = (
+    SKELETON.has,
+    SKELETON.of,
+    SKELETON.check_writable,
+)
 
 
 def write_skeleton(
@@ -67,7 +60,7 @@ def write_skeleton(
     check_mode(thing)
     check_size(found.skeleton)
     if thing is None:
-        thing = new_object(source, SUFFIX, new_curve(source.name + SUFFIX))
+        thing = new_object(source, SKELETON.suffix, new_curve(source.name + SKELETON.suffix))
         thing.show_in_front = True  # it lies inside the surface
     fill_curve(thing.data, found.skeleton)
     place(thing, frame)

@@ -27,13 +27,11 @@ from .output_object import (
     SECONDS,
     SOURCE,
     WARNINGS,
+    Product,
     check_mode,
     is_gone,
-    new_object,
-    output_of,
     place,
     remember,
-    replace_mesh,
     source_of,
 )
 from .write_mesh import new_mesh
@@ -41,7 +39,6 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-SUFFIX = " Thickness"
 THICKNESS, THIN = "ma_thickness", "ma_thin"
 KEY = "ma_thickness_key"  # names the measurement
 MINIMUM = "ma_thickness_minimum"
@@ -72,9 +69,9 @@ def is_carrier(thing: bpy.types.Object) -> bool:
     return thing.type == "MESH" and KEY in thing
 
 
-def is_copy(thing: bpy.types.Object) -> bool:
-    """Whether this is an object that was made to show thickness."""
-    return is_carrier(thing) and SOURCE in thing
+# An object that was made to show thickness; a source that carries its thickness itself is none.
+COPY = Product(" Thickness", (KEY, SOURCE))
+is_copy = COPY.has
 
 
 def carrier_of(thing: bpy.types.Object | None) -> bpy.types.Object | None:
@@ -83,12 +80,12 @@ def carrier_of(thing: bpy.types.Object | None) -> bpy.types.Object | None:
         return None
     if is_copy(thing):
         return thing
-    return output_of(thing, is_copy) or (thing if is_carrier(thing) else None)
+    return COPY.of(thing) or (thing if is_carrier(thing) else None)
 
 
 def check_thickness_writable(source: bpy.types.Object) -> None:
     """Raise InvalidInputError when thickness of a source cannot be written now."""
-    check_mode(output_of(source, is_copy))
+    COPY.check_writable(source)
     if source.type == "MESH" and source.data.library is None:
         check_mode(source)
 
@@ -110,13 +107,12 @@ def write_thickness(
     own = _has_own(source, found) and keeps_rows(source)
     if own:
         _write_attributes(source.data, found.of_vertices)
-    copy = output_of(source, is_copy)
     dense = own and len(source.data.vertices) >= _ENOUGH * len(found.points)
-    if copy is None and dense and len(found.shape.triangles):
+    if dense and COPY.of(source) is None and len(found.shape.triangles):
         carrier = source
         local = np.linalg.inv(np.array(source.matrix_world, np.float64)) @ frame
     else:
-        carrier, local = _write_copy(source, copy, found, frame), np.identity(4)
+        carrier, local = _write_copy(source, found, frame), np.identity(4)
     _remember(carrier, found, local)
     carrier[ON_SOURCE] = own
     show_limit(carrier, found, parts)
@@ -167,18 +163,12 @@ def _write_attributes(mesh: bpy.types.Mesh, lengths: NDArray[np.float64]) -> Non
 
 
 def _write_copy(
-    source: bpy.types.Object,
-    copy: bpy.types.Object | None,
-    found: Measurement,
-    frame: NDArray[np.float64],
+    source: bpy.types.Object, found: Measurement, frame: NDArray[np.float64]
 ) -> bpy.types.Object:
-    build = partial(_copy_mesh, found)
-    if copy is None:
-        copy = new_object(source, SUFFIX, build(source.name + SUFFIX))
+    copy, is_new = COPY.write_mesh(source, partial(_copy_mesh, found))
+    if is_new:
         copy.color = FLAT
         copy.show_in_front = True  # it lies on its source
-    else:
-        replace_mesh(copy, build)
     place(copy, frame)
     duplicates = found.chosen.samples.analysis.duplicates
     remember(copy, source, len(found.points), duplicates, found.warnings)

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT
+from medial_axis.core.machine.memory_limit import LIMITS
+from medial_axis.core.options import Switch
 from medial_axis.core.settings import (
-    LIMITS,
     LOOKS,
     OPTIONS,
     THICKNESS_OPTIONS,
-    Switch,
 )
 from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
