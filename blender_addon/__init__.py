@@ -8,8 +8,8 @@ Importing this package is cheap: NumPy and the compiled module are first touched
 (library.py), `bpy` by `register`.
 """
 
-# As typing's, which type checkers know by this name. To load `typing` takes a while in which Ctrl-C would still be
-# Python's own: a traceback.
+# The constant of `typing`, which type checkers recognise by its name. Loading `typing` itself takes time in which
+# Ctrl-C would still print Python's traceback.
 TYPE_CHECKING = False
 
 bl_info = {
@@ -25,7 +25,7 @@ bl_info = {
 COMMIT = ""  # native/packaging fills it in for a development build
 __version__ = ".".join(str(part) for part in bl_info["version"]) + (COMMIT and f"+{COMMIT}")
 
-# What library.py offers; a test compares.
+# The public names of library.py; a test compares the two lists.
 __all__ = [
     "BallCover",
     "Balls",

@@ -50,7 +50,7 @@ from .core.machine.memory_limit import MemoryLimit
 from .core.settings import BallSettings, Settings, Side, SkeletonSettings, ThicknessSettings
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
-CLOSED_PIPE = 128 + 13  # as shells say of a program that SIGPIPE ended
+CLOSED_PIPE = 128 + 13  # the exit code by which shells report that SIGPIPE ended a program
 
 _EXAMPLES = """\
 INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend and what Blender imports.
@@ -165,7 +165,7 @@ def inside_blender() -> bool:
     return "bpy" in sys.modules
 
 
-# --- what is asked for
+# --- reading the command line
 
 
 def _parse(words: Sequence[str]) -> argparse.Namespace:
@@ -299,7 +299,7 @@ def _parser(name: str, description: str, epilog: str) -> argparse.ArgumentParser
 def _add_files(
     parser: argparse.ArgumentParser, formats: list[str], usual: str
 ) -> argparse._ArgumentGroup:
-    """What all have in common; the group of the files, for more."""
+    """Adds the arguments that all kinds of work share; returns the group of the files, for more of them."""
     add_options(parser.add_argument_group("memory"), MemoryLimit)
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
@@ -380,7 +380,7 @@ def _is_still(path: str) -> bool:
     return Path(path).suffix.lower() in READERS and not has_number(Path(path).name)
 
 
-# --- what there is to do
+# --- the items
 
 
 class _UsageError(Exception):
@@ -438,7 +438,7 @@ def _items_of_blender(path: str | None, wanted: argparse.Namespace) -> Iterator[
                 f"Expected {{name}} in OUTPUT for {len(names)} objects, found '{wanted.output}'; "
                 "add it, or choose one with --object"
             )
-    except Exception as error:  # whatever Blender or a script in the file says
+    except Exception as error:  # Blender, or a script in the file, may raise anything
         yield Item(source, None, None, Path(wanted.output), partial(_raise, error))
         return
     for frame in wanted.frames or (None,):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the command line says: results on standard output, all else on standard error.
+"""The output of the command line: results on standard output, everything else on standard error.
 
-Names of files are bytes. What a stream cannot show of them, or of anything, is shown with backslashes; a stream that is
-closed or full does not end the work.
+Names of files are bytes. Characters that a stream cannot show are written with backslashes; a stream that is closed
+or full does not end the work.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .core.samples.density import percent
 
 
 class ClosedPipeError(Exception):
-    """Nobody reads the results any more."""
+    """The reader of the results has closed the pipe."""
 
 
 class Console:
@@ -34,7 +34,7 @@ class Console:
     Attributes
     ----------
     lost : bool
-        Results were made that could not be said, as on a full disk.
+        Results were made that could not be printed, as on a full disk.
     """
 
     def __init__(self, json_lines: bool, quiet: bool, new_lines: bool) -> None:
@@ -94,7 +94,7 @@ class Console:
 
 
 def _said(report: dict[str, Any]) -> str:
-    """What is in an output, in a few words."""
+    """The content of an output, in a few words."""
     if "facets" in report:
         edges = f", {report['edges']:,} edges" if report.get("edges") else ""
         return f"{report['facets']:,} facets{edges}"
@@ -118,14 +118,14 @@ def _said(report: dict[str, Any]) -> str:
 
 
 def open_streams() -> None:
-    """Where the caller closed a standard stream, what is said there goes nowhere."""
+    """Opens the null device in place of a standard stream that the caller closed."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
 
 
 def _turn_off(name: str) -> None:
-    """What a stream still holds, and all else, goes nowhere, so that Python can end without a complaint."""
+    """Sends the buffer of a stream, and all further output, to the null device, so that Python ends quietly."""
     stream = getattr(sys, name)
     with open(os.devnull, "wb") as nowhere:
         try:

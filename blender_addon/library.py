@@ -96,7 +96,7 @@ __all__ = [
     "write_balls",
 ]
 
-# What selects facets of an analysis that is there.
+# These options select facets of an existing analysis.
 _THRESHOLDS = [name for name in OPTIONS if name not in (*ANALYSED, *SAMPLING_OPTIONS)]
 
 
@@ -117,7 +117,7 @@ def compute(
     triangles : (m, 3) integers, optional
         Faces, rows of `points`, counter-clockwise as seen from outside.
     normals : (n, 3) floats, optional
-        Outward normals of the points, of any length; a zero normal says nothing.
+        Outward normals of the points, of any length; a zero normal is ignored.
     progress : Progress, optional
         To watch the computation from another thread, or to cancel it from there.
     **settings
@@ -255,7 +255,7 @@ def read(path: str | os.PathLike[str]) -> Shape:
 def write(
     found: MedialAxis | Computation, path: str | os.PathLike[str], *, triangles: bool = False
 ) -> Path:
-    """Write a medial axis; the extension says how: .ma .ply .obj .off .npz (docs/formats.md).
+    """Write a medial axis; the extension chooses the format: .ma .ply .obj .off .npz (docs/formats.md).
 
     Parameters
     ----------
@@ -279,7 +279,7 @@ def write(
 
 
 def write_balls(found: Balls | BallCover, path: str | os.PathLike[str]) -> Path:
-    """Write balls; the extension says how: .ma .json (docs/balls.md).
+    """Write balls; the extension chooses the format: .ma .json (docs/balls.md).
 
     Parameters
     ----------
@@ -356,7 +356,7 @@ def _rows(rows: ArrayLike, name: str, kinds: str, what: str) -> NDArray[Any]:
 
 
 def _checked(given: dict[str, Any], names: list[str]) -> dict[str, Any]:
-    """What `Settings` takes, of what a caller gave."""
+    """The arguments of `Settings` from the options that a caller gave."""
     unknown = next((name for name in given if name not in names), None)
     if unknown is not None:
         what = "; compute again for others" if unknown in OPTIONS else ""

@@ -41,12 +41,12 @@ class Attribute:
 
     @property
     def width(self) -> int:
-        """How many numbers an element has."""
+        """The number of numbers that an element has."""
         return {"INT32_2D": 2, "FLOAT_VECTOR": 3}.get(self.type, 1)
 
     @property
     def key(self) -> str:
-        """What Blender calls the numbers of an element."""
+        """Blender's name for the numbers of an element."""
         return "vector" if self.type == "FLOAT_VECTOR" else "value"
 
     def values(self, axis: MedialAxis | LevelValues | SamplingReport) -> NDArray:
@@ -75,7 +75,7 @@ _TWO_INTS = (
     Attribute("ma_generator_a", "generators", "FACE", "INT", np.int32, column=0),
     Attribute("ma_generator_b", "generators", "FACE", "INT", np.int32, column=1),
 )
-# Of clean forms and curves; lengths are percent of the diagonal, as on the sliders.
+# Only clean forms and curves have these attributes; lengths are percent of the diagonal, as on the sliders.
 _LEVEL = (
     Attribute("ma_exact", "exact", "POINT", "FLOAT_VECTOR", np.float32),
     Attribute("ma_exact_radius", "exact_radius", "POINT", "FLOAT", np.float32),
@@ -93,13 +93,13 @@ SAMPLE_ATTRIBUTES = (
 
 
 def attributes() -> tuple[Attribute, ...]:
-    """Those of every medial axis, as this Blender can hold them."""
+    """The attributes of every medial axis, as this Blender can hold them."""
     types = bpy.types.Attribute.bl_rna.properties["data_type"].enum_items
     return (RADIUS, *_FACE, *(_PAIR if "INT32_2D" in types else _TWO_INTS))
 
 
 def level_attributes() -> tuple[Attribute, ...]:
-    """Those of clean forms and curves besides."""
+    """The further attributes of clean forms and curves."""
     return _LEVEL
 
 

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 SUFFIX = " Medial Axis"
 ANALYSIS = "ma_analysis"
-INSIDE = "ma_inside"  # what told inside from outside, and why: a sentence
+INSIDE = "ma_inside"  # how inside was distinguished from outside, and why: a sentence
 UNBOUNDED = "ma_unbounded"
 ZERO_AREA = "ma_zero_area"
 BOX = "ma_box"  # of the samples: three lowest coordinates, three highest
@@ -134,7 +134,7 @@ def settings_of(result: bpy.types.Object) -> Settings:
 
 
 def look_of(result: bpy.types.Object) -> Look:
-    """How a result looks; what an older version did not remember is as it was then."""
+    """The look of a result; options that an older version did not remember have the value of that version."""
     return Look(**{name: result.get(f"ma_{name}", getattr(ALL, name)) for name in LOOKS})
 
 
@@ -150,7 +150,7 @@ def _box(points: np.ndarray) -> list[float]:
 
 
 def _shown(axis: MedialAxis, box: Sequence[float] | None, look: Look) -> MedialAxis:
-    """What the look leaves of an axis; everything, where that would be nothing, and of a level."""
+    """The part of an axis that the look leaves; the whole axis where nothing would be left, and where it is a level."""
     if axis.level is not None:
         return axis
     if box is not None:
@@ -175,7 +175,7 @@ def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: C
 def _remember_shown(
     result: bpy.types.Object, whole: MedialAxis, axis: MedialAxis, settings: Settings, look: Look
 ) -> None:
-    """What the panel says of the axis that is shown, and the settings and the look that made it."""
+    """Stores the figures of the shown axis for the panel, and the settings and the look that made it."""
     for name, option in OPTIONS.items():
         value = getattr(settings, name)
         result[f"ma_{name}"] = value.name if isinstance(option, Choice) else value

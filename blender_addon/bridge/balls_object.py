@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 MODE, COVERED = "ma_balls_mode", "ma_balls_covered"
 OUTSIDE, FARTHEST = "ma_balls_outside", "ma_balls_farthest"
-_WRITTEN = "ma_balls_written"  # names the balls that the figures are of
+_WRITTEN = "ma_balls_written"  # identifies the balls to which the figures belong
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,8 @@ def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -
 
 
 def read_balls(thing: bpy.types.Object) -> Balls:
-    """The balls of an object as they are now, in its own frame; the figures of those that somebody has changed are
-    known to nobody.
+    """The balls of an object as they are now, in its own frame; the figures of balls that
+    somebody has changed are unknown.
 
     Raises
     ------

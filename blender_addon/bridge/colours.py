@@ -23,7 +23,7 @@ OF = "ma_color_of"
 def colour_mesh(
     mesh: bpy.types.Mesh, values: NDArray, start: float, end: float, render: bool = True
 ) -> None:
-    """Give a mesh `ma_color`, active in the viewport and, where `render` says so, in renders.
+    """Give a mesh `ma_color`, active in the viewport and, where `render` is true, in renders.
 
     Parameters
     ----------

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A medial axis is hidden when its source is, and seen again with it.
+"""Hides a medial axis when its source is hidden, and shows it again with its source.
 
-Blender hands hiding down to no child, and a driver cannot: what one sees in one view layer (the eye, which H
-closes) is no property that can be driven. So a *change* of the source is passed on, and nothing else: an axis
-that an artist hides or shows by himself stays so until the source is hidden or shown the next time, and one that was
-hidden before its source is not shown by it. Renders are left alone: who takes the source out of them wants to
-render the axis. What is needed to tell that stands in two custom properties of the axis, so that undo, copies and
+Blender does not hide children with their parent, and no driver can do it: visibility in one view layer (the eye,
+which H closes) is not a property that can be driven. So only a *change* of the source is passed on: an axis that an
+artist hides or shows stays so until the source is hidden or shown the next time, and an axis that was hidden before
+its source is not shown with it. Visibility in renders is not changed, because a source is usually taken out of a
+render in order to render the axis. The state is kept in two custom properties of the axis, so that undo, copies and
 files keep it.
 """
 
@@ -20,9 +20,9 @@ from .axis_object import is_result
 from .output_object import source_of
 
 SOURCE_HIDDEN = (
-    "ma_source_hidden"  # how its source was hidden when it was last looked at, a word per line
+    "ma_source_hidden"  # the ways in which its source was hidden at the last look, a word per line
 )
-HIDDEN_WITH_SOURCE = "ma_hidden_with_source"  # how the axis was hidden with it
+HIDDEN_WITH_SOURCE = "ma_hidden_with_source"  # the ways in which the axis was hidden with it
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ def hide_with_sources(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Non
 
 
 def _followers() -> Iterator[bpy.types.Object]:
-    """Those that are children of their source; an artist's own parent hides nothing."""
+    """The medial axes that are children of their source; a parent that an artist chose hides nothing."""
     for thing in bpy.data.objects:
         if thing.parent is None or thing.library is not None or not is_result(thing):
             continue

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects that are made of a source, and updated in place when the source is computed again.
 
-They remember their source in a custom property, and are its children unless that is not wanted; nothing is written
-to the source.
+They remember their source in a custom property, and are its children unless this is switched off; the source is not
+changed.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ def replace_mesh(output: bpy.types.Object, build: Callable[[str], bpy.types.Mesh
 
 
 def place(output: bpy.types.Object, frame: np.ndarray) -> None:
-    """Put an object where `frame`, (4, 4) rotation and translation, says."""
+    """Give an object the place `frame`, a (4, 4) rotation and translation."""
     output.matrix_world = Matrix(frame.tolist())
     if output.parent is None:
         output.scale = (1.0, 1.0, 1.0)  # exactly, not to the last bit of a decomposed matrix
@@ -141,8 +141,8 @@ def place(output: bpy.types.Object, frame: np.ndarray) -> None:
 def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wanted: bool) -> None:
     """Make an object that has just been placed a child of its source, or its own master again.
 
-    What an artist made it a child of stays its parent. On a source that is flat, nothing can hang; a curve whose path
-    is animated would carry its children along that path.
+    A parent that an artist chose stays. A source that is scaled flat cannot be a parent; a curve whose path is
+    animated would carry its children along that path.
 
     Parameters
     ----------

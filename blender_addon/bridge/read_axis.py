@@ -84,7 +84,7 @@ def _edges_alone(mesh: bpy.types.Mesh) -> tuple[NDArray[np.int32], NDArray[np.in
 def _level(
     mesh: bpy.types.Mesh, alone: NDArray[np.intp], result: bpy.types.Object
 ) -> LevelValues | None:
-    """What is known of a clean form or a curve; None for an axis as published."""
+    """The level of a clean form or a curve; None for an axis as published."""
     if BETTI not in result:
         return None
     fields = _fields(mesh, level_attributes(), result.name)

@@ -37,7 +37,7 @@ is_rebuilt, rebuilt_of = SOLID.has, SOLID.of
 
 
 def unrebuilt(thing: bpy.types.Object | None) -> bpy.types.Object | None:
-    """What a rebuilt solid was made of; any other object as it is."""
+    """The axis from which a solid was rebuilt; any other object is returned as it is."""
     return source_of(thing) if thing is not None and is_rebuilt(thing) else thing
 
 
@@ -90,14 +90,14 @@ def _divide(rebuilt: bpy.types.Object, voxel: float) -> None:
 
 
 def _diagonal(result: bpy.types.Object) -> float:
-    """Of the box round an axis, in its own frame, and the largest ball: the axis of a ball is a point."""
+    """The diagonal of the box round an axis, in its own frame, and the largest ball: the axis of a ball is a point."""
     corners = [tuple(corner) for corner in result.bound_box]
     sides = (max(values) - min(values) for values in zip(*corners, strict=True))
     return sum(side * side for side in sides) ** 0.5 + 2 * radius_range(result)[1]
 
 
 def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidDifference | None:
-    """How far the solid is from what its axis was computed of, remembered on it; None when that is gone.
+    """Measures and remembers how far the solid is from the source of its axis; None when that source is gone.
 
     Raises
     ------

@@ -18,7 +18,7 @@ from .write_mesh import new_axis_mesh
 if TYPE_CHECKING:
     from ..core.axis.medial_axis import MedialAxis
 
-REDUCED = "ma_reduced"  # the number of vertices that was asked for; marks the object
+REDUCED = "ma_reduced"  # the wanted number of vertices; it marks the object
 
 
 REDUCED_MESH = Product(" Small Mesh", (REDUCED,))
@@ -36,7 +36,7 @@ def check_reduced_writable(result: bpy.types.Object) -> None:
 
 
 def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> bpy.types.Object:
-    """Make the small medial mesh beside a result, or update the one there is; all or nothing.
+    """Make the small medial mesh of a result, or update the one there is; all or nothing.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> 
     axis : MedialAxis
         In the frame of `result`.
     vertices : int
-        That were asked for.
+        The wanted number.
 
     Raises
     ------

@@ -27,7 +27,7 @@ from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
 SEQUENCE = "ma_sequence"
-FORMAT = "ma_sequence_format"  # collections of earlier versions do not say that theirs is AXES
+FORMAT = "ma_sequence_format"  # collections of earlier versions lack it: theirs is AXES
 AXES, SKELETONS = ".npz", ".json"
 FRAME = "ma_frame"
 
@@ -35,7 +35,7 @@ _NAME = re.compile(r"(.*?)(?:_(-?\d+)|[.-]?(\d+))")  # a minus belongs to a numb
 
 
 def sequences(paths: Iterable[Path]) -> list[tuple[str, dict[int, Path]]]:
-    """(name, {frame: path}) of each sequence among some files; the reports beside them are passed over.
+    """(name, {frame: path}) of each sequence among some files; the reports next to them are passed over.
 
     Raises
     ------
@@ -190,7 +190,7 @@ def _remove(things: list[bpy.types.Object]) -> None:
 
 @dataclass(frozen=True)
 class _Kind:
-    """What the files of a sequence hold: the end of its collection's name, and how objects are made of them."""
+    """The kind of the files of a sequence: the end of its collection's name, and how objects are made of them."""
 
     suffix: str
     load: Callable[[str, Path], bpy.types.Object]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Thickness in Blender: `ma_thickness`, `ma_thin` and colours on a source, or on a copy of the measured surface where
-the source has other vertices or too few to show it; and what is remembered of it.
+the source has other vertices or too few to show it; and the figures that are remembered.
 
 The object that is coloured, source or copy, is the carrier: it keeps the figures, and changes with the limit.
 """
@@ -48,7 +48,7 @@ SHARE = "ma_thickness_share"
 GAP = "ma_thickness_gap"
 NORMALS = "ma_thickness_normals"  # where they come from: a sentence
 PATCHES = "ma_thickness_patches"  # how many
-# Of the thinnest patches, as many as one goes through: x, y, z in the carrier's own frame, area, minimum of each.
+# For each of the thinnest patches, up to _MOST_PLACES: x, y, z in the carrier's own frame, area, minimum.
 PLACES = "ma_thickness_places"
 LEAST = "ma_thickness_place"  # x, y, z of the minimum
 ON_SOURCE = "ma_thickness_on_source"  # whether the source has the attributes, too
@@ -75,7 +75,7 @@ is_copy = COPY.has
 
 
 def carrier_of(thing: bpy.types.Object | None) -> bpy.types.Object | None:
-    """What carries the thickness of an object: its copy, or itself; None where it was not measured."""
+    """The carrier of the thickness of an object: its copy, or itself; None where it was not measured."""
     if is_gone(thing):
         return None
     if is_copy(thing):

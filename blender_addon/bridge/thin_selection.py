@@ -28,7 +28,7 @@ def patch_at(carrier: bpy.types.Object, number: int) -> tuple[tuple[float, ...],
 
 
 def patches_of(carrier: bpy.types.Object) -> int:
-    """How many patches are remembered."""
+    """The number of patches that are remembered."""
     return len(carrier.get(PLACES, ())) // _COLUMNS
 
 

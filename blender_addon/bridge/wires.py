@@ -69,7 +69,7 @@ def _set(owner: Any, path: str, value: float) -> None:
 
 
 def _loose(axis: MedialAxis) -> int:
-    """How many edges stand by themselves, and vertices that no facet and no edge has."""
+    """The number of edges without a facet, and of vertices without a facet and an edge."""
     used = np.zeros(len(axis.vertices), np.bool_)
     used[axis.face_vertices] = True
     used[axis.edges.ravel()] = True

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Polygons(Protocol):
-    """What a mesh is made of, as in `MedialAxis`."""
+    """The arrays of a mesh, as in `MedialAxis`."""
 
     vertices: NDArray[np.float64]
     face_offsets: NDArray[np.int32]

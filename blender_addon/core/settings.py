@@ -428,8 +428,7 @@ class Look(Options):
     )
     parent: bool = switch(
         "Parent to Source",
-        "Results move and turn with the object that they were made of, and a medial axis is hidden "
-        "with it",
+        "Results move and turn with the object that they were made of",
         default=True,
     )
     within: float = number(

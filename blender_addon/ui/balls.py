@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cover with Balls, and its panel: how many, what they promise, and how well they do."""
+"""Cover with Balls, and its panel: the number of balls, their promise, and their figures."""
 
 from functools import partial
 
@@ -76,7 +76,7 @@ class OBJECT_OT_medial_axis_balls(
 
 
 class MedialAxisBallSettings(BallProperties, bpy.types.PropertyGroup):
-    """What the panel of balls shows."""
+    """The settings of the panel of balls."""
 
 
 class VIEW3D_PT_medial_axis_balls(bpy.types.Panel):
@@ -111,7 +111,7 @@ class VIEW3D_PT_medial_axis_balls(bpy.types.Panel):
 
 
 def _shown(context):
-    """The balls that the panel speaks of: the active object, those of it, or of what it was made of."""
+    """The balls that the panel describes: the active object, or the balls of it or of its source."""
     active = context.active_object
     if active is None:
         return None

@@ -16,7 +16,7 @@ from .translation import say
 
 
 class FromSelection:
-    """An operator that computes from what is selected: it says why it cannot."""
+    """An operator that computes from the selection; where it cannot, its poll message is the reason."""
 
     @classmethod
     def poll(cls, context):
@@ -31,12 +31,12 @@ class ComputeOperator(FromSelection):
 
     A subclass names its `product` and has three steps: `check_writable(thing)` raises MedialAxisError when the
     product of a source cannot be written now; `work(shape)` gives the function that a task calls with
-    its progress; `write(thing, value, frame)` makes an object of what that returned, or None when
-    there is nothing to make. What does not compute from a shape has a `read` of its own.
+    its progress; `write(thing, value, frame)` makes an object of the value that this function returned, or returns
+    None when there is nothing to make. A subclass that does not compute from a shape has its own `read`.
     `summary(value)` and `value.warnings` are for people.
 
-    A script has what was made selected, as Blender's own operators do; a person, who runs it in a window, keeps the
-    source selected, for the outline of a selected result hides it.
+    In a script the result is selected afterwards, as with Blender's own operators. In a window the source stays
+    selected, because the outline of a selected result hides the result.
     """
 
     product = ""
@@ -94,7 +94,7 @@ class ComputeOperator(FromSelection):
         return sources(context)
 
     def read(self, thing, depsgraph):
-        """What `work` takes; it has the `frame` that `write` gets."""
+        """The argument of `work`; it has the `frame` that `write` gets."""
         return read_object(thing, depsgraph)
 
     def _stop_watching(self, context):

@@ -117,7 +117,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         self._stop(context)
 
     def _start(self, context):
-        """What there is to do, frame by frame; False when it cannot be done, which was reported."""
+        """Prepares the work, frame by frame; returns False when it cannot be done, which was reported."""
         try:
             self._work = {thing.name: self._work_of(context, thing) for thing in sources(context)}
             self._limit = memory_limit()
@@ -187,7 +187,7 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
                 return
 
     def _take(self):
-        """What the thread computed; Cancel in the sidebar cancels all frames."""
+        """The outcome of the thread; Cancel in the sidebar cancels all frames."""
         current_job.finish(self._job)
         try:
             self._finish(self._begun, self._job.outcomes()[0])

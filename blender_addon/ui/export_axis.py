@@ -104,7 +104,7 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
         return {"FINISHED"}
 
     def _write(self, context, thing, path):
-        """How much was written, for people, and to which file."""
+        """A sentence for people: how much was written, and to which file."""
         if is_balls(thing):
             balls, world = read_balls(thing), world_matrix(thing)
         elif self.balls:
@@ -128,7 +128,7 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
 
 
 def _thing(context: bpy.types.Context) -> bpy.types.Object | None:
-    """What is written: the active object's medial axis, or the balls that it is."""
+    """The object that is written: the active object's medial axis, or balls if that is the active object."""
     active = context.active_object
     return active if not is_gone(active) and is_balls(active) else find_axis(active)
 

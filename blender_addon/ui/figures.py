@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel says of a result: what matters in a few rows, and all figures."""
+"""The figures of a result in the panel: the important ones in a few rows, and all of them."""
 
 import re
 
@@ -44,7 +44,7 @@ def draw_sequence(context, layout, frame):
 
 
 def draw_report(context, layout, report):
-    """How densely the samples lie."""
+    """Draws how dense the samples are."""
     _draw_name(layout, report)
     limit = report.get(LIMIT, 0.0)
     share = 100 * report.get(report_object.SHARE, 0.0)
@@ -117,7 +117,7 @@ def draw_surface(context, layout, surface):
 
 
 def _draw_verdict(context, layout, result):
-    """The traffic light with its sentence, and where the manual says why."""
+    """Draws the traffic light with its sentence, and the link to the page of the manual that explains it."""
     name = result.get(axis_object.LIGHT)
     if name not in WHY:  # of an older version
         return

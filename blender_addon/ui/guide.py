@@ -8,7 +8,7 @@ from . import manual
 from .preferences import ADDON
 
 PAGE = "tutorial.html"
-# Where the manual says more about a traffic light.
+# These places of the manual explain the traffic lights.
 WHY = {
     Light.GOOD.name: "user_guide.html#sampling",
     Light.LOOK.name: "troubleshooting.html",

@@ -14,19 +14,21 @@ from .preferences import wants_hiding
 
 @persistent
 def _after_update(_scene, depsgraph):
-    """Hiding, of whatever kind, tags the scene; moves and edits, which come many in a second, do not."""
+    """Hiding of any kind tags the scene; moves and edits, of which there are many per second, do not."""
     if depsgraph.id_type_updated("SCENE"):
         _follow(depsgraph)
 
 
 @persistent
 def _after_frame(_scene, depsgraph):
-    """Keyed hiding tags no scene."""
+    """Keyed hiding does not tag the scene."""
     _follow(depsgraph)
 
 
 def _follow(depsgraph):
-    if depsgraph.mode == "VIEWPORT":  # a render runs beside the window, and may change nothing
+    if (
+        depsgraph.mode == "VIEWPORT"
+    ):  # a render runs in parallel with the window, and must not change anything
         hide_with_sources(depsgraph.scene, depsgraph.view_layer)
 
 

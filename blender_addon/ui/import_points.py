@@ -13,7 +13,7 @@ from .translation import say
 
 
 class ImportPoints(ImportHelper):
-    """What the operators share; `import_mesh.xyz` itself belongs to an add-on that Blender brings."""
+    """The base of the operators; `import_mesh.xyz` itself belongs to an add-on that comes with Blender."""
 
     bl_options = {"UNDO", "PRESET"}
 

@@ -12,7 +12,7 @@ _PAGES = {
     "troubleshooting.html": "Troubleshooting",
     "command_line.html": "Command Line",
 }
-# What Blender calls operators and properties, in lower case, and where the manual speaks of them.
+# Blender's names of operators and properties, in lower case, and the places of the manual that describe them.
 _PLACES = (
     ("bpy.ops.object.medial_axis_sampling_report*", "user_guide.html#report-sampling"),
     ("bpy.ops.object.medial_axis_nodes*", "user_guide.html#live-in-geometry-nodes"),

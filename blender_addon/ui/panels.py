@@ -54,7 +54,9 @@ class VIEW3D_PT_medial_axis(Tab, bpy.types.Panel):
 class VIEW3D_PT_medial_axis_sampling(Closed, bpy.types.Panel):
     """How faces are sampled, and the report"""
 
-    bl_label = ""  # it stands in the header, before the choice, which is seen when the panel is closed, too
+    bl_label = (
+        ""  # the header shows it before the choice, which is visible also while the panel is closed
+    )
     bl_idname = "VIEW3D_PT_medial_axis_sampling"
 
     def draw_header(self, context):
@@ -189,7 +191,7 @@ def _frame(context):
 
 
 def _shown(context):
-    """What the panel speaks of: a frame of a sequence, a medial axis, or a report."""
+    """The object that the panel describes: a frame of a sequence, a medial axis, or a report."""
     return _frame(context) or shown_result(context) or shown_report(context)
 
 

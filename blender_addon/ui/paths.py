@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the operators that read or write files say about paths."""
+"""Paths, as the operators that read or write files need them."""
 
 import os
 

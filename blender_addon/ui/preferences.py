@@ -22,7 +22,8 @@ ADDON = __package__.rpartition(".")[0]
 
 
 def memory_limit() -> MemoryLimit:
-    """What the user allows an analysis; the cache is told its room, for saved preferences call no `update`."""
+    """The memory that the user allows an analysis. This also sets the room of the cache, because saved preferences
+    call no `update`."""
     addon = bpy.context.preferences.addons.get(ADDON)
     if addon is None:  # registered by a script, without preferences
         return MemoryLimit().used(output=OBJECT)
@@ -44,7 +45,7 @@ def _switch_hiding(preferences, _context):
 
 
 def threads() -> int:
-    """How many a computation has."""
+    """The number of threads of a computation."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
@@ -86,7 +87,7 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
 
 
 def _draw_start(context, layout):
-    """Where the panel is, and what there is to read."""
+    """Draws the place of the panel, a problem of the compiled module, and links to the manual."""
     draw_wrapped(context, layout, "3D Viewport > Sidebar (N) > Medial Axis", "INFO")
     if problem := native.problem():
         draw_wrapped(context, layout, problem, "ERROR")

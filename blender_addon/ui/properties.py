@@ -129,22 +129,22 @@ def _exact(option: Number, value: float) -> float:
 
 
 def shown_result(context):
-    """The medial axis that the panel speaks of: the active object, or that of the active object."""
+    """The medial axis that the panel describes: the active object, or the medial axis that was made of it."""
     return _shown(context, is_result, result_of)
 
 
 def shown_surface(context):
-    """The surface that the panel speaks of: the active object, or that of the active object."""
+    """The surface that the panel describes: the active object, or the surface that was made of it."""
     return _shown(context, is_surface, surface_of)
 
 
 def shown_report(context):
-    """The report that the panel speaks of: the active object, or that of the active object."""
+    """The report that the panel describes: the active object, or the report that was made of it."""
     return _shown(context, has_report, report_of)
 
 
 def _shown(context, is_kind, of_source):
-    """The active object, what was made of it, or what was made of that of which it was made."""
+    """The active object if it is of the kind, else the object of the kind that was made of it or of its source."""
     active = getattr(context, "object", None)
     if active is None or active.type not in SOURCE_TYPES:
         return None

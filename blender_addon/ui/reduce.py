@@ -22,7 +22,7 @@ from .translation import say
 
 @dataclass(frozen=True, eq=False)
 class _Whole:
-    """What is reduced: an axis, and the faces that it was computed of in its frame, where there are some."""
+    """The axis that is reduced and, where there are any, the faces from which it was computed, in its frame."""
 
     axis: MedialAxis
     shape: Shape | None

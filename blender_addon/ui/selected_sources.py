@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an operator computes from: the selection, and why there may be nothing to compute."""
+"""The objects from which an operator computes, and the reason why there may be none."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ from . import current_job
 _KINDS = "a mesh, point cloud, curve, surface, text or metaball"
 
 
-# What is made of a source and has no surface of its own.
+# Objects of these kinds are made of a source and have no surface of their own.
 _MADE = {
     is_result: "a medial axis",
     is_reduced: "a medial axis",
@@ -65,7 +65,7 @@ def sources(context) -> list:
 
 
 def has_faces(thing) -> bool:
-    """Whether a source is more than points, as far as one sees without evaluating it."""
+    """Whether a source is more than points, judged without evaluating it."""
     return thing.type != "POINTCLOUD" and (thing.type != "MESH" or bool(thing.data.polygons))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Self-Test: a known medial axis is computed, and each check says what it found."""
+"""Self-Test: a known medial axis is computed, and each check reports its result."""
 
 import bpy
 

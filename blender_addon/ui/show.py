@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a person presses to see a result better: colours in Solid view, and the source as wire."""
+"""Buttons that make a result easier to see: colours in Solid view, and the source as wire."""
 
 import bpy
 

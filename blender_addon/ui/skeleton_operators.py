@@ -47,7 +47,7 @@ class SkeletonProperties:
 
 
 class ArmatureProperties:
-    """How an armature is used."""
+    """The option of an armature."""
 
     bind: prop(BIND)
 
@@ -161,7 +161,7 @@ class OBJECT_OT_medial_axis_armature(
 
 
 class MedialAxisSkeletonSettings(SkeletonProperties, ArmatureProperties, bpy.types.PropertyGroup):
-    """What the panel of skeletons shows."""
+    """The settings of the panel of skeletons."""
 
 
 CLASSES = (

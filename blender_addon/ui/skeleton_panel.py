@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel of skeletons and armatures, closed until someone wants one."""
+"""The panel of skeletons and armatures, closed by default."""
 
 import bpy
 
@@ -30,7 +30,7 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
 
 
 def _shown(context):
-    """The skeleton and the armature that the panel speaks of: the active object, or those of the active object."""
+    """The skeleton and the armature that the panel describes: the active object, or those made of it."""
     active = getattr(context, "object", None)
     if active is None:
         return []

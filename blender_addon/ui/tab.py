@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the panels of this add-on are, and the column in which their settings stand."""
+"""The place of the panels of this add-on, and the column of their settings."""
 
 MAIN = "VIEW3D_PT_medial_axis"  # the panel that holds the others
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure Thickness, and what leads to the places that are thin."""
+"""Measure Thickness, and the operators that lead to thin places."""
 
 from functools import partial
 
@@ -117,7 +117,7 @@ class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):
         return {"FINISHED"}
 
     def _place(self, carrier):
-        """Where to look in the carrier's own frame, and how much is to be seen; None where nothing is thin."""
+        """The place to look at, in the carrier's own frame, and its size; None where nothing is thin."""
         if self.which == "MINIMUM":
             return least_of(carrier)
         count = patches_of(carrier)
@@ -131,7 +131,7 @@ class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):
 
 
 def _selected_on(context, carrier):
-    """Whose faces are selected: those of the active object where it has them, else the carrier's."""
+    """The object whose faces are selected: the active object where it has the attribute, else the carrier."""
     active = context.object
     source = source_of(carrier) if is_copy(carrier) else carrier
     on_source = active == source and not is_gone(source) and source.type == "MESH"

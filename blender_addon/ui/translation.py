@@ -2,7 +2,7 @@
 """The language of the user interface.
 
 Blender translates labels and descriptions by itself. Sentences from below the user interface are English; `say`
-knows them by their words, whatever names and figures stand between these.
+recognises them by their words, whatever names and figures are between these.
 """
 
 import ast
@@ -17,8 +17,10 @@ from ..core.files.names import shown
 _ADDON = __package__.rpartition(".")[0]
 _FOLDER = Path(__file__).resolve().parent.parent / "translations"
 _ENTRY = re.compile(r"^msgid (\".+\")\nmsgstr (\".+\")$", re.MULTILINE)  # of a .po file
-CONTEXT = "Medial Axis"  # where our own words go before Blender's for the same text
-PROBE = "Compute Medial Axis"  # every language says it in another way
+CONTEXT = (
+    "Medial Axis"  # in this context our own words take precedence over Blender's for the same text
+)
+PROBE = "Compute Medial Axis"  # every language translates it differently
 # For properties; Blender before 4.0 or so shows its own words for a few short labels.
 IN_CONTEXT = (
     {"translation_context": CONTEXT}
@@ -29,7 +31,7 @@ _CONTEXTS = ("*", "Operator", CONTEXT)
 
 
 def say(text) -> str:
-    """A sentence in the language of the user interface, as far as there is a translation."""
+    """A sentence in the language of the user interface; parts without a translation stay English."""
     text = shown(str(text))  # Blender takes text only, and names of files are bytes
     language = _translated(PROBE)
     return text if language == PROBE else _said(text, language)

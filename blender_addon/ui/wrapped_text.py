@@ -11,7 +11,7 @@ _CHARACTER = 7  # pixels of an average character; only decides where lines break
 def draw_wrapped(context, layout, text, icon="NONE", icon_value=0, beside=0):
     """A sentence over as many lines as the region needs, with an icon by name or by number.
 
-    So many pixels are left for what stands `beside` it.
+    `beside` is the number of pixels that are kept free next to it.
     """
     width = context.region.width / context.preferences.system.ui_scale - 60 - beside
     column = layout.column(align=True)

@@ -38,7 +38,7 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
 
 
 def _stays(tree: Tree) -> bpy.types.NodeSocket:
-    """Which facets stay: those that pass one of theta and rho, as far as these are above 0, and all the rest."""
+    """Keeps the facets that pass theta or rho, where these are above 0, and everything that is no facet."""
     theta = tree.number(
         "Theta",
         0.0,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What *Balls* and *Rebuild* share: the vertices of an axis, and radii that an artist may change."""
+"""The part that *Balls* and *Rebuild* share: the vertices of an axis, and radii that an artist may change."""
 
 from __future__ import annotations
 

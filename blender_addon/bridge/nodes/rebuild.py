@@ -48,7 +48,7 @@ def _scaled(tree: Tree, geometry: NodeSocket, factor: NodeSocket) -> NodeSocket:
 
 
 def _voxel(tree: Tree) -> NodeSocket:
-    """The size of voxels: what is asked for, or 1/128 of the diagonal of the axis and its largest ball.
+    """The size of voxels: the wanted one, or 1/128 of the diagonal of the axis and its largest ball.
 
     Without the ball a solid that is one, whose axis is a point, would get as many voxels as memory holds.
     """

@@ -13,7 +13,7 @@ import bpy
 
 COLUMN, ROW = 200, 160  # how far nodes lie apart
 
-# What subtypes of floats are called up to 3.6, where each is a type of its own.
+# Blender's names of the subtypes of floats up to 3.6, where each is a type of its own.
 _EARLIER = {"ANGLE": "NodeSocketFloatAngle", "DISTANCE": "NodeSocketFloatDistance"}
 
 
@@ -84,7 +84,7 @@ class Tree:
         return self.node("FunctionNodeBooleanMath", *values, operation=operation)
 
     def compare(self, operation: str, a: Any, b: Any) -> bpy.types.NodeSocket:
-        """Of two floats."""
+        """A mathematical operation on two floats."""
         return self.node("FunctionNodeCompare", a, b, data_type="FLOAT", operation=operation)
 
     def choose(self, condition: Any, no: Any, yes: Any) -> bpy.types.NodeSocket:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results as files, one after the other; what is finished is recognised and left.
+"""Results as files, one after the other; finished outputs are recognised and kept.
 
-Beside every output lies its report, `<output>.json`: figures, warnings, and a stamp of all that the output
+Next to every output is its report, `<output>.json`: figures, warnings, and a stamp of all that the output
 depends on. An output is finished when its report has the right stamp and the digest of the file that is there.
 """
 
@@ -33,9 +33,9 @@ from ..samples.shape import Shape
 
 
 class Work(Protocol):
-    """What is computed of each shape; its `repr` names all settings that the output depends on.
+    """One kind of computation for each shape; its `repr` names all settings that the output depends on.
 
-    What `compute` gives has `chosen`, `warnings` and `seconds`.
+    The result of `compute` has `chosen`, `warnings` and `seconds`.
     """
 
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Any: ...
@@ -49,7 +49,7 @@ class Work(Protocol):
         """The settings, for the report."""
 
     def figures(self, found: Any) -> dict[str, Any]:
-        """What the report says of a result."""
+        """The figures of a result, for the report."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +76,7 @@ class Item:
 
     @property
     def name(self) -> str:
-        """What messages call this item."""
+        """The name of this item in messages."""
         name = Path(self.input).name if self.object is None else self.object
         return name if self.frame is None else f"{name}, frame {self.frame}"
 
@@ -105,7 +105,7 @@ class Begun:
 
     @property
     def task(self) -> Task:
-        """What is left to compute."""
+        """The computation that is left to do."""
         limit = self.limit.used(output=self.item.output.suffix.lower())
         return Task(self.item.name, lambda progress: self.work.compute(self.shape, limit, progress))
 
@@ -132,7 +132,7 @@ def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT
 
 
 def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
-    """Write what the task gave, and its report, which is returned.
+    """Write the outcome of the task and its report, which is returned.
 
     Raises
     ------
@@ -169,7 +169,7 @@ def failure(item: Item, error: BaseException) -> dict[str, Any]:
 
 
 def check_name(output: Path) -> None:
-    """Check that the report beside an output can have its name.
+    """Check that the report next to an output can have its name.
 
     Raises
     ------
@@ -183,7 +183,7 @@ def check_name(output: Path) -> None:
 
 
 def _said(error: BaseException) -> str:
-    """One sentence; what should not have happened says where it did."""
+    """The error as one sentence; an unexpected error names its place in the sources."""
     if isinstance(error, MedialAxisError):
         return str(error)
     frame = traceback.extract_tb(error.__traceback__)[-1:]
@@ -224,7 +224,7 @@ def finished(output: Path, stamps: set[str]) -> dict[str, Any] | None:
 
 
 def report_path(output: Path) -> Path:
-    """Where the report of an output lies."""
+    """The path of the report of an output."""
     return output.with_name(output.name + ".json")
 
 

@@ -53,7 +53,7 @@ def at_frame(pattern: str, frame: int) -> str:
 
 
 def output_path(pattern: str, name: str, file: str, frame: int | None) -> Path:
-    """The pattern with `{name}`, `{file}` and `####` replaced; _ stands for what a file system may refuse.
+    """The pattern with `{name}`, `{file}` and `####` replaced; _ replaces characters that a file system may refuse.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of core.settings as words of a command line, and back."""
+"""Converts the options of settings into words of a command line, and back."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a batch computes of each shape: its skeleton."""
+"""The work of a batch that computes the skeleton of each shape."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a batch computes of each shape: how thick it is."""
+"""The work of a batch that measures the thickness of each shape."""
 
 from __future__ import annotations
 
