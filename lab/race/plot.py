@@ -24,7 +24,7 @@ WIDTH, HEIGHT, GAP, COLUMNS = 190, 140, 46, 4
 
 
 def panels(data: Mapping[str, Mapping[str, Points]], title: str) -> str:
-    """Of each panel the points of each line; x and y are positive."""
+    """Draws a panel for each name, with the points of each line; x and y are positive."""
     rows = math.ceil(len(data) / COLUMNS)
     wide, high = COLUMNS * (WIDTH + GAP) + 12, rows * (HEIGHT + GAP) + 78
     body = [f'<text x="12" y="22" font-size="15">{escape(title)}</text>', _legend()]
