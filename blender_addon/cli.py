@@ -25,11 +25,8 @@ from .core.batch.axis_work import AxisWork
 from .core.batch.batch import Item, Work, begin, failure, finish
 from .core.batch.frames import at_frame, has_number, output_path, parse_frames
 from .core.batch.option_words import (
-    add_ball_options,
-    add_limits,
     add_options,
     add_sampling,
-    add_skeleton_options,
     add_thickness,
     sampling_from,
     settings_from,
@@ -189,7 +186,7 @@ def _axis_parser() -> argparse.ArgumentParser:
     parser = _parser(
         "medial_axis", "The medial axis of meshes and point clouds, with radii.", _EXAMPLES
     )
-    add_options(parser.add_argument_group("method"))
+    add_options(parser.add_argument_group("method"), Settings)
     parser.add_argument_group("small medial mesh").add_argument(
         "--vertices",
         type=int,
@@ -248,7 +245,7 @@ def _skeleton_parser() -> argparse.ArgumentParser:
         "The curve skeletons of meshes and point clouds, with radii.",
         _EXAMPLES_OF_SKELETONS,
     )
-    add_skeleton_options(parser.add_argument_group("skeleton"))
+    add_options(parser.add_argument_group("skeleton"), SkeletonSettings)
     add_sampling(parser.add_argument_group("method"))
     _add_files(parser, [suffix[1:] for suffix in SKELETON_FORMATS], "json")
     parser.set_defaults(known=(*SKELETON_FORMATS,), work_from=_skeleton_work)
@@ -269,7 +266,7 @@ def _balls_parser() -> argparse.ArgumentParser:
         "Solids as few balls of their medial axes, for collisions, physics and robots.",
         _EXAMPLES_OF_BALLS,
     )
-    add_ball_options(parser.add_argument_group("balls"))
+    add_options(parser.add_argument_group("balls"), BallSettings)
     add_sampling(parser.add_argument_group("method"))
     _add_files(parser, [suffix[1:] for suffix in BALL_FORMATS], "json")
     parser.set_defaults(known=(*BALL_FORMATS,), work_from=_balls_work)
@@ -303,7 +300,7 @@ def _add_files(
     parser: argparse.ArgumentParser, formats: list[str], usual: str
 ) -> argparse._ArgumentGroup:
     """What all have in common; the group of the files, for more."""
-    add_limits(parser.add_argument_group("memory"))
+    add_options(parser.add_argument_group("memory"), MemoryLimit)
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
     files.add_argument(

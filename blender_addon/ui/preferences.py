@@ -9,12 +9,12 @@ from bpy.props import BoolProperty
 from .. import __version__
 from ..core.machine import native
 from ..core.machine.cache import CACHE
-from ..core.machine.memory_limit import OBJECT, MemoryLimit
-from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
+from ..core.machine.memory_limit import LIMITS, OBJECT, MemoryLimit
+from ..core.settings import CACHE_SIZE, MEGABYTE, AboveLimit
 from . import self_test_operator
 from .asset_library import draw_library
 from .manual import draw_manual
-from .properties import choice_of, integer_of
+from .properties import prop
 from .translation import say
 from .wrapped_text import draw_wrapped
 
@@ -57,9 +57,9 @@ def _give_room(preferences, _context=None):
 class MedialAxisPreferences(bpy.types.AddonPreferences):
     bl_idname = ADDON
 
-    cache_size: integer_of(CACHE_SIZE, _give_room)
-    memory_limit: integer_of(LIMITS["memory_limit"])
-    above_limit: choice_of(LIMITS["above_limit"])
+    cache_size: prop(CACHE_SIZE, _give_room)
+    memory_limit: prop(LIMITS["memory_limit"])
+    above_limit: prop(LIMITS["above_limit"])
     hide_with_source: BoolProperty(
         name="Hide Axis with Source",
         description="Hide and show a medial axis together with the object that it was computed from."

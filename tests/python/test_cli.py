@@ -23,13 +23,12 @@ from medial_axis.core.files.axis_arrays import as_arrays
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.read import import_points
 from medial_axis.core.files.write import export_axis
+from medial_axis.core.machine.memory_limit import LIMITS
+from medial_axis.core.options import Choice, Switch
 from medial_axis.core.settings import (
-    LIMITS,
     OPTIONS,
-    Choice,
     Settings,
     Side,
-    Switch,
 )
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -20,6 +20,8 @@ from test_docs import PAGES
 
 import build_addon
 
+pytestmark = pytest.mark.docs
+
 PAGES = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROGRAMS = (
     "python3",

@@ -14,6 +14,8 @@ import pytest
 from conftest import ROOT
 from test_docs import PAGES, prose
 
+pytestmark = pytest.mark.docs
+
 PAGES = [*PAGES, ROOT / "CONTRIBUTING.md"]
 LIST = Path(__file__).with_name("words_of_the_docs.txt")
 KNOWN = {word.lower() for word in LIST.read_text(encoding="utf-8").split()}

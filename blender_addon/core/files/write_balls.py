@@ -9,7 +9,7 @@ import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from ..solid.ball_cover import Balls
 from .extensions import extension_of
@@ -77,7 +77,7 @@ def _write_ma(balls: Balls, stream: BinaryIO) -> None:
 def _write_json(balls: Balls, stream: BinaryIO) -> None:
     """Everything; null is a figure that is unknown."""
     rows = zip(balls.centres.tolist(), balls.radii.tolist(), strict=True)
-    found = {
+    found: dict[str, Any] = {
         **as_figures(balls),
         "balls": [{"centre": centre, "radius": radius} for centre, radius in rows],
     }
