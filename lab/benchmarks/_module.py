@@ -45,7 +45,7 @@ def markdown(header: list[str], rows: list[list[str]]) -> str:
 
 
 def parser(description: str) -> argparse.ArgumentParser:
-    """Of a script that prints a table, with the option to write it to a file."""
+    """A parser for a script that prints a table, with the option to write the table to a file."""
     made = argparse.ArgumentParser(
         description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )

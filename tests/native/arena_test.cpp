@@ -36,7 +36,7 @@ TEST(Arena, ServesTheNextWithWhatOneHasFreed) {
   EXPECT_EQ(arena.held(), 4 * kMegabyte);
   arena.give_back(second, kMegabyte);
   arena.give_back(third, 2 * kMegabyte);
-  // What is free has become one piece again.
+  // The free memory is one block again.
   void* const all = arena.take(16 * kMegabyte);
   EXPECT_EQ(all, first);
   arena.give_back(all, 16 * kMegabyte);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What thickness is made of, against plain loops.
+// The building blocks of thickness are compared with plain loops.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
 

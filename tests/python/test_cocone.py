@@ -113,7 +113,7 @@ def test_coplanar_and_cospherical_samples(medial, name):
 
 
 def test_rounding_decides_little(medial):
-    """Of the clouds in general position; and every condition has samples that pass it and samples that do not."""
+    """Rounding rarely matters for clouds in general position; some samples pass each condition and some fail it."""
     for options in OPTIONS:
         found = [Cocone(medial_of(medial, name), **OPTIONS[options]) for name in CLOUDS]
         for stage in ("thin", "flat", "candidates"):

@@ -57,7 +57,7 @@ def test_distance_to_the_selected_vertices(medial, name, theta, rho):
 
 
 def test_vertices_of_unbounded_facets_count(medial):
-    """Of few points nearly all facets reach infinity."""
+    """With few points nearly all facets are unbounded."""
     points = inputs.generic("cube", 8, 1)
     analysis = analysis_of(medial, points)
     selected = analysis.select(0.0, 0.0)

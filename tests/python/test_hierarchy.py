@@ -232,8 +232,8 @@ def test_levels_are_what_lies_above_their_thresholds(sampled, name, noise):
 @pytest.mark.parametrize("name", SOLIDS)
 @pytest.mark.parametrize("n", [2000, 8000, pytest.param(20000, marks=pytest.mark.slow)])
 def test_level_zero_is_what_medial_selects_and_bridges(medial, sampled, name, n):
-    """Of what is selected, `extract` cannot draw the facets without area, of which tubes have hundreds. The sixteen
-    levels above it hold, too."""
+    """`extract` cannot draw the selected facets without area, of which tubes have hundreds. The sixteen levels above
+    it are correct, too."""
     _, analysis, hierarchy = sampled(name, n)
     assert hierarchy.betti == SOLIDS[name] and not Levels(hierarchy, analysis).wrong()
     level = {tuple(g) for g in hierarchy.extract(limb=0.0).generators.tolist()}

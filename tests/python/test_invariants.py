@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What must hold for every output: empty balls, planar convex polygons, order, welded vertices, types."""
+"""Invariants of every output: empty balls, planar convex polygons, order, welded vertices, types."""
 
 import numpy as np
 import pytest

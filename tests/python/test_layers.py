@@ -16,7 +16,7 @@ ADDON = ROOT / "blender_addon"
 NATIVE = ROOT / "native"
 
 BLENDER_MODULES = {"bpy", "bpy_extras", "bmesh", "mathutils", "gpu", "blf", "addon_utils"}
-# What each room may import of the package beside itself; "" is the package itself (its name and version).
+# The rooms that each room may import besides itself; "" is the package itself (its name and version).
 CORE = {
     "core",
     "core/machine",
@@ -223,7 +223,7 @@ def users_of(*prefixes):
 
 
 MEDIAL = NATIVE / "medial"
-# What each room of the core may see beside itself: the paper's pipeline, read downwards.
+# The rooms that each room of the core may include besides itself: the paper's pipeline, read downwards.
 MAY_INCLUDE = {
     "base": set(),
     "delaunay": {"base"},

@@ -9,7 +9,7 @@ from tests.support.fuzz import repeats
 
 pytestmark = pytest.mark.oracle
 
-# Of the largest radius; what is narrower than 2^-40 may be a point or a segment.
+# A share of the largest radius; a facet narrower than 2^-40 may be a point or a segment.
 NARROWEST = 2.0**-39
 
 
@@ -49,7 +49,7 @@ def test_what_has_a_width_is_there(medial, name):
 
 @pytest.mark.parametrize("seed", repeats(4))
 def test_fuzzed_boxes(medial, seed):
-    """Of any size and aspect, turned, in float32."""
+    """The boxes have any size and aspect, are rotated and rounded to float32."""
     random = np.random.default_rng([seed, 13])
     steps = random.integers(1, 6, 3).tolist()
     size = 10.0 ** random.uniform(-3, 1, 3)

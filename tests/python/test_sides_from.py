@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tells inside from outside: the rule of AUTOMATIC, the vote of normals, and the errors of each choice."""
+"""Tests of the source of inside and outside: the rule of AUTOMATIC, the vote of normals, and all errors."""
 
 import re
 import threading
