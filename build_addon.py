@@ -4,8 +4,9 @@
 
     python3 build_addon.py build     compile the native modules, pack dist/medial_axis-VERSION.zip
     python3 build_addon.py demo      build, then compute and render real models in a real Blender
-    python3 build_addon.py test      everything that must hold; --fast: the main things, in three minutes
-    python3 build_addon.py bench     what it costs beside the bare Delaunay triangulation, as tables
+    python3 build_addon.py test      what must hold before a change is taken, in about twenty minutes
+    python3 build_addon.py test --full    everything, in about an hour and a half; --fast: the main things
+    python3 build_addon.py bench     the cost compared with the bare Delaunay triangulation, as tables
     python3 build_addon.py race      how close it and others come to medial axes that are known exactly
     python3 build_addon.py clean     remove what the other commands made
 
@@ -38,22 +39,27 @@ def build(arguments: argparse.Namespace) -> None:
     needs.require({**needs.BUILD, **(needs.WINDOWS if arguments.windows else {})})
     blender = find_blender(arguments.blender)
     modules.build_modules(blender, arguments.local, arguments.windows)
-    archive = paths.shown(pack.pack(blender))
+    archive = paths.shown(pack.pack(blender, arguments.local))
     print(f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {archive}")
 
 
 def demo(arguments: argparse.Namespace) -> None:
-    needs.require(needs.DEMO)
-    blender = find_blender(arguments.blender)
     meshes = show.existing(arguments.meshes)
-    modules.build_modules(blender)
-    show.show_models(blender, pack.pack(blender), meshes, Path(arguments.output).resolve())
+    needs.require_rights(needs.DEMO)
+    needs.require(needs.CORE)
+    with needs.required_meanwhile(needs.DEMO):  # Blender is large
+        modules.build_core()
+    blender = find_blender(arguments.blender)
+    modules.build_modules(blender, local=True)
+    archive = pack.pack(blender, local=True)
+    show.show_models(blender, archive, meshes, Path(arguments.output).resolve())
 
 
 def test(arguments: argparse.Namespace) -> None:
-    chosen = parts.choose(arguments.fast, arguments.matrix, arguments.only)
-    needs.require(parts.needed(arguments.fast, arguments.matrix))
-    parts.run_parts(chosen, find_blender(arguments.blender))
+    tier = arguments.tier or "test"
+    chosen = parts.choose(tier, arguments.only)
+    needs.require(parts.needed(tier))
+    parts.run_parts(tier, chosen, find_blender(arguments.blender))
 
 
 def bench(arguments: argparse.Namespace) -> None:
@@ -93,28 +99,30 @@ def clean(arguments: argparse.Namespace) -> None:
 # --- the command line
 
 BUILD_HELP = f"""Compiles with the CMake preset `release` for the Python that Blender uses and, with headers from
-Debian's packages, for {", ".join(modules.PYTHONS)}; what cannot be had is left out by name. Debian has no Python 3.10:
-its headers are those of a python3.10 of this machine.
-Puts the modules into blender_addon/lib/,
-checks that they need no library that Blender brings too and no newer system than others have, and packs
-dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer, and
-for the extensions platform one like it per system, such as dist/medial_axis-VERSION-linux-x64.zip. With --windows the
-modules for Windows x64 and Python {" and ".join(modules.WINDOWS_PYTHONS)} are compiled, too, by mingw-w64."""
+Debian's packages, for {", ".join(modules.PYTHONS)}; what cannot be had is left out by name. Puts the modules into
+blender_addon/lib/, checks that they need no library that Blender brings too and no newer system than others have, and
+packs dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer, and for the extensions platform
+one like it per system, such as dist/medial_axis-VERSION-linux-x64.zip. With --windows the modules for Windows x64 and
+Python {" and ".join(modules.WINDOWS_PYTHONS)} are compiled, too, by mingw-w64. A build of a commit that is not the tag
+of a release carries the commit in its version: 0.2.0+g1a2b3c4d."""
 
-DEMO_HELP = """Installs the zip into a private Blender profile, computes the medial axis of Blender's Suzanne and of a
-mesh of Debian's libcgal-demo (or of the files you name), and leaves a .blend, .ply, .ma and a rendered
-.png of each. Works without a display."""
+DEMO_HELP = """Compiles for this machine's Blender, while missing packages are installed; installs the zip into a
+private Blender profile, computes the medial axis of Blender's Suzanne and of a bracket with sharp edges (or of the
+files you name), and leaves a .blend, .ply, .ma and a rendered .png of each. Works without a display."""
 
-TEST_HELP = f"""Parts, in order: {", ".join(parts.PARTS)}. One failing part fails the whole; a part that cannot run for
-lack of a tool is skipped by name. The parts after `build` use what `build` made.
+TEST_HELP = f"""Parts, in order: {", ".join(parts.TIERS["test"])}. One failing part fails the whole; a part that cannot
+run for lack of a tool is skipped by name. The parts after `build` use what `build` made. Of the oracles, which compare
+results with independent ones over many seeds, one case in four runs: which, the commit's hash says. The time of each
+part goes to build/test_times.json.
 
---fast is for while one works: {", ".join(parts.FAST)}, for this machine's Blender alone, without the long inputs.
+--full runs everything, in these parts: {", ".join(parts.TIERS["full"])}.
+
+--fast is for while one works: {", ".join(parts.TIERS["fast"])}, without the long inputs.
 
 --matrix builds for Windows, too, installs the zip into Blender 3.4, 4.3 and 5.2 of Debian 12, 13 and sid and into the
-official bpy modules, runs the add-on's tests, windows and renderings in each, without Blender the Python tests in
-Python 3.10, and writes docs/compatibility.md. Debian 13 and sid are made in build/blenders (or $MEDIAL_AXIS_BLENDERS),
-which needs root; bpy for Windows needs wine, and mvn (Debian's maven) to get a Python for Windows. What cannot be had
-is skipped by name."""
+official bpy modules, runs the add-on's tests, windows and renderings in each, and writes docs/compatibility.md.
+Debian 13 and sid are made in build/blenders (or $MEDIAL_AXIS_BLENDERS), which needs root; bpy for Windows needs wine,
+and mvn (Debian's maven) to get a Python for Windows. What cannot be had is skipped by name."""
 
 BENCH_HELP = """Builds, then measures CGAL's triangulation alone and the medial axis in turns, each in a process of
 its own, on one thread and on all: random points on an ellipsoid (up to 5 million) and a torus, a noisy scan, and
@@ -144,11 +152,13 @@ def parse(words: list[str]) -> argparse.Namespace:
     add_build_options(add(build, "compile the native modules and pack the add-on", BUILD_HELP))
     add_demo_options(add(demo, "build, then compute and render real models in Blender", DEMO_HELP))
     add_test_options(add(test, "build and run every test", TEST_HELP))
-    add_bench_options(add(bench, "measure beside the bare Delaunay triangulation", BENCH_HELP))
+    add_bench_options(
+        add(bench, "measure the cost against the bare Delaunay triangulation", BENCH_HELP)
+    )
     racing = add(race, "run against others on exact axes", RACE_HELP)
     sizes = {"type": int, "nargs": "+", "default": [2000, 8000, 20_000], "metavar": "N"}
     racing.add_argument("--sizes", **sizes, help="samples; default: 2000 8000 20000")
-    page = {"default": paths.ROOT / "docs" / "benchmark.md"}
+    page = {"default": paths.ROOT / "docs" / "lab" / "benchmark.md"}
     racing.add_argument("--page", **page, help="default: docs/lab/benchmark.md")
     cleaning = add(clean, "remove what the other commands made")
     cleaning.add_argument("--all", action="store_true", help="the results of the demo as well")
@@ -174,10 +184,14 @@ def add_demo_options(command: argparse.ArgumentParser) -> None:
 
 def add_test_options(command: argparse.ArgumentParser) -> None:
     only = {"nargs": "+", "default": [], "metavar": "PART"}
-    command.add_argument("--only", **only, help=f"out of: {', '.join(parts.PARTS)}")
+    command.add_argument("--only", **only, help="some of the parts")
     kind = command.add_mutually_exclusive_group()
-    kind.add_argument("--fast", action="store_true", help="the main things, in three minutes")
-    kind.add_argument("--matrix", action="store_true", help="instead: the zip in every Blender")
+    for tier, text in (
+        ("fast", "the main things: six minutes the first time, then two"),
+        ("full", "everything, all cases and sanitizers: an hour and a half"),
+        ("matrix", "instead: the zip in every Blender"),
+    ):
+        kind.add_argument(f"--{tier}", dest="tier", action="store_const", const=tier, help=text)
 
 
 def add_bench_options(command: argparse.ArgumentParser) -> None:

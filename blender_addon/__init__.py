@@ -15,14 +15,15 @@ TYPE_CHECKING = False
 bl_info = {
     "name": "Medial Axis",
     "author": "Medial Axis contributors",
-    "version": (0, 1, 0),
+    "version": (0, 2, 0),
     "blender": (3, 4, 0),
     "location": "3D Viewport > Sidebar > Medial Axis, and Object > Compute Medial Axis",
     "description": "Compute the medial axis of meshes and point clouds, with radii",
     "category": "Object",
 }
 
-__version__ = ".".join(str(part) for part in bl_info["version"])
+COMMIT = ""  # native/packaging fills it in for a development build
+__version__ = ".".join(str(part) for part in bl_info["version"]) + (COMMIT and f"+{COMMIT}")
 
 # What library.py offers; a test compares.
 __all__ = [
@@ -38,7 +39,6 @@ __all__ = [
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",
-    "Method",
     "NativeModuleError",
     "OutOfMemoryError",
     "Progress",

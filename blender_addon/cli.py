@@ -27,7 +27,6 @@ from .core.batch.frames import at_frame, has_number, output_path, parse_frames
 from .core.batch.option_words import (
     add_limits,
     add_options,
-    add_rivals,
     add_sampling,
     add_skeleton_options,
     add_thickness,
@@ -49,7 +48,7 @@ from .core.files.write import FORMATS
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 from .core.machine.memory_limit import MemoryLimit
-from .core.settings import Method, Settings, Side, SkeletonSettings, ThicknessSettings
+from .core.settings import Settings, Side, SkeletonSettings, ThicknessSettings
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
 CLOSED_PIPE = 128 + 13  # as shells say of a program that SIGPIPE ended
@@ -172,7 +171,6 @@ def _axis_parser() -> argparse.ArgumentParser:
         "medial_axis", "The medial axis of meshes and point clouds, with radii.", _EXAMPLES
     )
     add_options(parser.add_argument_group("method"))
-    add_rivals(parser.add_argument_group("methods of others"))
     parser.add_argument_group("small medial mesh").add_argument(
         "--vertices",
         type=int,
@@ -338,8 +336,6 @@ def _check_vertices(vertices: int, settings: Settings) -> None:
         raise ValueError(f"Expected --vertices of 0 or more, found {vertices}; 0 keeps all")
     if vertices and settings.with_side().side is not Side.INNER:
         raise ValueError("Expected --side inner with --vertices, found another; leave out one")
-    if vertices and settings.method is not Method.MEDIAL:
-        raise ValueError("Expected --method medial with --vertices, found another; leave out one")
 
 
 def _is_still(path: str) -> bool:

@@ -38,7 +38,6 @@ from .core.files.write_balls import export_balls
 from .core.machine.progress import Progress
 from .core.samples.shape import Shape
 from .core.settings import (
-    ALL_OPTIONS,
     ANALYSED,
     BALL_OPTIONS,
     OPTIONS,
@@ -48,7 +47,6 @@ from .core.settings import (
     CoverMode,
     Criteria,
     Form,
-    Method,
     Rule,
     SamplingMode,
     Settings,
@@ -77,7 +75,6 @@ __all__ = [
     "InvalidInputError",
     "MedialAxis",
     "MedialAxisError",
-    "Method",
     "NativeModuleError",
     "OutOfMemoryError",
     "Progress",
@@ -101,7 +98,7 @@ __all__ = [
 ]
 
 # What selects facets of an analysis that is there.
-_THRESHOLDS = [name for name in OPTIONS if name not in (*ANALYSED, *SAMPLING_OPTIONS)] + ["length"]
+_THRESHOLDS = [name for name in OPTIONS if name not in (*ANALYSED, *SAMPLING_OPTIONS)]
 
 
 def compute(
@@ -137,7 +134,7 @@ def compute(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    wanted = Settings(**_checked(settings, list(ALL_OPTIONS)))
+    wanted = Settings(**_checked(settings, list(OPTIONS)))
     return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
 
 
@@ -148,7 +145,7 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     ----------
     computation : Computation
     **thresholds
-        `form`, `simplify`, `erode`, `limb`, `theta`, `rho`, `rule`, `criteria`, `limit_set` and `length` of
+        `form`, `simplify`, `erode`, `limb`, `theta`, `rho`, `rule`, `criteria` and `limit_set` of
         `Settings`; what is not given stays as it was. Forms are milliseconds, too, once the hierarchy was computed
         for `theta`, `rho`, `rule` and `criteria`.
 
@@ -363,11 +360,11 @@ def _checked(given: dict[str, Any], names: list[str]) -> dict[str, Any]:
     """What `Settings` takes, of what a caller gave."""
     unknown = next((name for name in given if name not in names), None)
     if unknown is not None:
-        what = "; compute again for others" if unknown in ALL_OPTIONS else ""
+        what = "; compute again for others" if unknown in OPTIONS else ""
         raise InvalidInputError(
             f"Expected settings among {', '.join(names)}, found '{unknown}'{what}"
         )
-    return {name: _value(value, name, ALL_OPTIONS[name]) for name, value in given.items()}
+    return {name: _value(value, name, OPTIONS[name]) for name, value in given.items()}
 
 
 def _value(value: Any, name: str, option: Any) -> Any:

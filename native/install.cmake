@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What a C++ project needs to use the library: find_package(medial) gives the target medial::medial.
+# Installs everything that a C++ project needs: find_package(medial) then gives the target medial::medial.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/medial)
 

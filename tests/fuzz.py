@@ -14,7 +14,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 ROOT = Path(__file__).resolve().parents[1]
-# What is fuzzed: the file, the tests in it, and how many inputs one of them tries.
+# Each row: the file, its tests, and how many inputs one of them tries.
 FUZZES = {
     "polygons on few places": ("test_polygon_triangles.py", "fuzzed_polygons", 100),
     "simple polygons": ("test_polygon_triangles.py", "fuzzed_simple", 1),

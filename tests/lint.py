@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
 from pathlib import Path
 from typing import Callable
 
 from native.packaging import paths
-from native.packaging.terminal import Failure, output_of, parallel_jobs, run
+from native.packaging.terminal import Failure, output_of, parallel_jobs, run, succeeds
 
 
 class Skip(Exception):
@@ -17,7 +18,12 @@ class Skip(Exception):
 
 
 def lint(blender: Path) -> str | None:
-    return run_tools({**QUICK_TOOLS, **LONG_TOOLS})
+    """Everything, but clang-tidy only over the units that the last commits changed."""
+    return run_tools({**QUICK_TOOLS, "mypy": mypy, "run-clang-tidy": lambda: clang_tidy(changed())})
+
+
+def full_lint(blender: Path) -> str | None:
+    return run_tools({**QUICK_TOOLS, "mypy": mypy, "run-clang-tidy": clang_tidy})
 
 
 def quick_lint(blender: Path) -> str | None:
@@ -50,21 +56,47 @@ def clang_format() -> None:
     run("clang-format", "--dry-run", "--Werror", *cpp_files())
 
 
-def clang_tidy() -> None:
-    """Each unit of the core and of the bindings, with the flags that the preset `release` compiles it with."""
-    database = paths.BUILD / "release" / "compile_commands.json"
-    if not database.is_file():
-        raise Failure(f"expected {paths.shown(database)}; run the part build first")
+def clang_tidy(wanted: set[str] | None = None) -> None:
+    """The units of the core and of the bindings that are wanted, each by itself, as the preset `dev` compiles it."""
+    run("cmake", "--preset", "dev", "-DMEDIAL_TESTS=OFF", stdout=subprocess.DEVNULL)
+    database = paths.BUILD / "dev" / "compile_commands.json"
     # The bindings are compiled once for each Python: the first is this machine's, whose headers clang can read.
     entries = json.loads(database.read_text(encoding="utf-8"))
     first = {entry["file"]: entry for entry in reversed(entries)}
     own = {
         name: first[name] for name in sorted(first) if "/native/" in name and "/tests/" not in name
     }
+    if wanted is not None:
+        own = {name: entry for name, entry in own.items() if name in wanted}
+    if not own:
+        print("clang-tidy: no unit has changed")
+        return
     folder = paths.BUILD / "lint"
     folder.mkdir(exist_ok=True)
     (folder / "compile_commands.json").write_text(json.dumps([*own.values()]), encoding="utf-8")
     run("run-clang-tidy", "-quiet", "-p", folder, "-j", parallel_jobs(), *map(exactly, own))
+
+
+def changed() -> set[str]:
+    """The C++ units that differ from the merge base with the branch that this one follows, or from ten commits ago.
+
+    A header counts for the unit of its name; the other units that include it are left to the full lint.
+    """
+    names = output_of("git", "diff", "--name-only", base_of_changes(), "--", "native").splitlines()
+    units = {
+        (paths.ROOT / name).with_suffix(".cpp") for name in names if name.endswith((".cpp", ".h"))
+    }
+    return {str(unit) for unit in units if unit.is_file()}
+
+
+def base_of_changes() -> str:
+    """The merge base with the followed branch if there are commits after it; else the tenth commit before this."""
+    for name in ("@{upstream}", "HEAD~10", "HEAD"):
+        if succeeds("git", "rev-parse", "--verify", "--quiet", f"{name}^{{commit}}"):
+            base = output_of("git", "merge-base", "HEAD", name).strip()
+            if base != output_of("git", "rev-parse", "HEAD").strip() or name == "HEAD":
+                return base
+    raise Failure("expected a git checkout with a commit, found none")
 
 
 def exactly(path: str) -> str:
@@ -84,4 +116,3 @@ def cpp_files() -> list[str]:
 
 
 QUICK_TOOLS = {"ruff": ruff, "clang-format": clang_format}
-LONG_TOOLS = {"mypy": mypy, "run-clang-tidy": clang_tidy}

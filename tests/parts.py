@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What `build_addon.py test` runs, part by part.
+"""The parts of `build_addon.py test`, and which of them each tier runs.
 
 A part is a function of the Blender. It returns nothing, or a remark for the summary; it raises Failure when something
 does not hold, and Skip when a tool is missing.
@@ -8,8 +8,10 @@ does not hold, and Skip when a tool is missing.
 from __future__ import annotations
 
 import functools
+import json
 import os
 import shutil
+import subprocess
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -33,6 +35,12 @@ from .lint import Skip
 
 Part = Callable[[Path], Optional[str]]
 LONGEST = 15  # tests that pytest names with their seconds
+TIMES = paths.BUILD / "test_times.json"
+SHARES = 4  # one oracle's case in so many runs by default
+
+# The scenes of the window that run by default: computing and undoing, Esc, undo of a running job, and a zip
+# without a module.
+SCENES = ("compute_drag_undo", "cancel_with_escape", "undo_while_running", "missing_module")
 
 # Python tests that are quick and see most faults: oracles in rational arithmetic and by brute force on small inputs,
 # Qhull, invariance under threads, order and scale, samples, files, layers, packing.
@@ -55,14 +63,12 @@ QUICK_TESTS = (
     "test_stub.py",
     "test_checklist.py",
     "test_build_addon.py",
-    "test_manual.py",
-    "test_manual_api.py",
     "test_parts.py",
     "test_matrix.py",
 )
 
 
-# Those that send every kind of input through every stage of the compiled module, from Python's arrays and back.
+# Python tests that send every kind of input through every stage of the compiled module.
 SANITIZED_TESTS = (
     "test_equality.py",
     "test_delaunay.py",
@@ -77,9 +83,9 @@ SANITIZED_TESTS = (
 # --- running them
 
 
-def choose(fast: bool, matrix: bool, only: list[str]) -> dict[str, Part]:
-    """The parts to run, in order; Failure for a name that is none of them."""
-    parts = FAST if fast else MATRIX if matrix else PARTS
+def choose(tier: str, only: list[str]) -> dict[str, Part]:
+    """The parts of a tier to run, in order; Failure for a name that is none of them."""
+    parts = TIERS[tier]
     unknown = set(only) - set(parts)
     if unknown:
         raise Failure(
@@ -88,25 +94,46 @@ def choose(fast: bool, matrix: bool, only: list[str]) -> dict[str, Part]:
     return {name: part for name, part in parts.items() if not only or name in only}
 
 
-def needed(fast: bool, matrix: bool) -> dict[str, str]:
+def needed(tier: str) -> dict[str, str]:
     """The Debian packages that the parts use; `debootstrap` makes other Debians, which only root may."""
-    if fast:
-        return needs.FAST
-    asked = needs.MATRIX if os.geteuid() == 0 else needs.TEST
-    return {**asked, **needs.WINDOWS} if matrix else asked
+    if tier in ("fast", "test"):
+        return needs.FAST if tier == "fast" else needs.TEST
+    asked = {**needs.FULL, **(needs.ROOT_ALONE if os.geteuid() == 0 else {})}
+    return {**asked, **needs.WINDOWS} if tier == "matrix" else asked
 
 
-def run_parts(parts: Mapping[str, Part], blender: Path) -> None:
-    """Run all, also after a failure, and tell how each went; Failure when one failed."""
+def run_parts(tier: str, parts: Mapping[str, Part], blender: Path) -> None:
+    """Run all, also after a failure, and report how each went; Failure when one failed."""
     started = time.monotonic()
     results = {name: run_part(name, part, blender) for name, part in parts.items()}
-    say(f"Summary after {time.monotonic() - started:.0f} s")
+    total = time.monotonic() - started
+    write_times(tier, results, total)
+    say(f"Summary after {total:.0f} s, also in {paths.shown(TIMES)}")
     for name, (verdict, seconds) in results.items():
         print(f"{name:<10} {seconds:6.0f} s  {verdict}")
     failed = [name for name, (verdict, _) in results.items() if verdict.startswith("FAILED")]
     if failed:
         raise Failure("failed: " + ", ".join(failed))
     print("all passed")
+
+
+def write_times(tier: str, results: Mapping[str, tuple[str, float]], total: float) -> None:
+    """Keep the seconds and the outcome of each part, for whoever wants to know where the minutes go."""
+    parts = {
+        name: {"seconds": round(seconds, 1), "verdict": verdict}
+        for name, (verdict, seconds) in results.items()
+    }
+    record = {"tier": tier, "version": paths.full_version(), "share": share()}
+    record.update({"cores": parallel_jobs(), "seconds": round(total, 1), "parts": parts})
+    TIMES.parent.mkdir(exist_ok=True)
+    TIMES.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
+
+
+def share() -> str:
+    """Which cases of the oracles run, such as 3/4: the commit's hash decides, so that successive commits take turns."""
+    if not succeeds("git", "rev-parse", "HEAD"):
+        return f"0/{SHARES}"
+    return f"{int(output_of('git', 'rev-parse', 'HEAD')[:8], 16) % SHARES}/{SHARES}"
 
 
 def run_part(name: str, part: Part, blender: Path) -> tuple[str, float]:
@@ -128,16 +155,27 @@ def run_part(name: str, part: Part, blender: Path) -> tuple[str, float]:
 
 
 def build(blender: Path, **options: bool) -> None:
-    build_modules(blender, **options)
-    pack.pack(blender)
+    build_modules(blender, tests=True, **options)
+    pack.pack(blender, local=options.get("local", False))
 
 
 def native(blender: Path) -> None:
     run("ctest", "--preset", "release", "--parallel", parallel_jobs())
 
 
-def python(blender: Path) -> None:
+def python(blender: Path) -> str:
+    """Everything without Blender but the long tests, with one case in four of the oracles."""
+    run_pytest(blender, "--share", share(), "tests/python")
+    return f"cases {share()} of the oracles"
+
+
+def all_python(blender: Path) -> None:
     run_pytest(blender, "--slow", "tests/python")
+
+
+def lab(blender: Path) -> None:
+    """The tests of the laboratory itself."""
+    run_pytest(blender, "--slow", "lab/tests")
 
 
 def quick_python(blender: Path) -> None:
@@ -154,22 +192,46 @@ def run_pytest(blender: Path, *options: str, **environment: str) -> None:
     run(interpreter, "-m", "pytest", *words, env=environment)
 
 
-def addon(blender: Path) -> None:
-    run_inside(blender, "--slow", f"--durations={LONGEST}")
+def addon(blender: Path, *options: str) -> None:
+    """The tests inside Blender, in as many Blenders as there are cores: each takes some of the files."""
+    count = min(parallel_jobs(), 4)
+    logs = [paths.BUILD / f"addon_{i}.log" for i in range(count)]
+    words = [
+        [*inside(blender), f"--files={i}/{count}", f"--durations={LONGEST}", *options]
+        for i in range(count)
+    ]
+    codes = run_together(words, logs)
+    for log in logs:
+        print(log.read_text(encoding="utf-8", errors="replace"), flush=True)
+    if any(codes):
+        raise Failure("tests inside Blender failed; their output is above")
 
 
-def gui(blender: Path) -> None:
+def run_together(commands: list[list[str]], logs: list[Path]) -> list[int]:
+    """Run commands at the same time, each with its output to a file; returns their exit codes."""
+    running = []
+    for command, log in zip(commands, logs):
+        print("$ " + " ".join(command), flush=True)
+        with open(log, "wb") as output:
+            running.append(
+                subprocess.Popen(command, cwd=paths.ROOT, stdout=output, stderr=subprocess.STDOUT)
+            )
+    return [process.wait() for process in running]
+
+
+def gui(blender: Path, scenes: tuple[str, ...] = ()) -> None:
+    """Scenes in Blender's window: those named, or all."""
     for tool in ("Xvfb", "xdotool", "import"):
         if shutil.which(tool) is None:
             raise Skip(f"{tool} is not installed")
-    run_inside(blender, "--gui", "--keep", paths.BUILD / "gui")
+    run(*inside(blender), "--gui", "--keep", paths.BUILD / "gui", *scenes)
 
 
-def run_inside(blender: Path, *options: object) -> None:
-    """The tests of the installed zip inside Blender."""
+def inside(blender: Path) -> list[str]:
+    """The command that runs the tests of the installed zip inside Blender."""
     interpreter, _ = blender_python(blender)
-    archive = pack.archive_for()
-    run(interpreter, "tests/addon/run.py", "--zip", archive, "--blender", blender, *options)
+    words = (interpreter, "tests/addon/run.py", "--zip", pack.archive_for(), "--blender", blender)
+    return [str(word) for word in words]
 
 
 def blenders(blender: Path) -> None:
@@ -188,9 +250,14 @@ def run_matrix(blender: Path, *options: object) -> None:
 
 
 def asan(blender: Path) -> None:
+    """The native tests, for addresses and undefined behaviour."""
+    run_sanitized("asan", "-DMEDIAL_PYTHON=OFF")
+
+
+def asan_and_module(blender: Path) -> None:
     """The native tests and some Python tests, for addresses and undefined behaviour."""
     interpreter, abi = blender_python(blender)
-    run_sanitized("asan", f"-DPython_EXECUTABLE={interpreter}")
+    run_sanitized("asan", "-DMEDIAL_PYTHON=ON", f"-DPython_EXECUTABLE={interpreter}")
     package = paths.BUILD / "asan" / "package"
     shutil.rmtree(package, ignore_errors=True)
     shutil.copytree(paths.ADDON, package, ignore=shutil.ignore_patterns("lib", "__pycache__"))
@@ -215,7 +282,8 @@ def run_sanitized(preset: str, *definitions: str) -> None:
     library_of(preset)
     build_preset(preset, *definitions)
     fixed = ["setarch", os.uname().machine, "-R"]
-    run(*(fixed if succeeds(*fixed, "true") else []), "ctest", "--preset", preset)
+    words = ["ctest", "--preset", preset, "--parallel", str(parallel_jobs())]
+    run(*(fixed if succeeds(*fixed, "true") else []), *words)
 
 
 def library_of(name: str) -> str:
@@ -234,22 +302,36 @@ def clang(blender: Path) -> None:
     run("ctest", "--preset", "clang", "--parallel", parallel_jobs())
 
 
-PARTS: dict[str, Part] = {
-    "build": build,
-    "lint": lint.lint,
-    "native": native,
-    "python": python,
-    "addon": addon,
-    "gui": gui,
-    "blenders": blenders,
-    "asan": asan,
-    "tsan": tsan,
-    "clang": clang,
+# Whatever is left out of `test` is left out by a rule: the marker slow, all but one case in four of the marker oracle,
+# the scenes that are not in SCENES, and the parts that only `full` has.
+TIERS: dict[str, dict[str, Part]] = {
+    "test": {
+        "build": functools.partial(build, local=True),
+        "lint": lint.lint,
+        "native": native,
+        "python": python,
+        "addon": addon,
+        "gui": functools.partial(gui, scenes=SCENES),
+        "asan": asan,
+    },
+    "full": {
+        "build": build,
+        "lint": lint.full_lint,
+        "native": native,
+        "python": all_python,
+        "lab": lab,
+        "addon": lambda blender: addon(blender, "--slow"),
+        "gui": gui,
+        "blenders": blenders,
+        "asan": asan_and_module,
+        "tsan": tsan,
+        "clang": clang,
+    },
+    "fast": {
+        "build": functools.partial(build, local=True),
+        "lint": lint.quick_lint,
+        "native": native,
+        "python": quick_python,
+    },
+    "matrix": {"build": functools.partial(build, windows=True), "matrix": matrix},
 }
-FAST: dict[str, Part] = {
-    "build": functools.partial(build, local=True),
-    "lint": lint.quick_lint,
-    "native": native,
-    "python": quick_python,
-}
-MATRIX: dict[str, Part] = {"build": functools.partial(build, windows=True), "matrix": matrix}

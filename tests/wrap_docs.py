@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Wraps the prose of the docs: lines of at most 100 characters, with the same words.
 
-    python3 tests/wrap_docs.py [FILE ...]          default: docs/*.md, README.md, CONTRIBUTING.md
+    python3 tests/wrap_docs.py [FILE ...]          default: docs/**/*.md, README.md, CONTRIBUTING.md
 
 Code, tables, pictures, headings, and what scripts write below their mark stay as they are. Code between backticks and
 short links are not torn apart.
@@ -25,7 +25,7 @@ MARK = re.compile(r"[-+*=|·]|#+|>|\d+[.)]|\|.*")
 
 
 def words_of(text: str) -> list[str]:
-    """What may be moved to the next line; a word that looks like a mark stays with the one before it."""
+    """The pieces that may move to the next line; a word that looks like a mark stays with the one before it."""
     found, word = [], ""
     for i, part in enumerate(WHOLE.split(text)):
         pieces = [part] if i % 2 else re.split(r"(\s+)", part)
@@ -88,7 +88,7 @@ def wrap(source: str) -> str:
 
 
 def main(names: list[str]) -> None:
-    pages = [*sorted((ROOT / "docs").glob("*.md")), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
+    pages = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
     for page in map(Path, names) if names else pages:
         page.write_text(wrap(page.read_text(encoding="utf-8")), encoding="utf-8")
 

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 
 from ..core.samples.triangle_faces import TriangleFaces
-from ..core.solid.thickness import Measurement
+from ..core.solid.measurement import Measurement
 from ..core.solid.thickness_colours import colour_limits, coloured
 from ..core.solid.thin_parts import ThinParts
 from .attributes import as_float32, set_attribute

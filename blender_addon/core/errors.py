@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can go wrong, each as one sentence: what was expected, what was found, what to do."""
+"""The errors. Each message is one sentence: what was expected, what was found, and what to do."""
 
 from __future__ import annotations
 
 
 class MedialAxisError(Exception):
-    """A medial axis could not be made; nothing was changed."""
+    """A medial axis could not be computed; nothing was changed."""
 
 
 class NativeModuleError(MedialAxisError, ImportError):
@@ -25,14 +25,14 @@ class OutOfMemoryError(MedialAxisError, MemoryError):
 
 
 def out_of_memory() -> OutOfMemoryError:
-    """What is said wherever the memory ends."""
+    """Return the error for a computer that runs out of memory."""
     return OutOfMemoryError(
         "Expected enough memory, found too little; close other programs or use fewer points"
     )
 
 
 class MemoryLimitError(OutOfMemoryError):
-    """An analysis of so many `points` would need more memory than it may have; it was not begun."""
+    """The analysis of `points` points would need more memory than it may have; it was not begun."""
 
     def __init__(self, text: str, points: int) -> None:
         super().__init__(text)

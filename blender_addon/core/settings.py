@@ -59,19 +59,6 @@ class Criteria(Enum):
     RATIO = "RATIO"
 
 
-class Method(Enum):
-    """Whose axis: that of Dey & Zhao, or of those with whom their paper compares it."""
-
-    MEDIAL = "MEDIAL"
-    POLE_VECTOR = "POLE_VECTOR"
-    TANGENT_POLYGON = "TANGENT_POLYGON"
-    POLE_AND_POLYGON = "POLE_AND_POLYGON"
-    ANGLE_AND_LENGTH = "ANGLE_AND_LENGTH"
-    LAMBDA = "LAMBDA"
-    POLES = "POLES"
-    POWER_SHAPE = "POWER_SHAPE"
-
-
 class Bind(Enum):
     """How an object follows an armature."""
 
@@ -379,48 +366,6 @@ OPTIONS: dict[str, Any] = {
     ),
 }
 
-# The methods that the paper compares itself with, for the command line and the library (docs/command_line.md).
-RIVAL_OPTIONS: dict[str, Any] = {
-    "method": Choice(
-        label="Method",
-        description="Whose medial axis; those of others are as published",
-        default=Method.MEDIAL,
-        items={
-            Method.MEDIAL: ("MEDIAL", "By Dey and Zhao"),
-            Method.POLE_VECTOR: (
-                "Pole Vector",
-                "MEDIAL with pole vectors for the normals of umbrellas",
-            ),
-            Method.TANGENT_POLYGON: (
-                "Tangent Polygon",
-                "MEDIAL with the reach of tangent polygons for the circumradii of umbrellas",
-            ),
-            Method.POLE_AND_POLYGON: ("Pole and Polygon", "MEDIAL with both"),
-            Method.ANGLE_AND_LENGTH: (
-                "Angle and Length",
-                "Facets whose balls see the two samples under twice Theta or more, Length apart",
-            ),
-            Method.LAMBDA: (
-                "Lambda",
-                "Facets and edges whose nearest samples fit in no ball narrower than Length",
-            ),
-            Method.POLES: ("Poles", "The farthest Voronoi vertices of the cells, without facets"),
-            Method.POWER_SHAPE: ("Power Shape", "Where the power cells of the poles meet"),
-        },
-    ),
-    "length": Number(
-        label="Length",
-        description="How far apart the two samples are at least, or twice the lambda, in percent of the "
-        "diagonal of the bounding box",
-        default=5.0,
-        minimum=0.0,
-        maximum=100.0,
-        soft_maximum=20.0,
-        unit="%",
-    ),
-}
-ALL_OPTIONS = {**OPTIONS, **RIVAL_OPTIONS}  # of Settings
-
 # Options of a machine and not of a result; in Blender they stand in the preferences.
 LIMITS: dict[str, Any] = {
     "memory_limit": Integer(
@@ -598,9 +543,6 @@ class Settings:
     sharp_angle : float
         Radians.
     smooth, keep_vertices : bool
-    method : Method
-    length : float
-        Percent of the diagonal of the bounding box of the samples.
 
     Raises
     ------
@@ -628,21 +570,18 @@ class Settings:
     smooth: bool = OPTIONS["smooth"].default
     keep_vertices: bool = OPTIONS["keep_vertices"].default
     seed: int = OPTIONS["seed"].default
-    method: Method = RIVAL_OPTIONS["method"].default
-    length: float = RIVAL_OPTIONS["length"].default
 
     @property
     def form_of_side(self) -> Form:
-        """The form that the result has: clean ones and curves are of the inner axis by MEDIAL only."""
-        inner = self.side in (Side.AUTOMATIC, Side.INNER)
-        return self.form if inner and self.method is Method.MEDIAL else Form.PUBLISHED
+        """The form that the result has: only the inner axis has a clean form or a curve."""
+        return self.form if self.side in (Side.AUTOMATIC, Side.INNER) else Form.PUBLISHED
 
     def with_side(self) -> Settings:
         """The same with a side that is not AUTOMATIC."""
         return replace(self, side=Side.INNER) if self.side is Side.AUTOMATIC else self
 
     def __post_init__(self) -> None:
-        check_ranges(self, ALL_OPTIONS)
+        check_ranges(self, OPTIONS)
 
 
 @dataclass(frozen=True)

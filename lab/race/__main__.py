@@ -69,7 +69,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--limit", type=int, default=300, help="seconds that a program may take")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "race")
-    parser.add_argument("--page", type=Path, default=ROOT / "docs" / "benchmark.md")
+    parser.add_argument("--page", type=Path, default=ROOT / "docs" / "lab" / "benchmark.md")
     return parser.parse_args()
 
 

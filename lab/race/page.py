@@ -24,7 +24,7 @@ def write(rows: list[Row], skipped: dict[str, list[str]], path: Path) -> None:
     below = rest.partition(END)[2]
     if not mark:
         raise SystemExit(f"Expected the line '{MARK}' in {path}, found none; add it")
-    pictures = path.parent / "pictures"
+    pictures = path.parent.parent / "pictures"
     pictures.mkdir(exist_ok=True)
     plots = "\n".join(_plot(rows, measure, pictures) for measure in ("mean", "missed_mean"))
     parts = [_better(rows), plots, _overview(rows), _wholes(rows), _outer(rows), _cost(rows)]

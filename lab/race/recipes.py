@@ -6,10 +6,9 @@ from __future__ import annotations
 import importlib.util
 import shutil
 import sys
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-
-import tomllib
 
 from . import ROOT
 

@@ -7,15 +7,12 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from conftest import ROOT
 
 pytest.importorskip("tomllib", reason="Python has tomllib from 3.11 on")
 
-sys.path.insert(0, str(ROOT))
-
 import medial_axis
 
-from lab.race import betti, judge, product, read_axis, solids
+from lab.race import ROOT, betti, judge, product, read_axis, solids
 
 NO_EDGES = np.empty((0, 2), int)
 
@@ -569,7 +566,7 @@ def test_the_page_keeps_what_people_wrote_and_shows_losses_first(tmp_path):
 def test_the_page_of_the_docs_explains_every_letter():
     from lab.race import compare, page
 
-    text = (ROOT / "docs" / "benchmark.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "lab" / "benchmark.md").read_text(encoding="utf-8")
     above, _, below = text.partition(page.MARK)
     assert below
     letters = {

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from .terminal import Failure, output_of
 
-_TELL = (
+_QUERY = (
     "import sys, sysconfig, bpy; print('ABI', bpy.app.version_string.split()[0], "
     "'%d.%d' % sys.version_info[:2], sysconfig.get_config_var('SOABI'))"
 )
@@ -69,11 +69,11 @@ def blender_python(blender: Path) -> tuple[Path, str]:
     """The interpreter that Blender uses, with its ABI tag, such as cpython-311-x86_64-linux-gnu."""
     with tempfile.TemporaryDirectory() as folder:
         private = Blender([str(blender)], Path(folder))
-        text = output_of(*private.command("--python-expr", _TELL), env=private.environment)
-    told = re.search(r"^ABI (\S+) (\S+) (\S+)$", text, re.MULTILINE)
-    if told is None:
+        text = output_of(*private.command("--python-expr", _QUERY), env=private.environment)
+    found = re.search(r"^ABI (\S+) (\S+) (\S+)$", text, re.MULTILINE)
+    if found is None:
         raise Failure(f"Expected {blender} to tell its Python, found: {text.strip()[-200:]}")
-    version, python_version, abi = told.groups()
+    version, python_version, abi = found.groups()
     python = Path(f"/usr/bin/python{python_version}")
     ask = "import sysconfig; print(sysconfig.get_config_var('SOABI'))"
     found = output_of(python, "-c", ask).strip() if python.exists() else "none"

@@ -66,7 +66,7 @@ def fetch(folder, kind, suite, words):
 
 
 def mirror():
-    """Where this machine gets its Debian packages from."""
+    """The address of the Debian archive that this machine installs from."""
     query = ["apt-get", "indextargets", "--format", "$(SITE)", "Identifier: Packages"]
     sites = subprocess.run(query, capture_output=True, text=True).stdout.split()
     mirrors = [site for site in sites if site.rstrip("/").endswith("/debian")]

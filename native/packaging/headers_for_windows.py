@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a compiler on Debian needs to make a module for a Python on Windows, without anything from Windows."""
+"""Headers and an import library with which a compiler on Debian makes modules for Windows, without a Windows."""
 
 import re
 import shutil

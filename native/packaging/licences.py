@@ -20,7 +20,7 @@ LGPL = Path("/usr/share/common-licenses/LGPL-3")
 
 @dataclass(frozen=True)
 class Component:
-    """Something of others, the file that its package is known by, and the names of its licences."""
+    """A part made by others: its name, a file of its Debian package, and its licences."""
 
     name: str
     file: str
@@ -106,7 +106,7 @@ def _lesser_licence() -> str:
 
 
 def _newer_pybind11(modules: list[str]) -> str:
-    """Those that came with the headers of other Pythons, such as 'pybind11-dev 3.1.0-1 (3.14)'."""
+    """The versions of pybind11 that came with the headers of other Pythons, such as 'pybind11-dev 3.1.0-1 (3.14)'."""
     found = []
     for folder in sorted((paths.BUILD / "python").glob("**/3.*")):
         digits = folder.name.replace(".", "")

@@ -12,8 +12,8 @@ from . import headers, paths
 from .blender import blender_python
 from .terminal import Failure, build_preset, output_of, run, say
 
-# The Pythons of the Blenders that the zip is for, and the suite of Debian that has their headers; 3.10 is in none.
-PYTHONS = {"3.10": headers.INSTALLED, "3.11": "bookworm", "3.13": "trixie", "3.14": "sid"}
+# The Pythons of the Blenders that the zip is for, and the suite of Debian that has their headers.
+PYTHONS = {"3.11": "bookworm", "3.13": "trixie", "3.14": "sid"}
 WINDOWS_PYTHONS = {"3.11": "bookworm", "3.13": "trixie"}
 
 _IMPORT = """
@@ -25,13 +25,28 @@ print("imports as _medial", module.__version__)
 """
 
 
-def build_modules(blender: Path, local: bool = False, windows: bool = False) -> None:
-    """Compile the release modules into blender_addon/lib: for Blender's own Python and, unless `local`, the others."""
+def build_core() -> None:
+    """Compile what knows no Python, and so can be compiled before Blender is there."""
+    say("Compiling the core")
+    options = ("-DMEDIAL_TESTS=OFF", "-DMEDIAL_PYTHON=OFF")
+    build_preset("release", *options, targets=["medial"])
+
+
+def build_modules(
+    blender: Path, local: bool = False, windows: bool = False, tests: bool = False
+) -> None:
+    """Compile the release modules into blender_addon/lib: for Blender's own Python and, unless `local`, the others.
+
+    With `tests` the native tests are compiled as well.
+    """
     say("Building the native modules")
     python, abi = blender_python(blender)
     folders = {} if local else other_headers(abi)
-    build_preset("release", f"-DPython_EXECUTABLE={python}", _definition_of(folders))
-    abis = [abi, *(re.sub(r"\d+", version.replace(".", ""), abi, count=1) for version in folders)]
+    options = [f"-DPython_EXECUTABLE={python}", "-DMEDIAL_PYTHON=ON", _definition_of(folders)]
+    options += [f"-DMEDIAL_TESTS={'ON' if tests else 'OFF'}"]
+    targets = ["_medial", *(f"_medial_{_digits(version)}" for version in folders)]
+    build_preset("release", *options, targets=[] if tests else targets)
+    abis = [abi, *(re.sub(r"\d+", _digits(version), abi, count=1) for version in folders)]
     modules = [_put_into_library(paths.BUILD / "release" / f"_medial.{abi}.so") for abi in abis]
     modules += _build_for_windows() if windows else []
     for old in set(paths.LIBRARY.glob("_medial.*")) - set(modules):
@@ -41,10 +56,15 @@ def build_modules(blender: Path, local: bool = False, windows: bool = False) -> 
     print(output_of(python, "-c", _IMPORT, modules[0]).strip())
 
 
+def _digits(version: str) -> str:
+    """The version as names of modules have it: 311 for 3.11."""
+    return version.replace(".", "")
+
+
 def _build_for_windows() -> list[Path]:
     folders = _headers_of(WINDOWS_PYTHONS, paths.BUILD / "python" / "windows", windows=True)
     build_preset("mingw", _definition_of(folders))
-    names = [f"_medial.cp{version.replace('.', '')}-win_amd64.pyd" for version in folders]
+    names = [f"_medial.cp{_digits(version)}-win_amd64.pyd" for version in folders]
     strip = "x86_64-w64-mingw32-strip"
     return [_put_into_library(paths.BUILD / "mingw" / name, strip) for name in names]
 
@@ -58,7 +78,7 @@ def other_headers(abi: str) -> dict[str, Path]:
     others = {
         version: suite
         for version, suite in PYTHONS.items()
-        if f"cpython-{version.replace('.', '')}-" not in abi
+        if f"cpython-{_digits(version)}-" not in abi
     }
     return _headers_of(others, paths.BUILD / "python")
 

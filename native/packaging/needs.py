@@ -3,14 +3,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import subprocess
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import IO
 
+from . import paths
 from .terminal import Failure, run, say, succeeds
 
-# What is needed -> the Debian package that brings it.
-BUILD = {
+# Each table maps a need to the Debian package that provides it.
+CORE = {
     "C++ compiler": "g++",
     "CMake": "cmake",
     "Ninja": "ninja-build",
@@ -18,20 +23,22 @@ BUILD = {
     "Boost headers": "libboost-dev",
     "pybind11 headers": "pybind11-dev",
     "Python headers": "python3-dev",
+}
+BUILD = {
+    **CORE,
+    "Markdown, for the pages in the zip": "python3-markdown",
     "NumPy for Blender's Python": "python3-numpy",
     "Blender": "blender",
-    "GoogleTest": "libgtest-dev",
-    "mkdocs, for the manual": "mkdocs",
 }
 WINDOWS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
 DEMO = {
     **BUILD,
-    "CGAL's demo meshes": "libcgal-demo",
     "software OpenGL": "libgl1-mesa-dri",
     "EGL, to draw without a display": "libegl1",
 }
 FAST = {
     **BUILD,
+    "GoogleTest": "libgtest-dev",
     "SciPy, the independent triangulation": "python3-scipy",
     "pytest": "python3-pytest",
     "pytest on all cores": "python3-pytest-xdist",
@@ -47,11 +54,14 @@ TEST = {
     "screenshots": "imagemagick",
     "C++ linter": "clang-tidy",
     "types of the Python sources": "mypy",
+}
+FULL = {
+    **TEST,
     "second C++ compiler": "clang",
     "its standard library": "libc++-dev",
     "and what that needs": "libc++abi-dev",
 }
-MATRIX = {**TEST, "Debian in a folder, by root alone": "debootstrap"}
+ROOT_ALONE = {"Debian in a folder, by root alone": "debootstrap"}
 BENCH = {
     **BUILD,
     "SciPy, whose Qhull is measured, too": "python3-scipy",
@@ -62,28 +72,84 @@ RACE = {**BUILD, "SciPy, for the judge": "python3-scipy"}
 
 
 def require(needs: dict[str, str]) -> None:
-    """Install the missing packages, or say how and stop with exit code 2."""
+    """Install the missing packages, or report how and stop with exit code 2."""
+    if missing := missing_of(needs):
+        say("Missing: " + ", ".join(f"{name} ({package})" for name, package in missing.items()))
+        install(missing, rights_to_install(missing), None)
+
+
+def require_rights(needs: dict[str, str]) -> None:
+    """Stop with exit code 2 before anything is done, if packages are missing and this user may not install them."""
+    if missing := missing_of(needs):
+        rights_to_install(missing)
+
+
+@contextlib.contextmanager
+def required_meanwhile(needs: dict[str, str]) -> Iterator[None]:
+    """Install the missing packages while the body of the `with` statement runs; they are there at its end.
+
+    The output of apt-get goes to a file, because the body prints as well; a failure shows its end.
+    """
+    missing = missing_of(needs)
+    rights = rights_to_install(missing) if missing else []
+    if missing:
+        say(f"Installing in the background: {', '.join(missing.values())}")
+    with ThreadPoolExecutor(1) as background:
+        installed = background.submit(_install_quietly, missing, rights) if missing else None
+        yield
+        if installed is not None:
+            print("Waiting for the packages ...", flush=True)
+            installed.result()
+
+
+def missing_of(needs: dict[str, str]) -> dict[str, str]:
+    """The needs whose packages are not installed; none on a system without Debian's packages."""
     if shutil.which("dpkg-query") is None:
         print(
             "This is no Debian system: nothing is installed; needed are " + ", ".join(needs) + "."
         )
-        return
-    missing = {name: package for name, package in needs.items() if not is_installed(package)}
-    if not missing:
-        return
-    say("Missing: " + ", ".join(f"{name} ({package})" for name, package in missing.items()))
-    install = ["apt-get", "install", "-y", "--no-install-recommends", *missing.values()]
-    advice = "run  sudo apt-get update && sudo " + " ".join(install) + "  and start again"
+        return {}
+    return {name: package for name, package in needs.items() if not is_installed(package)}
+
+
+def rights_to_install(missing: dict[str, str]) -> list[str]:
+    """The words before apt-get; Failure with the command to run when this user may not install packages."""
     rights = administrator_prefix()
     if rights is None:
         raise Failure(
-            "Debian packages are missing and this user may not install them: " + advice, 2
+            "Debian packages are missing and this user may not install them: " + advice(missing), 2
         )
+    return rights
+
+
+def install(missing: dict[str, str], rights: list[str], log: IO[str] | None) -> None:
+    """Run apt-get, with its output to the terminal or to `log`."""
+    options = {"stdout": log, "stderr": log} if log else {}
     try:
-        run(*rights, "apt-get", "update", "-q")
-        run(*rights, "env", "DEBIAN_FRONTEND=noninteractive", *install)
+        run(*rights, "apt-get", "update", "-q", **options)
+        run(*rights, "env", "DEBIAN_FRONTEND=noninteractive", *command(missing), **options)
     except Failure as failure:
-        raise Failure(f"Installing Debian packages failed ({failure}): {advice}", 2) from None
+        text = f"Installing Debian packages failed ({failure}): {advice(missing)}"
+        raise Failure(text, 2) from None
+
+
+def _install_quietly(missing: dict[str, str], rights: list[str]) -> None:
+    paths.BUILD.mkdir(exist_ok=True)
+    with open(paths.BUILD / "packages.log", "w+", encoding="utf-8") as log:
+        try:
+            install(missing, rights, log)
+        except Failure:
+            log.seek(0)
+            print("".join(log.readlines()[-30:]), flush=True)
+            raise
+
+
+def command(missing: dict[str, str]) -> list[str]:
+    return ["apt-get", "install", "-y", "--no-install-recommends", *missing.values()]
+
+
+def advice(missing: dict[str, str]) -> str:
+    return "run  sudo apt-get update && sudo " + " ".join(command(missing)) + "  and start again"
 
 
 def is_installed(package: str) -> bool:

@@ -44,7 +44,7 @@ def library(blender: Path | str = "blender") -> Path | None:
 
 
 def _key(program: Path, sources: list[Path]) -> str:
-    """What a library depends on."""
+    """A hash of everything that a library depends on."""
     digest = hashlib.sha256(str(program.resolve()).encode())
     for path in sources:
         digest.update(path.read_bytes())
@@ -52,7 +52,7 @@ def _key(program: Path, sources: list[Path]) -> str:
 
 
 def _write(program: Path, folder: Path) -> None:
-    """Write the library beside where it belongs, then rename."""
+    """Write the library into a temporary folder, then move it into place."""
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder.parent) as private:
         blender = Blender([str(program)], Path(private) / "profile")

@@ -15,13 +15,13 @@ from .terminal import python_that, run, say
 MODULES = "lib/_medial."  # how the names of compiled modules begin
 # How they end, on each system, named as extensions.blender.org does.
 PLATFORMS = {"linux-x64": ".so", "windows-x64": ".pyd"}
-_SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".js", ".yaml"}
+_SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".yaml"}
 
 
-def pack(blender: Path | str = "blender") -> Path:
+def pack(blender: Path | str = "blender", local: bool = False) -> Path:
     """The zip that installs on Blender 3.4 (add-on) and 4.2 and newer (extension), and those for the extensions
-    platform, which wants one per system and the files at its top. Same files, same bytes. `blender` writes the library
-    of node groups. Returns the first."""
+    platform, which wants one per system and the files at its top; `local` leaves these out. Same files, same bytes.
+    `blender` writes the library of node groups. Returns the first."""
     say("Packing the add-on")
     paths.DIST.mkdir(exist_ok=True)
     files = contents(blender)
@@ -30,7 +30,7 @@ def pack(blender: Path | str = "blender") -> Path:
     print(f"{paths.shown(archive)}: {archive.stat().st_size / 1e6:.1f} MB")
     for platform in PLATFORMS:
         archive_for(platform).unlink(missing_ok=True)
-        if own := for_platform(files, platform):
+        if not local and (own := for_platform(files, platform)):
             write_zip(archive_for(platform), own)
     abis = sorted(name.split(".")[1] for name in files if name.startswith(MODULES))
     print(f"{len(files)} files; compiled for {', '.join(abis) or 'no Python'}")
@@ -39,7 +39,9 @@ def pack(blender: Path | str = "blender") -> Path:
 
 def archive_for(platform: str = "") -> Path:
     """The zip for people, or one for the extensions platform, named as Blender names such."""
-    return paths.DIST / f"{paths.PACKAGE}-{paths.version()}{'-' * bool(platform)}{platform}.zip"
+    return (
+        paths.DIST / f"{paths.PACKAGE}-{paths.full_version()}{'-' * bool(platform)}{platform}.zip"
+    )
 
 
 def contents(blender: Path | str = "blender") -> dict[str, bytes]:
@@ -55,9 +57,22 @@ def contents(blender: Path | str = "blender") -> dict[str, bytes]:
     if library is not None:
         found = _read(library, library.iterdir())
         files.update({f"nodes/{name}": content for name, content in found.items()})
+    _state_the_commit(files)
     modules = [name for name in files if name.startswith(MODULES)]
     files["THIRD_PARTY_LICENSES"] = licences.text(modules).encode()
     return files
+
+
+def _state_the_commit(files: dict[str, bytes]) -> None:
+    """A development build says so in the manifest and in the package, so that two builds are never called the same."""
+    commit = paths.commit().encode()
+    if commit:
+        for name, line in (
+            ("blender_manifest.toml", b'\nversion = "' + paths.version().encode() + b'%s"'),
+            ("__init__.py", b'\nCOMMIT = "%s"'),
+        ):
+            plus = b"+" * name.endswith(".toml")
+            files[name] = files[name].replace(line % b"", line % (plus + commit), 1)
 
 
 def _read(folder: Path, found: Iterable[Path]) -> dict[str, bytes]:
@@ -79,10 +94,9 @@ def _sources() -> list[Path]:
 
 
 def make_manual(folder: Path) -> None:
-    """The manual as web pages; mkdocs.yml says how."""
-    python = python_that("import mkdocs", "install mkdocs")
-    options = ["--strict", "--config-file", paths.ROOT / "mkdocs.yml"]
-    run(python, "-B", "-m", "mkdocs", "build", *options, "--site-dir", folder)
+    """The user pages as web pages, for readers without a network."""
+    python = python_that("import markdown", "install python3-markdown")
+    run(python, "-B", Path(__file__).with_name("manual.py"), folder)
 
 
 def _make_presets(folder: Path) -> None:

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where things lie in the checkout, and the one version number."""
+"""The folders of the checkout, and the version of what is built from it."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-from .terminal import Failure
+from .terminal import Failure, output_of, succeeds
 
 ROOT = Path(__file__).resolve().parents[2]
 ADDON = ROOT / "blender_addon"
@@ -27,6 +27,25 @@ def version() -> str:
             f"blender_manifest.toml says version {stated}, bl_info says ({info}); make them equal"
         )
     return stated
+
+
+def commit() -> str:
+    """The commit that a development build carries in its version, such as g1a2b3c4d, or g1a2b3c4d.modified.
+
+    Empty for the sources of a release, whose tag is v and the version, and where the sources are no git checkout.
+    """
+    if not (ROOT / ".git").exists() or not succeeds("git", "rev-parse", "HEAD"):
+        return ""
+    modified = output_of("git", "status", "--porcelain", "--untracked-files=no").strip()
+    if not modified and f"v{version()}" in output_of("git", "tag", "--points-at", "HEAD").split():
+        return ""
+    short = output_of("git", "rev-parse", "--short=8", "HEAD").strip()
+    return f"g{short}{'.modified' if modified else ''}"
+
+
+def full_version() -> str:
+    """The version of what is built here: the manifest's, and for a development build its commit."""
+    return "+".join(filter(None, (version(), commit())))
 
 
 def shown(path: Path) -> str:

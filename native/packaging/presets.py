@@ -14,7 +14,7 @@ import sys
 from enum import Enum
 from pathlib import Path
 
-# What each preset changes of the defaults.
+# Each preset lists the settings that differ from the defaults.
 PRESETS: dict[str, dict[str, object]] = {
     "As_Published": {"form": "PUBLISHED", "sampling": "VERTICES"},
     "Curve": {"form": "CURVE"},

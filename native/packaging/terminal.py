@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands that are run for the person at the terminal, and how their failures are told."""
+"""Commands that run for the person at the terminal, and how their failures are reported."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import os
 import shlex
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -74,10 +75,11 @@ def parallel_jobs() -> int:
     return max(1, min(len(os.sched_getaffinity(0)), memory // (2 << 30)))
 
 
-def build_preset(preset: str, *definitions: str) -> None:
-    """Configure and compile a preset of CMakePresets.json."""
+def build_preset(preset: str, *definitions: str, targets: Sequence[str] = ()) -> None:
+    """Configure a preset of CMakePresets.json and compile all of it, or some targets."""
     run("cmake", "--preset", preset, *definitions)
-    run("cmake", "--build", "--preset", preset, "--parallel", parallel_jobs())
+    wanted = ["--target", *targets] if targets else []
+    run("cmake", "--build", "--preset", preset, "--parallel", parallel_jobs(), *wanted)
 
 
 def use_system_python() -> None:

@@ -17,7 +17,7 @@ constexpr const char* kHierarchyDoc =
     "cospherical samples, are shrunk to what they are. A value says up to which "
     "threshold a cell is there; it is infinite for what no\nthreshold takes away.";
 
-constexpr const char* kExtractDoc =
+constexpr const char* kExtractLevelDoc =
     "The level at some thresholds. A facet stays if it exceeds the first three. A vertex or an "
     "edge stays if it does, or if\nit exceeds `limb`. What no threshold takes away always "
     "stays.\n\n"
@@ -272,7 +272,7 @@ void bind_hierarchy(py::module_& m) {
             const py::gil_scoped_release release;
             return h.extract({sheet, spacings, erosion, limb, round_limbs, relaxed}, progress);
           },
-          kExtractDoc, py::kw_only(), py::arg("sheet") = LevelOptions{}.sheet,
+          kExtractLevelDoc, py::kw_only(), py::arg("sheet") = LevelOptions{}.sheet,
           py::arg("spacings") = LevelOptions{}.spacings,
           py::arg("erosion") = LevelOptions{}.erosion, py::arg("limb") = LevelOptions{}.limb,
           py::arg("relaxed") = LevelOptions{}.relaxed,

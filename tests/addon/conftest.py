@@ -10,7 +10,7 @@ from scene import addon
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from support.slow import (  # noqa: F401 - found through the line above; pytest finds the hooks here
+from support.tiers import (  # noqa: F401 - found through the line above; pytest finds the hooks here
     pytest_addoption,
     pytest_collection_modifyitems,
     pytest_configure,

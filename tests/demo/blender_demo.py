@@ -2,7 +2,7 @@
 """One model of the demo, inside Blender: install the zip, compute, export, render, report.
 
     blender --background --factory-startup --python-exit-code 1 --python tests/demo/blender_demo.py -- \\
-        --zip dist/medial_axis-0.1.0.zip --model suzanne --subdivide 3 --output demo_output --report report.json
+        --zip dist/medial_axis-0.2.0.zip --model suzanne --subdivide 3 --output demo_output --report report.json
 """
 
 import argparse
@@ -38,7 +38,9 @@ def parse():
     parser = argparse.ArgumentParser()
     parser.add_argument("--zip", required=True)
     parser.add_argument(
-        "--model", required=True, help="'suzanne', or a .ply, .obj, .stl or .off file"
+        "--model",
+        required=True,
+        help="'suzanne', 'bracket', or a .ply, .obj, .stl or .off file",
     )
     parser.add_argument(
         "--subdivide", type=int, default=0, help="levels of a Subdivision Surface modifier"
@@ -72,12 +74,15 @@ def load(model, levels, y_up):
     if model == "suzanne":
         bpy.ops.mesh.primitive_monkey_add()
         bpy.context.object.name = "Suzanne"
+    elif model == "bracket":
+        add_bracket()
     elif path.suffix.lower() == ".off":
         link(path.stem.capitalize(), *read_off(path))
     else:
         import_file(path)
     source = join_meshes()
-    source.data.polygons.foreach_set("use_smooth", np.ones(len(source.data.polygons), bool))
+    if model != "bracket":  # which has flat faces
+        source.data.polygons.foreach_set("use_smooth", np.ones(len(source.data.polygons), bool))
     if y_up:
         source.rotation_euler.x += math.pi / 2
     if levels:
@@ -85,6 +90,35 @@ def load(model, levels, y_up):
         modifier.levels = modifier.render_levels = levels
     print(f"{source.name}: {len(source.data.vertices):,} vertices, subdivision level {levels}")
     return source
+
+
+def add_bracket():
+    """A machine part with sharp edges: two legs that a fillet joins, with a hole through each."""
+    x, z = 1.5, 1.5  # the centre of the arc of the fillet
+    turns = [math.radians(degrees) for degrees in range(180, 271, 10)]
+    arc = [(x + 1.0 * math.cos(turn), z + 1.0 * math.sin(turn)) for turn in reversed(turns)]
+    profile = [(0, 0), (3.2, 0), (3.2, 0.5), *arc, (0.5, 2.6), (0, 2.6)]
+    count = len(profile)
+    corners = [(x, y, z) for y in (-1.0, 1.0) for x, z in profile]
+    sides = [(i, (i + 1) % count, count + (i + 1) % count, count + i) for i in range(count)]
+    ends = [tuple(reversed(range(count))), tuple(range(count, 2 * count))]
+    link("Bracket", corners, [tuple(reversed(side)) for side in [*sides, *ends]])
+    part = bpy.data.objects["Bracket"]
+    drill(part, (2.35, 0, 0.25), (0, 0, 0), 0.5)
+    drill(part, (0.25, 0, 1.9), (0, math.pi / 2, 0), 0.4)
+
+
+def drill(part, place, turn, radius):
+    """Cut a round hole."""
+    bpy.ops.mesh.primitive_cylinder_add(
+        vertices=64, radius=radius, depth=2, location=place, rotation=turn
+    )
+    tool = bpy.context.object
+    modifier = part.modifiers.new("Hole", "BOOLEAN")
+    modifier.object = tool
+    bpy.context.view_layer.objects.active = part
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    bpy.data.objects.remove(tool)
 
 
 def import_file(path):

@@ -9,8 +9,8 @@ from mathutils import Vector
 
 VIEW = Vector((0.62, -1.0, 0.42))  # from the shape to the camera
 SUN = Vector((-0.3, -0.8, 1.0))  # from the shape to the light
-PIXELS = (1200, 900)
-SAMPLES = 32
+PIXELS = (800, 600)
+SAMPLES = 24
 
 
 def arrange(source, result):

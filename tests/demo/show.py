@@ -13,10 +13,13 @@ from typing import Union
 
 from native.packaging import paths
 from native.packaging.blender import Blender
-from native.packaging.terminal import Failure, run, say
+from native.packaging.terminal import Failure, say
 
-EXAMPLES = Path("/usr/share/doc/libcgal-dev/data.tar.gz")  # CGAL's demo data
-Model = Union[Path, str]  # a file, or "suzanne"
+EXAMPLES = [
+    ("suzanne", ["--subdivide", "3"]),
+    ("bracket", []),
+]  # models with options of the demo script
+Model = Union[Path, str]  # a file, or the name of an example
 
 
 def existing(names: list[str]) -> list[Path]:
@@ -33,21 +36,9 @@ def show_models(blender: Path, archive: Path, meshes: list[Path], output: Path) 
     output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix="medial_axis_demo_") as name:
         folder = Path(name)
-        models = [(mesh, []) for mesh in meshes] or examples(folder)
+        models = [(mesh, []) for mesh in meshes] or EXAMPLES
         reports = [show_model(blender, archive, *model, output, folder) for model in models]
     print_table(reports)
-
-
-def examples(folder: Path) -> list[tuple[Model, list[str]]]:
-    """Blender's Suzanne, and a machine part of CGAL's demo data (CC0), each with options of the demo script."""
-    member = "data/meshes/fandisk_large.off"
-    if not EXAMPLES.exists():
-        raise Failure(
-            f"Expected CGAL's demo data at {EXAMPLES}, found none; name mesh files: demo PATH ..."
-        )
-    run("tar", "xzf", EXAMPLES, "-C", folder, member)
-    fandisk = (folder / member).rename(folder / "fandisk.off")
-    return [("suzanne", ["--subdivide", "3"]), (fandisk, ["--y-up"])]
 
 
 def show_model(
@@ -70,14 +61,14 @@ def run_rendering(command: list[str], environment: dict[str, str]) -> None:
     print("$ " + " ".join(map(shlex.quote, command)), flush=True)
     pipe = {"stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, cwd=paths.ROOT, env=environment, **pipe) as blender:
-        told = ""
+        shown = ""
         for line in blender.stdout:
             samples = re.search(r"Sample (\d+)/(\d+)", line)
-            part = f"{10 * int(samples[1]) // int(samples[2])}0 %" if samples else told
+            part = f"{10 * int(samples[1]) // int(samples[2])}0 %" if samples else shown
             if not line.startswith("Fra:"):
                 print(line, end="", flush=True)
-            elif part != told:
-                told = part
+            elif part != shown:
+                shown = part
                 print(f"rendering, {part}", flush=True)
     if blender.returncode != 0:
         raise Failure(f"Blender ended with exit code {blender.returncode}; its output is above")

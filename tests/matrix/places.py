@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where Blenders come from: this machine, other Debians in folders, the package index of Python."""
+"""The sources of Blenders: this machine, other Debians in folders, the package index of Python."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CHROOTS = Path(os.environ.get("MEDIAL_AXIS_BLENDERS", ROOT / "build" / "blenders"))
 INSTALL = ("-m", "pip", "install", "--only-binary", ":all:")
+# Folders of Pythons that are not on PATH.
+FOLDERS = ("/usr/bin", "/usr/local/bin", str(Path.home() / ".pyenv/versions/{}*/bin"))
 READY = "ready"  # a file that is written last
 sys.path.insert(0, str(ROOT))
 
 from native.packaging.debian import mirror  # noqa: E402 - the line above makes it found
-from native.packaging.headers import interpreters  # noqa: E402
 from native.packaging.terminal import Failure  # noqa: E402
 
 
@@ -145,18 +146,12 @@ class Wine(Bpy):
         run_logged([self.interpreter(), *INSTALL, *where, *version, *self.packages], log)
 
 
-class WithoutBlender(Bpy):
-    """The Python and the NumPy of blender.org's Blender 3.4 to 4.0, which is in no package index."""
-
-    module = "cpython-310"
-
-    def __init__(self) -> None:
-        self.source, self.folder, self.python = "Python 3.10", "python-3.10", "3.10"
-        self.packages = ["numpy==1.23.*", "pytest", "scipy"]
-
-    def prepare(self, log: Path) -> list[str]:
-        """The words that a command begins with."""
-        return [str(self.environment(log))]
+def interpreters(version):
+    """The Pythons of a version on this machine."""
+    name = f"python{version}"
+    on_path = [Path(found)] if (found := shutil.which(name)) else []
+    patterns = [f"{folder.format(version)}/{name}"[1:] for folder in FOLDERS]
+    return on_path + [path for pattern in patterns for path in sorted(Path("/").glob(pattern))]
 
 
 def run_logged(command: list, log: Path) -> None:

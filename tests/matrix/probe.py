@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from egg import command_line, digest, egg
 
 ANSWER, *ENGINES = sys.argv[sys.argv.index("--") + 1 :]
-# What an engine is called; EEVEE has changed its name twice.
+# The names of the engines; EEVEE has changed its name twice.
 NAMES = {
     "Cycles": ("CYCLES",),
     "EEVEE": ("BLENDER_EEVEE", "BLENDER_EEVEE_NEXT"),

@@ -6,7 +6,7 @@
 
 In each: the zip passes Blender's own check and is installed, the tests run without a window and in one,
 one mesh is computed, exported and rendered, and given to the command line. The files must be the same,
-byte for byte. In Python 3.10, for which there is no Blender here, the Python tests run and the command line.
+byte for byte.
 --quick runs the main things, and none of the official bpy modules. Screenshots and logs go to the folder that
 --keep names, and --table writes the results. What cannot be had is skipped by name; exit code 1 when
 something failed in a Blender that runs.
@@ -37,13 +37,11 @@ from places import (  # noqa: E402 - beside this
     Installed,
     UnavailableError,
     Wine,
-    WithoutBlender,
 )
 
 QUICK_SCENES = ["compute_drag_undo", "missing_module"]
 NO_RESULT = "no result"  # as after a crash, which not everything tells by its exit code
 HASHES = ("export", "command")  # of the .ma files of the operator and of the command line
-OF_THE_BUILD = ("bench", "build_addon", "checklist", "matrix")  # tests not of the zip
 MARK = "<!-- written by tests/matrix/run.py: do not edit below -->"
 HEADER = (
     "Blender",
@@ -61,7 +59,7 @@ HEADER = (
 
 @dataclass
 class Row:
-    """What was found out about one Blender."""
+    """The results of one Blender."""
 
     source: str
     skipped: str = ""
@@ -102,9 +100,6 @@ def examine(blender, arguments: argparse.Namespace) -> Row:
     except UnavailableError as reason:
         row.skipped = str(reason)
         return row
-    if isinstance(blender, WithoutBlender):
-        run_without_blender(row, use, keep, arguments)
-        return row
     probe(row, blender, use, keep, arguments)
     if arguments.quick and not blender.quick_tests:
         return row
@@ -117,27 +112,6 @@ def examine(blender, arguments: argparse.Namespace) -> Row:
 def has_module(archive: Path, name: str) -> bool:
     with zipfile.ZipFile(archive) as files:
         return any(f"_medial.{name}" in file for file in files.namelist())
-
-
-def run_without_blender(
-    row: Row, use: list[str], keep: Path, arguments: argparse.Namespace
-) -> None:
-    """The unpacked zip in a Python of its own: the tests of everything but Blender, and the command line."""
-    folder, answer = (keep / "unpacked").resolve(), (keep / "probe.json").resolve()
-    shutil.rmtree(folder, ignore_errors=True)
-    answer.unlink(missing_ok=True)
-    with zipfile.ZipFile(arguments.zip) as archive:
-        archive.extractall(folder)
-    package = {"MEDIAL_AXIS_PACKAGE": str(folder / "medial_axis"), "PYTHONDONTWRITEBYTECODE": "1"}
-    script = [HERE / "without_blender.py", answer, folder]
-    code, _ = logged([*use, *script], keep / "probe.log", package)
-    if code != 0 or not answer.exists():
-        row.failures.append(f"no result (see {keep / 'probe.log'})")
-        return
-    row.facts = json.loads(answer.read_text(encoding="utf-8"))
-    tests = ["-m", "pytest", "-q", "-p", "no:cacheprovider", ROOT / "tests" / "python"]
-    tests += [f"--ignore-glob=*/test_{name}.py" for name in OF_THE_BUILD]
-    judge_tests(row, *logged([*use, *tests], keep / "tests.log", package), keep)
 
 
 def judge_tests(row: Row, code: int, text: str, keep: Path) -> None:
@@ -261,7 +235,6 @@ def main() -> int:
         Installed(arguments.blender),
         Chroot("trixie", "Debian 13"),
         Chroot("sid", "Debian sid"),
-        WithoutBlender(),
         *map(Bpy, ("4.2", "4.5", "5.0", "5.2"), ("3.11", "3.11", "3.11", "3.13")),
         *map(Wine, ("4.2", "4.5", "5.0")),
     ]

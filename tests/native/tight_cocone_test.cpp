@@ -12,11 +12,11 @@
 namespace medial {
 namespace {
 
-WatertightSurface surface_of(std::span<const Vec3> points, int threads = 2) {
+WatertightSurface watertight_of(std::span<const Vec3> points, int threads = 2) {
   return watertight_surface(points, {}, threads);
 }
 
-double volume(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+double enclosed(std::span<const Vec3> points, std::span<const Triangle> triangles) {
   double sum = 0;
   for (const auto& [i, j, k] : triangles) sum += dot(points[i], cross(points[j], points[k])) / 6;
   return sum;
@@ -73,13 +73,13 @@ TEST(TightCocone, ClosesASampledTorusAndAnEllipsoid) {
   const auto points = test::ellipsoid(3000, 1);
   for (const auto& [rows, euler] :
        {std::pair{torus.vertices, 0}, std::pair{std::vector<Vec3>(points), 2}}) {
-    const WatertightSurface surface = surface_of(rows);
+    const WatertightSurface surface = watertight_of(rows);
     const auto uses = test::edge_uses(surface.triangles);
     for (const auto& [edge, count] : uses) ASSERT_EQ(count, 2) << edge[0] << " " << edge[1];
     EXPECT_EQ(static_cast<int>(rows.size() + surface.triangles.size() - uses.size()), euler);
     EXPECT_EQ(std::count(surface.on_surface.begin(), surface.on_surface.end(), 0), 0);
     EXPECT_EQ(surface.nonmanifold_edges + surface.nonmanifold_vertices + surface.cavities, 0);
-    EXPECT_GT(volume(rows, surface.triangles), 0);
+    EXPECT_GT(enclosed(rows, surface.triangles), 0);
   }
 }
 
@@ -87,7 +87,7 @@ TEST(TightCocone, GivesTheSameBytesForEveryThreadCount) {
   auto points = test::ellipsoid(4000, 2);
   const auto noise = test::random_points(4000, 3);
   for (size_t i = 0; i < points.size(); ++i) points[i] = points[i] + 0.02 * noise[i];
-  const WatertightSurface one = surface_of(points, 1), four = surface_of(points, 4);
+  const WatertightSurface one = watertight_of(points, 1), four = watertight_of(points, 4);
   EXPECT_GT(one.triangles.size(), 1000u);
   EXPECT_EQ(one.triangles, four.triangles);
   EXPECT_EQ(one.sides, four.sides);

@@ -14,6 +14,8 @@ import pytest
 from scipy.spatial import cKDTree
 from support import distance, meshes, resampled, shape_meshes
 
+pytestmark = pytest.mark.oracle
+
 CORNER, SHARP, BOUNDARY, VERTEX, SURFACE = range(5)
 
 

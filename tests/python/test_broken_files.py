@@ -23,6 +23,8 @@ from test_import_meshes import (
 
 from tests.support.fuzz import repeats
 
+pytestmark = pytest.mark.oracle
+
 OFF = "OFF\n8 2 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in POINTS) + "4 0 1 3 2\n3 0 4 1\n"
 GOOD = {
     "a.off": OFF,

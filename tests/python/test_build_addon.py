@@ -7,10 +7,10 @@ import re
 import subprocess
 import sys
 import tarfile
+import threading
 import zipfile
 
 import pytest
-from support.manual import one_page_config
 
 import build_addon
 from native.packaging import (
@@ -50,12 +50,12 @@ def sources(tmp_path, monkeypatch):
         (addon / name).parent.mkdir(parents=True, exist_ok=True)
         (addon / name).write_text(f"content of {name}", encoding="utf-8")
     (addon / "__init__.py").write_text('bl_info = {"version": (1, 2, 3)}\n', encoding="utf-8")
-    manifest = 'version = "1.2.3"\n\n[permissions]\n'
+    manifest = 'schema_version = "1.0.0"\nversion = "1.2.3"\n\n[permissions]\n'
     (addon / "blender_manifest.toml").write_text(manifest, encoding="utf-8")
     (tmp_path / "LICENSE").write_text("licence", encoding="utf-8")
-    (tmp_path / "docs").mkdir()
-    (tmp_path / "docs" / "guide.md").write_text("# Guide\n", encoding="utf-8")
-    one_page_config(tmp_path, "guide.md")
+    monkeypatch.setattr(
+        pack, "make_manual", lambda folder: (folder.mkdir(), (folder / "a.html").write_text("A"))
+    )
     for name, path in {"ROOT": tmp_path, "ADDON": addon, "DIST": tmp_path / "dist"}.items():
         monkeypatch.setattr(paths, name, path)
     return addon
@@ -112,9 +112,52 @@ def test_nothing_missing_runs_nothing(monkeypatch):
 def test_readme_names_what_the_commands_install(command):
     """The two sentences of the README that promise what is installed."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    wanted = needs.DEMO if command == ["build"] else needs.MATRIX
+    wanted = needs.DEMO if command == ["build"] else needs.TEST
     named = set(re.findall(r"[\w+.-]+", readme))
     assert not set(wanted.values()) - named
+
+
+def test_packages_are_installed_while_the_core_is_compiled(monkeypatch, tmp_path, capsys):
+    """And are there at the end of the `with` statement; what apt-get prints goes to a file."""
+    events = []
+
+    def run(*words, **options):
+        assert options["stdout"].name == str(tmp_path / "packages.log")
+        compiling.wait(10)
+        events.append(" ".join(words))
+
+    compiling = threading.Event()
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    monkeypatch.setattr(needs, "is_installed", lambda package: package != "blender")
+    monkeypatch.setattr(needs, "administrator_prefix", lambda: [])
+    monkeypatch.setattr(needs, "run", run)
+    with needs.required_meanwhile(needs.DEMO):
+        events.append("compiled")
+        compiling.set()
+    assert events[0] == "compiled" and events[-1].endswith("--no-install-recommends blender")
+
+
+def test_packages_that_cannot_be_installed_meanwhile_are_a_failure(monkeypatch, tmp_path, capsys):
+    def run(*words, stdout, stderr):
+        stdout.write("E: no such package\n")
+        raise Failure("apt-get ended")
+
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    monkeypatch.setattr(needs, "is_installed", lambda package: False)
+    monkeypatch.setattr(needs, "administrator_prefix", lambda: [])
+    monkeypatch.setattr(needs, "run", run)
+    meanwhile = needs.required_meanwhile({"a tool": "a-package"})
+    with pytest.raises(Failure, match="Installing Debian packages failed"), meanwhile:
+        pass
+    assert "E: no such package" in capsys.readouterr().out
+
+
+def test_a_user_without_rights_hears_of_all_packages_before_anything_is_done(monkeypatch, capsys):
+    monkeypatch.setattr(needs, "is_installed", lambda package: package not in ("cmake", "blender"))
+    monkeypatch.setattr(needs, "administrator_prefix", lambda: None)
+    monkeypatch.setattr(build_addon.modules, "build_core", lambda: pytest.fail("compiled"))
+    assert build_addon.main(["demo"]) == 2
+    assert "--no-install-recommends cmake blender" in capsys.readouterr().err
 
 
 def test_missing_blender_exits_2(monkeypatch):
@@ -147,10 +190,7 @@ def test_zip_holds_what_is_needed_and_nothing_else(sources):
         "medial_axis/blender_manifest.toml",
         "medial_axis/core/a.py",
         "medial_axis/lib/_medial.cpython-311-x86_64-linux-gnu.so",
-        "medial_axis/manual/guide.html",
-        "medial_axis/manual/search.js",
-        "medial_axis/manual/search_index.js",
-        "medial_axis/manual/style.css",
+        "medial_axis/manual/a.html",
         *(f"medial_axis/presets/medial_axis/{name}.py" for name in sorted(presets.PRESETS)),
     ]
 
@@ -162,7 +202,8 @@ def test_zip_for_the_platform_has_no_folder_and_says_what_it_is_for(sources):
         names = platform.namelist()
         assert [f"medial_axis/{name}" for name in names] == ours.namelist()
         manifest = platform.read("blender_manifest.toml").decode()
-        assert manifest == 'version = "1.2.3"\n\nplatforms = ["linux-x64"]\n\n[permissions]\n'
+        platforms = 'version = "1.2.3"\n\nplatforms = ["linux-x64"]\n\n[permissions]\n'
+        assert manifest == f'schema_version = "1.0.0"\n{platforms}'
         for name in set(names) - {"blender_manifest.toml"}:
             assert platform.read(name) == ours.read(f"medial_axis/{name}")
 
@@ -188,6 +229,40 @@ def test_modules_for_windows_are_in_the_zip_for_people_and_have_one_of_their_own
     (sources / "lib" / windows).unlink()
     pack.pack()
     assert not first.with_name("medial_axis-1.2.3-windows-x64.zip").exists(), "nothing old is left"
+
+
+def commit_sources(folder):
+    git = ["git", "-C", str(folder), "-c", "user.name=a", "-c", "user.email=a@b.c"]
+    subprocess.run(["git", "init", "-q", folder], check=True)
+    subprocess.run([*git, "add", "blender_addon"], check=True)
+    subprocess.run([*git, "commit", "-qm", "all"], check=True)
+    return [*git]
+
+
+def test_development_builds_carry_their_commit_and_releases_do_not(sources, monkeypatch):
+    """In the names of the zips, in the manifest and in the package; a change that is not committed is said, too."""
+    (sources / "__init__.py").write_text('bl_info = {"version": (1, 2, 3)}\nCOMMIT = ""  # here\n')
+    git = commit_sources(paths.ROOT)
+    terminal = sys.modules["native.packaging.terminal"]
+    monkeypatch.setattr(terminal, "ROOT", paths.ROOT)
+    commit = paths.commit()
+    assert re.fullmatch("g[0-9a-f]{8}", commit)
+    target = pack.pack()
+    assert target.name == f"medial_axis-1.2.3+{commit}.zip"
+    with zipfile.ZipFile(target) as archive:
+        manifest = archive.read("medial_axis/blender_manifest.toml").decode()
+        assert manifest.startswith(f'schema_version = "1.0.0"\nversion = "1.2.3+{commit}"\n')
+        assert f'\nCOMMIT = "{commit}"  # here' in archive.read("medial_axis/__init__.py").decode()
+    (sources / "core" / "a.py").write_text("changed")
+    assert paths.commit() == f"{commit}.modified"
+    subprocess.run([*git, "commit", "-qam", "more"], check=True)
+    subprocess.run([*git, "tag", "v1.2.3"], check=True)
+    assert paths.commit() == "" and pack.pack().name == "medial_axis-1.2.3.zip"
+
+
+def test_the_place_of_the_commit_is_in_the_sources():
+    init = (ROOT / "blender_addon" / "__init__.py").read_text(encoding="utf-8")
+    assert init.count('\nCOMMIT = ""') == 1 and "{COMMIT}" in init
 
 
 def test_same_sources_same_zip(sources):
@@ -231,35 +306,6 @@ def test_headers_that_are_there_are_used_without_a_network(tmp_path, monkeypatch
     monkeypatch.setenv("PATH", str(tmp_path))
     assert modules.other_headers("cpython-311-x86_64-linux-gnu") == {"3.13": folder}
     assert capsys.readouterr().out == "Python 3.13: libpython3.13-dev 1, pybind11-dev 2\n"
-
-
-@pytest.mark.parametrize("there", [True, False])
-def test_headers_of_a_python_that_no_debian_has_are_of_this_machine(
-    tmp_path, monkeypatch, capsys, there
-):
-    """A stand-in for Python 9.9, which has one header and its configuration apart, as Debian's Pythons have."""
-    include, config = tmp_path / "include", tmp_path / "apart" / "pyconfig.h"
-    for path in (include / "Python.h", config):
-        path.parent.mkdir()
-        path.write_text(path.name)
-    if there:
-        (tmp_path / "python9.9").write_text(f"#!/bin/sh\necho {include} {config} 9.9.1\n")
-        (tmp_path / "python9.9").chmod(0o755)
-    monkeypatch.setattr(paths, "BUILD", tmp_path)
-    monkeypatch.setattr(modules, "PYTHONS", {"9.9": "installed"})
-    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
-    folder = tmp_path / "python" / "9.9"
-    assert modules.other_headers("cpython-311-x86_64-linux-gnu") == (
-        {"9.9": folder} if there else {}
-    )
-    out = capsys.readouterr().out
-    if there:
-        assert out == f"Python 9.9: that of {tmp_path}, 9.9.1\n"
-        found = sorted(path.name for path in (folder / "python9.9").iterdir())
-        assert found == ["Python.h", "pyconfig.h"]
-    else:
-        assert out.startswith("No module for Python 9.9: expected a python9.9 with its headers")
-        assert not folder.exists()
 
 
 def compile_library(folder, source, *options):

@@ -7,13 +7,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-TEXT = (ROOT / "docs" / "checklist.md").read_text(encoding="utf-8")
+TEXT = (ROOT / "docs" / "lab" / "checklist.md").read_text(encoding="utf-8")
 TESTS = sorted(set(re.findall(r"`(test_\w+)::(test_\w+)`", TEXT)))
 
 
 @pytest.mark.parametrize(("file", "test"), TESTS)
 def test_named_tests_are_there(file, test):
-    paths = [ROOT / "tests" / room / f"{file}.py" for room in ("addon", "python")]
+    rooms = ("tests/addon", "tests/python", "lab/tests")
+    paths = [ROOT / room / f"{file}.py" for room in rooms]
     sources = "".join(path.read_text(encoding="utf-8") for path in paths if path.is_file())
     assert f"\ndef {test}(" in sources
 

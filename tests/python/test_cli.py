@@ -26,7 +26,6 @@ from medial_axis.core.files.write import export_axis
 from medial_axis.core.settings import (
     LIMITS,
     OPTIONS,
-    RIVAL_OPTIONS,
     Choice,
     Settings,
     Side,
@@ -144,7 +143,7 @@ def test_options_are_those_of_settings(capsys):
     assert cli.main(["--help"]) == cli.DONE
     text = capsys.readouterr().out
     flags = set(re.findall(r"^  --([a-z-]+)", text, re.MULTILINE))
-    assert {name.replace("_", "-") for name in {**OPTIONS, **RIVAL_OPTIONS}} <= flags
+    assert {name.replace("_", "-") for name in OPTIONS} <= flags
     assert "medial_axis bunny.ply bunny.ma" in text and "exit codes:" in text
 
 
@@ -153,9 +152,9 @@ def test_defaults_are_those_of_settings():
     assert wanted.work.settings == Settings()
 
 
-@pytest.mark.parametrize("name", {**OPTIONS, **RIVAL_OPTIONS})
+@pytest.mark.parametrize("name", OPTIONS)
 def test_every_option_arrives(name):
-    option = {**OPTIONS, **RIVAL_OPTIONS}[name]
+    option = OPTIONS[name]
     if isinstance(option, Switch):
         word = f"--{name}".replace("_", "-")
         values = {word: True, word.replace("--", "--no-", 1): False}
@@ -552,7 +551,7 @@ def test_documented_options_are_all():
     """The table of the page names every option, with its default."""
     text = (ROOT / "docs" / "command_line.md").read_text(encoding="utf-8")
     table = dict(re.findall(r"^\| `--([a-z-]+)[^`]*` \| ([^|]+?) \|", text, re.MULTILINE))
-    for name, option in {**OPTIONS, **RIVAL_OPTIONS, **LIMITS}.items():
+    for name, option in {**OPTIONS, **LIMITS}.items():
         shown = option_words._outward(option, option.default)
         if isinstance(option, Switch):
             shown = "on" if shown else "off"

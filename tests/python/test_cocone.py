@@ -13,6 +13,8 @@ from support.cocone_reference import Cocone
 from support.shapes import SHAPES
 from support.solids import SOLIDS
 
+pytestmark = pytest.mark.oracle
+
 OPTIONS = {
     "default": {},
     "wide cocone": {"cocone_angle": 0.7},

@@ -50,8 +50,8 @@ RUN_BY = {
     "cmake --install": "python/test_consumer.py::test_installed_library",
     "pip install .": "python/test_wheel.py::test_command",
     "python3 tests/wrap_docs.py": "python/test_docs.py::test_the_docs_are_wrapped",
-    "python3 -m lab.race.rivals": "python/test_race.py::test_the_commands_of_the_page",
-    "python3 -m lab.race.judge": "python/test_race.py::test_the_commands_of_the_page",
+    "python3 -m lab.race.rivals": "../lab/tests/test_race.py::test_the_commands_of_the_page",
+    "python3 -m lab.race.judge": "../lab/tests/test_race.py::test_the_commands_of_the_page",
 }
 # How commands begin -> why no test runs them.
 NOT_RUN = {
@@ -64,10 +64,10 @@ NOT_RUN = {
     "python3 -m lab.race": "half an hour; its parts have tests of their own in test_race.py",
     "python3 lab/benchmarks/": "minutes, with meshes of the optional data folder",
     "python3 lab/mutations/sweep.py": "half an hour; test_mutations.py tries that every fault fits",
-    "python3 tests/demo/": "renders pictures",
+    "python3 lab/pictures/": "renders pictures",
     "python3 tests/fuzz.py": "minutes; the tests run a tenth of it",
     "python3 tests/readers.py": "needs programs of others",
-    "blender --background --factory-startup --python-exit-code 1 --python tests/demo/": "renders pictures",
+    "blender --background --factory-startup --python-exit-code 1 --python lab/pictures/": "renders pictures",
     "medial_axis skeleton walk.blend": "needs Blender; frames are run by addon/test_cli.py",
 }
 

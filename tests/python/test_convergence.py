@@ -10,6 +10,8 @@ from support import measure, meshes, reference, shapes
 from support.accuracy import BARS
 from support.shapes import SHAPES
 
+pytestmark = pytest.mark.oracle
+
 BETTI = {
     "ellipsoid": (1, 0, 0),
     "oblate": (1, 0, 0),

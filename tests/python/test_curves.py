@@ -11,6 +11,8 @@ from support import meshes, messy, resampled
 from support.levels import betti_of_mesh
 from support.shapes import SHAPES, Cyclide, Prolate, RoundCone, frustum
 
+pytestmark = pytest.mark.oracle
+
 CLEAN = {"spacings": 1.0}
 CURVE = {"sheet": math.inf}
 

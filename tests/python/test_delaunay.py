@@ -6,6 +6,8 @@ import pytest
 from scipy.spatial import Delaunay
 from support import inputs, reference, shapes
 
+pytestmark = pytest.mark.oracle
+
 
 @pytest.mark.parametrize(
     "kind, n",

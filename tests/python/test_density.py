@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from medial_axis.core.machine.cache import CACHE
-from medial_axis.core.samples import choose_samples
+from medial_axis.core.samples import analysis
 from medial_axis.core.samples.density import Density, estimate, percent
 from medial_axis.core.samples.nearness import near
 from medial_axis.core.samples.sampling_report import report_sampling
@@ -117,7 +117,7 @@ def test_a_report_is_of_all_samples(monkeypatch):
     shape = Shape(*icosphere(4))
     whole = report_sampling(shape, Settings(sampling=SamplingMode.VERTICES))
     CACHE.clear()
-    monkeypatch.setattr(choose_samples, "LOOKED_AT", 100)
+    monkeypatch.setattr(analysis, "LOOKED_AT", 100)
     some = report_sampling(shape, Settings(sampling=SamplingMode.VERTICES))
     assert len(some.chosen.samples.density.points) <= 100
     np.testing.assert_array_equal(some.epsilon, whole.epsilon)

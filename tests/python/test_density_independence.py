@@ -6,6 +6,8 @@ import pytest
 from support import alike, meshes, resampled
 from support.shape_meshes import MESHED
 
+pytestmark = pytest.mark.oracle
+
 FILES = ("rocker-arm.off", "hand_closed.obj")
 
 

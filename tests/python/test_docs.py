@@ -12,7 +12,6 @@ from medial_axis.core.settings import (
     LIMITS,
     LOOKS,
     OPTIONS,
-    RIVAL_OPTIONS,
     THICKNESS_OPTIONS,
     Switch,
 )
@@ -20,10 +19,10 @@ from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
 from tests.wrap_docs import WRITTEN, wrap
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
-SOURCES = ("native", "blender_addon", "tests", "docs")
-STARTS = ("", "native", "native/medial", "blender_addon", "tests")
+SOURCES = ("native", "blender_addon", "tests", "lab", "docs")
+STARTS = ("", "native", "native/medial", "blender_addon", "tests", "lab")
 TEXTS = {
     ".py",
     ".pyi",
@@ -46,7 +45,7 @@ FOREIGN = {
     "template.yaml": "Open Job Description",
     "demo_output/": "made by build_addon.py demo",
     "build/": "made by cmake",
-    "dist/medial_axis-0.1.0.zip": "made by build_addon.py build",
+    "dist/medial_axis-VERSION.zip": "made by build_addon.py build",
     "OUTPUT.json": "made by the command line",
     "FOLDER/__main__.py": "FOLDER is the user's",
     "--local": "Blender's extension command",
@@ -99,7 +98,7 @@ def words(sources):
 @pytest.fixture(scope="session")
 def options(sources):
     """Every option of a command line in the sources, and those of the method."""
-    names = (*OPTIONS, *RIVAL_OPTIONS, *LIMITS, *THICKNESS_OPTIONS)
+    names = (*OPTIONS, *LIMITS, *THICKNESS_OPTIONS)
     made = {"--" + name.replace("_", "-") for name in names}
     switches = [name for name, option in OPTIONS.items() if isinstance(option, Switch)]
     made |= {"--no-" + name.replace("_", "-") for name in switches}

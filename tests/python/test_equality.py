@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from support import inputs, meshes, reference
 
+pytestmark = pytest.mark.oracle
+
 GENERIC = inputs.generic_cases()
 STRUCTURED = inputs.structured_cases()
 CASES = [*GENERIC, *STRUCTURED]

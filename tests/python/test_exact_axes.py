@@ -6,6 +6,8 @@ import pytest
 from support import axis_bars, inputs, resampled
 from support.shape_meshes import MESHED
 
+pytestmark = pytest.mark.oracle
+
 QUICK = ("ellipsoid", "box", "cylinder")
 CASES = [
     pytest.param(name, turn, marks=() if name in QUICK and turn < 2 else pytest.mark.slow)

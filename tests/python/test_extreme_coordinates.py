@@ -7,6 +7,8 @@ from scipy.spatial import Delaunay, cKDTree
 
 from tests.support.fuzz import repeats
 
+pytestmark = pytest.mark.oracle
+
 
 def ellipsoid(count=700, seed=1):
     rows = np.random.default_rng(seed).normal(size=(count, 3))

@@ -10,6 +10,8 @@ from scipy.spatial.distance import cdist
 from support import inputs
 from support.shapes import SHAPES
 
+pytestmark = pytest.mark.oracle
+
 THINNING = (
     1 / 32
 )  # of vertices closer together than that, in radii of their balls, some are left out

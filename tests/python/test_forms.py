@@ -11,6 +11,7 @@ from medial_axis import cli
 from medial_axis.core.axis.compute import compute_axis, refilter, refiltered_topology
 from medial_axis.core.axis.topology import betti_words
 from medial_axis.core.machine.cache import CACHE
+from medial_axis.core.samples.levels import Levels
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     OPTIONS,
@@ -179,6 +180,29 @@ def test_forms_of_one_computation_share_one_analysis_and_one_hierarchy():
     assert same_axis(again.axis, medial_axis.extract(found, erode=2.0))
     medial_axis.extract(found, theta=1.0)
     assert samples.levels.hierarchy(samples.analysis, found.settings, None) is not hierarchy
+
+
+class Replaced(Levels):
+    """Levels whose hierarchy another thread drops as soon as it has been read."""
+
+    @property
+    def _newest(self):
+        newest, self._next = self._next, None
+        return newest
+
+    @_newest.setter
+    def _newest(self, newest):
+        self._next = newest
+
+
+def test_a_hierarchy_is_returned_whatever_another_thread_does():
+    found = computed(SHAPES["box"][0])
+    analysis, levels = found.chosen.samples.analysis, Replaced()
+    first = levels.hierarchy(analysis, found.settings, None)
+    assert levels.hierarchy(analysis, found.settings, None) is first
+    assert levels.bytes == 0
+    levels.hierarchy(analysis, found.settings, None)
+    assert levels.bytes == first.bytes
 
 
 def test_the_cache_counts_the_hierarchy():

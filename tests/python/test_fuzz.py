@@ -11,6 +11,8 @@ from support.shapes import SHAPES
 from test_invariants import assert_invariants
 from test_tight_cocone import assert_between_inner_and_outer_cells, assert_same, assert_watertight
 
+pytestmark = pytest.mark.oracle
+
 BATCHES, BATCH = 50, 200
 
 

@@ -17,6 +17,8 @@ from support.accuracy import BARS
 from support.levels import Levels, betti_of_mesh
 from support.shapes import SHAPES
 
+pytestmark = pytest.mark.oracle
+
 THRESHOLDS = [
     {},
     {"spacings": 1.0},

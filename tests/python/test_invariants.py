@@ -6,6 +6,8 @@ import pytest
 from scipy.spatial import cKDTree
 from support import inputs, meshes, shapes
 
+pytestmark = pytest.mark.oracle
+
 MESHES = {
     "torus": meshes.jitter(meshes.torus(around=60, across=24), 1e-3),
     "shell": meshes.jitter(meshes.nested_shell(3), 1e-3),

@@ -28,14 +28,12 @@ CORE = {
     "core/batch",
 }
 MAY_IMPORT = {
-    "core": {
-        "core/machine",
-        "core/axis",
-        "",
-    },  # errors and settings, which all may see; the known box on top
+    "core": {"core/machine", "core/axis", ""},  # only the known box, which is on top, sees rooms
     "core/machine": {"core", "lib"},
-    "core/axis": {"core", "core/machine"},
-    "core/skeleton": {"core", "core/machine", "core/samples", "core/axis", "core/solid"},
+    "core/samples": {"core", "core/machine"},
+    "core/axis": {"core", "core/machine", "core/samples"},
+    "core/solid": {"core", "core/machine", "core/samples", "core/axis"},
+    "core/skeleton": {"core", "core/machine", "core/samples", "core/axis"},
     "core/files": {
         "core",
         "core/machine",
@@ -122,6 +120,50 @@ def test_what_is_on_top_of_core_is_seen_from_above_only(python_file):
 def test_every_folder_of_core_is_a_room():
     folders = {p.parent.relative_to(ADDON).as_posix() for p in (ADDON / "core").rglob("*.py")}
     assert folders == CORE
+
+
+def circle(seen_by):
+    """Names that see each other in a circle, the first one again at the end; empty where there is no circle.
+
+    Parameters
+    ----------
+    seen_by : {name: set of names}
+    """
+    done = set()
+
+    def follow(name, path):
+        if name in path:
+            return [*path[path.index(name) :], name]
+        if name not in done:
+            for other in sorted(seen_by.get(name, ())):
+                if found := follow(other, [*path, name]):
+                    return found
+            done.add(name)
+        return []
+
+    return next((found for name in sorted(seen_by) if (found := follow(name, []))), [])
+
+
+def files_of_core():
+    """{file: files of core that it imports}, imports for type checkers and inside functions included."""
+    paths = {dotted(path): path for path in (ADDON / "core").rglob("*.py")}
+    seen = {}
+    for name, path in paths.items():
+        _, inside = imports_of(path.read_text(encoding="utf-8"), name)
+        seen[name] = {file for i in inside for file in (i, i.rpartition(".")[0]) if file in paths}
+    return seen
+
+
+def test_files_of_core_form_no_circle():
+    """Types count as well: what two files know of each other belongs into a third one below them."""
+    seen = files_of_core()
+    assert "core.samples.analysed" in seen["core.samples.choose_samples"]
+    assert circle(seen) == []
+
+
+def test_rooms_of_core_form_no_circle():
+    below = {room: {r for r in MAY_IMPORT[room] if r.startswith("core/")} for room in CORE}
+    assert circle({room: seen for room, seen in below.items() if room != "core"}) == []
 
 
 def test_package_imports_are_relative(python_file):
@@ -301,6 +343,16 @@ def test_each_room_lists_its_units(room):
 
 
 # --- the readers above see what they should
+
+
+def test_a_circle_is_found():
+    assert circle({"a": {"b"}, "b": {"c", "d"}, "c": set(), "d": {"b"}}) == ["b", "d", "b"]
+    assert circle({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []
+
+
+def test_imports_for_type_checkers_are_seen():
+    source = "if TYPE_CHECKING:\n    from .x import Y\ndef f():\n    from . import z"
+    assert imports_of(source, "core.samples.a")[1] == {"core.samples.x.Y", "core.samples.z"}
 
 
 def test_import_reader_resolves_relative_imports():

@@ -17,7 +17,7 @@ from medial_axis.core.machine import cache, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
 from medial_axis.core.machine.memory_limit import MemoryLimit, Use, memory_needed
-from medial_axis.core.samples import analysis
+from medial_axis.core.samples import choose_samples
 from medial_axis.core.samples.sampling_report import report_sampling
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.thinning import fewer_samples, spread_rows
@@ -25,7 +25,6 @@ from medial_axis.core.settings import (
     MEGABYTE,
     OPTIONS,
     AboveLimit,
-    Method,
     SamplingMode,
     Settings,
     Side,
@@ -144,7 +143,7 @@ def test_kept_bytes_are_those_of_analyses_and_arrays():
 
 def test_an_analysis_larger_than_the_cache_serves_its_own_run(monkeypatch):
     monkeypatch.setattr(cache, "CACHE", AnalysisCache(1000))
-    monkeypatch.setattr(analysis, "CACHE", cache.CACHE)
+    monkeypatch.setattr(choose_samples, "CACHE", cache.CACHE)
     found = compute_axis(cloud(2000), Settings())
     assert found.axis.facets > 0 and len(cache.CACHE) == 0
     assert refilter(found.key, found.settings) is None
@@ -500,7 +499,7 @@ native.load()
 peak = lambda: 1024 * int(re.search(r"VmHWM:\\s+(\\d+)", open("/proc/self/status").read())[1])
 before = peak()
 code = cli.main([sys.argv[2], sys.argv[3], "--sampling", "vertices", "--side", sys.argv[4],
-    "--form", sys.argv[5], "--method", sys.argv[6], "--quiet"])
+    "--form", sys.argv[5], "--quiet"])
 print(code, peak() - before)
 """
 
@@ -508,26 +507,24 @@ print(code, peak() - before)
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="kilobytes are those of Linux")
 @pytest.mark.parametrize(
-    ("faces", "form", "suffix", "side", "method"),
+    ("faces", "form", "suffix", "side"),
     [
         *[
-            (faces, "published", suffix, side, "medial")
+            (faces, "published", suffix, side)
             for faces in (False, True)
             for suffix in (".npz", ".ply", ".ma")
             for side in SIDES
         ],
-        *[(faces, "published", ".ma", "outer", "medial") for faces in (False, True)],
+        *[(faces, "published", ".ma", "outer") for faces in (False, True)],
         *[
-            (faces, "clean", suffix, "inner", "medial")
+            (faces, "clean", suffix, "inner")
             for faces in (False, True)
             for suffix in (".npz", ".ma")
         ],
-        (True, "curve", ".ma", "inner", "medial"),
-        (False, "published", ".ma", "inner", "poles"),
-        *[(False, "published", ".ma", side, "power-shape") for side in SIDES],
+        (True, "curve", ".ma", "inner"),
     ],
 )
-def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side, method):
+def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side):
     """Within 15 %, on a shape without symmetry."""
     shape = ball(rings=316)
     sphere = shape.points / np.linalg.norm(shape.points, axis=1)[:, None]
@@ -537,13 +534,12 @@ def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side, method):
         del arrays["triangles"]
     np.savez(tmp_path / "in.npz", **arrays)
     paths = [os.path.dirname(__file__), tmp_path / "in.npz", tmp_path / f"out{suffix}"]
-    command = [sys.executable, "-c", PEAK, *map(str, paths), side, form, method]
+    command = [sys.executable, "-c", PEAK, *map(str, paths), side, form]
     said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
     use = Use(
         faces=faces,
         side=Side[side.upper()],
         levels=form != "published",
-        method=Method[method.upper().replace("-", "_")],
         output="" if form == "curve" else suffix,
     )
     told = memory_needed(len(shape.points), use)

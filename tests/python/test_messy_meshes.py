@@ -10,6 +10,8 @@ from medial_axis.core.errors import DegenerateInputError, InvalidInputError
 from medial_axis.core.settings import SamplingMode, SidesFrom
 from support import crossings, distance, messy, resampled, spikes
 
+pytestmark = pytest.mark.oracle
+
 SMALL = [name for name in (*messy.CLOSED, *messy.OPEN) if name not in messy.LARGE]
 HUGE = [pytest.param(name, marks=pytest.mark.slow) for name in messy.CLOSED if name in messy.LARGE]
 SOLID = (

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from support import inputs, meshes, shapes
 
+pytestmark = pytest.mark.oracle
+
 INPUTS = {
     "ellipsoid": shapes.SHAPES["ellipsoid"].sample(3000, 7),
     "shell": shapes.SHAPES["shell"].sample(3000, 7),

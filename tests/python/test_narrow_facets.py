@@ -7,6 +7,8 @@ from support import inputs, reference
 
 from tests.support.fuzz import repeats
 
+pytestmark = pytest.mark.oracle
+
 # Of the largest radius; what is narrower than 2^-40 may be a point or a segment.
 NARROWEST = 2.0**-39
 

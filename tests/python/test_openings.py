@@ -9,6 +9,8 @@ from medial_axis.core.axis.compute import compute
 from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
 from support import meshes, reference
 
+pytestmark = pytest.mark.oracle
+
 BALL = meshes.icosphere(4)
 UP = BALL[0][BALL[1]].mean(axis=1)[:, 2]
 BOWL = BALL[0], np.ascontiguousarray(BALL[1][UP < 0.0])

@@ -4,6 +4,8 @@
 import json
 import re
 import shutil
+import subprocess
+import sys
 
 import pytest
 
@@ -16,7 +18,7 @@ ROOT = paths.ROOT
 
 
 @pytest.fixture
-def played(monkeypatch):
+def played(monkeypatch, tmp_path):
     """Three parts in place of the real ones."""
 
     def fail(blender):
@@ -29,7 +31,8 @@ def played(monkeypatch):
     monkeypatch.setattr(needs, "require", lambda needs: None)
     monkeypatch.setattr(build_addon, "find_blender", lambda name: name)
     monkeypatch.setattr(build_addon, "use_system_python", lambda: None)
-    monkeypatch.setattr(parts, "PARTS", three)
+    monkeypatch.setitem(parts.TIERS, "test", three)
+    monkeypatch.setattr(parts, "TIMES", tmp_path / "test_times.json")
 
 
 def test_one_failing_part_fails_the_whole(played, capsys):
@@ -46,9 +49,71 @@ def test_unknown_part_is_refused(played, capsys):
     assert "Expected parts out of one, two, three, found four" in capsys.readouterr().err
 
 
-def test_fast_is_a_part_of_all():
-    assert set(parts.FAST) < set(parts.PARTS)
-    assert set(parts.needed(True, False).items()) <= set(parts.needed(False, False).items())
+def test_times_are_kept_with_what_ran(played):
+    build_addon.main(["test"])
+    times = json.loads(parts.TIMES.read_text())
+    assert times["tier"] == "test" and times["share"] == parts.share()
+    assert list(times["parts"]) == ["one", "two", "three"]
+    assert times["parts"]["one"]["verdict"] == "FAILED: broken"
+    assert all(part["seconds"] >= 0 for part in times["parts"].values())
+
+
+def test_each_tier_is_a_part_of_the_next():
+    fast, test, full = (list(parts.TIERS[name]) for name in ("fast", "test", "full"))
+    assert set(fast) < set(test) < set(full)
+    needed = [set(parts.needed(name).items()) for name in ("fast", "test", "full")]
+    assert needed[0] <= needed[1] <= needed[2]
+
+
+def test_the_scenes_of_the_default_are_scenes():
+    driver = (ROOT / "tests" / "addon" / "gui" / "drive.py").read_text(encoding="utf-8")
+    assert set(parts.SCENES) < set(re.findall(r'^    "(\w+)": ', driver, re.MULTILINE))
+
+
+ORACLES = """
+import pytest
+@pytest.mark.oracle
+@pytest.mark.parametrize("case", range(8))
+def test_many(case): pass
+@pytest.mark.oracle
+@pytest.mark.parametrize("case", range(3))
+def test_few(case): pass
+@pytest.mark.parametrize("case", range(8))
+def test_no_oracle(case): pass
+"""
+
+
+def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(tmp_path):
+    """Four shares in processes of their own: two of the eight cases each, and every other test in each."""
+    (tmp_path / "conftest.py").write_text(
+        f"import sys\nsys.path.insert(0, {str(ROOT / 'tests')!r})\nfrom support.tiers import *\n"
+    )
+    (tmp_path / "test_a.py").write_text(ORACLES)
+    words = [sys.executable, "-m", "pytest", "-q", "--collect-only", "-p", "no:cacheprovider"]
+    runs = [
+        subprocess.run(
+            [*words, "--share", f"{i}/4", "."], cwd=tmp_path, capture_output=True, text=True
+        )
+        for i in range(4)
+    ]
+    names = [{line for line in run.stdout.splitlines() if "::" in line} for run in runs]
+    assert [sum("test_many" in name for name in found) for found in names] == [2] * 4
+    assert len(set.union(*names)) == 19 and len(set.intersection(*names)) == 11
+    assert [len(found) for found in names] == [13] * 4
+
+
+def test_the_share_is_of_the_commit():
+    index, _, count = parts.share().partition("/")
+    assert int(count) == parts.SHARES and 0 <= int(index) < parts.SHARES
+
+
+def test_units_that_changed_are_found(monkeypatch):
+    """A header counts for the unit of its name; what is no unit, or was deleted, does not count."""
+    names = "native/medial/analysis.cpp\nnative/medial/axis/poles.h\nnative/gone.cpp\nnative/a.md\n"
+    monkeypatch.setattr(lint, "base_of_changes", lambda: "base")
+    monkeypatch.setattr(lint, "output_of", lambda *words: names)
+    expected = {str(ROOT / "native/medial" / name) for name in ("analysis.cpp", "axis/poles.cpp")}
+    assert lint.changed() == expected
 
 
 @pytest.mark.parametrize("name", parts.QUICK_TESTS)

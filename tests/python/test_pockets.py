@@ -11,6 +11,8 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from support import meshes, reference
 
+pytestmark = pytest.mark.oracle
+
 
 def wedge(degrees):
     """A prism over a triangle with two sides of length 1."""

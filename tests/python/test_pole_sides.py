@@ -7,6 +7,8 @@ from support import inputs, measure, meshes
 from support.pole_labels_reference import Labels
 from support.shapes import SHAPES
 
+pytestmark = pytest.mark.oracle
+
 
 def poles(medial, points, **options):
     return medial.MedialAnalysis(points, sides=medial.SidesFrom.POLES, **options)

@@ -11,6 +11,8 @@ from medial_axis.core.machine import native
 
 from tests.support.fuzz import repeats
 
+pytestmark = pytest.mark.oracle
+
 OUTLINES = {
     "L": [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)],
     "M": [(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)],

@@ -14,6 +14,8 @@ from medial_axis.core.samples.shape import Shape
 from medial_axis.core.solid.reduce import reduce_axis, reduced_difference
 from support import meshes
 
+pytestmark = pytest.mark.oracle
+
 NO_EDGES = np.zeros((0, 2), np.int32)
 NO_TRIANGLES = np.zeros((0, 3), np.int32)
 

@@ -6,6 +6,8 @@ import math
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.oracle
+
 CLEAN = {"spacings": 1.0}
 # shape -> mean angle between rim edges in degrees; n = 8000, the worst measured times 1.5
 TURN = {"oblate": 12.0, "ellipsoid": 11.0, "box": 15.0}

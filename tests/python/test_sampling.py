@@ -10,6 +10,8 @@ import pytest
 from scipy.spatial import cKDTree
 from support import distance, meshes
 
+pytestmark = pytest.mark.oracle
+
 CORNER, SHARP, BOUNDARY, VERTEX, SURFACE = range(5)
 MESHES = {
     "icosphere": meshes.icosphere(3),

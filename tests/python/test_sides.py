@@ -9,6 +9,8 @@ import pytest
 from scipy.spatial import cKDTree
 from support import distance, meshes, reference
 
+pytestmark = pytest.mark.oracle
+
 
 def without_triangles(mesh, share, seed=0):
     keep = np.random.default_rng(seed).random(len(mesh[1])) >= share

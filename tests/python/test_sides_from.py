@@ -12,6 +12,8 @@ from support import inputs, meshes, rings
 from support.shapes import SHAPES
 from support.solids import SOLIDS
 
+pytestmark = pytest.mark.oracle
+
 CLOUD = np.random.default_rng(0).random((50, 3))
 CLOSED = meshes.jitter(meshes.icosphere(3), 1e-3)
 OPEN = CLOSED[0], CLOSED[1][5:]

@@ -13,22 +13,25 @@ from medial_axis.core.files.write_skeleton import export_skeleton
 from medial_axis.core.samples.nearness import nearest
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
-from medial_axis.core.skeleton.bones import bones_of
+from medial_axis.core.skeleton.bones import Bones, bones_of
 from medial_axis.core.skeleton.centre import centre_of_mass
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.ends import balls_of
 from medial_axis.core.skeleton.names import names_of
 from medial_axis.core.skeleton.net import Net
+from medial_axis.core.skeleton.parts import Places
 from medial_axis.core.skeleton.rig import compute_rig
 from medial_axis.core.skeleton.rules import clear_loops, prune
 from medial_axis.core.skeleton.simplify import kept_points
 from medial_axis.core.skeleton.spread import graph_of, spread
-from medial_axis.core.skeleton.weights import edges_of
+from medial_axis.core.skeleton.weights import axis_weights, edges_of
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 from support import meshes, tubes
 from support.poses import posed, random_turns, turn
+
+pytestmark = pytest.mark.oracle
 
 NO_FACES = np.zeros((0, 3), np.int32)
 
@@ -295,6 +298,47 @@ def test_bones_are_few_connected_and_near_the_curve(data_file, name):
     away = cKDTree(along).query(skeleton.points)[0]
     spacing = np.linalg.norm(bones.tail - bones.head, axis=1).max() / 200
     assert (away <= 0.5 * skeleton.radius + spacing).all()
+
+
+def weights_along(along, radius):
+    """(k, 3) the weights of the root and of two bones in line, each half of a branch, at shares of that branch."""
+    head = np.array([[0.0, 0.0, -1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    two = np.zeros((3, 2))
+    two[1:] = (0.0, 0.5), (0.5, 1.0)
+    bones = Bones(
+        head=head,
+        tail=head + np.array((0.0, 0.0, 1.0)),
+        head_radius=np.full(3, radius),
+        tail_radius=np.full(3, radius),
+        parent=np.array([-1, 0, 1], np.int32),
+        branch=np.array([-1, 0, 0], np.int32),
+        along=two,
+        chain=np.array([0, 1, 1], np.int32),
+        to_tip=np.array([False, True, True]),
+    )
+    along = np.asarray(along)
+    places = Places(np.zeros(len(along), np.int32), along)
+    points = np.column_stack((np.zeros((len(along), 2)), 2.0 * along))
+    bone, weight = axis_weights(bones, places, points, np.zeros((0, 2), np.int32))
+    found = np.zeros((len(along), 4))
+    np.put_along_axis(found, bone.astype(np.int64), weight, axis=1)
+    return found[:, :3]
+
+
+def test_two_thick_bones_share_at_most_half_of_each():
+    """However large the radius at their joint is, the outer half of each bone follows that bone alone."""
+    weight = weights_along([0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9], radius=10.0)
+    assert weight[:2].tolist() == [[0.0, 1.0, 0.0]] * 2
+    assert weight[5:].tolist() == [[0.0, 0.0, 1.0]] * 2
+    assert weight[3].tolist() == [0.0, 0.5, 0.5]
+    assert weight[2, 1] == pytest.approx(weight[4, 2])
+    assert 0.5 < weight[2, 1] < 1.0
+
+
+def test_two_thin_bones_share_as_far_as_the_radius_of_their_joint():
+    weight = weights_along([0.44, 0.46, 0.54, 0.56], radius=0.1)
+    assert (weight[[0, 3], [1, 2]] == 1.0).all()
+    assert (weight[[1, 2], [1, 2]] < 1.0).all()
 
 
 @pytest.mark.parametrize("name", RIGGED)

@@ -8,6 +8,8 @@ import pytest
 from support import meshes, reference, topology
 from support.shapes import SHAPES
 
+pytestmark = pytest.mark.oracle
+
 BALL = meshes.jitter(meshes.icosphere(3), 1e-3)
 
 

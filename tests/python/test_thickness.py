@@ -33,6 +33,8 @@ from support.thick_meshes import (
     stairs,
 )
 
+pytestmark = pytest.mark.oracle
+
 EVEN = Settings(sampling=SamplingMode.SURFACE)
 BOX = block(1.0, 0.7, 0.4)
 GAP = joined(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45)))

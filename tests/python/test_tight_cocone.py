@@ -10,6 +10,8 @@ from support import inputs, meshes, rings, topology
 from support.shapes import SHAPES
 from support.solids import SOLIDS, Filled
 
+pytestmark = pytest.mark.oracle
+
 SIZES = {"knot": 4000, "genus 2": 4000, "genus 3": 4000}  # the others: 2000
 CASES = [(name, SIZES.get(name, 2000)) for name in SOLIDS]
 LARGE = [(name, n) for name in SOLIDS for n in (8000, 50000)]

@@ -12,6 +12,8 @@ from support import distance, meshes, topology
 from support.shape_meshes import MESHED, SHARP
 from support.shapes import MORE_SHAPES, SHAPES, Prolate, Shell, cylinder, frustum
 
+pytestmark = pytest.mark.oracle
+
 ALL = SHAPES | MORE_SHAPES
 BALLS = [name for name in ALL if name != "knot"]  # the knot's distance takes a minute a round
 

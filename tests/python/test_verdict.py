@@ -4,9 +4,10 @@
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
-from medial_axis.core.axis.verdict import Light, Severe, plainly, verdict
+from medial_axis.core.axis.verdict import Light, plainly, verdict
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings
+from medial_axis.core.severe import Severe
 from support.meshes import icosphere
 
 CUBE = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])

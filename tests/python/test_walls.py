@@ -8,11 +8,16 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute
+from medial_axis.core.samples.analysed import AnalysedSamples
+from medial_axis.core.samples.density import Density
+from medial_axis.core.samples.sample_spacing import next_amount
 from medial_axis.core.samples.walls import Walls
 from medial_axis.core.settings import SamplingMode, Settings
 from support import meshes
 
 from tests.support.fuzz import repeats
+
+pytestmark = pytest.mark.oracle
 
 AREA = 1.0  # of the sheet of a plate
 TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
@@ -270,3 +275,21 @@ def test_wanted_spacings_show_what_is_missed():
     assert points.tolist() == np.eye(3)[:2].tolist() and spacings.tolist() == [0.05, 0.75]
     assert walls.wanted(0.2)[1].tolist() == [0.2, 0.75]
     assert walls.wanted(0.3)[1].tolist() == [0.75]  # the first stays too close
+
+
+def test_no_spacing_is_wanted_above_that_of_the_first_pass():
+    """Vertices that are samples, too, make the mean spacing smaller than the distance of the other samples."""
+    places, far = np.eye(3), np.full(3, np.inf)
+    samples = AnalysedSamples(
+        points=places,
+        kinds=None,
+        normals=None,
+        analysis=None,
+        density=Density(places, np.ones(3), far, places[:0], finest=0.5, limit=0.25),
+        spacing=0.5,
+        walls=Walls(places, np.array([0.1, 0.6, 1.5]), np.ones(3), np.ones(3)),
+    )
+    amount = next_amount(samples, 0.0625, 0.0625, 200)
+    sites, spacings = amount["sizing"]
+    assert sites.tolist() == places.tolist() and spacings.tolist() == [0.05, 0.3, 0.5]
+    assert amount["count"] == 200

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From a shape to its medial axis: sampling, sides, the analysis, and what has to be said about them."""
+"""From analysed samples to the medial axis, its topology, and warnings about it."""

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was assumed of a shape or looks wrong with its medial axis, a sentence each."""
+"""Warnings about a shape and its medial axis: assumptions and suspicious results, a sentence each."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..samples.choose_samples import ChosenSamples
+from ..samples.chosen import ChosenSamples
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.shape import Shape
 from ..samples.sides import cocone_warnings, look_inward
 from ..settings import SamplingMode, Settings, Side, SidesFrom
+from ..severe import Severe
 from .medial_axis import MedialAxis
-from .verdict import Severe
 
 
 def axis_warnings(

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers -> colours, by the one scale that everything coloured here has.
+"""The one colour scale of all results.
 
-From blue over red to yellow: brightness rises all the way, so the order is seen without telling hues apart, too. Both
-ends keep away from the greys of Blender's dark and of its light viewport.
+It goes from blue over red to yellow. Its brightness rises all the way, so the order is visible without colour vision.
+Both ends differ from the greys of Blender's dark and light viewports.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-# Position, linear RGB; between two of them the colours are mixed, as a ramp of Blender does.
+# Positions and linear RGB; colours in between are interpolated, as in a colour ramp of Blender.
 SCALE = (
     (0.0, (0.05, 0.15, 1.0)),
     (0.25, (0.36, 0.11, 0.91)),
@@ -23,13 +23,13 @@ SCALE = (
     (0.75, (1.0, 0.3, 0.05)),
     (1.0, (1.0, 0.81, 0.07)),
 )
-UNKNOWN = (0.25, 0.25, 0.25)  # of NaN
+UNKNOWN = (0.25, 0.25, 0.25)  # the colour of NaN
 
 
 def colours(values: ArrayLike, start: float, end: float) -> NDArray[np.float32]:
-    """(n, 4) linear RGBA of (n,) numbers: blue at `start`, yellow at `end`, the nearest of both outside.
+    """(n, 4) linear RGBA of (n,) numbers: blue at `start`, yellow at `end`, and the nearer of both outside.
 
-    `start` may be the larger one. Where both are equal every number is at the start. NaN is grey.
+    `start` may be the larger one. Where both are equal, every number gets the colour of the start. NaN is grey.
     """
     share = _shares(np.asarray(values, np.float64), start, end)
     positions = [position for position, _ in SCALE]
@@ -41,16 +41,16 @@ def colours(values: ArrayLike, start: float, end: float) -> NDArray[np.float32]:
 
 
 def radius_range(radii: Sequence[float] | NDArray) -> tuple[float, float]:
-    """(start, end) of the colours of radii: all of them, and half of the largest at the least.
+    """Return (start, end) of the colour scale for radii: all of them, but at least half of the largest radius.
 
-    So an axis whose radii hardly differ, as that of a tube, has one colour and not the noise of its samples.
+    So an axis whose radii hardly differ, as in a tube, has one colour and does not show the noise of its samples.
     """
     largest = float(np.max(radii))
     return min(float(np.min(radii)), largest / 2), largest
 
 
 def _shares(values: NDArray[np.float64], start: float, end: float) -> NDArray[np.float64]:
-    """(n,) where numbers lie between start (0) and end (1); beyond, 0 or 1."""
+    """(n,) the positions of numbers between start (0) and end (1); 0 or 1 outside."""
     if start == end:
         return np.where(np.isnan(values), np.nan, 0.0)
     with np.errstate(over="ignore"):

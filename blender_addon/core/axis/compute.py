@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From an object to its medial axis: what is analysed, and what of it is selected."""
+"""From an object to its medial axis: analysis and selection."""
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -11,8 +10,8 @@ import numpy as np
 
 from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..machine.progress import Progress
-from ..samples.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
+from ..samples.choose_samples import begin
+from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.shape import Shape
 from ..settings import Form, Settings
 from .axis_warnings import axis_warnings
@@ -23,8 +22,9 @@ from .topology import topology_sentence
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..machine.progress import Progress
+    from ..samples.analysed import Sides
     from ..samples.density import Density
-    from ..samples.sides import Sides
 
 
 # The share of the work before the hierarchy begins.
@@ -41,12 +41,12 @@ class Computation(OfChosenSamples):
     settings : Settings
         `side`, `sides` and `sampling` are never AUTOMATIC here, and `form` is what the axis has.
     chosen : ChosenSamples
-        What was analysed, why, and how densely it lies; what told inside from outside.
+        The analysed samples, the reasons for them, their density, and the decision between inside and outside.
     warnings : tuple of str
-        What was assumed or looks wrong, a sentence each.
+        A sentence for each assumption and each suspicious result.
     topology : str
-        Of how many pieces, loops and cavities the axis is, and whether the faces say the same: a sentence. Of an
-        axis as published, empty, or why it has no other form.
+        A sentence about the numbers of pieces, loops and cavities of the axis, and whether the faces agree. For an
+        axis as published it is empty, or explains why the axis has no other form.
     seconds : float
     """
 
@@ -59,23 +59,23 @@ class Computation(OfChosenSamples):
 
     @property
     def sides(self) -> Sides:
-        """What told inside from outside, and why."""
+        """The source of the decision between inside and outside, and the reason."""
         return self.chosen.sides
 
     @property
     def density(self) -> Density:
-        """How densely the samples lie, in the terms of the theorem."""
+        """The density of the samples, in the terms of the theorem."""
         return self.chosen.samples.density
 
     @property
     def missed(self) -> float | None:
-        """The share of the surface whose walls are too close for the samples; None where no faces tell."""
+        """The share of the surface whose walls are too close for the samples; None where there are no faces."""
         walls = self.chosen.samples.walls
         return None if walls is None else walls.missed
 
     @property
     def key(self) -> str:
-        """Names the analysis for `refilter`."""
+        """The name of the analysis for `refilter`."""
         return self.chosen.samples.key
 
 
@@ -86,7 +86,7 @@ def compute(
     progress: Progress | None = None,
     normals: NDArray[np.float64] | None = None,
 ) -> Computation:
-    """As `compute_axis`, of arrays."""
+    """Do the same as `compute_axis` for arrays."""
     return compute_axis(Shape(points, triangles, normals), settings, progress)
 
 
@@ -96,7 +96,7 @@ def compute_axis(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> Computation:
-    """The medial axis of a shape, by its vertices or by samples of its faces.
+    """Compute the medial axis of a shape from its vertices or from samples of its faces.
 
     Parameters
     ----------
@@ -104,51 +104,48 @@ def compute_axis(
     settings : Settings
     progress : Progress, optional
     limit : MemoryLimit
-        What the analysis may need, and what is done when it needs more.
+        The memory that the analysis may need, and the reaction when it needs more.
 
     Raises
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-    start = time.perf_counter()
-    progress = progress or Progress()
     settings = settings.with_side()
     form, wanted = settings.form_of_side, settings.form
     limit = limit.used(
         faces=len(shape.triangles) > 0,
         side=settings.side,
         levels=form is not Form.PUBLISHED,
-        method=settings.method,
     )
     if form is Form.CURVE:
-        limit = limit.used(output="")  # a curve is small, whatever it is written to
-    progress.until(_ANALYSIS if form is not Form.PUBLISHED else 1.0)
-    chosen = choose_samples(shape, settings, progress, limit)
-    progress.until(1.0)
+        limit = limit.used(output="")  # a curve is small in every format
+    share = 1.0 if form is Form.PUBLISHED else _ANALYSIS
+    begun = begin(shape, settings, progress, limit, share)
+    chosen = begun.chosen
     settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling, form=form)
-    axis = extract(chosen.samples, settings, progress)
+    axis = extract(chosen.samples, settings, begun.progress)
     return Computation(
         axis=axis,
         settings=settings,
         chosen=chosen,
         warnings=tuple(axis_warnings(shape, settings, chosen, axis)),
-        topology=topology_sentence(axis, wanted, chosen.samples, settings.method),
-        seconds=time.perf_counter() - start,
+        topology=topology_sentence(axis, wanted, chosen.samples),
+        seconds=begun.seconds,
     )
 
 
 def extract_axis(computation: Computation, settings: Settings) -> MedialAxis:
-    """The axis for other thresholds of a computation; the rest of the settings must be its own."""
+    """Extract the axis of a computation for other thresholds; the other settings must stay the same."""
     return extract(computation.chosen.samples, settings)
 
 
 def refiltered_topology(key: str, axis: MedialAxis, wanted: Form) -> str:
-    """`Computation.topology` of an axis that `refilter` gave; `wanted` is the form that was asked for."""
+    """Return `Computation.topology` of an axis from `refilter`; `wanted` is the form of the settings."""
     samples = CACHE.get(key)
     return "" if samples is None else topology_sentence(axis, wanted, samples)
 
 
 def refilter(key: str, settings: Settings) -> MedialAxis | None:
-    """The axis for other thresholds of a kept analysis; None when it is no longer kept."""
+    """Extract the axis of a kept analysis for other thresholds; None when the analysis is no longer kept."""
     samples = CACHE.get(key)
     return None if samples is None else extract(samples, settings)

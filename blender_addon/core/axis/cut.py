@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts of a medial axis: its pieces, and what is left of it when small or far ones go. Of axes as published, which
-are facets and nothing else."""
+"""Parts of a medial axis: its pieces, and the axis without small or distant ones.
+
+This is for axes as published, which consist of facets only.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ _PER_FACET = ("theta", "rho", "side", "generators")
 
 
 def pieces(axis: MedialAxis) -> NDArray[np.int64]:
-    """(f,) which connected piece each facet belongs to, 0 being the one with the most facets."""
+    """(f,) the number of the connected piece of each facet; piece 0 has the most facets."""
     if not axis.facets:
         return np.zeros(0, np.int64)
     label = _labels(axis)[axis.face_vertices[axis.face_offsets[:-1]]]
@@ -30,7 +32,7 @@ def pieces(axis: MedialAxis) -> NDArray[np.int64]:
 
 
 def without_small_pieces(axis: MedialAxis, share: float) -> MedialAxis:
-    """The pieces that have at least this share of the facets; the largest always stays."""
+    """Keep the pieces that have at least this share of the facets; the largest always stays."""
     if share <= 0.0 or not axis.facets:
         return axis
     piece = pieces(axis)
@@ -43,14 +45,14 @@ def without_small_pieces(axis: MedialAxis, share: float) -> MedialAxis:
 def within_box(
     axis: MedialAxis, low: NDArray[np.float64], high: NDArray[np.float64], times: float
 ) -> MedialAxis:
-    """The facets that lie wholly in the box from `low` to `high`, made so many times as large about its middle.
+    """Keep the facets that lie wholly in the box from `low` to `high`, enlarged about its middle.
 
     Parameters
     ----------
     axis : MedialAxis
     low, high : (3,) float64
     times : float
-        0: everything stays.
+        The factor by which the box is enlarged; 0 keeps everything.
     """
     if times <= 0.0 or not axis.facets:
         return axis
@@ -61,7 +63,7 @@ def within_box(
 
 
 def with_facets(axis: MedialAxis, keep: NDArray[np.bool_]) -> MedialAxis:
-    """Some of the facets, (f,) True for those, and the vertices that they have; their order stays."""
+    """Keep the facets that (f,) bool marks, and their vertices, in the same order."""
     sizes = np.diff(axis.face_offsets)
     corners = axis.face_vertices[np.repeat(keep, sizes)]
     used = np.zeros(len(axis.vertices), np.bool_)
@@ -79,8 +81,11 @@ def with_facets(axis: MedialAxis, keep: NDArray[np.bool_]) -> MedialAxis:
 
 
 def _labels(axis: MedialAxis) -> NDArray[np.int64]:
-    """(v,) the lowest vertex of the piece of each: every facet hooks the labels of its corners to the lowest of them,
-    and labels of labels are followed, until nothing changes."""
+    """(v,) the lowest vertex of the piece of each vertex.
+
+    Every facet hooks the labels of its corners to the lowest of them, and labels of labels are followed, until nothing
+    changes.
+    """
     starts, corners = axis.face_offsets[:-1], axis.face_vertices
     facet_of_corner = np.repeat(np.arange(axis.facets), np.diff(axis.face_offsets))
     label = np.arange(len(axis.vertices))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a medial axis is extracted from analysed samples: as published, or as a level of the hierarchy."""
+"""Extraction of a medial axis from analysed samples: as published, or as a level of the hierarchy."""
 
 from __future__ import annotations
 
@@ -7,15 +7,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..machine import native
-from ..machine.cache import CACHE
-from ..settings import Criteria, Form, Method, Settings
+from ..settings import Form, Settings
 from .levels import extract_level
 from .medial_axis import MedialAxis
-from .pole_axes import pole_axis, power_shape_axis
 
 if TYPE_CHECKING:
     from ..machine.progress import Progress
-    from ..samples.analysis import AnalysedSamples
+    from ..samples.analysed import AnalysedSamples
 
 # The fields of both `_medial.MedialMesh` and `MedialAxis`.
 _SAME = (
@@ -31,47 +29,36 @@ _SAME = (
     "zero_area",
     "edges",
 )
-# The methods that are criteria of `_medial`.
-_CRITERIA = (Method.ANGLE_AND_LENGTH, Method.LAMBDA)
 
 
 def extract(
     samples: AnalysedSamples, settings: Settings, progress: Progress | None = None
 ) -> MedialAxis:
-    """What the settings leave of the axis of analysed samples, in the form that they have for their side.
+    """Extract the axis that the settings select, in the form that they have for their side.
 
     Raises
     ------
     OutOfMemoryError, Cancelled
     """
-    if settings.method is Method.POLES:
-        axis = pole_axis(samples.analysis, settings.side, progress and progress.part())
-    elif settings.method is Method.POWER_SHAPE:
-        axis = power_shape_axis(samples.analysis, settings.side, progress and progress.part())
-    elif settings.form_of_side is Form.PUBLISHED:
+    if settings.form_of_side is Form.PUBLISHED:
         axis = _published(samples.analysis, settings, progress and progress.part())
     else:
-        axis = extract_level(samples.analysis, samples.levels, settings, progress)
-        CACHE.resize(samples.key, samples.bytes)
+        axis = extract_level(samples, settings, progress)
     if samples.rows is None:
         return axis
     return replace(axis, generators=samples.rows[axis.generators])
 
 
 def _published(analysis: Any, settings: Settings, progress: Any | None) -> MedialAxis:
-    """The closure of the facets that the settings select; `progress` is a `_medial.Progress`."""
-    criteria: Criteria | Method = settings.criteria
-    if settings.method in _CRITERIA:
-        criteria = settings.method
+    """Return the closure of the facets that the settings select; `progress` is a `_medial.Progress`."""
     with native.own_errors() as module:
         mesh = analysis.extract(
             settings.theta,
             settings.rho,
             getattr(module.Side, settings.side.name),
             getattr(module.Rule, settings.rule.name),
-            getattr(module.Criteria, criteria.name),
+            getattr(module.Criteria, settings.criteria.name),
             limit_set=settings.limit_set,
-            length=settings.length / 100,
             progress=progress,
         )
     return MedialAxis(**{name: getattr(mesh, name) for name in _SAME})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Facets as triangles, without new vertices and without triangles of no area: facets are planar and convex.
+"""Facets as triangles, without new vertices and without triangles of no area. Facets are planar and convex.
 
 A fan from a fixed corner degenerates where that corner lies on a straight side (Voronoi facets of nearly
 cospherical samples have such corners). Here ears are cut one by one so that neither the ear nor what remains
@@ -15,7 +15,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CHUNK = 1 << 15  # polygons cut at once; bounds the memory
+_CHUNK = 1 << 15  # the number of polygons cut at once; bounds the memory
 
 
 def triangulate_facets(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clean forms and curves: levels of the hierarchy of analysed samples (docs/hierarchy.md).
 
-Percent become shares of the diagonal here, and the values of the hierarchy percent.
+Settings in percent become shares of the diagonal here, and values of the hierarchy become percent.
 """
 
 from __future__ import annotations
@@ -12,59 +12,46 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..machine import native
+from ..machine.cache import CACHE
 from ..settings import Form, Settings
 from .medial_axis import LevelValues, MedialAxis
 
 if TYPE_CHECKING:
     from ..machine.progress import Progress
+    from ..samples.analysed import AnalysedSamples
 
 _INNER = 1  # value of `_medial.Side`
 
 
-class Levels:
-    """The hierarchy of an analysis for the newest thresholds: computed when it is first needed, extracted often."""
+def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | None) -> Any:
+    """Return the `_medial.Hierarchy` of analysed samples; the cache learns that they have grown.
 
-    def __init__(self) -> None:
-        self._newest: tuple[tuple[Any, ...], Any] | None = None
-
-    @property
-    def bytes(self) -> int:
-        """The memory that the hierarchy holds."""
-        return 0 if self._newest is None else int(self._newest[1].bytes)
-
-    def hierarchy(self, analysis: Any, settings: Settings, progress: Any | None) -> Any:
-        """The `_medial.Hierarchy` of an analysis, always the same one; `progress` is a `_medial.Progress`.
-
-        Raises
-        ------
-        OutOfMemoryError, Cancelled
-        """
-        thresholds = (settings.theta, settings.rho, settings.rule, settings.criteria)
-        if self._newest is None or self._newest[0] != thresholds:
-            self._newest = None  # its memory goes before there is another
-            with native.own_errors() as module:
-                hierarchy = analysis.hierarchy(
-                    settings.theta,
-                    settings.rho,
-                    getattr(module.Rule, settings.rule.name),
-                    getattr(module.Criteria, settings.criteria.name),
-                    module.Side.INNER,
-                    progress=progress,
-                )
-            self._newest = thresholds, hierarchy
-        return self._newest[1]
-
-
-def extract_level(
-    analysis: Any, levels: Levels, settings: Settings, progress: Progress | None
-) -> MedialAxis:
-    """The axis in the form CLEAN or CURVE.
+    Parameters
+    ----------
+    samples : AnalysedSamples
+    settings : Settings
+        Only `theta`, `rho`, `rule` and `criteria` matter.
+    progress : _medial.Progress or None
 
     Raises
     ------
     OutOfMemoryError, Cancelled
     """
-    hierarchy = levels.hierarchy(analysis, settings, progress and progress.part(0.9))
+    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress)
+    CACHE.resize(samples.key, samples.bytes)
+    return hierarchy
+
+
+def extract_level(
+    samples: AnalysedSamples, settings: Settings, progress: Progress | None
+) -> MedialAxis:
+    """Extract the axis in the form CLEAN or CURVE.
+
+    Raises
+    ------
+    OutOfMemoryError, Cancelled
+    """
+    hierarchy = hierarchy_of(samples, settings, progress and progress.part(0.9))
     with native.own_errors():
         level = hierarchy.extract(**_wanted(settings), progress=progress and progress.part())
     return MedialAxis(
@@ -91,7 +78,7 @@ def extract_level(
 
 
 def _wanted(settings: Settings) -> dict[str, Any]:
-    """What `_medial.Hierarchy.extract` takes."""
+    """Return the arguments of `_medial.Hierarchy.extract`."""
     limb = settings.limb / 100
     if settings.form is Form.CURVE:
         return {"sheet": math.inf, "limb": limb, "relaxed": True}

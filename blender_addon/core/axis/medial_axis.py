@@ -14,18 +14,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class LevelValues:
-    """What is known of an axis that is a level of a hierarchy (docs/hierarchy.md).
+    """The values of an axis that is a level of a hierarchy (docs/hierarchy.md).
 
     Parameters
     ----------
     exact : (v, 3) float64
-        The Voronoi vertex that each vertex is; `MedialAxis.vertices` are moved where that shows rims and curves better.
+        The Voronoi vertices; `MedialAxis.vertices` are moved from them where that shows rims and curves better.
     exact_radius : (v,) float64
-        Of its empty ball.
+        The radius of the empty ball round each Voronoi vertex.
     sheet, erosion : (f,) float32
-        Up to which Simplify and Erode the facet stays, percent of the diagonal; infinite: always.
+        The largest Simplify and Erode at which the facet stays, in percent of the diagonal; infinite: always.
     limb : (w,) float32
-        Up to which Limbs the edge stays, percent of the diagonal; infinite: always.
+        The largest Limbs at which the edge stays, in percent of the diagonal; infinite: always.
     betti : tuple of int
         Pieces, loops and cavities, counted on this level.
     """
@@ -46,27 +46,27 @@ def no_edges() -> NDArray[np.int32]:
 class MedialAxis:
     """Facets as convex polygons that share vertices; edges without a facet, and vertices without an edge.
 
-    As published there are facets only, which are planar; by some methods of others edges or vertices, too.
+    As published there are facets only, which are planar.
 
     Parameters
     ----------
     vertices : (v, 3) float64
     radius : (v,) float64
-        Of the empty ball round each vertex, in the unit of the input.
+        The radius of the empty ball round each vertex, in the unit of the input.
     face_offsets : (f + 1,) int32
     face_vertices : (c,) int32
     theta : (f,) float64, radians
     rho : (f,) float64
     side : (f,) int32
-        0 not known, 1 inner, 2 outer, 3 crossing.
+        0 unknown, 1 inner, 2 outer, 3 crossing.
     generators : (f, 2) int32
-        Rows of the two samples of each facet; where only some points of a cloud were analysed, rows of
+        The rows of the two samples of each facet; where only some points of a cloud were analysed, rows of
         the whole cloud.
     unbounded, zero_area : int
-        Selected facets that reach infinity, or that cannot be told from a point or a segment (docs/stage_delaunay.md);
-        neither is here.
+        The numbers of selected facets that reach infinity, and that cannot be distinguished from a point or a segment
+        (docs/stage_delaunay.md); neither are among the polygons.
     edges : (w, 2) int32
-        Ends of the edges that stand by themselves.
+        The ends of the edges that belong to no facet.
     level : LevelValues or None
         None: the axis is as published.
     """

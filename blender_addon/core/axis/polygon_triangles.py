@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The polygons of a surface as triangles, without new vertices: the same from a file and from a mesh in Blender."""
+"""The polygons of a surface as triangles without new vertices; files and meshes in Blender give the same triangles."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def polygon_triangles(
 ) -> NDArray[np.int32]:
     """(c - 2 f, 3) int32 the triangles of polygon after polygon, each turning as its polygon does.
 
-    Quads are cut as Blender does, larger polygons by their constrained Delaunay triangulation.
+    Quads are cut as in Blender, larger polygons by their constrained Delaunay triangulation.
 
     Parameters
     ----------

@@ -1,37 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Of how many pieces, loops and cavities an axis is, in words, and whether the faces of the shape say the same."""
+"""The numbers of pieces, loops and cavities of an axis, in words, and whether the faces of the shape agree."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..settings import OPTIONS, Form, Method
+from ..settings import OPTIONS, Form
 
 if TYPE_CHECKING:
-    from ..samples.analysis import AnalysedSamples
+    from ..samples.analysed import AnalysedSamples
     from .medial_axis import MedialAxis
 
 
-def topology_sentence(
-    axis: MedialAxis, wanted: Form, samples: AnalysedSamples, method: Method = Method.MEDIAL
-) -> str:
-    """A sentence about the topology of an axis. Of an axis as published: why it has not the form that was wanted, or
-    nothing.
+def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) -> str:
+    """Describe the topology of an axis in a sentence.
+
+    For an axis as published the sentence explains why the axis does not have the wanted form, or is empty.
 
     Parameters
     ----------
     axis : MedialAxis
     wanted : Form
-        That of the settings; the axis may have another one.
+        The form of the settings; the axis may have another one.
     samples : AnalysedSamples
-    method : Method
     """
     if axis.level is None:
         if wanted is Form.PUBLISHED:
             return ""
         name = OPTIONS["form"].items[wanted][0]
-        if method is not Method.MEDIAL:
-            return f"Form As Published: {name} is for the method MEDIAL only"
         return f"Form As Published: {name} is for the inner axis only"
     betti, by_faces = axis.level.betti, samples.by_faces
     sentence = f"{betti_words(betti)}, as the solid"
@@ -41,7 +37,7 @@ def topology_sentence(
 
 
 def betti_words(betti: tuple[int, int, int]) -> str:
-    """'1 piece, 5 loops, no cavity'."""
+    """Format Betti numbers as '1 piece, 5 loops, no cavity'."""
     pieces, loops, cavities = betti
     cavity = {0: "no cavity", 1: "1 cavity"}.get(cavities, f"{cavities:,} cavities")
     one = {0: f"no loop, {cavity}", 1: f"1 loop, {cavity}"}

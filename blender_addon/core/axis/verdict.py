@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One glance at a computation: good, to be looked at, or probably wrong, and the sentence that matters most."""
+"""The verdict on a computation: good, to be looked at, or probably wrong, and the most important sentence."""
 
 from __future__ import annotations
 
@@ -8,25 +8,20 @@ from enum import Enum
 from typing import TYPE_CHECKING
 
 from ..settings import SamplingMode
+from ..severe import Severe
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..samples.choose_samples import ChosenSamples
+    from ..samples.chosen import ChosenSamples
 
 
 class Light(Enum):
-    """What the sentence is."""
+    """The colour of the traffic light."""
 
     GOOD = "GOOD"
     LOOK = "LOOK"
     WRONG = "WRONG"
-
-
-class Severe(str):
-    """A warning that says that the axis is probably wrong, not only that something was assumed."""
-
-    __slots__ = ()
 
 
 @dataclass(frozen=True)
@@ -36,7 +31,7 @@ class Verdict:
 
 
 def verdict(chosen: ChosenSamples, warnings: Sequence[str]) -> Verdict:
-    """The first severe warning, or else the first one, or else what was analysed, and why.
+    """Choose the first severe warning, or else the first warning, or else the description of the samples.
 
     Parameters
     ----------
@@ -52,7 +47,7 @@ def verdict(chosen: ChosenSamples, warnings: Sequence[str]) -> Verdict:
 
 
 def plainly(chosen: ChosenSamples) -> str:
-    """What was analysed, and why, in words of every day."""
+    """Describe the analysed samples and the reason for them, in everyday words."""
     count = len(chosen.samples.points)
     if chosen.sampling is SamplingMode.VERTICES:
         return f"Used the {count:,} vertices as they are."

@@ -10,11 +10,9 @@ from typing import Any, TypeVar
 
 from ..machine.memory_limit import MemoryLimit
 from ..settings import (
-    ALL_OPTIONS,
     BALL_OPTIONS,
     LIMITS,
     OPTIONS,
-    RIVAL_OPTIONS,
     SAMPLING_OPTIONS,
     SKELETON_OPTIONS,
     THICKNESS_OPTIONS,
@@ -31,7 +29,7 @@ _UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB", "length": "LENGTH"}
 # Of the method only what is measured depends on: thresholds do not change it.
 _MEASURED = ("sides", "sampling", *SAMPLING_OPTIONS)
 _OPTIONS_OF: dict[type, Mapping[str, Any]] = {
-    Settings: ALL_OPTIONS,
+    Settings: OPTIONS,
     ThicknessSettings: THICKNESS_OPTIONS,
     SkeletonSettings: SKELETON_OPTIONS,
     BallSettings: BALL_OPTIONS,
@@ -43,11 +41,6 @@ T = TypeVar("T")
 def add_options(parser: argparse._ArgumentGroup) -> None:
     """An argument `--name` for every option of the method; what is not given is left to Settings."""
     _add(parser, OPTIONS)
-
-
-def add_rivals(parser: argparse._ArgumentGroup) -> None:
-    """As `add_options`, for the methods of others."""
-    _add(parser, RIVAL_OPTIONS)
 
 
 def add_limits(parser: argparse._ArgumentGroup) -> None:

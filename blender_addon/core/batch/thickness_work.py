@@ -14,7 +14,8 @@ from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..samples.shape import Shape
 from ..settings import Settings, ThicknessSettings
-from ..solid.thickness import Measurement, measure_thickness
+from ..solid.measurement import Measurement
+from ..solid.thickness import measure_thickness
 from ..solid.thin_parts import find_thin_parts
 from .option_words import as_words
 

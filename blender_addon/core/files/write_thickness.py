@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ..axis.colours import colours
-from ..solid.thickness import Measurement
+from ..solid.measurement import Measurement
 from ..solid.thickness_colours import colour_limits, coloured
 from ..solid.thin_parts import ThinParts
 from .extensions import extension_of

@@ -1,49 +1,89 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A memory of the last analyses, so that other thresholds for the same points cost milliseconds."""
+"""A cache of the last analyses, so that other thresholds for the same points cost milliseconds."""
 
 from __future__ import annotations
 
 import hashlib
+import numbers
 import threading
 from collections import OrderedDict
-from typing import TYPE_CHECKING, Any
+from enum import Enum
+from typing import Any
 
 import numpy as np
 
 from ..settings import CACHE_SIZE, MEGABYTE
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
+def key_of(*parts: Any) -> str:
+    """Hash everything that an analysis depends on; the hash names the analysis.
 
-def key_of(*parts: NDArray | str | bool | None) -> str:
-    """The name of an analysis: a hash of all that it depends on."""
+    Parameters
+    ----------
+    *parts : array of numbers, str, bool, int, float, None, member of an Enum, or tuple of these
+        Every array counts with all its elements. Parts of different types are different, whatever they print.
+
+    Raises
+    ------
+    TypeError
+        A part of another type.
+    """
     digest = hashlib.blake2b(digest_size=16)
-    for part in parts:
-        if isinstance(part, np.ndarray):
-            digest.update(repr((part.shape, part.dtype.str)).encode())
-            digest.update(np.ascontiguousarray(part).data)
-        else:
-            digest.update(repr(part).encode())
+    _add(digest, parts)
     return digest.hexdigest()
 
 
-class AnalysisCache:
-    """The most recent analyses, as many as there is room for; the oldest go first.
+def _add(digest: hashlib.blake2b, part: Any) -> None:
+    """Add a part to a hash: its type, its length, and its content, so that no two lists of parts look alike."""
+    if isinstance(part, tuple):
+        digest.update(f"tuple {len(part)};".encode())
+        for item in part:
+            _add(digest, item)
+    elif isinstance(part, np.ndarray) and part.dtype.kind in "biuf":
+        digest.update(f"array {part.dtype.str} {part.shape};".encode())
+        digest.update(np.ascontiguousarray(part).data)
+    else:
+        text = _text_of(part)
+        digest.update(f"{text[0]} {len(text[1])};".encode() + text[1])
 
-    An analysis that is larger than all the room is not kept; it lives as long as the computation that uses it.
+
+def _text_of(part: Any) -> tuple[str, bytes]:
+    """The type and the value of a single part; equal numbers of Python and NumPy have the same."""
+    match part:
+        case None:
+            return "None", b""
+        case Enum():
+            return f"member of {type(part).__qualname__}", part.name.encode()
+        case str():
+            return "str", part.encode("utf-8", "surrogatepass")
+        case bool() | np.bool_():
+            return "bool", str(bool(part)).encode()
+        case numbers.Integral():
+            return "int", str(int(part)).encode()
+        case numbers.Real():
+            return "float", float(part).hex().encode()
+    raise TypeError(
+        f"Expected arrays of numbers, texts, numbers, None, members of enums or tuples of these in a key, "
+        f"found {type(part).__name__}; convert it"
+    )
+
+
+class AnalysisCache:
+    """Keeps the most recent analyses that fit into its room, and drops the oldest first.
+
+    An analysis that is larger than the whole room is not kept. It lives as long as the computation that uses it.
 
     Parameters
     ----------
     room : int
-        Bytes that all kept analyses may have together.
+        The bytes that all kept analyses may take together.
     """
 
     def __init__(self, room: int) -> None:
         self._room = room
         self._kept: OrderedDict[str, tuple[Any, int]] = OrderedDict()
         self._lock = threading.Lock()
-        self.analyses = 0  # computed since Blender started
+        self.analyses = 0  # the number computed since Blender started
 
     def get(self, key: str) -> Any | None:
         with self._lock:
@@ -53,7 +93,7 @@ class AnalysisCache:
             return self._kept[key][0]
 
     def put(self, key: str, analysis: Any, size: int) -> None:
-        """Keep an analysis of so many bytes."""
+        """Keep an analysis that takes `size` bytes."""
         with self._lock:
             self.analyses += 1
             self._kept.pop(key, None)
@@ -62,7 +102,7 @@ class AnalysisCache:
                 self._kept[key] = (analysis, size)
 
     def resize(self, key: str, size: int) -> None:
-        """An analysis, where it is kept, has grown to so many bytes; others go first to make room."""
+        """Record that a kept analysis has grown to `size` bytes; others are dropped to make room."""
         with self._lock:
             if key not in self._kept:
                 return
@@ -83,11 +123,11 @@ class AnalysisCache:
 
     @property
     def bytes(self) -> int:
-        """What all kept analyses have together."""
+        """The bytes that all kept analyses take together."""
         return sum(size for _, size in tuple(self._kept.values()))
 
     def give_back(self, size: int) -> None:
-        """Drop analyses of at least so many bytes, as far as there are any."""
+        """Drop analyses until at least `size` bytes are free again, or none is left."""
         with self._lock:
             self._drop_until(max(0, self.bytes - size))
 

@@ -7,7 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 
 from ..errors import MemoryLimitError
-from ..settings import LIMITS, MEGABYTE, AboveLimit, Method, Side, check_ranges
+from ..settings import LIMITS, MEGABYTE, AboveLimit, Side, check_ranges
 from . import native
 from .cache import CACHE
 from .free_memory import free_memory
@@ -31,8 +31,6 @@ class Use:
         Of which facets are wanted; AUTOMATIC is INNER.
     levels : bool
         A level of the hierarchy is wanted, not the facets as published.
-    method : Method
-        Whose axis; it matters where it is not a selection of facets.
     output : str
         The extension of the file that is written, OBJECT in Blender, or "".
     """
@@ -40,7 +38,6 @@ class Use:
     faces: bool = True
     side: Side = Side.INNER
     levels: bool = False
-    method: Method = Method.MEDIAL
     output: str = ""
 
 
@@ -138,12 +135,6 @@ _AT_PEAK = {  # {faces: {side: {output: bytes}}}
 }
 
 
-# The power shape has a triangulation more. Poles are few, whatever they are written to.
-_POLES = {"": 1920}
-_POWER_SHAPE = {"": 3720, ".ply": 3870, ".ma": 4330}
-_POWER_SHAPE_OF_BOTH_SIDES = {**_POWER_SHAPE, ".ma": 5430}
-
-
 def memory_needed(points: int, use: Use | None = None) -> int:
     """About how many bytes so many points need at most: to be analysed, and what becomes of that."""
     if use is not None:
@@ -154,10 +145,6 @@ def memory_needed(points: int, use: Use | None = None) -> int:
 
 
 def _peaks(use: Use) -> dict[str, int]:
-    if use.method is Method.POLES:
-        return _POLES
-    if use.method is Method.POWER_SHAPE:
-        return _POWER_SHAPE_OF_BOTH_SIDES if use.side is Side.BOTH else _POWER_SHAPE
     if use.levels:
         return _OF_LEVELS[use.faces]
     return _AT_PEAK[use.faces][Side.INNER if use.side is Side.AUTOMATIC else use.side]

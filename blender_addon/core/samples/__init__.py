@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which samples of a shape are analysed, in passes, and by which analysis."""
+"""From a shape to analysed samples, in one or more passes."""

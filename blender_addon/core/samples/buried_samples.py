@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which samples of the faces lie where the surface bounds nothing, because another part of the solid covers it.
+"""Samples at which the surface bounds nothing, because another part of the solid covers it.
 
-The solid is where the winding number of the faces is above one half, be they closed or open.
+The solid is the region where the winding number of the faces is above one half, whether they are closed or open.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
     from .shape import Shape
 
-# How far from the surface one looks for its two sides, as a share of the spacing.
+# The distance from the surface at which its two sides are tested, as a share of the spacing.
 _OFF = 1e-3
-# Beside what is buried, parts of the solid leave clefts. Those narrower than this share of the spacing, which the
-# samples cannot tell from one solid, would be bridged here and there only: no sample is taken in them.
+# Next to buried parts of the surface, parts of the solid leave clefts. Samples cannot resolve clefts narrower than this
+# share of the spacing and would bridge them only in places, so no sample is taken in such clefts.
 _CLEFT = 0.25
-_ROUNDINGS = 4  # of float32, in which meshes are stored: a wall that is less thick is a sheet
-_BESIDE = 1.5  # how far from buried samples clefts are looked for, in spacings
+_ROUNDINGS = 4  # a wall thinner than this number of roundings to float32, in which meshes are stored, is a sheet
+_BESIDE = 1.5  # clefts are looked for up to this distance from buried samples, in spacings
 
 
 def find_bare(
@@ -34,17 +34,17 @@ def find_bare(
     normals: NDArray[np.float64],
     spacing: float,
 ) -> NDArray[np.bool_]:
-    """(n,) True for the samples that lie between inside and outside, False for those that are buried.
+    """(n,) mark the samples that lie between inside and outside; the others are buried.
 
     Parameters
     ----------
     shape : Shape
     feet, normals : (n, 3) float64
-        As from `on_flat_faces`.
+        As `on_flat_faces` returns them.
     spacing : float
         The distance of neighbours.
     """
-    # Where the faces point inward the axis is empty, and a warning says why; so no sample is left out there either.
+    # Where the faces point inward the axis is empty, and a warning explains it: no sample is left out.
     if shape.volume < 0:
         return np.ones(len(feet), bool)
     found = _are_buried(shape, feet, normals, _OFF * spacing)
@@ -58,13 +58,13 @@ def find_bare(
 
 
 def bounding_share(shape: Shape, spacing: float) -> float:
-    """The share of the area of the faces that bounds the solid.
+    """Return the share of the area of the faces that bounds the solid.
 
     Parameters
     ----------
     shape : Shape
     spacing : float
-        One looks as far from the faces as for samples so far apart.
+        The distance of neighbouring samples, which determines how far from the faces their sides are tested.
     """
     corners = shape.points[shape.triangles[some_of(len(shape.triangles))]]
     normals, areas = unit_normals(corners)
@@ -75,10 +75,10 @@ def bounding_share(shape: Shape, spacing: float) -> float:
 def _are_buried(
     shape: Shape, points: NDArray[np.float64], normals: NDArray[np.float64], off: float
 ) -> NDArray[np.bool_]:
-    """(n,) True where the surface bounds nothing.
+    """(n,) mark the points at which the surface bounds nothing.
 
-    One looks `off` beyond it; through a wall that is thinner than this, half as far as that is thick. A wall is no
-    thicker than the rounding of its corners to float32 where it is a sheet without thickness.
+    Both sides are tested at the distance `off`; behind a wall that is thinner than this, at half of its thickness. A
+    wall no thicker than the rounding of its corners to float32 is a sheet without thickness.
     """
     faces = (shape.points, shape.triangles)
     rounding = _ROUNDINGS * float(np.finfo(np.float32).eps) * float(np.abs(shape.points).max())
@@ -98,9 +98,9 @@ def on_flat_faces(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(n, 3) a place on its flat face for each sample, and (n, 3) the normal of that face.
 
-    Samples may follow the smooth surface, which is not what `_medial.buried` looks at. Places on edges and
-    corners are moved towards the middle of the face, by a tenth of the spacing or of the way: on the edge
-    itself the normal of one face may run along the neighbouring face.
+    Samples may follow the smooth surface, but `_medial.buried` tests the flat faces. Places on edges and corners are
+    moved towards the middle of the face, by a tenth of the spacing or of the distance to the middle: on the edge itself
+    the normal of one face may run along the neighbouring face.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a shape has faces that can be sampled."""
+"""Checks that a shape has faces that can be sampled."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..settings import SamplingMode
 if TYPE_CHECKING:
     from .shape import Shape
 
-_ROUNDINGS = 4  # of float32, in which meshes are stored: a surface that is less thick is flat
+_ROUNDINGS = 4  # a surface thinner than this number of roundings to float32, in which meshes are stored, is flat
 
 
 def check_faces(shape: Shape, wanted: SamplingMode) -> None:

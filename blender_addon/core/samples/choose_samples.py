@@ -1,48 +1,47 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which points are analysed: the vertices as they are, or samples of the faces that lie densely enough."""
+"""The choice of the points that are analysed: the vertices as they are, or dense enough samples of the faces.
+
+This is the only file that looks for analyses in the cache and keeps new ones there.
+"""
 
 from __future__ import annotations
 
+import math
+import time
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..errors import DegenerateInputError, MemoryLimitError
 from ..machine import native
-from ..machine.beside import Beside
+from ..machine.cache import CACHE, key_of
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..settings import SamplingMode, Settings, SidesFrom
-from .analysis import (
-    AnalysedSamples,
-    Request,
-    analyse,
-    betti_by_faces,
-    kept_or_made,
-    used_by_sides,
-)
+from ..machine.progress import Progress
+from ..settings import SamplingMode, Settings, Side, SidesFrom
+from .analysed import AnalysedSamples, Request, Sides
+from .analysis import analyse_samples, analyse_vertices, used_by_sides
 from .check_faces import check_faces, check_not_flat
-from .density import LOOKED_AT, estimate, percent
-from .sample_spacing import first_amount, first_count, first_spacing, next_amount
-from .sides import Sides, decided, resolve_sides, resolve_sides_of_samples
-from .surface_pass import surface_pass
+from .chosen import Begun, ChosenSamples
+from .closing_samples import close_openings
+from .density import percent
+from .sample_spacing import FirstPass, first_pass, next_amount
+from .sides import decided, resolve_sides, resolve_sides_of_samples
+from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
-from .walls import Walls, walls_of_faces
 
 if TYPE_CHECKING:
-    from ..machine.progress import Progress
     from .shape import Shape
 
 
 @dataclass(frozen=True)
 class _Effort:
-    """How hard a choice of Sampling tries.
+    """The effort that a choice of Sampling allows.
 
     Parameters
     ----------
     passes : int
-        How often the faces are sampled at most.
+        The largest number of times that the faces are sampled.
     at_edges, elsewhere, walls : float
-        The smallest spacing at sharp edges, elsewhere, and between walls where it takes that much to see the axis,
+        The smallest spacing at sharp edges, elsewhere, and between walls where that much is needed to see the axis,
         as shares of the first pass's spacing.
     """
 
@@ -52,61 +51,48 @@ class _Effort:
     walls: float
 
 
-# Automatic asks for little, so that a first click is fast.
+# The effort of Automatic is small, so that a first click is fast.
 _EFFORT = {
     SamplingMode.VERTICES: _Effort(0, 0.0, 0.0, 0.0),
     SamplingMode.SURFACE: _Effort(1, 1.0, 1.0, 1.0),
     SamplingMode.AUTOMATIC: _Effort(2, 1.0, 0.5, 0.0625),
     SamplingMode.ADAPTIVE: _Effort(4, 0.25, 0.0625, 0.0625),
 }
-# The budget counts as spent from this share on: it is met by scaling all spacings, which is not exact.
+# The budget counts as spent from this share on: all spacings are scaled to meet it, which is not exact.
 _SPENT = 0.97
+# Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
+_CLEARLY = 1.01
 
 
-@dataclass(frozen=True, eq=False)
-class ChosenSamples:
-    """The samples that are used, and why these.
+def begin(
+    shape: Shape,
+    settings: Settings,
+    progress: Progress | None,
+    limit: MemoryLimit,
+    share: float = 1.0,
+) -> Begun:
+    """Begin a computation: choose and analyse the samples of a shape.
 
     Parameters
     ----------
-    samples : AnalysedSamples
-    sampling : SamplingMode
-        What was done; never AUTOMATIC.
-    reason : str
-        A sentence for people.
-    sides : Sides
-        What told inside from outside, and why.
-    gaps : int
-        The number of edges at which the faces are open.
-    thinned : str
-        Why there are fewer samples than the settings ask for, a sentence; or empty.
-    sparse : bool
-        The faces were sampled because their vertices are too few.
+    shape : Shape
+    settings : Settings
+        `side` is not AUTOMATIC.
+    progress : Progress or None
+    limit : MemoryLimit
+    share : float
+        The share of the whole work that the analysis is.
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
-
-    samples: AnalysedSamples
-    sampling: SamplingMode
-    reason: str
-    sides: Sides
-    gaps: int
-    thinned: str = ""
-    sparse: bool = False
-
-
-class OfChosenSamples:
-    """How many samples there are, for whatever was computed of them."""
-
-    chosen: ChosenSamples
-
-    @property
-    def points(self) -> int:
-        """Rows that were analysed, duplicates included."""
-        return len(self.chosen.samples.points)
-
-    @property
-    def duplicates(self) -> int:
-        """Those of them that were merged into an earlier row with the same coordinates."""
-        return int(self.chosen.samples.analysis.duplicates)
+    start = time.perf_counter()
+    progress = progress or Progress()
+    progress.until(share)
+    chosen = choose_samples(shape, settings, progress, limit)
+    progress.until(1.0)
+    return Begun(chosen, progress, start)
 
 
 def choose_samples(
@@ -136,15 +122,16 @@ def choose_samples(
 def _request(shape: Shape, settings: Settings, progress: Progress, limit: MemoryLimit) -> Request:
     with native.own_errors() as module:
         gaps = module.open_edges(shape.points, shape.triangles) if len(shape.triangles) else 0
-    return Request(shape, settings, progress, limit, gaps)
+    sphere = settings.side is not Side.INNER
+    return Request(shape, settings, progress, limit, gaps, sphere)
 
 
 def _thinned(
     shape: Shape, settings: Settings, limit: MemoryLimit, error: MemoryLimitError
 ) -> tuple[Shape, Settings, str]:
-    """A shape and settings that fit into the limit, and a sentence that says what was thinned."""
+    """Return a shape and settings that fit into the limit, and a sentence about what was thinned."""
     if len(shape.triangles):
-        first = first_count(shape, settings)
+        first = first_pass(shape, settings).count
         return shape, *fewer_samples(shape, settings, first, limit, error)
     rows, sentence = thinned_rows(shape.points, limit, error)
     normals = None if shape.normals is None else shape.normals[rows]
@@ -166,7 +153,7 @@ def _choose(request: Request) -> ChosenSamples:
 
 
 def _whichever_is_dense(request: Request) -> ChosenSamples:
-    """The vertices where they are dense enough and enclose something, or where samples would be no denser."""
+    """Choose the vertices if they are dense enough and enclose a volume, or if samples would be no denser."""
     try:
         chosen = _vertices(request, "dense enough", 0.2)
     except DegenerateInputError:  # the faces may span a volume all the same
@@ -177,7 +164,8 @@ def _whichever_is_dense(request: Request) -> ChosenSamples:
     if walls is not None and walls.are_missed:
         return _samples_of_faces(request, "the walls are closer than the vertices are apart")
     dense = density.dense_enough
-    if not dense and density.is_improved_by(first_spacing(request.shape, request.settings)):
+    first = first_pass(request.shape, request.settings)
+    if not dense and density.is_improved_by(first.spacing):
         reason = (
             f"the vertices are too sparse, epsilon above {density.limit:g} at "
             f"{percent(density.share)} of them"
@@ -194,19 +182,16 @@ def _whichever_is_dense(request: Request) -> ChosenSamples:
 
 
 def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
-    """The vertices of the shape; their analysis is a `share` of the work that is left."""
+    """Choose the vertices of the shape; their analysis is a `share` of the remaining work."""
     shape = request.shape
     sides = resolve_sides(request.settings.sides, shape.triangles, request.gaps, shape.normals)
-    samples = kept_or_made(
-        request,
-        (
-            *(sides.source.name, shape.points, shape.rows),
-            *used_by_sides(sides, shape.triangles, shape.normals),
-        ),
-        lambda: _analysed_vertices(request, sides, share),
-    )
-    reason = _vertices_reason(request, why)
+    used = used_by_sides(sides.source, shape.triangles, shape.normals)
+    key = key_of(request.bounding_sphere, sides.source, shape.points, shape.rows, used)
+    samples = CACHE.get(key)
+    if samples is None:
+        samples = _kept(key, analyse_vertices(request, sides, share))
     samples, sides = _judged(request, samples), decided(sides, samples.analysis)
+    reason = _vertices_reason(request, why)
     return ChosenSamples(samples, SamplingMode.VERTICES, reason, sides, request.gaps)
 
 
@@ -214,45 +199,16 @@ def _vertices_reason(request: Request, why: str) -> str:
     return f"The {len(request.shape.points):,} vertices, {why}"
 
 
-def _analysed_vertices(request: Request, sides: Sides, share: float) -> AnalysedSamples:
-    points, normals = request.shape.points, request.shape.normals
-    with Beside(partial(_of_faces, request, sides)) as beside:
-        analysis = analyse(request, points, normals, sides, request.progress.part(share))
-        no_edges, epsilon = points[:0], request.settings.epsilon
-        density = estimate(analysis, points, no_edges, 0.0, epsilon, most=LOOKED_AT)
-    walls, by_faces = beside.result()
-    return AnalysedSamples(
-        points,
-        None,
-        normals,
-        analysis,
-        density,
-        walls=walls,
-        rows=request.shape.rows,
-        by_faces=by_faces,
-    )
-
-
-def _of_faces(
-    request: Request, sides: Sides, progress: Any
-) -> tuple[Walls | None, tuple[int, int, int] | None]:
-    """What the faces tell without an analysis: `AnalysedSamples.walls` and `by_faces`."""
-    walls = None
-    if sides.source is SidesFrom.SURFACE and request.shape.volume > 0:
-        walls = walls_of_faces(request.shape, progress)
-    return walls, betti_by_faces(request, sides)
-
-
 # --- samples of the faces
 
 
 def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
-    """Even samples; then, for Adaptive and Automatic, as many passes as it takes."""
+    """Choose even samples; then, for Adaptive and Automatic, make as many passes as are needed."""
     shape, settings = request.shape, request.settings
     check_not_flat(shape)
-    spacing = first_spacing(shape, settings)
-    sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, spacing)
-    samples, passes = _passes(request, sides)
+    first = first_pass(shape, settings)
+    sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, first.spacing)
+    samples, passes = _passes(request, sides, first)
     kind = SamplingMode.SURFACE if passes == 1 else SamplingMode.ADAPTIVE
     reason = f"{len(samples.points):,} samples of the surface: {why}"
     if passes > 1:
@@ -263,12 +219,11 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
     return ChosenSamples(samples, kind, reason, sides, request.gaps)
 
 
-def _passes(request: Request, sides: Sides) -> tuple[AnalysedSamples, int]:
-    """The samples of the last pass, and how many passes it took."""
+def _passes(request: Request, sides: Sides, first: FirstPass) -> tuple[AnalysedSamples, int]:
+    """Return the samples of the last pass, and the number of passes."""
     settings, effort = request.settings, _EFFORT[request.settings.sampling]
     share = 1.0 if effort.passes == 1 else 0.4
-    amount = first_amount(request.shape, settings)
-    samples, passes = _judged(request, surface_pass(request, sides, amount, share)), 1
+    samples, passes = _pass(request, sides, first.amount, share, first.count), 1
     while (
         passes < effort.passes
         and (not samples.density.dense_enough or _are_worth_more(request, samples))
@@ -276,14 +231,63 @@ def _passes(request: Request, sides: Sides) -> tuple[AnalysedSamples, int]:
     ):
         request.progress.begin_pass(passes + 1)
         amount = next_amount(samples, effort.elsewhere, effort.walls, settings.budget)
-        found = surface_pass(request, sides, amount, 0.6, samples.spacing)
-        samples, passes = _judged(request, found), passes + 1
+        samples, passes = _pass(request, sides, amount, 0.6, spacing=samples.spacing), passes + 1
     request.progress.begin_pass(1)
     return samples, passes
 
 
+def _pass(
+    request: Request,
+    sides: Sides,
+    amount: dict[str, Any],
+    share: float,
+    count: int = 0,
+    spacing: float = 0.0,
+) -> AnalysedSamples:
+    """One pass: the faces are sampled, openings are closed, and the samples are analysed and judged.
+
+    Parameters
+    ----------
+    request : Request
+    sides : Sides
+    amount : dict
+        The arguments of `_medial.sample_surface` that determine how many samples there are.
+    share : float
+        The share of the remaining work that this pass is.
+    count : int
+        The expected number of samples, which has to fit into the memory; 0 where the budget bounds it.
+    spacing : float
+        The spacing of the first pass; 0.0 in the first pass itself.
+    """
+    shape, settings, progress = request.shape, request.settings, request.progress
+    options = {**_options(shape, settings), **amount}
+    surface = (shape.points, shape.triangles, shape.sharp_edges)
+    key = key_of(request.bounding_sphere, sides.source, surface, tuple(options.items()), spacing)
+    found = CACHE.get(key)
+    if found is None:
+        if count:
+            request.limit.check(count)
+        closed = request.gaps > 0 and sides.source is SidesFrom.SURFACE
+        part = progress.part(0.2 * share)
+        samples = sample_faces(shape, options, request.gaps, closed, part)
+        if closed:
+            samples = close_openings(samples, shape, settings.seed, progress.part(0.1 * share))
+        first = spacing or samples.spacing
+        found = _kept(key, analyse_samples(request, sides, samples, first, share))
+    return _judged(request, found)
+
+
+def _options(shape: Shape, settings: Settings) -> dict[str, Any]:
+    """Return the arguments of `_medial.sample_surface` that are the same in every pass."""
+    names = ("sharp_angle", "smooth", "keep_vertices", "seed")
+    options = {name: getattr(settings, name) for name in names}
+    wider = 2.0 if shape.shaded_smooth else _CLEARLY
+    options["sharp_angle"] = min(wider * settings.sharp_angle, math.pi)
+    return options
+
+
 def _are_worth_more(request: Request, samples: AnalysedSamples) -> bool:
-    """Whether the axis is missing between walls that are close, and the budget can do something about it."""
+    """Whether the axis is missing between walls that are close, and the budget allows to change that."""
     walls = samples.walls_to_show
     return (
         walls is not None
@@ -297,8 +301,18 @@ def _is_spent(request: Request, samples: AnalysedSamples) -> bool:
     return len(samples.points) >= _SPENT * request.settings.budget
 
 
+# --- vertices and samples
+
+
+def _kept(key: str, samples: AnalysedSamples) -> AnalysedSamples:
+    """Put new samples into the cache."""
+    samples = replace(samples, key=key)
+    CACHE.put(key, samples, samples.bytes)
+    return samples
+
+
 def _judged(request: Request, samples: AnalysedSamples) -> AnalysedSamples:
-    """The samples with their density as the settings judge it; the cache may have kept them for another epsilon."""
+    """Judge the density by the settings of the request: the cache may have kept the samples for another epsilon."""
     settings = request.settings
     finest = _EFFORT[settings.sampling].at_edges * samples.spacing
     density = replace(samples.density, limit=settings.epsilon, finest=finest)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,48 +11,40 @@ import numpy as np
 from ..machine import native
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from .shape import Shape
+    from .surface_samples import FaceSamples
 
-    from .analysis import Request
 
-
-def closed_by_samples(
-    request: Request,
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    kinds: NDArray[np.int32],
-    radius: NDArray[np.float64],
-    progress: Any,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
-    """Points, normals and kinds of the samples of the faces, and behind them those of the openings.
+def close_openings(samples: FaceSamples, shape: Shape, seed: int, progress: Any) -> FaceSamples:
+    """Append samples of the openings to the samples of the faces.
 
     Parameters
     ----------
-    request : Request
-    points, normals : (n, 3) float64
-    kinds : (n,) int32
-    radius : (n,) float64
-        Of the samples' discs.
+    samples : FaceSamples
+    shape : Shape
+    seed : int
     progress : _medial.Progress
 
     Raises
     ------
     InvalidInputError, OutOfMemoryError, Cancelled
     """
-    shape = request.shape
     with native.own_errors() as module:
         more, outward, _ = module.closing_samples(
-            points,
-            normals,
-            radius,
+            samples.points,
+            samples.normals,
+            samples.radius,
             shape.points,
             shape.triangles,
-            seed=request.settings.seed,
+            seed=seed,
             progress=progress,
         )
         opening = np.full(len(more), int(module.SampleKind.OPENING), np.int32)
-    return (
-        np.concatenate((points, more)),
-        np.concatenate((normals, outward)),
-        np.concatenate((kinds, opening)),
+    return replace(
+        samples,
+        points=np.concatenate((samples.points, more)),
+        normals=np.concatenate((samples.normals, outward)),
+        kinds=np.concatenate((samples.kinds, opening)),
+        faces=np.concatenate((samples.faces, np.full(len(more), -1, np.int32))),
+        closing=len(more),
     )

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How densely samples lie for the shape: epsilon, the hole round a sample as a share of the feature size there.
+"""The density of samples: epsilon, the size of the hole round a sample as a share of the feature size there.
 
 Dey & Zhao's theorem holds for epsilon-samples: every point of the surface has a sample within epsilon times
-its distance to the medial axis. Here the axis is the one that was computed, so this is an estimate.
+its distance to the medial axis. Here this distance is measured to the computed axis, so epsilon is an estimate.
 """
 
 from __future__ import annotations
@@ -20,33 +20,33 @@ from .nearness import near
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# Up to this share of samples may be too sparse for the theorem without a reason to sample again.
+# No new pass is needed while at most this share of the samples is too sparse for the theorem.
 DENSE_ENOUGH = 0.1
-# Where shares are enough, so many samples are looked at: they tell shares to a percent, and cost half of what all of a
-# million do.
+# Where only shares matter, this number of samples is measured. It determines shares to a percent, and costs half as
+# much as all samples of a cloud of a million.
 LOOKED_AT = 20_000
-_HOLE = 0.85  # radius of the largest holes between even samples, in spacings
-_PLACES = 5  # how many of the worst places are named
-_APART = 0.05  # how far apart these are, as a share of the diagonal
+_HOLE = 0.85  # the radius of the largest holes between even samples, in spacings
+_PLACES = 5  # the number of worst places that are reported
+_APART = 0.05  # the smallest distance between them, as a share of the diagonal
 
 
 @dataclass(frozen=True, eq=False)
 class Density:
-    """Estimates for each of the samples that were looked at, in the order of `_medial.MedialAnalysis.samples`.
+    """Estimates for each of the samples that were measured, in the order of `_medial.MedialAnalysis.samples`.
 
     Parameters
     ----------
     points : (k, 3) float64
     spacing : (k,) float64
-        Radius of the hole round the sample.
+        The radius of the hole round the sample.
     feature_size : (k,) float64
-        Distance to the medial axis; infinite where none was found.
+        The distance to the medial axis; infinite where none was found.
     edges : (m, 3) float64
-        Samples of sharp edges.
+        The samples of sharp edges.
     finest : float
-        The closest that samples come to each other at sharp edges, where the feature size is 0.
+        The smallest spacing at sharp edges, where the feature size is 0.
     limit : float
-        The epsilon that is dense enough.
+        The largest epsilon that is dense enough.
     """
 
     points: NDArray[np.float64]
@@ -58,24 +58,24 @@ class Density:
 
     @cached_property
     def at_edge(self) -> NDArray[np.bool_]:
-        """(k,) bool: so close to a sharp edge that the finest spacing is not dense enough."""
+        """(k,) bool: samples so close to a sharp edge that the finest spacing is not dense enough there."""
         return near(self.points, self.edges, self.finest / self.limit)
 
     @cached_property
     def epsilon(self) -> NDArray[np.float64]:
-        """(k,) float64: infinite where there is no axis to compare with, or no end of the hole."""
+        """(k,) float64: infinite where there is no axis to compare with, or where the hole has no end."""
         known = np.isfinite(self.feature_size) & (self.feature_size > 0.0)
         unknown = np.full(len(self.spacing), np.inf)
         return np.divide(self.spacing, self.feature_size, out=unknown, where=known)
 
     @cached_property
     def share(self) -> float:
-        """Share of the samples above the limit, of those that are counted."""
+        """The share of the counted samples whose epsilon is above the limit."""
         return _mean(self._counted > self.limit)
 
     @cached_property
     def share_of_all(self) -> float:
-        """Share of the samples above the limit, sharp edges included."""
+        """The share of all samples whose epsilon is above the limit, sharp edges included."""
         return _mean(self.epsilon > self.limit)
 
     @cached_property
@@ -84,23 +84,23 @@ class Density:
 
     @cached_property
     def p95(self) -> float:
-        """95 percent of the samples that are counted are below this."""
+        """The epsilon that 95 percent of the counted samples stay below."""
         return self._quantile(0.95)
 
     @property
     def dense_enough(self) -> bool:
-        """Whether another pass would change little: at sharp edges it would not."""
+        """Whether another pass would change little, as it does at sharp edges."""
         return bool(self.at_edge.all()) or self.share <= DENSE_ENOUGH
 
     def is_improved_by(self, spacing: float) -> bool:
-        """Whether even samples so far apart are denser where it matters; in noise they are not."""
+        """Whether even samples with this spacing are denser where it matters; in noise they are not."""
         area = np.minimum(self.spacing, float(np.ptp(self.points, axis=0).max())) ** 2
         too_wide = (self.epsilon > self.limit) & (self.spacing > _HOLE * spacing)
         return area[too_wide].sum() > DENSE_ENOUGH * area.sum()
 
     @cached_property
     def worst(self) -> list[tuple[tuple[float, ...], float]]:
-        """The worst places, a position and epsilon each, apart from each other, not at sharp edges."""
+        """The positions with the largest epsilon, and epsilon there; apart from each other, and not at sharp edges."""
         apart = _APART * float(np.linalg.norm(np.ptp(self.points, axis=0)))
         left = np.flatnonzero(~self.at_edge)
         left = left[np.argsort(-self.epsilon[left], kind="stable")]
@@ -122,12 +122,14 @@ class Density:
 
     @property
     def _counted(self) -> NDArray[np.float64]:
-        """The epsilon of the samples of which shares and medians speak: not at a sharp edge, or all where all are."""
+        """The epsilon of the samples that count for shares and medians: those not at a sharp edge, if there are any."""
         return self.epsilon if self.at_edge.all() else self.epsilon[~self.at_edge]
 
     def _quantile(self, share: float) -> float:
         counted = self._counted
-        rank = math.ceil(share * (len(counted) - 1))  # no mean of two values, for some are infinite
+        rank = math.ceil(
+            share * (len(counted) - 1)
+        )  # not a mean of two values, as some are infinite
         return float(np.partition(counted, rank)[rank])
 
 
@@ -139,7 +141,7 @@ def estimate(
     limit: float,
     most: int | None = None,
 ) -> Density:
-    """The density of an analysis, by the facets that the published thresholds select, whatever is shown.
+    """Estimate the density of an analysis from the facets that the published thresholds select, whatever is shown.
 
     Parameters
     ----------
@@ -149,7 +151,7 @@ def estimate(
     edges : (m, 3) float64
     finest, limit : float
     most : int, optional
-        Look at so many samples; default all.
+        The number of samples to measure; default all.
     """
     published, rows = Settings(), analysis.samples
     some = _spread(len(rows), most) if most and most < len(rows) else slice(None)
@@ -164,14 +166,14 @@ def estimate(
 
 
 def _spread(count: int, most: int) -> NDArray[np.intp]:
-    """At most so many numbers below `count`, spread evenly but in step with no grid: multiples of the golden ratio."""
+    """(k,) at most `most` numbers below `count`, spread evenly but without a period: multiples of the golden ratio."""
     return np.unique(
         (np.arange(most) * ((math.sqrt(5.0) - 1.0) / 2.0) % 1.0 * count).astype(np.intp)
     )
 
 
 def percent(share: float) -> str:
-    """'0 %', '0.3 %', '12 %'."""
+    """Format a share as '0 %', '0.3 %' or '12 %'."""
     places = 0 if share == 0.0 or share >= 0.095 else 1
     return f"{100 * share:.{places}f} %"
 

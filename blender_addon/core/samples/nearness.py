@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which points lie near others, or in one place, and which is the nearest.
+"""Searches among points: points near others, points in the same place, and the nearest of others.
 
-NumPy has no search tree, and Blender's Python need not have SciPy.
+NumPy has no search tree, and Blender's Python does not always have SciPy.
 """
 
 from __future__ import annotations
@@ -14,20 +14,37 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# Of a unit in which no coordinate is larger than 1; in smaller cells their numbers would leave 64 bits.
+# The smallest cell, in a unit in which no coordinate is larger than 1: numbers of smaller cells overflow 64 bits.
 _SMALLEST_CELL = 2.0**-60
 
 
 def same_place(points: NDArray[np.float64]) -> NDArray[np.int64]:
-    """(n,) a number for each of (n, 3) points, the same where the coordinates are; from 0 upwards."""
+    """(n,) a number from 0 upwards for each of (n, 3) points; points with the same coordinates get the same number."""
     _, place = np.unique(points + 0.0, axis=0, return_inverse=True)  # -0.0 is 0.0
     return place.reshape(-1).astype(np.int64)
+
+
+def sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> NDArray[np.int64]:
+    """(n,) the number of the sample that each row is.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    samples : (k,) int32
+        The first row of each distinct point, as `_medial.MedialAnalysis.samples` has them.
+    """
+    if len(samples) == len(points):
+        return np.arange(len(points))
+    which = same_place(points)
+    place = np.empty(which.max() + 1, np.int64)
+    place[which[samples]] = np.arange(len(samples))
+    return place[which]
 
 
 def near(
     points: NDArray[np.float64], others: NDArray[np.float64], reach: float
 ) -> NDArray[np.bool_]:
-    """Whether one of the others is at most `reach` away, by a grid; quick where few of them are near each point.
+    """Test by a grid whether one of the others is at most `reach` away; quick where few of them are near each point.
 
     Parameters
     ----------
@@ -55,7 +72,7 @@ def near(
     inside = (points >= lowest - reach) & (points <= highest + reach)
     left = np.flatnonzero(inside.all(axis=1))
     home = _cells(points[left], lowest, cell_size, size)
-    for step in product((-1, 0, 1), repeat=2):  # three cells in a row follow each other
+    for step in product((-1, 0, 1), repeat=2):  # three cells in a row have consecutive numbers
         cell = home + np.dot((*step, 0), _strides(size))
         first = np.searchsorted(cells, cell - 1, "left")
         last = np.searchsorted(cells, cell + 1, "right")
@@ -63,25 +80,25 @@ def near(
             away = np.linalg.norm(points[left[some]] - others[first[some]], axis=1)
             hit = away <= reach
             found[left[some[hit]]] = True
-            first[some] = np.where(hit, last[some], first[some] + 1)  # one is enough
+            first[some] = np.where(hit, last[some], first[some] + 1)  # one hit is enough
         more = ~found[left]
         left, home = left[more], home[more]
     return found
 
 
 def nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.int64]:
-    """The nearest of others to each point, by grids that grow coarser where they find nothing.
+    """Find the nearest of others to each point, by grids that grow coarser where they find nothing.
 
     Parameters
     ----------
     points : (n, 3) float64
     others : (m, 3) float64
-        At least one.
+        At least one point.
 
     Returns
     -------
     nearest : (n,) int64
-        A row of others; the lower of two equally near ones.
+        Rows of `others`; the lower row of two equally near ones.
     """
     found, left = np.zeros(len(points), np.int64), np.arange(len(points))
     points, others = _in_unit(points, others)
@@ -89,14 +106,14 @@ def nearest(points: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray
     reach = max(float(size.max()) / np.sqrt(len(others)), np.finfo(float).tiny)
     while len(left):
         row, away = _nearest_in_cells(points[left], others, reach)
-        sure = away <= reach  # none in a cell farther off can be nearer
+        sure = away <= reach  # no point in a farther cell can be nearer
         found[left[sure]] = row[sure]
         left, reach = left[~sure], 2.0 * reach
     return found
 
 
 def _in_unit(*lengths: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
-    """In a unit in which none is larger than 1, so that no square overflows; a power of two, so that nothing rounds."""
+    """Scale lengths by a power of two, which is exact, so that none is larger than 1 and no square overflows."""
     largest = max(float(np.abs(some).max(initial=0.0)) for some in lengths)
     return tuple(np.ldexp(some, -int(np.frexp(largest)[1])) for some in lengths)
 
@@ -104,7 +121,7 @@ def _in_unit(*lengths: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
 def _nearest_in_cells(
     points: NDArray[np.float64], others: NDArray[np.float64], reach: float
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """The nearest of those in the cells round each point, and how far it is; infinite where there is none."""
+    """Find the nearest of those in the cells round each point, and its distance; infinite where there is none."""
     lowest = np.minimum(points.min(axis=0), others.min(axis=0))
     highest = np.maximum(points.max(axis=0), others.max(axis=0))
     size = np.floor((highest - lowest) / reach).astype(np.int64) + 5
@@ -133,5 +150,8 @@ def _cells(
 
 
 def _strides(size: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Of many cells they wrap round without a word, and cells that are far apart may have one number."""
+    """(3,) the steps between the numbers of neighbouring cells.
+
+    Very many cells overflow silently: then cells that are far apart may have the same number.
+    """
     return np.array([size[1:].prod(), size[2], 1])

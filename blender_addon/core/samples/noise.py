@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How noisy samples are: how far they lie off the middle of their neighbours, as a share of the distance to those."""
+"""The noise of samples: their distance from the middle of their neighbours, as a share of the distance to these."""
 
 from __future__ import annotations
 
@@ -10,26 +10,27 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# What `roughness` is of samples that scatter by so many of their spacings, whatever the shape: an ellipsoid, a shell,
-# a box and a plate differ by 3 % at most.
+# The values of `_roughness`, and the standard deviations of the samples in spacings that cause them. They depend little
+# on the shape: an ellipsoid, a shell, a box and a plate differ by 3 % at most.
 _KNOWN = ((0.0, 0.0), (0.048, 0.05), (0.091, 0.1), (0.132, 0.15), (0.169, 0.2), (0.198, 0.25))
 
-_LOOKED_AT = 2000  # samples, which tell the median to 3 %
+_LOOKED_AT = 2000  # the number of samples that are measured, which determines the median to 3 %
 
 
 def noise_of(
     points: NDArray[np.float64], triangles: NDArray[np.int32], normals: NDArray[np.float64]
 ) -> float:
-    """The standard deviation of samples from their surface in spacings; of a quarter and more, 0.25. Where the normals
-    are of the samples themselves it says less than there is above a fifth.
+    """Estimate the standard deviation of samples from their surface, in spacings; at most 0.25.
+
+    Where the normals were computed from the samples themselves, values above a fifth are underestimated.
 
     Parameters
     ----------
     points : (n, 3) float64
     triangles : (f, 3) int32
-        The surface as the samples see it.
+        The surface between the samples.
     normals : (n, 3) float64
-        Of length 1 or 0.
+        Vectors of length 1 or 0.
     """
     rough, deviation = zip(*_KNOWN, strict=True)
     return float(np.interp(_roughness(points, triangles, normals), rough, deviation))
@@ -38,14 +39,17 @@ def noise_of(
 def _roughness(
     points: NDArray[np.float64], triangles: NDArray[np.int32], normals: NDArray[np.float64]
 ) -> float:
-    """The median over samples that are spread among all. Where the surface curves, all of a neighbourhood lie off
-    alike: the mean of the neighbours' is subtracted."""
+    """Return the median over an even selection of the samples.
+
+    On a curved surface all samples of a neighbourhood lie off by the same amount, so the mean of the neighbours is
+    subtracted.
+    """
     looked_at = np.zeros(len(points), bool)
     looked_at[np.unique(np.linspace(0, len(points) - 1, _LOOKED_AT).astype(np.int64))] = True
     ring = np.zeros(len(points), bool)
     ring[triangles[looked_at[triangles].any(axis=1)]] = True
     near = triangles[ring[triangles].any(axis=1)]
-    # Each triangle has both of the edges at a corner, so of a closed surface each edge counts twice.
+    # Each triangle contributes both edges at each corner, so an edge of a closed surface counts twice.
     tails = near[:, [0, 0, 1, 1, 2, 2]].ravel()
     heads = near[:, [1, 2, 2, 0, 0, 1]].ravel()
     away = points[heads] - points[tails]

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many samples of the faces a pass takes, and how far apart they lie."""
+"""The number of samples that a pass takes from the faces, and the distance between them."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,11 +13,11 @@ from ..settings import SamplingMode, Settings
 from .nearness import near
 
 if TYPE_CHECKING:
-    from .analysis import AnalysedSamples
+    from .analysed import AnalysedSamples
     from .shape import Shape
 
 
-_MANY = 2**53  # samples, more than any memory holds
+_MANY = 2**53  # samples; more than any memory holds
 
 
 def mean_spacing(area: float, count: int) -> float:
@@ -24,8 +25,37 @@ def mean_spacing(area: float, count: int) -> float:
     return math.sqrt(2.0 * area / (math.sqrt(3.0) * count))
 
 
-def first_amount(shape: Shape, settings: Settings) -> dict[str, Any]:
-    """How many samples the first pass takes, as arguments of `_medial.sample_surface`: a count, or a spacing.
+@dataclass(frozen=True)
+class FirstPass:
+    """The size of the first pass.
+
+    Parameters
+    ----------
+    amount : dict
+        The `count` or the `spacing`, as an argument of `_medial.sample_surface`.
+    spacing : float
+        The distance of neighbours.
+    area : float
+        The area of the faces.
+    """
+
+    amount: dict[str, Any]
+    spacing: float
+    area: float
+
+    @property
+    def count(self) -> int:
+        """The approximate number of samples; vertices that Keep Vertices adds do not count."""
+        if "count" in self.amount:
+            return int(self.amount["count"])
+        square = self.spacing**2  # 0 for tiny spacings
+        if not square:
+            return _MANY
+        return round(min(2.0 * self.area / math.sqrt(3.0), _MANY * square) / square)
+
+
+def first_pass(shape: Shape, settings: Settings) -> FirstPass:
+    """Plan the first pass.
 
     Automatic takes no fewer samples than the faces have vertices, within the budget.
     """
@@ -34,44 +64,26 @@ def first_amount(shape: Shape, settings: Settings) -> dict[str, Any]:
         count = settings.samples
         if settings.sampling is SamplingMode.AUTOMATIC:
             count = max(count, min(len(corners), settings.budget))
-        return {"count": count}
-    diagonal = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    return {"spacing": settings.spacing / 100.0 * diagonal}
-
-
-def first_spacing(shape: Shape, settings: Settings) -> float:
-    """The distance of neighbours in the first pass."""
-    amount = first_amount(shape, settings)
-    if "spacing" in amount:
-        return float(amount["spacing"])
-    return mean_spacing(shape.area, amount["count"])
-
-
-def first_count(shape: Shape, settings: Settings) -> int:
-    """About how many samples the first pass takes; vertices that Keep Vertices adds are not counted."""
-    amount = first_amount(shape, settings)
-    if "count" in amount:
-        return amount["count"]
-    square = amount["spacing"] ** 2  # of tiny ones 0
-    return (
-        round(min(2.0 * shape.area / math.sqrt(3.0), _MANY * square) / square) if square else _MANY
-    )
+        return FirstPass({"count": count}, mean_spacing(shape.area, count), shape.area)
+    spacing = settings.spacing / 100.0 * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    return FirstPass({"spacing": spacing}, spacing, shape.area)
 
 
 def next_amount(
     samples: AnalysedSamples, finest: float, finest_walls: float, budget: int
 ) -> dict[str, Any]:
-    """Arguments of `_medial.sample_surface` for the next pass: spacings that the density of this one asks for.
+    """Arguments of `_medial.sample_surface` for the next pass: the spacings that the density of this one requires.
 
-    Where walls are so close that the axis between them is missing, its feature size says nothing, and the walls ask.
+    Where walls are so close that the axis between them is missing, the feature size means nothing. There the walls
+    determine the spacing.
 
     Parameters
     ----------
     samples : AnalysedSamples
     finest : float
-        The smallest spacing away from sharp edges, as a share of the first one, which is the largest anywhere.
+        The smallest spacing away from sharp edges, as a share of the first pass's, which is the largest anywhere.
     finest_walls : float
-        The same for close walls.
+        The same share for close walls.
     budget : int
     """
     density, walls = samples.density, samples.walls_to_show
@@ -80,7 +92,7 @@ def next_amount(
     sites = density.points
     if walls is not None and walls.are_missed:
         between, wanted = walls.wanted(finest_walls * samples.spacing)
-        # What asks for nothing beside them, as a sharp edge does, would keep its surroundings coarse.
+        # Sites next to walls that require no finer spacing, as on a sharp edge, would keep the walls coarse.
         left = (spacings < samples.spacing) | ~near(sites, between, samples.spacing)
         sites = np.concatenate((sites[left], between))
         spacings = np.concatenate((spacings[left], np.minimum(wanted, samples.spacing)))

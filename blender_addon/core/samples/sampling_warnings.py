@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What has to be said about the samples that were chosen."""
+"""Warnings about the samples that were chosen."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..axis.verdict import Severe
 from ..settings import SamplingMode
+from ..severe import Severe
 from .density import percent
 
 if TYPE_CHECKING:
-    from .choose_samples import ChosenSamples
+    from .chosen import ChosenSamples
     from .shape import Shape
 
 _SPARSE = 0.5  # a larger share of samples above epsilon is worth a warning
 
 
 def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
-    """What was left out, and where the samples are too sparse to trust the axis; a sentence each."""
+    """Report what was left out, and where the samples are too sparse to trust the axis; a sentence each."""
     samples, density = chosen.samples, chosen.samples.density
     if chosen.thinned:
         yield chosen.thinned
@@ -48,7 +48,7 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
 
 
 def _loose_vertices(shape: Shape, chosen: ChosenSamples) -> int:
-    """How many vertices belong to no face where faces were sampled; 0 for curves and texts, whose vertices are none."""
+    """Count the vertices that belong to no face, where faces were sampled; 0 for curves and texts."""
     if chosen.sampling is SamplingMode.VERTICES or not shape.of_samples:
         return 0
     return len(shape.points) - len(np.unique(shape.triangles))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The input of the method, whatever it was read from."""
+"""The input of the method: points, faces, and their properties."""
 
 from __future__ import annotations
 
@@ -9,32 +9,34 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..machine import native
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """Points, faces, and what is known of both.
+    """Points and faces.
 
     Parameters
     ----------
     points : (n, 3) float64
         All vertices.
     triangles : (m, 3) int32
-        Faces, outward; none in a cloud of points.
+        Faces, counter-clockwise as seen from outside; none in a cloud of points.
     normals : (n, 3) float64 or None
-        Of the points, as they were given; outward, of any length, zero says nothing.
+        Outward normals of the points as they were given, of any length; a zero vector means an unknown normal.
     frame : (4, 4) float64
         Rotation and translation from `points` to the world.
     sharp_edges : (e, 2) int32 or None
         Edges that are marked sharp, rows of `points`.
     shaded_smooth : bool
-        Every face is, so that only marked edges look sharp.
+        Every face is shaded smooth, so that only marked edges look sharp.
     of_samples : bool
-        The points are meant as samples. The vertices of curves, texts and metaballs are not.
+        The points are meant as samples, unlike the vertices of curves, texts and metaballs.
     rows : (n,) int32 or None
-        Which points of a larger cloud these are; None: there is no larger one.
+        The rows that the points have in a larger cloud; None where there is no larger cloud.
     """
 
     points: NDArray[np.float64]
@@ -57,3 +59,9 @@ class Shape:
         """The area of all faces."""
         a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
         return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
+
+    @cached_property
+    def solid_betti(self) -> tuple[int, int, int] | None:
+        """Pieces, loops and cavities of the solid, counted from its closed faces; None where that is not possible."""
+        with native.own_errors() as module:
+            return module.solid_betti(self.points, self.triangles)

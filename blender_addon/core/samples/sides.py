@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tells inside from outside: which of faces, normals and Tight Cocone, why, and how well."""
+"""The decision between inside and outside: by faces, normals or Tight Cocone, the reason, and warnings about it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..axis.verdict import Severe
 from ..errors import InvalidInputError
-from ..settings import OPTIONS, SidesFrom
+from ..settings import SidesFrom
+from ..severe import Severe
+from .analysed import Sides
 from .buried_samples import bounding_share
 from .nearness import same_place
 
@@ -20,48 +20,34 @@ if TYPE_CHECKING:
 
     from .shape import Shape
 
-# A larger share of samples that are not flat is worth a warning; clean scans stay below 0.06, sharp edges included.
+# A larger share of samples that are not flat causes a warning; clean scans stay below 0.06, sharp edges included.
 _UNEVEN = 0.1
-# A triangle so many times as wide as the median one spans an opening.
+# A triangle that is this many times as wide as the median one spans an opening.
 _WIDE = 10.0
-# Where a larger share of the edges lies between faces that are turned against each other, their normals mean nothing.
+# Normals of faces mean nothing where a larger share of the edges lies between faces of opposite orientation.
 _TURNED = 0.01
-_CHUNK = 1 << 16  # triangles measured at once; bounds the memory
-# A smaller share of the faces that bounds the solid is that of a sheet: half of a wavy one does.
+_CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
+# Where a smaller share of the faces bounds the solid, the faces are a sheet: half of a wavy sheet bounds it.
 _BOUNDING = 0.75
-
-
-@dataclass(frozen=True)
-class Sides:
-    """What tells inside from outside, and the reason, for people.
-
-    AUTOMATIC is left only where points alone must tell: their analysis decides (`decided`).
-    """
-
-    source: SidesFrom
-    reason: str
-
-    def __str__(self) -> str:
-        return f"Inside from {OPTIONS['sides'].items[self.source][0]}: {self.reason}"
 
 
 def resolve_sides(
     wanted: SidesFrom, triangles: NDArray[np.int32], gaps: int, normals: NDArray[np.float64] | None
 ) -> Sides:
-    """Decide AUTOMATIC; anything else must be possible.
+    """Decide on a source if AUTOMATIC is wanted; check that any other wanted source is there.
 
     Parameters
     ----------
     wanted : SidesFrom
     triangles : (m, 3) int32
     gaps : int
-        Edges at which the triangles are open.
+        The number of edges at which the triangles are open.
     normals : (n, 3) float64 or None
 
     Raises
     ------
     InvalidInputError
-        What is wanted is not there.
+        The wanted source is not there.
     """
     has_normals = normals is not None and bool(normals.any())
     if wanted is SidesFrom.AUTOMATIC:
@@ -80,10 +66,10 @@ def resolve_sides(
 
 
 def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing: float) -> Sides:
-    """As `resolve_sides`, for samples of the faces, which have the normals of those.
+    """Do the same as `resolve_sides` for samples of faces, which have the normals of the faces.
 
-    The solid of an open mesh is where its winding number is above one half, as long as most of its faces are the
-    boundary of that. Those of a sheet are not; there the votes of the normals tell what lies behind it.
+    The solid of an open mesh is the region where its winding number is above one half, provided that most of the faces
+    bound this region. The faces of a sheet do not; there the votes of the normals determine what lies behind it.
 
     Parameters
     ----------
@@ -108,7 +94,7 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
 
 
 def _turned(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
-    """The share of edges that another triangle runs through in the same direction."""
+    """Return the share of edges through which another triangle runs in the same direction."""
     ends = same_place(points)[triangles]
     edges = (ends * (len(points) + 1) + np.roll(ends, -1, axis=1)).ravel()
     return 1.0 - len(np.unique(edges)) / len(edges)
@@ -125,7 +111,7 @@ def _automatic(has_faces: bool, gaps: int, has_normals: bool) -> Sides:
 
 
 def decided(sides: Sides, analysis: Any) -> Sides:
-    """The same; where it is AUTOMATIC, what the analysis took: Tight Cocone, or poles where many contradict it."""
+    """Replace AUTOMATIC by the source that the analysis chose: Tight Cocone, or poles where many contradict it."""
     if sides.source is not SidesFrom.AUTOMATIC:
         return sides
     source, reason = SidesFrom[analysis.sides_from.name], sides.reason
@@ -136,7 +122,7 @@ def decided(sides: Sides, analysis: Any) -> Sides:
 
 
 def look_inward(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
-    """Whether the normals of the outermost samples along the axes look inward, on the whole."""
+    """Whether the normals of the outermost samples along the coordinate axes point inward on the whole."""
     lowest, highest = points.argmin(axis=0), points.argmax(axis=0)
     lengths = np.maximum(np.linalg.norm(normals, axis=1), np.finfo(np.float64).tiny)
     low, high = (normals[rows, range(3)] / lengths[rows] for rows in (lowest, highest))
@@ -144,13 +130,13 @@ def look_inward(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bo
 
 
 def cocone_warnings(found: Any, points: NDArray[np.float64]) -> Iterator[str]:
-    """What looks wrong with a surface that Tight Cocone found.
+    """Warn about suspicious properties of a surface that Tight Cocone found.
 
     Parameters
     ----------
     found : _medial.TightCocone
     points : (n, 3) float64
-        The points that it was made of.
+        The points from which it was made.
     """
     if not found.encloses:
         yield Severe(

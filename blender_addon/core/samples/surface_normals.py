@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Outward normals of analysed samples, where they come from, and which samples lie on sharp edges."""
+"""Outward normals of analysed samples, their source, and the samples that lie on sharp edges."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from ..settings import SamplingMode, SidesFrom
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .choose_samples import ChosenSamples
+    from .chosen import ChosenSamples
     from .shape import Shape
 
 
 @dataclass(frozen=True, eq=False)
 class SurfaceNormals:
-    """What the surface is known to be at each sample.
+    """Normals of the surface at each sample.
 
     Parameters
     ----------
     normals : (n, 3) float64
-        Outward; zero where there is none.
+        Outward; zero where there is no normal.
     at_edge : (n,) bool
-        On a sharp edge, where the normal is a mean of sides.
+        The sample lies on a sharp edge, where the normal is the mean of several faces.
     source : str
-        Where they come from, a sentence.
+        A sentence about the source of the normals.
     """
 
     normals: NDArray[np.float64]
@@ -39,8 +39,8 @@ class SurfaceNormals:
 
 
 def measured_surface(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int32]:
-    """(f, 3) the triangles between samples that are measured: the faces themselves where the samples are their
-    corners, else the surface as the samples see it."""
+    """(f, 3) the triangles to measure: the faces themselves where the samples are their corners, else the boundary of
+    the inner cells, whose corners are samples."""
     if _are_corners(shape, chosen):
         return shape.triangles
     return chosen.samples.analysis.solid_triangles()
@@ -49,16 +49,16 @@ def measured_surface(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int32]:
 def surface_normals(
     shape: Shape, chosen: ChosenSamples, surface: NDArray[np.int32], sharp_angle: float
 ) -> SurfaceNormals:
-    """The normals of the samples, by the best that is there.
+    """Determine the normals of the samples from the best available source.
 
     Parameters
     ----------
     shape : Shape
     chosen : ChosenSamples
     surface : (f, 3) int32
-        As `measured_surface` gives it.
+        As `measured_surface` returns it.
     sharp_angle : float
-        Where faces differ by more than this from their mean there is an edge, radians.
+        There is an edge where faces differ by more than this from their mean; radians.
     """
     samples = chosen.samples
     given = samples.normals
@@ -81,7 +81,7 @@ def _are_corners(shape: Shape, chosen: ChosenSamples) -> bool:
 def _of_triangles(
     points: NDArray[np.float64], triangles: NDArray[np.int32], sharp_angle: float, source: str
 ) -> SurfaceNormals:
-    """Means of the triangles at each point, weighted by area."""
+    """Average the normals of the triangles at each point, weighted by area."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     faces = cross(b - a, c - a)
     normals = np.empty_like(points)
@@ -97,13 +97,13 @@ def _of_triangles(
 
 
 def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 3) products of rows; NumPy's own takes several times as long."""
+    """(n, 3) cross products of rows; NumPy's own function takes several times as long."""
     (ax, ay, az), (bx, by, bz) = a.T, b.T
     return np.column_stack((ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx))
 
 
 def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n, 3) of length 1; zero stays zero."""
+    """(n, 3) vectors of length 1; zero vectors stay zero."""
     lengths = np.linalg.norm(vectors, axis=1)[:, None]
     return vectors / np.where(lengths > 0.0, lengths, 1.0)
 

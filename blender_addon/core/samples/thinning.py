@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fewer points for less memory: fewer samples of the faces, or some of the points of a cloud."""
+"""Fewer points for less memory: fewer samples of the faces, or a selection of the points of a cloud."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ if TYPE_CHECKING:
     from ..settings import Settings
     from .shape import Shape
 
-# The share of what fits that is asked for, because a number of samples is met within some percent only.
+# The share of the possible number that is requested, because sampling meets a number within a few percent only.
 _KEPT = 0.95
-_PER_OCTAVE = 8  # grids that are tried for each doubling of the resolution
-_OCTAVES = 20  # doublings of the resolution
+_PER_OCTAVE = 8  # the number of grids that are tried for each doubling of the resolution
+_OCTAVES = 20  # the number of doublings of the resolution
 
 
 def thinned_rows(
     points: NDArray[np.float64], limit: MemoryLimit, error: MemoryLimitError
 ) -> tuple[NDArray[np.int32], str]:
-    """(k,) rows of a cloud that can be analysed within a limit, ascending, and a sentence that says so.
+    """Select (k,) ascending rows of a cloud that can be analysed within a limit, and report it in a sentence.
 
     Parameters
     ----------
     points : (n, 3) float64
     limit : MemoryLimit
     error : MemoryLimitError
-        What an analysis of all of them raised; it is raised again when nothing may be thinned.
+        The error of an analysis of all points; it is raised again when nothing may be thinned.
 
     Raises
     ------
@@ -53,14 +53,14 @@ def thinned_rows(
 def fewer_samples(
     shape: Shape, settings: Settings, first: int, limit: MemoryLimit, error: MemoryLimitError
 ) -> tuple[Settings, str]:
-    """Settings by which the samples of the faces can be analysed within a limit, and a sentence that says so.
+    """Change settings so that the samples of the faces can be analysed within a limit, and report it in a sentence.
 
     Parameters
     ----------
     shape : Shape
     settings : Settings
     first : int
-        How many samples the first pass would have.
+        The number of samples that the first pass would have.
     limit, error
         As for `thinned_rows`.
 
@@ -83,7 +83,7 @@ def fewer_samples(
 
 
 def spread_rows(points: NDArray[np.float64], most: int) -> NDArray[np.int32]:
-    """(k,) rows, ascending: the first point in each cell of the finest grid that leaves at most so many.
+    """(k,) ascending rows: the first point in each cell of the finest grid that leaves at most `most` points.
 
     Every point is nearer to one of them than the diagonal of a cell.
     """
@@ -104,7 +104,7 @@ def spread_rows(points: NDArray[np.float64], most: int) -> NDArray[np.int32]:
 
 
 def _most(limit: MemoryLimit, error: MemoryLimitError) -> int:
-    """How many points may be kept; raises the error again where nothing may be thinned, or too few would be left."""
+    """Return the number of points to keep; raise the error again where thinning is not allowed or leaves too few."""
     most = int(_KEPT * limit.points)
     if limit.above_limit is not AboveLimit.THIN or most < OPTIONS["samples"].minimum:
         raise error

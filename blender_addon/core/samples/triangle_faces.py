@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangles as the faces that Blender and the file formats take."""
+"""Triangles in the form of faces that Blender and the file formats use."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class TriangleFaces:
-    """Gives a class that has `triangles`, (f, 3) int32, the arrays of faces that a `MedialAxis` has."""
+    """Gives a class that has `triangles`, (f, 3) int32, the same arrays of faces as a `MedialAxis`."""
 
     triangles: NDArray[np.int32]
 

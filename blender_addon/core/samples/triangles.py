@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flat triangles: their normals, and some of many."""
+"""Flat triangles: their normals, and an even selection of many."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# Of more triangles only so many are looked at: they tell shares to a percent.
+# At most this number of triangles is measured, which determines shares to a percent.
 _LOOKED_AT = 20_000
 
 
 def some_of(count: int) -> NDArray[np.intp]:
-    """Rows of a list that long, evenly spread; all of them where they are not many."""
+    """(k,) rows of a list of `count` items, evenly spread; all of them where they are few."""
     return np.unique(np.linspace(0, count - 1, min(count, _LOOKED_AT)).astype(np.intp))
 
 

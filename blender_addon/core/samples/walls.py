@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How thin a shape is for its samples: told by the faces themselves, not by the axis that was found.
+"""The distance between opposite walls compared with the samples; it is measured from the faces, not from the axis.
 
-Between walls that are closer than the samples are apart the axis may be missing altogether, and then nothing that
-is measured against the axis shows it.
+Between walls that are closer than the samples are apart the axis may be missing altogether. No measurement against the
+axis can then show that it is missing.
 """
 
 from __future__ import annotations
@@ -22,15 +22,35 @@ if TYPE_CHECKING:
 
     from .shape import Shape
 
-# Walls closer than so many spacings get samples so close together that they are as many spacings apart.
+# Walls closer than this number of spacings get finer samples, until the walls are this number of spacings apart.
 _WANTED = 2.0
-# Between walls closer than so many spacings the axis is missing or torn: of a plate's sheet 94 % are there at one
-# spacing, 93 % at 0.78, 59 % at 0.63, 16 % at 0.49, 2 % at 0.29.
+# Between walls closer than this number of spacings the axis is missing or torn: 94 % of the sheet in a plate is found
+# at a thickness of one spacing, 93 % at 0.78, 59 % at 0.63, 16 % at 0.49, 2 % at 0.29.
 _MISSED = 0.8
-# A smaller share of the area is that of single samples.
+# A smaller share of the area may come from single samples, and does not count.
 _SOME = 0.01
-# Walls that stay closer than so many spacings whatever the budget are not worth another pass.
+# Walls that stay closer than this number of spacings within the budget do not justify another pass.
 _HOPELESS = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Places on the flat faces, where the opposite wall is looked for.
+
+    Parameters
+    ----------
+    points, normals : (n, 3) float64
+        The normals are the unit normals of the faces.
+    spacing : (n,) float64
+        The distance of neighbouring samples there.
+    area : (n,) float64
+        The area that each place represents; only ratios matter.
+    """
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    spacing: NDArray[np.float64]
+    area: NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +65,7 @@ class Walls:
     spacing : (n,) float64
         The distance of neighbouring samples there.
     area : (n,) float64
-        What each place stands for; only ratios matter.
+        The area that each place represents; only ratios matter.
     """
 
     points: NDArray[np.float64]
@@ -68,13 +88,23 @@ class Walls:
         return float(np.median(self.distance[self._are_missed]))
 
     def wanted(self, finest: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(k, 3) places between close walls, and (k,) the spacings that would show the axis there, if not too fine."""
+        """(k, 3) places between close walls, and (k,) the spacings that would show the axis there.
+
+        Walls that would need spacings far below `finest` are left out.
+        """
         close = self.distance < _WANTED * self.spacing
         close &= self.distance >= _HOPELESS * finest
         return self.points[close], np.maximum(self.distance[close] / _WANTED, finest)
 
     def are_reached_by(self, budget: int, area: float) -> bool:
-        """Whether so many samples, all of them on missed walls, would show most of these; faces have this area."""
+        """Whether a budget of samples, all of them spent on missed walls, would show most of these.
+
+        Parameters
+        ----------
+        budget : int
+        area : float
+            The area of all faces.
+        """
         spacing = math.sqrt(2.0 / math.sqrt(3.0) * area * self.missed / budget)
         return _HOPELESS * spacing < self.thickness
 
@@ -83,42 +113,30 @@ class Walls:
         return self.distance < _MISSED * self.spacing
 
 
-def walls_of_faces(shape: Shape, progress: Any) -> Walls:
-    """The walls behind the middles of the faces, with the spacing of their corners; of many faces some are looked at.
-
-    Parameters
-    ----------
-    shape : Shape
-    progress : _medial.Progress
-    """
+def middles_of_faces(shape: Shape) -> Places:
+    """The middles of the faces, with the spacing of their corners; of many faces an even selection."""
     corners = shape.points[shape.triangles[some_of(len(shape.triangles))]]
     normals, doubled = unit_normals(corners)
     wide, spacing = doubled > 0.0, np.sqrt(2.0 / math.sqrt(3.0) * doubled)
-    middles = corners.mean(axis=1)
-    return find_walls(shape, middles[wide], normals[wide], spacing[wide], doubled[wide], progress)
+    return Places(corners.mean(axis=1)[wide], normals[wide], spacing[wide], doubled[wide])
 
 
-def find_walls(
-    shape: Shape,
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    spacing: NDArray[np.float64],
-    area: NDArray[np.float64],
-    progress: Any,
-) -> Walls:
-    """The opposite walls at places on the faces.
+def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
+    """Measure the distance to the opposite wall.
 
     Parameters
     ----------
     shape : Shape
-    points, normals : (n, 3) float64
-        On the flat faces, and the unit normals of these.
-    spacing, area : (n,) float64
-        As of `Walls`.
+    places : Places
     progress : _medial.Progress
     """
     with native.own_errors() as module:
         distance = module.wall_distances(
-            points, normals, _WANTED * spacing, shape.points, shape.triangles, progress=progress
+            places.points,
+            places.normals,
+            _WANTED * places.spacing,
+            shape.points,
+            shape.triangles,
+            progress=progress,
         )
-    return Walls(points, distance, spacing, area)
+    return Walls(places.points, distance, places.spacing, places.area)

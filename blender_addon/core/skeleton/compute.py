@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..axis.levels import hierarchy_of
 from ..errors import DegenerateInputError
 from ..machine import native
-from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..machine.progress import Progress
-from ..samples.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
+from ..samples.choose_samples import begin
+from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.nearness import nearest
 from ..settings import Settings, Side, SkeletonSettings
 from .centre import centre_of_mass
@@ -33,7 +32,8 @@ from .warnings import skeleton_warnings
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..samples.analysis import AnalysedSamples
+    from ..machine.progress import Progress
+    from ..samples.analysed import AnalysedSamples
     from ..samples.shape import Shape
 
 # The share of the work before the hierarchy begins.
@@ -96,12 +96,9 @@ def compute_skeleton(
     DegenerateInputError
         The samples span no volume, enclose nothing, or what they enclose has no curve.
     """
-    start = time.perf_counter()
-    progress = progress or Progress()
-    progress.until(_ANALYSIS)
-    chosen = choose_samples(shape, replace(settings, side=Side.INNER), progress, limit)
-    progress.until(1.0)
-    net, owner, sheets, loops = _net(chosen, settings, wanted, progress)
+    begun = begin(shape, replace(settings, side=Side.INNER), progress, limit, _ANALYSIS)
+    chosen = begun.chosen
+    net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress)
     names = sorted(net.branches)
     plane = float(centre_of_mass(_thinned(net, names, 0.0))[0])
     mirrored = wanted.mirror and make_symmetric(net, plane)
@@ -115,7 +112,7 @@ def compute_skeleton(
         mirrored=mirrored,
         chosen=chosen,
         warnings=tuple(skeleton_warnings(chosen, loops, sheets)),
-        seconds=time.perf_counter() - start,
+        seconds=begun.seconds,
     )
 
 
@@ -147,8 +144,7 @@ def _curve(
     samples: AnalysedSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
 ) -> tuple[Any, Any]:
     """The level without sheets, and the hierarchy that it is of."""
-    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress.part(0.9))
-    CACHE.resize(samples.key, samples.bytes)
+    hierarchy = hierarchy_of(samples, settings, progress.part(0.9))
     with native.own_errors():
         level = hierarchy.extract(
             sheet=math.inf, limb=wanted.limb, relaxed=True, progress=progress.part()

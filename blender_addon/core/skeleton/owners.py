@@ -14,7 +14,7 @@ from .spread import graph_of, spread
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..samples.analysis import AnalysedSamples
+    from ..samples.analysed import AnalysedSamples
 
 
 def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArray[np.int64], Balls]:

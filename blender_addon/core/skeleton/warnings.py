@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..samples.choose_samples import ChosenSamples
+    from ..samples.chosen import ChosenSamples
     from .rules import Loops
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the axis says about the solid: its thickness, its balls, its reconstruction."""
+"""Results about the solid: its thickness, few balls that cover it, its reconstruction."""

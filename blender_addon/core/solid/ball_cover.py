@@ -1,35 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A solid as few balls of its medial axis: for collisions, physics, robots (docs/balls.md)."""
+"""A solid as few balls of its medial axis, for collisions, physics and robots (docs/balls.md)."""
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..axis.levels import hierarchy_of
 from ..machine import native
-from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
-from ..machine.progress import Progress
-from ..samples.choose_samples import ChosenSamples, OfChosenSamples, choose_samples
+from ..samples.choose_samples import begin
+from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.sampling_warnings import sampling_warnings
 from ..settings import BallSettings, CoverMode, Settings, Side, SidesFrom
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..samples.analysis import AnalysedSamples
+    from ..machine.progress import Progress
     from ..samples.shape import Shape
 
-# The shares of the work before the axis begins, and before the balls are chosen.
+# The shares of the work that are done before the hierarchy begins, and before the balls are chosen.
 _ANALYSIS, _AXIS = 0.5, 0.8
 
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """Some balls, and how well they stand for the solid.
+    """Balls, and how well they represent the solid.
 
     Parameters
     ----------
@@ -37,12 +36,12 @@ class Balls:
     radii : (n,) float64
     mode : CoverMode
     covered : float
-        Share of the volume of the solid that they hold: around, all that was looked at. This and the next two are
-        NaN where nobody knows, for the balls were changed.
+        The share of the volume of the solid that they hold; 1 for AROUND. This and the next two values are NaN where
+        they are unknown because the balls were changed.
     outside : float
-        No place in a ball is farther from the solid.
+        The largest distance of a place in a ball from the solid.
     farthest : float
-        No place on the surface is farther from the balls.
+        The largest distance of a place on the surface from the balls.
     """
 
     centres: NDArray[np.float64]
@@ -55,21 +54,22 @@ class Balls:
 
 @dataclass(frozen=True, eq=False)
 class BallCover(OfChosenSamples):
-    """Balls of a solid, and how they came about.
+    """Balls of a solid, and their origin.
 
     Parameters
     ----------
     shape : Shape
     balls : Balls
-        In the order in which they were chosen. Inside, the first n are what n balls would be; around, their centres.
+        In the order in which they were chosen. For INSIDE the first n are the result for n balls; for AROUND this
+        holds for their centres only.
     shares : (n,) float64
-        Share of the volume that the first 1, 2, ... n balls hold, before they grow.
+        The shares of the volume that the first 1, 2, ... n balls hold, before they grow.
     places : int
-        Of the lattice in the solid on which volumes were counted.
+        The number of places of the lattice in the solid on which volumes were counted.
     chosen : ChosenSamples
-        What was analysed, why, and how densely it lies.
+        The analysed samples, the reasons for them, and their density.
     warnings : tuple of str
-        What was assumed or looks wrong, a sentence each.
+        A sentence for each assumption and each suspicious result.
     seconds : float
     """
 
@@ -89,13 +89,13 @@ def cover_by_balls(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> BallCover:
-    """Few balls of the axis of a shape, which is computed where it is not kept.
+    """Choose few balls of the axis of a shape; the axis is computed unless the cache has it.
 
     Parameters
     ----------
     shape : Shape
     settings : Settings
-        Of the axis. The side is always the inner one.
+        The settings of the axis. The side is always the inner one.
     wanted : BallSettings
     progress : Progress, optional
     limit : MemoryLimit
@@ -104,22 +104,20 @@ def cover_by_balls(
     ------
     NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
     DegenerateInputError
-        The samples span no volume, or what they bound encloses none.
+        The samples span no volume, or enclose none.
     """
-    start = time.perf_counter()
-    progress = progress or Progress()
     settings = replace(settings, side=Side.INNER)
     limit = limit.used(faces=len(shape.triangles) > 0, side=Side.INNER, levels=True)
-    progress.until(_ANALYSIS)
-    chosen = choose_samples(shape, settings, progress, limit)
+    begun = begin(shape, settings, progress, limit, _ANALYSIS)
+    chosen, progress = begun.chosen, begun.progress
     progress.until(_AXIS)
-    centres, radii = _balls_of(chosen.samples, settings, progress)
+    hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
     progress.until(1.0)
     points, triangles = _surface(shape, chosen)
     with native.own_errors() as module:
         found = module.cover_by_balls(
-            centres,
-            radii,
+            hierarchy.vertices,
+            hierarchy.radius,
             points,
             triangles,
             count=wanted.count,
@@ -127,7 +125,7 @@ def cover_by_balls(
             progress=progress.part(),
         )
     balls = Balls(
-        centres=centres[found.chosen],
+        centres=hierarchy.vertices[found.chosen],
         radii=found.radii,
         mode=wanted.mode,
         covered=1.0 if wanted.mode is CoverMode.AROUND else float(found.covered[-1]),
@@ -141,22 +139,13 @@ def cover_by_balls(
         places=found.places,
         chosen=chosen,
         warnings=tuple(sampling_warnings(shape, chosen)),
-        seconds=time.perf_counter() - start,
+        seconds=begun.seconds,
     )
 
 
 def _surface(shape: Shape, chosen: ChosenSamples) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """What bounds the solid: the faces where these told inside from outside, else the boundary of the inner cells."""
+    """Return the boundary of the solid: the faces if they decide what is inside, else that of the inner cells."""
     if chosen.sides.source is SidesFrom.SURFACE:
         return shape.points, shape.triangles
     with native.own_errors():
         return chosen.samples.points, chosen.samples.analysis.solid_triangles()
-
-
-def _balls_of(
-    samples: AnalysedSamples, settings: Settings, progress: Progress
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(m, 3), (m,): the empty balls of all inner cells, whatever is shown of the axis."""
-    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress.part())
-    CACHE.resize(samples.key, samples.bytes)
-    return hierarchy.vertices, hierarchy.radius

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From points to the watertight surface through them: `_medial.TightCocone`, ready for Blender."""
+"""The watertight surface through points: `_medial.TightCocone`, ready for Blender."""
 
 from __future__ import annotations
 
@@ -24,22 +24,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Reconstruction(TriangleFaces):
-    """A closed surface of triangles whose vertices are samples, and how it came about.
+    """A closed surface of triangles whose vertices are samples, and its origin.
 
     Parameters
     ----------
     vertices : (v, 3) float64
-        Only samples that a triangle uses.
+        The samples that a triangle uses.
     triangles : (f, 3) int32
-        Outward; every edge is in an even number of them.
+        Counter-clockwise as seen from outside; every edge belongs to an even number of them.
     points, duplicates : int
-        Rows of the input, and those of them merged into an earlier row with the same coordinates.
+        The number of rows of the input, and of rows that were merged into an earlier row with the same coordinates.
     off_surface : int
-        Distinct points that no triangle uses.
+        The number of distinct points that no triangle uses.
     nonmanifold_edges, nonmanifold_vertices, cavities : int
-        As of `_medial.TightCocone`.
+        As in `_medial.TightCocone`.
     warnings : tuple of str
-        What looks wrong, a sentence each.
+        A sentence for each suspicious result.
     seconds : float
     """
 
@@ -60,14 +60,14 @@ def reconstruct(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> Reconstruction:
-    """The watertight surface through samples (Dey & Goswami 2003).
+    """Compute the watertight surface through samples (Dey & Goswami 2003).
 
     Parameters
     ----------
     points : (n, 3) float64
     progress : Progress, optional
     limit : MemoryLimit
-        The surface alone needs no more than an analysis does.
+        The surface alone needs no more memory than an analysis.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def reconstruct(
 def _within(
     points: NDArray[np.float64], limit: MemoryLimit
 ) -> tuple[NDArray[np.float64], tuple[str, ...]]:
-    """The points that the limit allows, and what has to be said when these are fewer."""
+    """Return the points that the limit allows, and a warning if these are fewer."""
     try:
         limit.check(len(points))
     except MemoryLimitError as error:

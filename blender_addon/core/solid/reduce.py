@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..samples.shape import Shape
 
 _INNER = 1  # value of `_medial.Side`
-_SPACING = 1 / 400  # of points on the solid, as a share of the diagonal
+_SPACING = 1 / 400  # the distance of points on the solid, as a share of the diagonal
 
 
 @dataclass(frozen=True)
@@ -40,29 +40,29 @@ class SphereMesh:
 
 
 def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = None) -> MedialAxis:
-    """The same solid with few vertices, as triangles and edges of the same topology.
+    """Represent the same solid by few vertices with triangles and edges of the same topology.
 
-    Edges collapse, those first that change the surface of the solid least, as long as the link condition holds; then
-    the spheres are fitted to that surface.
+    Edges collapse in the order in which they change the surface of the solid least, as long as the link condition
+    holds. Then the spheres are fitted to that surface.
 
     Parameters
     ----------
     axis : MedialAxis
-        Of the inside.
+        The inner axis.
     vertices : int
-        That are wanted at most. Where no more edge can collapse, more stay: a loop keeps three.
+        The wanted number of vertices. More stay where no further edge can collapse: a loop keeps three.
     progress : Progress, optional
 
     Returns
     -------
     reduced : MedialAxis
-        Of triangles and edges, with radii. Facets have no samples of their own: `generators` are -1, `theta` and
-        `rho` infinite, as of what any thresholds keep.
+        Triangles and edges, with radii. Facets have no samples of their own: `generators` are -1, and `theta` and
+        `rho` are infinite, so that all thresholds keep them.
 
     Raises
     ------
     InvalidInputError
-        Less than one vertex, or an axis that is not of the inside.
+        Less than one vertex is wanted, or the axis is not an inner one.
     NativeModuleError, OutOfMemoryError, Cancelled
     """
     if (axis.side != _INNER).any():
@@ -78,12 +78,12 @@ def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = Non
 
 
 def reduced(found: Computation, vertices: int, progress: Progress | None = None) -> Computation:
-    """A computation with its axis reduced."""
+    """Return a computation with its axis reduced."""
     return replace(found, axis=reduce_axis(found.axis, vertices, progress))
 
 
 def sphere_mesh(axis: MedialAxis) -> SphereMesh:
-    """An axis as spheres with triangles and edges."""
+    """Convert an axis to spheres with triangles and edges."""
     triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
     return SphereMesh(
         np.ascontiguousarray(axis.vertices),
@@ -94,9 +94,10 @@ def sphere_mesh(axis: MedialAxis) -> SphereMesh:
 
 
 def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
-    """How far the solid of a reduced axis, its balls, cones and slabs, is from a surface, in both directions.
+    """Measure the distance between a surface and the solid of a reduced axis, its balls, cones and slabs.
 
-    Measured between points of both surfaces, those of the solid a 400th of the diagonal apart.
+    It is measured in both directions between points of both surfaces; those on the solid are a 400th of the diagonal
+    apart.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far two closed surfaces are from each other, measured in both directions."""
+"""The distance between two closed surfaces, measured in both directions."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..samples.shape import Shape
 
-SAMPLES = 100_000  # of each surface, besides its vertices
-# Of the plastic number: fractions of its multiples fill the square evenly (Roberts' R2 sequence).
+SAMPLES = 100_000  # the number of samples of each surface, besides its vertices
+# Powers of the plastic number: the fractional parts of their multiples fill the square evenly (Roberts' R2 sequence).
 _R2 = (0.7548776662466927, 0.5698402909980532)
 
 
 @dataclass(frozen=True)
 class SolidDifference:
-    """From one solid to another.
+    """The difference of two solids.
 
     Parameters
     ----------
     mean, largest : float
-        Distance of a point of one surface to the other, as a share of the diagonal of the first solid: the mean by
-        area, and the largest, of both directions the larger.
+        The distance of a point of one surface to the other, as a share of the diagonal of the first solid: the mean by
+        area, and the largest. The larger value of both directions counts.
     volume : float
-        That of the second as a multiple of the first.
+        The volume of the second solid as a multiple of the first.
     """
 
     mean: float
@@ -38,13 +38,13 @@ class SolidDifference:
 
 @dataclass(frozen=True)
 class PointDifference:
-    """Between a surface and a solid.
+    """The difference between a surface and a solid.
 
     Parameters
     ----------
     mean, largest : float
-        As shares of the diagonal of the surface: the mean distance of its points to the surface of the solid, by area,
-        and the largest of both directions.
+        Distances as shares of the diagonal of the surface: the mean distance of its points to the surface of the solid,
+        by area, and the largest distance in both directions.
     """
 
     mean: float
@@ -79,16 +79,16 @@ def difference_of_points(
     points: NDArray[np.float64],
     signed: Callable[[NDArray[np.float64]], NDArray[np.float64]],
 ) -> PointDifference:
-    """Compare a surface with a solid of which points on its surface and signed distances are known.
+    """Compare a surface with a solid that is given by points on its surface and signed distances.
 
     Parameters
     ----------
     shape : Shape
         The surface; only `points` and `triangles` are used.
     points : (k, 3) float64
-        On the surface of the solid, all over it.
+        Points all over the surface of the solid.
     signed : callable
-        (q, 3) queries -> (q,) distances to the solid, negative inside, where they may be too small.
+        Maps (q, 3) queries to (q,) distances from the solid, which are negative inside and may be too small there.
 
     Raises
     ------
@@ -114,7 +114,7 @@ def difference_of_points(
 
 
 def _distances(of: Shape, to: Shape) -> NDArray[np.float64]:
-    """(SAMPLES + v,) from samples of one surface and then its vertices to another surface."""
+    """(SAMPLES + v,) distances from samples of one surface, and then from its vertices, to another surface."""
     used = np.unique(of.triangles)
     queries = np.concatenate([_samples(of), of.points[used]])
     with own_errors() as module:

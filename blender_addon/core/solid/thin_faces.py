@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the measured surface back to the faces of the shape: which of its triangles speaks for which face."""
+"""The way from the measured surface back to the faces of the shape: the triangle that represents each face."""
 
 from __future__ import annotations
 
@@ -12,50 +12,77 @@ from ..machine import native
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .thickness import Measurement
+    from ..samples.shape import Shape
 
 
-def sample_triangle_of_faces(found: Measurement) -> NDArray[np.int32]:
-    """(m,) for each face of the shape the thinnest triangle of the measured surface that lies in it; for a face in
-    which none does, the thinnest at the sample next to its middle; -1 for all where there is no surface.
+def face_of_triangles(
+    triangles: NDArray[np.int32], at_edge: NDArray[np.bool_], faces: NDArray[np.int32] | None
+) -> NDArray[np.int32]:
+    """(f,) the face of the shape in which all corners of a measured triangle lie; -1 where there is none.
 
-    A triangle lies in a face when its corners do, those on sharp edges left aside, which lie in two. Triangles without
-    such corners come first.
+    Corners on sharp edges lie in two faces and do not count.
+
+    Parameters
+    ----------
+    triangles : (f, 3) int32
+        The measured surface, rows of the samples.
+    at_edge : (n,) bool
+        Samples on a sharp edge.
+    faces : (n,) int32 or None
+        The face on which each sample lies; -1 where there is none.
     """
-    shape = found.shape
-    faces = shape.triangles
-    if found.triangles is faces:
-        return np.arange(len(faces), dtype=np.int32)
-    thinnest = np.full(len(faces), -1, np.int32)
-    if not len(faces) or not len(found.triangles):
-        return thinnest
-    order = np.argsort(-found.of_triangles, kind="stable").astype(np.int32)  # the thinnest last
-    inside = _face_of_triangles(found)[order]
-    by_edge = found.at_edge[found.triangles[order]].any(axis=1)
-    for some in (
-        by_edge & (inside >= 0),
-        ~by_edge & (inside >= 0),
-    ):  # the better ones overwrite the others
-        thinnest[inside[some]] = order[some]
-    bare = np.flatnonzero(thinnest < 0)
-    at_sample = np.full(len(found.points), -1, np.int32)
-    at_sample[found.triangles[order]] = order[:, None]
-    middles = shape.points[faces[bare]].mean(axis=1)
-    used = np.flatnonzero(at_sample >= 0)
-    with native.own_errors() as module:
-        nearest = module.nearest(found.points[used], middles)
-    thinnest[bare] = at_sample[used[nearest]]
-    return thinnest
-
-
-def _face_of_triangles(found: Measurement) -> NDArray[np.int32]:
-    """(f,) the face in which all corners of a measured triangle lie; -1: none."""
-    samples = found.chosen.samples
-    if samples.faces is None:
-        return np.full(len(found.triangles), -1, np.int32)
-    face = samples.faces.astype(np.int64)
-    face[found.at_edge] = -1
-    corners = face[found.triangles]
+    if faces is None:
+        return np.full(len(triangles), -1, np.int32)
+    face = faces.astype(np.int64)
+    face[at_edge] = -1
+    corners = face[triangles]
     highest = corners.max(axis=1)
     same = (corners == highest[:, None]) | (corners < 0)
     return np.where(same.all(axis=1), highest, -1).astype(np.int32)
+
+
+def thinnest_of_faces(
+    shape: Shape,
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    lengths: NDArray[np.float64],
+    at_edge: NDArray[np.bool_],
+    inside: NDArray[np.int32],
+) -> NDArray[np.int32]:
+    """(m,) for each face of the shape the thinnest triangle of the measured surface that lies in it.
+
+    For a face without such a triangle it is the thinnest triangle at the sample nearest to the middle of the face, and
+    -1 for all faces where there is no measured surface. Triangles without corners on sharp edges are preferred.
+
+    Parameters
+    ----------
+    shape : Shape
+    points : (n, 3) float64
+        The samples.
+    triangles : (f, 3) int32
+        The measured surface, rows of the samples.
+    lengths : (f,) float64
+        The thickness of each triangle.
+    at_edge : (n,) bool
+        Samples on a sharp edge.
+    inside : (f,) int32
+        As `face_of_triangles` returns it.
+    """
+    faces = shape.triangles
+    thinnest = np.full(len(faces), -1, np.int32)
+    if not len(faces) or not len(triangles):
+        return thinnest
+    order = np.argsort(-lengths, kind="stable").astype(np.int32)  # the thinnest last
+    inside = inside[order]
+    by_edge = at_edge[triangles[order]].any(axis=1)
+    for some in (by_edge & (inside >= 0), ~by_edge & (inside >= 0)):
+        thinnest[inside[some]] = order[some]  # the preferred ones overwrite the others
+    bare = np.flatnonzero(thinnest < 0)
+    at_sample = np.full(len(points), -1, np.int32)
+    at_sample[triangles[order]] = order[:, None]
+    middles = shape.points[faces[bare]].mean(axis=1)
+    used = np.flatnonzero(at_sample >= 0)
+    with native.own_errors() as module:
+        nearest = module.nearest(points[used], middles)
+    thinnest[bare] = at_sample[used[nearest]]
+    return thinnest

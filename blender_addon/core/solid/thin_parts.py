@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What of a measured shape is thinner than a limit: patches, each with its place, area and minimum."""
+"""The parts of a measured shape that are thinner than a limit: patches with their place, area and minimum."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..machine import native
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .thickness import Measurement
+    from .measurement import Measurement
 
 
 @dataclass(frozen=True)
@@ -26,9 +26,10 @@ class Patch:
         The middle of its thinnest triangle, in the frame of the shape.
     area : float
     minimum : float
-        Its thinnest triangle, each of which is the median of three samples: no single sample decides.
+        The length of its thinnest triangle. The length of a triangle is a median of three samples, so no single sample
+        decides.
     lowest : float
-        Of its samples.
+        The smallest length of its samples.
     """
 
     place: tuple[float, float, float]
@@ -39,21 +40,21 @@ class Patch:
 
 @dataclass(frozen=True, eq=False)
 class ThinParts:
-    """What is thin of a measurement.
+    """The thin parts of a measurement.
 
     Parameters
     ----------
     limit : float
     patches : tuple of Patch
-        The thinnest first.
+        The thinnest patch comes first.
     patch_of_triangles : (f,) int32
-        Which of them each triangle of the measured surface is in; -1: none.
+        The patch of each triangle of the measured surface; -1 where there is none.
     patch_of_faces : (m,) int32
-        The same of the faces of the shape, as the triangle that speaks for each has it.
+        The patch of each face of the shape: that of the triangle that represents it.
     area : float
-        Of all patches.
+        The area of all patches.
     share : float
-        Of the surface.
+        Their share of the surface.
     """
 
     limit: float
@@ -67,14 +68,14 @@ class ThinParts:
 def find_thin_parts(
     found: Measurement, limit: float, minimum_patch: float | None = None
 ) -> ThinParts:
-    """The patches that are strictly thinner than a limit.
+    """Find the patches that are strictly thinner than a limit.
 
     Parameters
     ----------
     found : Measurement
     limit : float
     minimum_patch : float, optional
-        Percent of the area that a patch has at least; default that of the measurement.
+        The smallest patch that counts, in percent of the area; by default that of the measurement.
     """
     least = found.settings.minimum_patch if minimum_patch is None else minimum_patch
     thin = found.of_triangles < limit - found.slack
@@ -95,7 +96,7 @@ def find_thin_parts(
 def _kept(
     numbers: NDArray[np.int32], areas: NDArray[np.float64], least: float
 ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-    """Without the patches that are smaller than `least`."""
+    """Drop the patches that are smaller than `least`."""
     large = areas >= least
     renumbered = np.append(np.where(large, np.cumsum(large) - 1, -1), -1)
     return renumbered[numbers].astype(np.int32), areas[large]
@@ -104,11 +105,11 @@ def _kept(
 def _described(
     found: Measurement, numbers: NDArray[np.int32], areas: NDArray[np.float64]
 ) -> tuple[NDArray[np.int32], tuple[Patch, ...]]:
-    """The patches, the thinnest first, and their new numbers."""
+    """Return the new numbers of the patches, and the patches, the thinnest first."""
     inside = np.flatnonzero(numbers >= 0)
     by_value = inside[np.lexsort((inside, found.of_triangles[inside]))]
     order, first = np.unique(numbers[by_value], return_index=True)
-    thinnest = by_value[first]  # of each patch
+    thinnest = by_value[first]  # the thinnest triangle of each patch
     rank = np.argsort(first, kind="stable")  # patches by their thinnest triangle
     new = np.full(len(areas) + 1, -1, np.int32)
     new[order[rank]] = np.arange(len(rank))

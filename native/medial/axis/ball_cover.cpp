@@ -18,7 +18,7 @@ namespace {
 // Places of a lattice in the box of the solid, at most. An open surface asks for each of them.
 constexpr int64_t kMost = 1 << 24, kMostOpen = 1 << 20;
 constexpr double kPiece = 0.5;   // edges of pieces of the surface, in steps of the lattice
-constexpr int64_t kBalls = 256;  // of one piece of work
+constexpr int64_t kBallsOfTask = 256;  // of one piece of work
 
 void check(const BallCoverInput& input, const BallCoverOptions& options) {
   require_finite(input.centres, "centre");
@@ -75,7 +75,7 @@ std::vector<double> depths(std::span<const Vec3> centres, const Solid& solid, co
         const auto& winding = solid.winding;
         depth[i] = winding.is_inside(centres[i], winding.closed(centres[i])) ? away : -away;
       },
-      kBalls);
+      kBallsOfTask);
   return depth;
 }
 

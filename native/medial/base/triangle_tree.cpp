@@ -4,7 +4,7 @@
 namespace medial {
 namespace {
 
-constexpr int32_t kLeaf = 4;
+constexpr int32_t kLeafOfTree = 4;
 
 double squared_distance_to_segment(const Vec3& a, const Vec3& b, const Vec3& query) {
   const Vec3 along = b - a, away = query - a;
@@ -32,7 +32,7 @@ int32_t TriangleTree::build(int32_t begin, int32_t end) {
     }
   }
   nodes_.push_back(node);
-  if (end - begin <= kLeaf) return id;
+  if (end - begin <= kLeafOfTree) return id;
   const int axis = longest_axis(node.box.extent());
   const int32_t middle = begin + (end - begin) / 2;
   const auto key = [axis](const Corners& t) {

@@ -8,7 +8,7 @@
 namespace medial {
 namespace {
 
-constexpr int32_t kLeafTriangles = 4;
+constexpr int32_t kTrianglesOfLeaf = 4;
 
 Vec3 inverse(const Vec3& v) { return {1 / v.x, 1 / v.y, 1 / v.z}; }
 
@@ -75,7 +75,7 @@ int32_t RayCrossings::build(int32_t begin, int32_t end, const Progress* progress
   for (int32_t i = begin; i < end; ++i) {
     for (const Vec3& p : {corners_[i].a, corners_[i].b, corners_[i].c}) node.box.add(p);
   }
-  if (end - begin <= kLeafTriangles) return id;
+  if (end - begin <= kTrianglesOfLeaf) return id;
   const int32_t middle = split_in_half(corners_, begin, end);
   build(begin, middle, progress);
   const int32_t right = build(middle, end, progress);

@@ -10,7 +10,7 @@
 namespace medial {
 namespace {
 
-constexpr double kCovered = 0x1p-10;  // of the extent: what lies deeper is not on the surface
+constexpr double kShareCovered = 0x1p-10;  // of the extent: what lies deeper is not on the surface
 constexpr size_t kFitted = 1 << 16, kFittedPerSphere = 128;
 
 SphereMesh inward(const SphereMesh& mesh, const Unit& unit) {
@@ -26,7 +26,7 @@ std::vector<TangentPlace> uncovered(const SphereMesh& mesh, const std::vector<Ta
   return parallel_append<TangentPlace>(
       static_cast<int64_t>(places.size()), run,
       [&](int64_t i, auto& out, int) {
-        if (!envelope.covers(places[i].point, kCovered)) out.push_back(places[i]);
+        if (!envelope.covers(places[i].point, kShareCovered)) out.push_back(places[i]);
       },
       256);
 }

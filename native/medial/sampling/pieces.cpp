@@ -8,7 +8,7 @@
 namespace medial {
 namespace {
 
-constexpr int kMostCuts = 15;         // as many as a path holds
+constexpr int kMostDepth = 15;        // as many as a path holds
 constexpr double kLittleArea = 0.25;  // in squared spacings: a sample or less
 constexpr double kOneSpacing = 2;     // spacings that differ by less are one
 
@@ -52,7 +52,7 @@ class Cutter {
     const std::array<Vec3, 3> at{patch_.point(corners[0]), patch_.point(corners[1]),
                                  patch_.point(corners[2])};
     const double area = area_of(at);
-    if (spacing_.field && depth < kMostCuts && wider(at, 2 * spacing) &&
+    if (spacing_.field && depth < kMostDepth && wider(at, 2 * spacing) &&
         !(area < kLittleArea * spacing * spacing && even(at, spacing))) {
       return cut_into_quarters(path, corners, depth);
     }

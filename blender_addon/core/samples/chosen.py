@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The samples that a computation uses, the reasons for the choice, and the computation that goes on from them."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..machine.progress import Progress
+    from ..settings import SamplingMode
+    from .analysed import AnalysedSamples, Sides
+
+
+@dataclass(frozen=True, eq=False)
+class ChosenSamples:
+    """The samples that are used, and why these.
+
+    Parameters
+    ----------
+    samples : AnalysedSamples
+    sampling : SamplingMode
+        How the samples were made; never AUTOMATIC.
+    reason : str
+        A sentence for people.
+    sides : Sides
+        The source that decided between inside and outside, and why.
+    gaps : int
+        The number of edges at which the faces are open.
+    thinned : str
+        A sentence that explains why there are fewer samples than the settings ask for; or empty.
+    sparse : bool
+        The faces were sampled because their vertices are too few.
+    """
+
+    samples: AnalysedSamples
+    sampling: SamplingMode
+    reason: str
+    sides: Sides
+    gaps: int
+    thinned: str = ""
+    sparse: bool = False
+
+
+class OfChosenSamples:
+    """Gives a result that has `chosen` the number of samples it was computed from."""
+
+    chosen: ChosenSamples
+
+    @property
+    def points(self) -> int:
+        """The number of rows that were analysed, duplicates included."""
+        return len(self.chosen.samples.points)
+
+    @property
+    def duplicates(self) -> int:
+        """The number of these rows that were merged into an earlier row with the same coordinates."""
+        return int(self.chosen.samples.analysis.duplicates)
+
+
+@dataclass(frozen=True, eq=False)
+class Begun:
+    """A computation whose samples are analysed.
+
+    Parameters
+    ----------
+    chosen : ChosenSamples
+    progress : Progress
+        For the rest of the work.
+    start : float
+        The time of `time.perf_counter` at which the computation began.
+    """
+
+    chosen: ChosenSamples
+    progress: Progress
+    start: float
+
+    @property
+    def seconds(self) -> float:
+        """The time since the computation began."""
+        return time.perf_counter() - self.start

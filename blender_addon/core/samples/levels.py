@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The hierarchy of an analysis, kept for the thresholds that were used last (docs/hierarchy.md)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ..machine import native
+
+if TYPE_CHECKING:
+    from ..settings import Settings
+
+
+class Levels:
+    """The hierarchy of an analysis for the newest thresholds: computed when it is first needed, extracted often."""
+
+    def __init__(self) -> None:
+        self._newest: tuple[tuple[Any, ...], Any] | None = None
+
+    @property
+    def bytes(self) -> int:
+        """The memory that the hierarchy takes."""
+        newest = self._newest
+        return 0 if newest is None else int(newest[1].bytes)
+
+    def hierarchy(self, analysis: Any, settings: Settings, progress: Any | None) -> Any:
+        """Return the `_medial.Hierarchy` of an analysis, which must always be the same one.
+
+        Another thread may ask for other thresholds at the same time, so `_newest` is read once.
+
+        Parameters
+        ----------
+        analysis : _medial.MedialAnalysis
+        settings : Settings
+            Only `theta`, `rho`, `rule` and `criteria` matter.
+        progress : _medial.Progress or None
+
+        Raises
+        ------
+        OutOfMemoryError, Cancelled
+        """
+        thresholds = (settings.theta, settings.rho, settings.rule, settings.criteria)
+        newest = self._newest
+        if newest is not None and newest[0] == thresholds:
+            return newest[1]
+        newest = self._newest = None  # frees its memory before another hierarchy takes as much
+        with native.own_errors() as module:
+            hierarchy = analysis.hierarchy(
+                settings.theta,
+                settings.rho,
+                getattr(module.Rule, settings.rule.name),
+                getattr(module.Criteria, settings.criteria.name),
+                module.Side.INNER,
+                progress=progress,
+            )
+        self._newest = thresholds, hierarchy
+        return hierarchy

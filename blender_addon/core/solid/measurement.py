@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The measured thickness of a shape, before a limit decides which parts are thin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine import native
+from ..samples.surface_normals import cross
+from ..settings import Between, ThicknessSettings
+from .thin_faces import face_of_triangles, thinnest_of_faces
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..samples.chosen import ChosenSamples
+    from ..samples.shape import Shape
+
+# Coordinates may once have been float32, as all of Blender's are: lengths that differ by less are equal.
+_ROUNDING = 4 * float(np.finfo(np.float32).eps)
+
+
+@dataclass(frozen=True, eq=False)
+class Measurement:
+    """A measured shape; limits are applied later.
+
+    Parameters
+    ----------
+    shape : Shape
+    chosen : ChosenSamples
+    settings : ThicknessSettings
+        The settings of the measurement; the limit is not used here.
+    triangles : (f, 3) int32
+        The measured surface, rows of the samples.
+    lengths : (n,) float64
+        The thickness or the gap at each sample; infinite where there is no wall.
+    measured : (n,) bool
+        The length was measured at the sample itself; else it comes from the nearest sample, or is infinite.
+    at_edge : (n,) bool
+        The sample lies on a sharp edge.
+    normals : str
+        A sentence about the source of the normals.
+    noise : float
+        The standard deviation of the samples in spacings, 0 to 0.25.
+    warnings : tuple of str
+    seconds : float
+    key : str
+        The name of the measurement for `kept_measurement`.
+    """
+
+    shape: Shape
+    chosen: ChosenSamples
+    settings: ThicknessSettings
+    triangles: NDArray[np.int32]
+    lengths: NDArray[np.float64]
+    measured: NDArray[np.bool_]
+    at_edge: NDArray[np.bool_]
+    normals: str
+    noise: float
+    warnings: tuple[str, ...]
+    seconds: float
+    key: str = ""
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(n, 3) the samples."""
+        return self.chosen.samples.points
+
+    @cached_property
+    def of_triangles(self) -> NDArray[np.float64]:
+        """(f,) the median of the lengths at the corners, so that no single sample decides.
+
+        Where one or two corners lie on an edge, which belongs to two faces, it is no less than the largest length at
+        the other corners.
+        """
+        values, on_edge = self.lengths[self.triangles].T, self.at_edge[self.triangles].T
+        a, b, c = values
+        median = np.maximum(np.minimum(a, b), np.minimum(np.maximum(a, b), c))
+        mixed = on_edge.any(axis=0)
+        others = np.where(on_edge[:, mixed], -np.inf, values[:, mixed]).max(axis=0)
+        median[mixed] = np.maximum(median[mixed], others)
+        if self.settings.between is Between.GAP:  # no wall faces the corner of a solid
+            median[on_edge.all(axis=0)] = np.inf
+        return median
+
+    @cached_property
+    def areas(self) -> NDArray[np.float64]:
+        """(f,) the areas of the triangles."""
+        a, b, c = (self.points[self.triangles[:, corner]] for corner in range(3))
+        return np.linalg.norm(cross(b - a, c - a), axis=1) / 2
+
+    @cached_property
+    def minimum(self) -> float:
+        """The smallest length of all triangles; infinite where there is none."""
+        return float(self.of_triangles.min(initial=np.inf))
+
+    @cached_property
+    def slack(self) -> float:
+        """The rounding of the coordinates: a length is below a limit only if it differs by more than this."""
+        return _ROUNDING * float(np.abs(self.points).max(initial=0.0))
+
+    @cached_property
+    def of_vertices(self) -> NDArray[np.float64]:
+        """(v,) the length at each vertex of the shape, taken from the nearest sample."""
+        if len(self.points) == len(self.shape.points) and self.chosen.samples.kinds is None:
+            return self.lengths
+        with native.own_errors() as module:
+            return self.lengths[module.nearest(self.points, self.shape.points)]
+
+    @cached_property
+    def triangle_of_faces(self) -> NDArray[np.int32]:
+        """(m,) the triangle that represents each face of the shape, the thinnest one in it; -1 where there is none."""
+        samples = self.chosen.samples
+        if self.triangles is self.shape.triangles:
+            return np.arange(len(self.triangles), dtype=np.int32)
+        inside = face_of_triangles(self.triangles, self.at_edge, samples.faces)
+        return thinnest_of_faces(
+            self.shape, self.points, self.triangles, self.of_triangles, self.at_edge, inside
+        )
+
+    @property
+    def bytes(self) -> int:
+        arrays: tuple[NDArray, ...] = (
+            self.triangles,
+            self.lengths,
+            self.measured,
+            self.points,
+            self.shape.points,
+        )
+        return sum(x.nbytes for x in arrays) + 40 * len(self.triangles)
