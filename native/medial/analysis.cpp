@@ -5,7 +5,7 @@
 #include "axis/feature_size.h"
 #include "axis/medial_mesh.h"
 #include "axis/pole_balls.h"
-#include "axis/thickness.h"
+#include "thickness/thickness.h"
 #include "cocone/labelled_poles.h"
 #include "cocone/watertight_surface.h"
 #include "inside/pockets.h"

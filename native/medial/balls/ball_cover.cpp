@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/ball_cover.h"
+#include "balls/ball_cover.h"
 
 #include <string>
 
-#include "axis/ball_choice.h"
-#include "axis/ball_reach.h"
+#include "balls/ball_choice.h"
+#include "balls/ball_reach.h"
 #include "base/frame.h"
 #include "base/parallel.h"
 #include "base/rows.h"
