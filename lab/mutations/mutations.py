@@ -196,7 +196,7 @@ MUTATIONS = (
         "rho compares with the smallest circumradius",
     ),
     Mutation(
-        "axis/significance.cpp",
+        "axis/edge_ends.h",
         "result.sine_both[e] = std::min(at_p.sine, at_q.sine);",
         "result.sine_both[e] = std::max(at_p.sine, at_q.sine);",
         "the rule Both is content with one end",
@@ -245,30 +245,30 @@ MUTATIONS = (
     ),
     Mutation(
         "axis/selection.cpp",
-        "is_by_theta_or_rho(criteria) && !satisfies_angle(edge);",
-        "is_by_theta_or_rho(criteria);",
+        "wanted_.limit_set && !satisfies_angle(edge);",
+        "wanted_.limit_set;",
         "Definition 4 is asked of the Angle condition, too",
     ),
     Mutation(
-        "axis/selection.cpp",
-        "size(edge) >= length_;",
-        "size(edge) > length_;",
+        "rivals/size_selection.cpp",
+        "if (size(edge) < least_length_)",
+        "if (size(edge) <= least_length_)",
         "the length of lambda is exceeded, not reached",
     ),
     Mutation(
-        "axis/selection.cpp",
+        "rivals/size_selection.cpp",
         "largest = std::max(largest, radius);",
         "largest = radius;",
         "one ball alone is asked for its angle",
     ),
     Mutation(
-        "axis/pole_balls.cpp",
+        "rivals/pole_balls.cpp",
         "squared_length(v) > most)",
         "squared_length(v) > 2 * most)",
         "balls at poles are not the farthest",
     ),
     Mutation(
-        "delaunay/power_shape.cpp",
+        "rivals/power_shape.cpp",
         "return std::all_of(",
         "return std::any_of(",
         "one wanted ball is enough for a simplex of the power shape",
@@ -803,7 +803,7 @@ MUTATIONS = (
     ),
     # ---- all
     Mutation(
-        "analysis.cpp",
+        "analyse.cpp",
         "  if (surface.closed()) return SidesFrom::surface;",
         "  if (!surface.triangles.empty()) return SidesFrom::surface;",
         "open faces tell inside from outside unasked",
