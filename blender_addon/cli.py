@@ -25,14 +25,13 @@ from .core.batch.axis_work import AxisWork
 from .core.batch.batch import Item, Work, begin, failure, finish
 from .core.batch.frames import at_frame, has_number, output_path, parse_frames
 from .core.batch.option_words import (
-    add_limits,
     add_options,
     add_sampling,
-    add_skeleton_options,
     add_thickness,
     sampling_from,
     settings_from,
 )
+from .core.batch.outputs import Files
 from .core.errors import (
     Cancelled,
     DegenerateInputError,
@@ -48,7 +47,7 @@ from .core.files.write import FORMATS
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 from .core.machine.memory_limit import MemoryLimit
-from .core.settings import Settings, Side, SkeletonSettings, ThicknessSettings
+from .core.settings import BallSettings, Settings, Side, SkeletonSettings, ThicknessSettings
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
 CLOSED_PIPE = 128 + 13  # as shells say of a program that SIGPIPE ended
@@ -59,7 +58,7 @@ INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend a
 OUTPUT    a file (.ma .ply .obj .off .npz), or a folder; {name} is the object or the file, {file} the
           file, #### the frame.
 
-Lengths and no axes: medial_axis thickness --help; centre lines: medial_axis skeleton --help
+Other results: medial_axis thickness --help, medial_axis skeleton --help, medial_axis balls --help
 
 examples:
   medial_axis bunny.ply bunny.ma
@@ -111,13 +110,26 @@ exit codes:
 """
 
 
+_EXAMPLES_OF_BALLS = """\
+INPUT     as of medial_axis --help.
+OUTPUT    a file, or a folder; {name}, {file} and #### as there.
+          .ma    a vertex with its radius for each ball
+          .json  centres, radii, the covered volume, how far balls reach out
+
+examples:
+  medial_axis balls robot.stl robot.json --count 64 --mode around
+  medial_axis balls parts/*.stl balls/ --format ma
+  medial_axis balls walk.blend balls/{name}_####.json --frames 1-250 --object Body
+
+exit codes:
+  0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
+  141 nobody reads the results any more
+"""
+
+
 def main(words: Sequence[str]) -> int:
     """Run a command line; returns its exit code."""
     open_streams()
-    if words and words[0] == "balls":
-        from .cli_balls import main as balls  # it costs others nothing
-
-        return balls(words[1:])
     try:
         wanted = _parse(words)
     except SystemExit as end:  # of argparse, which has said why
@@ -128,7 +140,11 @@ def main(words: Sequence[str]) -> int:
         return FAILED
     with _interruptible():
         try:
+            _check_outputs(wanted)
             code = _run(_items(wanted), wanted, console)
+        except _UsageError as error:
+            console.complain(str(error))
+            return USAGE
         except KeyboardInterrupt:
             console.complain("cancelled")
             return CANCELLED
@@ -170,7 +186,7 @@ def _axis_parser() -> argparse.ArgumentParser:
     parser = _parser(
         "medial_axis", "The medial axis of meshes and point clouds, with radii.", _EXAMPLES
     )
-    add_options(parser.add_argument_group("method"))
+    add_options(parser.add_argument_group("method"), Settings)
     parser.add_argument_group("small medial mesh").add_argument(
         "--vertices",
         type=int,
@@ -229,7 +245,7 @@ def _skeleton_parser() -> argparse.ArgumentParser:
         "The curve skeletons of meshes and point clouds, with radii.",
         _EXAMPLES_OF_SKELETONS,
     )
-    add_skeleton_options(parser.add_argument_group("skeleton"))
+    add_options(parser.add_argument_group("skeleton"), SkeletonSettings)
     add_sampling(parser.add_argument_group("method"))
     _add_files(parser, [suffix[1:] for suffix in SKELETON_FORMATS], "json")
     parser.set_defaults(known=(*SKELETON_FORMATS,), work_from=_skeleton_work)
@@ -242,8 +258,29 @@ def _skeleton_work(wanted: argparse.Namespace) -> Work:
     return SkeletonWork(sampling_from(wanted), settings_from(wanted, SkeletonSettings))
 
 
-# By the first word, where no axes are wanted. What only one of them needs is imported when it is asked for.
-_PARSERS = {"thickness": _thickness_parser, "skeleton": _skeleton_parser}
+def _balls_parser() -> argparse.ArgumentParser:
+    from .core.files.write_balls import BALL_FORMATS
+
+    parser = _parser(
+        "medial_axis balls",
+        "Solids as few balls of their medial axes, for collisions, physics and robots.",
+        _EXAMPLES_OF_BALLS,
+    )
+    add_options(parser.add_argument_group("balls"), BallSettings)
+    add_sampling(parser.add_argument_group("method"))
+    _add_files(parser, [suffix[1:] for suffix in BALL_FORMATS], "json")
+    parser.set_defaults(known=(*BALL_FORMATS,), work_from=_balls_work)
+    return parser
+
+
+def _balls_work(wanted: argparse.Namespace) -> Work:
+    from .core.batch.balls_work import BallsWork
+
+    return BallsWork(sampling_from(wanted), settings_from(wanted, BallSettings))
+
+
+# The parsers by the first word of the command. Modules that only one of them needs are imported when it is used.
+_PARSERS = {"thickness": _thickness_parser, "skeleton": _skeleton_parser, "balls": _balls_parser}
 
 
 def _parser(name: str, description: str, epilog: str) -> argparse.ArgumentParser:
@@ -263,7 +300,7 @@ def _add_files(
     parser: argparse.ArgumentParser, formats: list[str], usual: str
 ) -> argparse._ArgumentGroup:
     """What all have in common; the group of the files, for more."""
-    add_limits(parser.add_argument_group("memory"))
+    add_options(parser.add_argument_group("memory"), MemoryLimit)
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
     files.add_argument(
@@ -346,12 +383,34 @@ def _is_still(path: str) -> bool:
 # --- what there is to do
 
 
+class _UsageError(Exception):
+    """Inputs and outputs do not fit together; nothing was computed."""
+
+
+def _check_outputs(wanted: argparse.Namespace) -> None:
+    """Check all outputs that are known before Blender loads a file: none is an input, and no two are the same."""
+    items = [
+        item for path in wanted.inputs if _is_file(path) for item in _items_of_file(path, wanted)
+    ]
+    files = Files([*wanted.inputs, *(item.input for item in items)])
+    try:
+        for item in items:
+            files.claim(item.output)
+    except InvalidInputError as error:
+        raise _UsageError(str(error)) from error
+
+
+def _is_file(path: str) -> bool:
+    """Whether a path is read as a file, without Blender."""
+    return Path(path).suffix.lower() in READERS or not inside_blender()
+
+
 def _items(wanted: argparse.Namespace) -> Iterator[Item]:
     """One after the other, for frames and files of Blender have to be loaded in between."""
     if not wanted.inputs:
         yield from _items_of_blender(None, wanted)
     for path in wanted.inputs:
-        if Path(path).suffix.lower() in READERS or not inside_blender():
+        if _is_file(path):
             yield from _items_of_file(path, wanted)
         else:
             yield from _items_of_blender(path, wanted)
@@ -413,17 +472,12 @@ def _raise(error: Exception) -> Any:
 
 def _run(items: Iterable[Item], wanted: argparse.Namespace, console: Console) -> int:
     """All items; one that fails, however it does, does not stop the others."""
-    code, thin, outputs = DONE, False, set()
+    code, thin, files = DONE, False, Files(wanted.inputs)
     for item in items:
         try:
-            if item.output in outputs:
-                raise InvalidInputError(
-                    f"Expected another output for each input, found '{item.output}' again; put "
-                    "{file} or {name} in OUTPUT"
-                )
+            files.claim(item.output)
             report = _done(item, wanted, console)
             thin |= bool(report.get("patches"))
-            outputs.add(item.output)
         except (KeyboardInterrupt, Cancelled):
             console.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
             return CANCELLED

@@ -101,6 +101,11 @@ def _said(report: dict[str, Any]) -> str:
     if "ends" in report:
         counts = (f"{report[what]:,} {what}" for what in ("branches", "ends", "loops"))
         return ", ".join(counts)
+    if "covered" in report:
+        return (
+            f"{report['count']:,} balls, {100 * report['covered']:.1f} % of the volume, "
+            f"{report['outside']:.4g} outside, surface at most {report['farthest']:.4g} away"
+        )
     unit = f" {report['unit']}" if report["unit"] else ""
     if report["minimum"] is None:
         return "no two walls face each other"

@@ -36,6 +36,7 @@ from .core.files.read_shape import read_shape
 from .core.files.write import export_axis
 from .core.files.write_balls import export_balls
 from .core.machine.progress import Progress
+from .core.options import Choice, Switch
 from .core.samples.shape import Shape
 from .core.settings import (
     ANALYSED,
@@ -43,7 +44,6 @@ from .core.settings import (
     OPTIONS,
     SAMPLING_OPTIONS,
     BallSettings,
-    Choice,
     CoverMode,
     Criteria,
     Form,
@@ -52,7 +52,6 @@ from .core.settings import (
     Settings,
     Side,
     SidesFrom,
-    Switch,
 )
 from .core.solid import ball_cover, reconstruction
 from .core.solid.ball_cover import BallCover, Balls

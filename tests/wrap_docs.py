@@ -18,7 +18,7 @@ WIDTH = 100
 # Below these marks scripts write.
 WRITTEN = ("<!-- Below this line stands what", "<!-- written by build_addon.py bench")
 ITEM = re.compile(r"\s*(?:[-*]|\d+\.) +")
-KEPT = re.compile(r"\s*\|.*\|\s*$|#|!\[|>|\s*(?:<!--|</?details|</?summary)")
+KEPT = re.compile(r"\s*\|.*\|\s*$|#|!\[|>|:::|\s*(?:<!--|</?details|</?summary)")
 WHOLE = re.compile(r"(`[^`]+`|\[[^\]\[]{0,60}\]\([^)\s]*\))")
 # At the beginning of a line these would be read as marks of lists, headings, quotes or tables.
 MARK = re.compile(r"[-+*=|·]|#+|>|\d+[.)]|\|.*")
@@ -73,7 +73,7 @@ def wrap(source: str) -> str:
     fenced = code = False
     for line in source[:cut].split("\n"):
         fence = line.lstrip().startswith("```")
-        begins = not paragraph and not (out and out[-1].strip())
+        begins = not paragraph and not (out and out[-1].strip() and not out[-1].startswith(":::"))
         code = line.startswith("    ") and not paragraph and (code or begins)
         if fenced or fence or code or not line.strip() or KEPT.match(line):
             out += [*wrapped(paragraph), line]

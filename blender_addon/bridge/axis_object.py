@@ -13,17 +13,15 @@ import numpy as np
 from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.axis.cut import pieces, within_box, without_small_pieces
 from ..core.axis.verdict import verdict
+from ..core.options import Choice, Integer, Switch
 from ..core.settings import (
     LOOKS,
     OPTIONS,
-    Choice,
     Criteria,
     Form,
-    Integer,
     Look,
     Settings,
     Side,
-    Switch,
 )
 from .attributes import RADIUS
 from .colours import colour_mesh, remember_colours
@@ -32,9 +30,7 @@ from .output_object import (
     DENSITY,
     SAMPLED,
     SECONDS,
-    check_mode,
-    new_object,
-    output_of,
+    Product,
     place,
     remember,
     replace_mesh,
@@ -65,18 +61,8 @@ TOPOLOGY = "ma_topology"  # the same in a sentence
 ALL = Look(within=0.0)
 
 
-def is_result(thing: bpy.types.Object) -> bool:
-    return thing.type == "MESH" and ANALYSIS in thing
-
-
-def result_of(source: bpy.types.Object) -> bpy.types.Object | None:
-    """The result that the next computation of this source updates."""
-    return output_of(source, is_result)
-
-
-def check_writable(source: bpy.types.Object) -> None:
-    """Raise InvalidInputError when the result of a source cannot be updated now."""
-    check_mode(result_of(source))
+RESULT = Product(SUFFIX, (ANALYSIS,))
+is_result, result_of, check_writable = RESULT.has, RESULT.of, RESULT.check_writable
 
 
 def write_result(
@@ -98,16 +84,12 @@ def write_result(
     InvalidInputError
         The result cannot be changed now, or Blender cannot hold it.
     """
-    result = result_of(source)
     box = _box(computation.chosen.samples.points)
     axis, settings = _shown(computation.axis, box, look), computation.settings
-    if result is None:
-        mesh = _axis_mesh(axis, look, source.name + SUFFIX)
-        mesh.materials.append(radius_material())
-        result = new_object(source, SUFFIX, mesh)
+    result, is_new = RESULT.write_mesh(source, partial(_axis_mesh, axis, look))
+    if is_new:
+        result.data.materials.append(radius_material())
         result.color = FLAT
-    else:
-        replace_mesh(result, partial(_axis_mesh, axis, look))
     place(result, frame)
     if result.get("ma_side") != settings.side.name:
         result.show_in_front = settings.side is Side.INNER  # it lies inside the surface

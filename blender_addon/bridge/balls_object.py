@@ -16,7 +16,7 @@ from ..core.settings import CoverMode
 from ..core.solid.ball_cover import Balls
 from .attributes import RADIUS, read_vectors
 from .nodes.groups import add_modifier
-from .output_object import check_mode, new_object, output_of, place, remember, replace_mesh
+from .output_object import Product, check_mode, place, remember
 from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from ..core.solid.ball_cover import BallCover
 
-SUFFIX = " Balls"
 MODE, COVERED = "ma_balls_mode", "ma_balls_covered"
 OUTSIDE, FARTHEST = "ma_balls_outside", "ma_balls_farthest"
 _WRITTEN = "ma_balls_written"  # names the balls that the figures are of
@@ -40,18 +39,8 @@ class _Vertices:
     face_vertices: NDArray[np.int32]
 
 
-def is_balls(thing: bpy.types.Object) -> bool:
-    return thing.type == "MESH" and MODE in thing
-
-
-def balls_of(source: bpy.types.Object) -> bpy.types.Object | None:
-    """The balls that the next ones of this source update."""
-    return output_of(source, is_balls)
-
-
-def check_balls_writable(source: bpy.types.Object) -> None:
-    """Raise InvalidInputError when the balls of a source cannot be updated now."""
-    check_mode(balls_of(source))
+BALLS = Product(" Balls", (MODE,))
+is_balls, balls_of, check_balls_writable = BALLS.has, BALLS.of, BALLS.check_writable
 
 
 def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -> bpy.types.Object:
@@ -73,12 +62,9 @@ def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -
     balls = found.balls
     none = np.zeros(1, np.int32)
     rows = _Vertices(balls.centres, balls.radii, none, none[:0])
-    thing = balls_of(source)
-    if thing is None:
-        thing = new_object(source, SUFFIX, new_mesh(rows, source.name + SUFFIX, (RADIUS,)))
+    thing, is_new = BALLS.write_mesh(source, partial(new_mesh, rows, table=(RADIUS,)))
+    if is_new:
         add_modifier(thing, "BALLS")
-    else:
-        replace_mesh(thing, partial(new_mesh, rows, table=(RADIUS,)))
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[MODE], thing[COVERED] = balls.mode.name, balls.covered

@@ -8,6 +8,7 @@ to the source.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import bpy
@@ -55,6 +56,50 @@ def output_of(
     return min(found, key=lambda thing: thing.name, default=None)
 
 
+@dataclass(frozen=True)
+class Product:
+    """One kind of object that is made of a source: how it is found, made and updated.
+
+    Parameters
+    ----------
+    suffix : str
+        The name of the object is the name of its source and this.
+    marks : tuple of str
+        Custom properties that objects of this kind, and no others, have.
+    type : str
+        Blender's type of these objects.
+    """
+
+    suffix: str
+    marks: tuple[str, ...]
+    type: str = "MESH"
+
+    def has(self, thing: bpy.types.Object) -> bool:
+        """Whether an object is of this kind."""
+        return thing.type == self.type and all(mark in thing for mark in self.marks)
+
+    def of(self, source: bpy.types.Object) -> bpy.types.Object | None:
+        """The object of this kind that the next computation of a source updates."""
+        return output_of(source, self.has)
+
+    def check_writable(self, source: bpy.types.Object) -> None:
+        """Raise InvalidInputError when the object that was made of a source cannot be updated now."""
+        check_mode(self.of(source))
+
+    def write_mesh(
+        self, source: bpy.types.Object, build: Callable[[str], bpy.types.Mesh]
+    ) -> tuple[bpy.types.Object, bool]:
+        """Make the object of a source or give it another mesh, all or nothing; and whether it is new.
+
+        `build` makes the mesh from its name.
+        """
+        thing = self.of(source)
+        if thing is None:
+            return new_object(source, self.suffix, build(source.name + self.suffix)), True
+        replace_mesh(thing, build)
+        return thing, False
+
+
 def check_mode(output: bpy.types.Object | None) -> None:
     """Raise InvalidInputError when an object that was made before cannot be updated now."""
     if output is not None and output.mode != "OBJECT":
@@ -96,7 +141,8 @@ def place(output: bpy.types.Object, frame: np.ndarray) -> None:
 def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wanted: bool) -> None:
     """Make an object that has just been placed a child of its source, or its own master again.
 
-    What an artist made it a child of stays its parent. On a source that is flat, nothing can hang.
+    What an artist made it a child of stays its parent. On a source that is flat, nothing can hang; a curve whose path
+    is animated would carry its children along that path.
 
     Parameters
     ----------
@@ -108,13 +154,28 @@ def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wa
     frame = output.matrix_world.copy()
     if output.parent == source and not wanted:
         output.parent = None
-    elif wanted and output.parent in (None, source) and world.determinant() != 0.0:
+    elif wanted and output.parent in (None, source) and _can_carry(source, world):
         output.parent = source
         output.matrix_parent_inverse = world.inverted()
     else:
         return
     output.matrix_basis = frame
     output.scale = (1.0, 1.0, 1.0)
+    if output.parent is not None and source.type == "CURVE":
+        _undo_path(output, frame, world)
+
+
+def _can_carry(source: bpy.types.Object, world: Matrix) -> bool:
+    animated = source.type == "CURVE" and source.data.use_path and source.data.animation_data
+    return world.determinant() != 0.0 and not animated
+
+
+def _undo_path(output: bpy.types.Object, frame: Matrix, world: Matrix) -> None:
+    """Blender carries the children of a curve to the start of its path; take that back."""
+    bpy.context.view_layer.update()
+    carried = output.matrix_world @ frame.inverted() @ world
+    if carried.determinant() != 0.0:
+        output.matrix_parent_inverse = carried.inverted()
 
 
 def remember(

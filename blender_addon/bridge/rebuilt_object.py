@@ -20,31 +20,25 @@ from ..core.solid.solid_difference import SolidDifference, solid_difference
 from .axis_object import radius_range, settings_of
 from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
-from .output_object import SOURCE, is_gone, new_object, output_of, source_of
+from .output_object import SOURCE, Product, is_gone, new_object, source_of
 from .read_object import read_object
 from .reduced_object import is_reduced
 
 if TYPE_CHECKING:
     from ..core.samples.shape import Shape
 
-SUFFIX = " Rebuilt"
 REBUILT = "ma_rebuilt"  # marks the object
 MEAN, LARGEST, VOLUME = "ma_rebuilt_mean", "ma_rebuilt_largest", "ma_rebuilt_volume"
 _PARTS = 256  # voxels along the diagonal
 
 
-def is_rebuilt(thing: bpy.types.Object) -> bool:
-    return thing.type == "MESH" and REBUILT in thing
+SOLID = Product(" Rebuilt", (REBUILT,))
+is_rebuilt, rebuilt_of = SOLID.has, SOLID.of
 
 
 def unrebuilt(thing: bpy.types.Object | None) -> bpy.types.Object | None:
     """What a rebuilt solid was made of; any other object as it is."""
     return source_of(thing) if thing is not None and is_rebuilt(thing) else thing
-
-
-def rebuilt_of(result: bpy.types.Object) -> bpy.types.Object | None:
-    """The solid that was rebuilt of a result."""
-    return output_of(result, is_rebuilt)
 
 
 def modifier_of(rebuilt: bpy.types.Object) -> bpy.types.NodesModifier | None:
@@ -71,7 +65,7 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
     found = rebuilt_of(result)
     if found is not None:
         return found
-    made = new_object(result, SUFFIX, result.data)
+    made = new_object(result, SOLID.suffix, result.data)
     made.matrix_world = result.matrix_world
     made[REBUILT], made[SOURCE] = True, result
     voxel = _diagonal(result) / _PARTS

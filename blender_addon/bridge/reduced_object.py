@@ -11,32 +11,18 @@ import bpy
 from .. import __version__
 from ..core.settings import Side
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
-from .output_object import (
-    SOURCE,
-    VERSION,
-    check_mode,
-    new_object,
-    output_of,
-    replace_mesh,
-    source_of,
-)
+from .output_object import SOURCE, VERSION, Product, source_of
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
 if TYPE_CHECKING:
     from ..core.axis.medial_axis import MedialAxis
 
-SUFFIX = " Small Mesh"
 REDUCED = "ma_reduced"  # the number of vertices that was asked for; marks the object
 
 
-def is_reduced(thing: bpy.types.Object) -> bool:
-    return thing.type == "MESH" and REDUCED in thing
-
-
-def reduced_of(source: bpy.types.Object) -> bpy.types.Object | None:
-    """The small medial mesh that the next one of this source updates."""
-    return output_of(source, is_reduced)
+REDUCED_MESH = Product(" Small Mesh", (REDUCED,))
+is_reduced, reduced_of = REDUCED_MESH.has, REDUCED_MESH.of
 
 
 def check_reduced_writable(result: bpy.types.Object) -> None:
@@ -46,7 +32,7 @@ def check_reduced_writable(result: bpy.types.Object) -> None:
     ------
     InvalidInputError
     """
-    check_mode(reduced_of(source_of(result) or result))
+    REDUCED_MESH.check_writable(source_of(result) or result)
 
 
 def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> bpy.types.Object:
@@ -67,15 +53,10 @@ def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> 
         The object cannot be changed now, or Blender cannot hold it.
     """
     source = source_of(result) or result
-    thing = reduced_of(source)
-    check_mode(thing)
-    if thing is None:
-        mesh = new_axis_mesh(axis, source.name + SUFFIX)
-        mesh.materials.append(radius_material())
-        thing = new_object(source, SUFFIX, mesh)
+    thing, is_new = REDUCED_MESH.write_mesh(source, partial(new_axis_mesh, axis))
+    if is_new:
+        thing.data.materials.append(radius_material())
         thing.color, thing.show_in_front = FLAT, True  # it lies inside the surface
-    else:
-        replace_mesh(thing, partial(new_axis_mesh, axis))
     thing.matrix_world = result.matrix_world
     show_wires(thing, axis)
     _remember(thing, source, axis, vertices)

@@ -13,6 +13,7 @@ from mathutils.kdtree import KDTree
 from ..core.errors import InvalidInputError
 from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
+from .evaluated_rows import keeps_rows
 from .feature_size import write_feature_size
 from .material import FLAT, LIMIT, epsilon_material
 from .output_object import (
@@ -22,12 +23,9 @@ from .output_object import (
     SAMPLED,
     SOURCE,
     WARNINGS,
-    check_mode,
-    new_object,
-    output_of,
+    Product,
     place,
     remember,
-    replace_mesh,
 )
 from .write_mesh import new_mesh
 
@@ -36,7 +34,6 @@ if TYPE_CHECKING:
 
     from ..core.samples.sampling_report import SamplingReport
 
-SUFFIX = " Sampling"
 MEDIAN = "ma_epsilon_median"
 P95 = "ma_epsilon_p95"
 SHARE = "ma_epsilon_share"
@@ -48,24 +45,13 @@ _ENOUGH = 0.25
 _SCALE = 2.0  # where the colours end, in limits
 
 
-def is_report(thing: bpy.types.Object) -> bool:
-    """Whether this is an object that was made for a report."""
-    return thing.type == "MESH" and SHARE in thing and SOURCE in thing
+REPORT = Product(" Sampling", (SHARE, SOURCE))
+is_report, report_of, check_report_writable = REPORT.has, REPORT.of, REPORT.check_writable
 
 
 def has_report(thing: bpy.types.Object) -> bool:
-    """Whether this is such an object, or a source that carries its report itself."""
+    """Whether this is a report, or a source that carries its report itself."""
     return thing.type == "MESH" and SHARE in thing
-
-
-def report_of(source: bpy.types.Object) -> bpy.types.Object | None:
-    """The report that the next one of this source updates."""
-    return output_of(source, is_report)
-
-
-def check_report_writable(source: bpy.types.Object) -> None:
-    """Raise InvalidInputError when the report of a source cannot be updated now."""
-    check_mode(report_of(source))
 
 
 def write_report(
@@ -88,16 +74,11 @@ def write_report(
     InvalidInputError
         The report cannot be changed now, or Blender cannot hold it.
     """
-    report = report_of(source)
-    build = partial(_report_mesh, found, colours)
-    if report is None:
-        mesh = build(source.name + SUFFIX)
-        mesh.materials.append(epsilon_material())
-        report = new_object(source, SUFFIX, mesh)
+    report, is_new = REPORT.write_mesh(source, partial(_report_mesh, found, colours))
+    if is_new:
+        report.data.materials.append(epsilon_material())
         report.color = FLAT
         report.show_in_front = True  # it lies exactly on its source
-    else:
-        replace_mesh(report, build)
     place(report, frame)
     analysis = found.chosen.samples.analysis
     remember(report, source, len(found.vertices), analysis.duplicates, found.warnings)
@@ -152,7 +133,8 @@ def shows_well(source: bpy.types.Object, found: SamplingReport) -> bool:
     except InvalidInputError:
         return False
     vertices = len(source.data.vertices)
-    return vertices == len(found.shape.points) and vertices >= _ENOUGH * len(found.vertices)
+    enough = vertices == len(found.shape.points) and vertices >= _ENOUGH * len(found.vertices)
+    return enough and keeps_rows(source)
 
 
 def write_on_source(
@@ -172,6 +154,11 @@ def write_on_source(
         raise InvalidInputError(
             f"Expected as many vertices with modifiers as without for Write To Source, found "
             f"{vertices:,} and {original:,}; apply the modifiers, or choose Write To Copy"
+        )
+    if not keeps_rows(source):
+        raise InvalidInputError(
+            "Expected modifiers that keep the order of vertices for Write To Source, found some that "
+            "change it; apply the modifiers, or choose Write To Copy"
         )
     values = _on_vertices(found)
     set_attribute(source.data, EPSILON.name, EPSILON.type, EPSILON.domain, values)

@@ -11,8 +11,9 @@ import numpy as np
 from ..core.errors import InvalidInputError
 from ..core.samples.nearness import nearest
 from .attributes import set_attribute
+from .evaluated_rows import row_of_vertices
 from .mesh_arrays import read_polygons, read_positions
-from .output_object import check_mode, new_object, output_of, place, remember
+from .output_object import Product, check_mode, new_object, place, remember
 from .read_object import split_transform
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from ..core.skeleton.compute import Skeletonization
     from ..core.skeleton.skeleton import Skeleton
 
-SUFFIX = " Skeleton"
 ENDS = "ma_ends"
 LOOPS = "ma_loops"
 BRANCHES = "ma_branches"
@@ -30,18 +30,12 @@ MIRRORED = "ma_mirrored"
 PART = "ma_part"
 
 
-def is_skeleton(thing: bpy.types.Object) -> bool:
-    return thing.type == "CURVE" and ENDS in thing
-
-
-def skeleton_of(source: bpy.types.Object) -> bpy.types.Object | None:
-    """The skeleton that the next one of this source updates."""
-    return output_of(source, is_skeleton)
-
-
-def check_skeleton_writable(source: bpy.types.Object) -> None:
-    """Raise InvalidInputError when the skeleton of a source cannot be updated now."""
-    check_mode(skeleton_of(source))
+SKELETON = Product(" Skeleton", (ENDS,), type="CURVE")
+is_skeleton, skeleton_of, check_skeleton_writable = (
+    SKELETON.has,
+    SKELETON.of,
+    SKELETON.check_writable,
+)
 
 
 def write_skeleton(
@@ -66,7 +60,7 @@ def write_skeleton(
     check_mode(thing)
     check_size(found.skeleton)
     if thing is None:
-        thing = new_object(source, SUFFIX, new_curve(source.name + SUFFIX))
+        thing = new_object(source, SKELETON.suffix, new_curve(source.name + SKELETON.suffix))
         thing.show_in_front = True  # it lies inside the surface
     fill_curve(thing.data, found.skeleton)
     place(thing, frame)
@@ -120,9 +114,10 @@ def _add_spline(
 
 def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> NDArray[np.int64]:
     """(v,) the point of the shape for each vertex of a mesh: its own, or the nearest where modifiers make others."""
-    count = len(source.data.vertices)
-    if count == len(shape.points):
-        return np.arange(count)
+    if len(source.data.vertices) == len(shape.points):
+        rows = row_of_vertices(source)
+        if rows is not None:
+            return rows
     _, rest = split_transform(np.array(source.matrix_world, np.float64))
     return nearest(read_positions(source.data) @ rest.T, shape.points)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from .output_object import check_mode, new_object, output_of, place, remember, replace_mesh
+from .output_object import Product, place, remember
 from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
@@ -16,25 +16,14 @@ if TYPE_CHECKING:
 
     from ..core.solid.reconstruction import Reconstruction
 
-SUFFIX = " Surface"
 OFF_SURFACE = "ma_off_surface"
 NONMANIFOLD_EDGES = "ma_nonmanifold_edges"
 NONMANIFOLD_VERTICES = "ma_nonmanifold_vertices"
 CAVITIES = "ma_cavities"
 
 
-def is_surface(thing: bpy.types.Object) -> bool:
-    return thing.type == "MESH" and OFF_SURFACE in thing
-
-
-def surface_of(source: bpy.types.Object) -> bpy.types.Object | None:
-    """The surface that the next reconstruction of this source updates."""
-    return output_of(source, is_surface)
-
-
-def check_surface_writable(source: bpy.types.Object) -> None:
-    """Raise InvalidInputError when the surface of a source cannot be updated now."""
-    check_mode(surface_of(source))
+SURFACE = Product(" Surface", (OFF_SURFACE,))
+is_surface, surface_of, check_surface_writable = SURFACE.has, SURFACE.of, SURFACE.check_writable
 
 
 def write_surface(
@@ -55,11 +44,7 @@ def write_surface(
     InvalidInputError
         The surface cannot be changed now, or Blender cannot hold it.
     """
-    surface = surface_of(source)
-    if surface is None:
-        surface = new_object(source, SUFFIX, new_mesh(found, source.name + SUFFIX))
-    else:
-        replace_mesh(surface, partial(new_mesh, found))
+    surface, _ = SURFACE.write_mesh(source, partial(new_mesh, found))
     place(surface, frame)
     remember(surface, source, found.points, found.duplicates, found.warnings)
     surface[OFF_SURFACE] = found.off_surface

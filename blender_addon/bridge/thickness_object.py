@@ -19,6 +19,7 @@ from ..core.solid.thickness_colours import colour_limits, coloured
 from ..core.solid.thin_parts import ThinParts
 from .attributes import as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
+from .evaluated_rows import keeps_rows
 from .material import FLAT
 from .mesh_arrays import read_loop_triangles
 from .output_object import (
@@ -26,13 +27,11 @@ from .output_object import (
     SECONDS,
     SOURCE,
     WARNINGS,
+    Product,
     check_mode,
     is_gone,
-    new_object,
-    output_of,
     place,
     remember,
-    replace_mesh,
     source_of,
 )
 from .write_mesh import new_mesh
@@ -40,7 +39,6 @@ from .write_mesh import new_mesh
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-SUFFIX = " Thickness"
 THICKNESS, THIN = "ma_thickness", "ma_thin"
 KEY = "ma_thickness_key"  # names the measurement
 MINIMUM = "ma_thickness_minimum"
@@ -53,6 +51,7 @@ PATCHES = "ma_thickness_patches"  # how many
 # Of the thinnest patches, as many as one goes through: x, y, z in the carrier's own frame, area, minimum of each.
 PLACES = "ma_thickness_places"
 LEAST = "ma_thickness_place"  # x, y, z of the minimum
+ON_SOURCE = "ma_thickness_on_source"  # whether the source has the attributes, too
 CURRENT = "ma_thickness_current"  # the patch that was framed last; -1: none
 _MOST_PLACES = 1000
 # A source with at least this many vertices for each sample shows its thickness.
@@ -70,9 +69,9 @@ def is_carrier(thing: bpy.types.Object) -> bool:
     return thing.type == "MESH" and KEY in thing
 
 
-def is_copy(thing: bpy.types.Object) -> bool:
-    """Whether this is an object that was made to show thickness."""
-    return is_carrier(thing) and SOURCE in thing
+# An object that was made to show thickness; a source that carries its thickness itself is none.
+COPY = Product(" Thickness", (KEY, SOURCE))
+is_copy = COPY.has
 
 
 def carrier_of(thing: bpy.types.Object | None) -> bpy.types.Object | None:
@@ -81,12 +80,12 @@ def carrier_of(thing: bpy.types.Object | None) -> bpy.types.Object | None:
         return None
     if is_copy(thing):
         return thing
-    return output_of(thing, is_copy) or (thing if is_carrier(thing) else None)
+    return COPY.of(thing) or (thing if is_carrier(thing) else None)
 
 
 def check_thickness_writable(source: bpy.types.Object) -> None:
     """Raise InvalidInputError when thickness of a source cannot be written now."""
-    check_mode(output_of(source, is_copy))
+    COPY.check_writable(source)
     if source.type == "MESH" and source.data.library is None:
         check_mode(source)
 
@@ -105,17 +104,17 @@ def write_thickness(
     frame : (4, 4) float64
         Where the shape lies in the world.
     """
-    own = _has_own(source, found)
+    own = _has_own(source, found) and keeps_rows(source)
     if own:
         _write_attributes(source.data, found.of_vertices)
-    copy = output_of(source, is_copy)
-    dense = len(source.data.vertices) >= _ENOUGH * len(found.points)
-    if own and copy is None and dense and len(found.shape.triangles):
+    dense = own and len(source.data.vertices) >= _ENOUGH * len(found.points)
+    if dense and COPY.of(source) is None and len(found.shape.triangles):
         carrier = source
         local = np.linalg.inv(np.array(source.matrix_world, np.float64)) @ frame
     else:
-        carrier, local = _write_copy(source, copy, found, frame), np.identity(4)
+        carrier, local = _write_copy(source, found, frame), np.identity(4)
     _remember(carrier, found, local)
+    carrier[ON_SOURCE] = own
     show_limit(carrier, found, parts)
     return carrier
 
@@ -124,7 +123,7 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
     """Flags, colours and figures for a limit, on the carrier and on its source; neither may be in edit mode."""
     on_copy = is_copy(carrier)
     source = source_of(carrier) if on_copy else carrier
-    if not is_gone(source) and _has_own(source, found):
+    if not is_gone(source) and carrier.get(ON_SOURCE, True) and _has_own(source, found):
         set_attribute(source.data, THIN, "BOOLEAN", "FACE", _thin_polygons(source.data, parts))
         source.data.update()
     lengths = found.of_vertices
@@ -142,7 +141,7 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
 
 
 def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
-    """Whether the vertices and faces of a source are those that were measured, and can be written."""
+    """Whether a source has as many vertices and faces as were measured, and can be written."""
     if source.type != "MESH" or source.data.library is not None or source.mode != "OBJECT":
         return False
     mesh = source.data
@@ -164,18 +163,12 @@ def _write_attributes(mesh: bpy.types.Mesh, lengths: NDArray[np.float64]) -> Non
 
 
 def _write_copy(
-    source: bpy.types.Object,
-    copy: bpy.types.Object | None,
-    found: Measurement,
-    frame: NDArray[np.float64],
+    source: bpy.types.Object, found: Measurement, frame: NDArray[np.float64]
 ) -> bpy.types.Object:
-    build = partial(_copy_mesh, found)
-    if copy is None:
-        copy = new_object(source, SUFFIX, build(source.name + SUFFIX))
+    copy, is_new = COPY.write_mesh(source, partial(_copy_mesh, found))
+    if is_new:
         copy.color = FLAT
         copy.show_in_front = True  # it lies on its source
-    else:
-        replace_mesh(copy, build)
     place(copy, frame)
     duplicates = found.chosen.samples.analysis.duplicates
     remember(copy, source, len(found.points), duplicates, found.warnings)

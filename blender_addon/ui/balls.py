@@ -16,7 +16,7 @@ from ..bridge.balls_object import (
 )
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis
-from ..core.settings import BALL_OPTIONS, LOOKS, BallSettings, CoverMode
+from ..core.settings import BALL_OPTIONS, LOOKS, OPTIONS, BallSettings
 from ..core.solid.ball_cover import cover_by_balls
 from . import current_job
 from .compute_operator import ComputeOperator
@@ -24,30 +24,21 @@ from .figures import length_text
 from .preferences import memory_limit
 from .properties import (
     SamplingProperties,
-    choice,
-    choice_of,
     copy_settings,
     draw_sampling,
-    integer_of,
-    number,
+    prop,
     settings_from,
-    switch,
+    with_options,
 )
 from .translation import say
 
 
+@with_options(BALL_OPTIONS)
 class BallProperties:
-    """How many balls, and what they promise."""
-
-    count: integer_of(BALL_OPTIONS["count"])
-    mode: choice_of(BALL_OPTIONS["mode"])
+    """The number of balls, and what they promise."""
 
 
-def ball_settings(properties) -> BallSettings:
-    """Properties of an operator -> BallSettings."""
-    return BallSettings(properties.count, CoverMode[properties.mode])
-
-
+@with_options({name: OPTIONS[name] for name in ("theta", "rho", "sides", "rule", "criteria")})
 class OBJECT_OT_medial_axis_balls(
     ComputeOperator, SamplingProperties, BallProperties, bpy.types.Operator
 ):
@@ -61,12 +52,7 @@ class OBJECT_OT_medial_axis_balls(
     product = "balls"
     check_writable = staticmethod(check_balls_writable)
 
-    theta: number("theta")
-    rho: number("rho")
-    sides: choice("sides")
-    rule: choice("rule")
-    criteria: choice("criteria")
-    parent: switch("parent", of=LOOKS)
+    parent: prop(LOOKS["parent"])
 
     def draw(self, _context):
         self.layout.use_property_split = True
@@ -75,7 +61,7 @@ class OBJECT_OT_medial_axis_balls(
         draw_sampling(self.layout.box().column(), self)
 
     def work(self, shape):
-        wanted = ball_settings(self)
+        wanted = settings_from(self, BallSettings)
         return partial(cover_by_balls, shape, settings_from(self), wanted, limit=memory_limit())
 
     def write(self, thing, found, frame):
@@ -119,7 +105,7 @@ class VIEW3D_PT_medial_axis_balls(bpy.types.Panel):
         if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
             button = self.layout.operator("object.medial_axis_balls", icon="META_BALL")
             copy_settings(context.scene.medial_axis, button)
-            button.count, button.mode = settings.count, settings.mode
+            copy_settings(settings, button, BALL_OPTIONS)
         if (thing := _shown(context)) is not None:
             _draw_figures(context, self.layout.column(align=True), thing)
 

@@ -18,14 +18,13 @@ from ..core.batch.frames import output_path, parse_frames
 from ..core.batch.skeleton_work import SkeletonWork
 from ..core.errors import Cancelled, InvalidInputError, MedialAxisError
 from ..core.machine.job import run_task
-from ..core.settings import SamplingMode
+from ..core.settings import SamplingMode, SkeletonSettings
 from . import current_job
 from .compute_operator import FromSelection
 from .paths import chosen_files
 from .preferences import memory_limit
 from .properties import settings_from
 from .selected_sources import has_faces, sources
-from .skeleton_operators import skeleton_settings
 from .tab import Closed
 from .translation import IN_CONTEXT, say
 
@@ -137,7 +136,9 @@ class OBJECT_OT_medial_axis_sequence(FromSelection, bpy.types.Operator):
         settings = _faster(settings) if self.fast and has_faces(thing) else settings
         if self.of == "AXES":
             return AxisWork(settings)
-        return SkeletonWork(settings, skeleton_settings(context.scene.medial_axis_skeleton))
+        return SkeletonWork(
+            settings, settings_from(context.scene.medial_axis_skeleton, SkeletonSettings)
+        )
 
     def _frames(self, scene):
         whole = f"{scene.frame_start}-{scene.frame_end}:{scene.frame_step}"

@@ -21,7 +21,7 @@ from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode
 from ..core.solid.ball_cover import cover_by_balls
 from .paths import RELATIVE
 from .preferences import memory_limit
-from .properties import choice_of
+from .properties import prop
 from .translation import say
 
 _LABELS = {suffix: known.label for suffix, known in FORMATS.items()} | {
@@ -56,7 +56,7 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
         soft_max=BALL_OPTIONS["count"].soft_maximum,
         max=BALL_OPTIONS["count"].maximum,
     )
-    mode: choice_of(BALL_OPTIONS["mode"])
+    mode: prop(BALL_OPTIONS["mode"])
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

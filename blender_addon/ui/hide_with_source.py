@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Watches whether a source is hidden or shown, by whatever means, and lets its medial axis follow."""
+"""Hides a medial axis with its source, for those who switch this on in the preferences.
+
+Blender hides no children, so this needs handlers that run after every change of every scene. They are registered only
+while the preference is on.
+"""
 
 import bpy
 from bpy.app.handlers import persistent
 
 from ..bridge.hidden_with_source import hide_with_sources
+from .preferences import wants_hiding
 
 
 @persistent
@@ -33,11 +38,18 @@ def _handlers():
     )
 
 
-def register():
+def switch(on):
+    """Register the handlers, or remove them."""
     for handlers, function in _handlers():
-        handlers.append(function)
+        if function in handlers:
+            handlers.remove(function)
+        if on:
+            handlers.append(function)
+
+
+def register():
+    switch(wants_hiding())
 
 
 def unregister():
-    for handlers, function in _handlers():
-        handlers.remove(function)
+    switch(False)

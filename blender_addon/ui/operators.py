@@ -18,27 +18,23 @@ from ..bridge.report_object import (
 from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
 from ..core.axis.compute import compute_axis
 from ..core.samples.sampling_report import report_sampling
-from ..core.settings import LOOKS, OPTIONS, SAMPLING_OPTIONS, Form, applies_to_form
+from ..core.settings import LOOKS, OPTIONS, SAMPLING_OPTIONS, Form, Look, applies_to_form
 from ..core.solid.reconstruction import reconstruct
 from . import current_job
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
 from .properties import (
-    LookProperties,
     SamplingProperties,
-    choice,
     draw_sampling,
-    look_from,
-    number,
+    prop,
     settings_from,
-    switch,
+    with_options,
 )
 from .translation import say
 
 
-class OBJECT_OT_medial_axis(
-    ComputeOperator, SamplingProperties, LookProperties, bpy.types.Operator
-):
+@with_options(OPTIONS | LOOKS)
+class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
     """Compute the medial axis of the selected objects, with the radius at every point"""
 
     bl_idname = "object.medial_axis"
@@ -47,18 +43,6 @@ class OBJECT_OT_medial_axis(
 
     product = "medial axis"
     check_writable = staticmethod(check_writable)
-
-    form: choice("form")
-    simplify: number("simplify")
-    erode: number("erode")
-    limb: number("limb")
-    theta: number("theta")
-    rho: number("rho")
-    side: choice("side")
-    sides: choice("sides")
-    rule: choice("rule")
-    criteria: choice("criteria")
-    limit_set: switch("limit_set")
 
     def draw(self, _context):
         self.layout.use_property_split = True
@@ -76,7 +60,7 @@ class OBJECT_OT_medial_axis(
     def write(self, thing, computation, frame):
         if computation.axis.is_empty:
             return None
-        return write_result(thing, computation, frame, look_from(self))
+        return write_result(thing, computation, frame, settings_from(self, Look))
 
     def summary(self, computation):
         axis, chosen = computation.axis, computation.chosen
@@ -101,8 +85,8 @@ class OBJECT_OT_medial_axis_sampling_report(
 
     product = "report"
 
-    side: choice("side")
-    sides: choice("sides")
+    side: prop(OPTIONS["side"])
+    sides: prop(OPTIONS["sides"])
     target: bpy.props.EnumProperty(
         name="Write To",
         description="Where the attribute ma_epsilon is written",
@@ -122,8 +106,8 @@ class OBJECT_OT_medial_axis_sampling_report(
         ],
         default="AUTOMATIC",
     )
-    colours: switch("colours", of=LOOKS)
-    parent: switch("parent", of=LOOKS)
+    colours: prop(LOOKS["colours"])
+    parent: prop(LOOKS["parent"])
 
     def draw(self, _context):
         self.layout.use_property_split = True
@@ -161,7 +145,7 @@ class OBJECT_OT_tight_cocone_surface(ComputeOperator, bpy.types.Operator):
     product = "surface"
     check_writable = staticmethod(check_surface_writable)
 
-    parent: switch("parent", of=LOOKS)
+    parent: prop(LOOKS["parent"])
 
     def sources(self, context):
         return list(dict.fromkeys(map(_made_anew, super().sources(context))))

@@ -9,12 +9,12 @@ from bpy.props import BoolProperty
 from .. import __version__
 from ..core.machine import native
 from ..core.machine.cache import CACHE
-from ..core.machine.memory_limit import OBJECT, MemoryLimit
-from ..core.settings import CACHE_SIZE, LIMITS, MEGABYTE, AboveLimit
+from ..core.machine.memory_limit import LIMITS, OBJECT, MemoryLimit
+from ..core.settings import CACHE_SIZE, MEGABYTE, AboveLimit
 from . import self_test_operator
 from .asset_library import draw_library
 from .manual import draw_manual
-from .properties import choice_of, integer_of
+from .properties import prop
 from .translation import say
 from .wrapped_text import draw_wrapped
 
@@ -31,6 +31,18 @@ def memory_limit() -> MemoryLimit:
     return limit.used(output=OBJECT)
 
 
+def wants_hiding() -> bool:
+    """Whether a medial axis is hidden and shown with its source."""
+    addon = bpy.context.preferences.addons.get(ADDON)
+    return addon is not None and addon.preferences.hide_with_source
+
+
+def _switch_hiding(preferences, _context):
+    from . import hide_with_source  # which asks this module for the preference
+
+    hide_with_source.switch(preferences.hide_with_source)
+
+
 def threads() -> int:
     """How many a computation has."""
     if hasattr(os, "sched_getaffinity"):
@@ -45,9 +57,15 @@ def _give_room(preferences, _context=None):
 class MedialAxisPreferences(bpy.types.AddonPreferences):
     bl_idname = ADDON
 
-    cache_size: integer_of(CACHE_SIZE, _give_room)
-    memory_limit: integer_of(LIMITS["memory_limit"])
-    above_limit: choice_of(LIMITS["above_limit"])
+    cache_size: prop(CACHE_SIZE, _give_room)
+    memory_limit: prop(LIMITS["memory_limit"])
+    above_limit: prop(LIMITS["above_limit"])
+    hide_with_source: BoolProperty(
+        name="Hide Axis with Source",
+        description="Hide and show a medial axis together with the object that it was computed from."
+        " Blender hides no children, so the add-on looks at its results after every change",
+        update=_switch_hiding,
+    )
     show_installed: BoolProperty(
         name="Installation", description="What is installed, what memory holds, and a test of it"
     )
@@ -56,6 +74,7 @@ class MedialAxisPreferences(bpy.types.AddonPreferences):
     def draw(self, context):
         _draw_start(context, self.layout)
         _draw_memory(self.layout.box().column(), self)
+        self.layout.box().column().prop(self, "hide_with_source")
         draw_library(self.layout.box().column())
         box = self.layout.box().column()
         arrow = "DISCLOSURE_TRI_DOWN" if self.show_installed else "DISCLOSURE_TRI_RIGHT"

@@ -2,6 +2,7 @@
 """The options of core.settings as Blender properties, and those of the panel."""
 
 import ctypes
+import inspect
 import math
 from dataclasses import replace
 
@@ -21,14 +22,13 @@ from ..bridge.report_object import has_report, report_of
 from ..bridge.surface_object import is_surface, surface_of
 from ..core.axis.compute import refilter, refiltered_topology
 from ..core.errors import MedialAxisError
+from ..core.options import Choice, Integer, Number, Switch, options_of
 from ..core.settings import (
     ANALYSED,
     LOOKS,
     OPTIONS,
     SAMPLING_OPTIONS,
-    Choice,
     Look,
-    Number,
     SamplingMode,
     Settings,
     applies,
@@ -36,104 +36,48 @@ from ..core.settings import (
 from . import current_job
 from .translation import IN_CONTEXT
 
+# These words of a FloatProperty follow from the unit of its option.
+_OF_UNIT = {
+    "rad": {"subtype": "ANGLE", "step": 100, "precision": 3},
+    "%": {"subtype": "PERCENTAGE", "precision": 2},
+    "length": {"subtype": "DISTANCE", "precision": 4},
+}
 
-def number(name, update=None, of=OPTIONS):
-    """A FloatProperty for an option."""
-    option = of[name]
-    limits = {"min": option.minimum, "soft_max": option.soft_maximum}
+
+def prop(option, update=None):
+    """The property for an option."""
+    words = {"name": option.label, "description": option.description, "update": update}
+    words |= {"default": option.default, **IN_CONTEXT}
+    if isinstance(option, Switch):
+        return BoolProperty(**words)
+    if isinstance(option, Choice):
+        items = [(member.name, *texts) for member, texts in option.items.items()]
+        return EnumProperty(**{**words, "default": option.default.name, "items": items})
+    words |= {"min": option.minimum, "soft_max": option.soft_maximum}
     if math.isfinite(option.maximum):
-        limits["max"] = option.maximum
-    if option.unit == "rad":
-        limits |= {"subtype": "ANGLE", "step": 100, "precision": 3}
-    if option.unit == "%":
-        limits |= {"subtype": "PERCENTAGE", "precision": 2}
-    if option.unit == "length":
-        limits |= {"subtype": "DISTANCE", "precision": 4}
+        words["max"] = option.maximum
+    if isinstance(option, Integer):
+        return IntProperty(**words, soft_min=option.soft_minimum)
+    is_share = not option.unit and (option.minimum, option.maximum) == (0.0, 1.0)
     return FloatProperty(
-        name=option.label,
-        description=option.description,
-        default=option.default,
-        update=update,
-        **IN_CONTEXT,
-        **limits,
+        **words, **({"subtype": "FACTOR"} if is_share else _OF_UNIT.get(option.unit, {}))
     )
 
 
-def integer(name):
-    """An IntProperty for an option."""
-    return integer_of(OPTIONS[name])
+def with_options(options, update=None):
+    """A decorator that gives a class a property for each of these options."""
+
+    def decorate(cls):
+        added = {name: prop(option, update) for name, option in options.items()}
+        cls.__annotations__ = inspect.get_annotations(cls) | added
+        return cls
+
+    return decorate
 
 
-def integer_of(option, update=None):
-    return IntProperty(
-        name=option.label,
-        description=option.description,
-        default=option.default,
-        min=option.minimum,
-        max=option.maximum,
-        soft_min=option.soft_minimum,
-        soft_max=option.soft_maximum,
-        update=update,
-        **IN_CONTEXT,
-    )
-
-
-def choice(name, update=None):
-    """An EnumProperty for an option."""
-    return choice_of(OPTIONS[name], update)
-
-
-def choice_of(option, update=None):
-    return EnumProperty(
-        name=option.label,
-        description=option.description,
-        items=[(member.name, *words) for member, words in option.items.items()],
-        default=option.default.name,
-        update=update,
-        **IN_CONTEXT,
-    )
-
-
-def switch(name, update=None, of=OPTIONS):
-    """A BoolProperty for an option."""
-    option = of[name]
-    return BoolProperty(
-        name=option.label,
-        description=option.description,
-        default=option.default,
-        update=update,
-        **IN_CONTEXT,
-    )
-
-
+@with_options({name: OPTIONS[name] for name in ("sampling", *SAMPLING_OPTIONS)})
 class SamplingProperties:
-    """The options of the sampling, which all that computes from a surface has."""
-
-    sampling: choice("sampling")
-    samples: integer("samples")
-    spacing: number("spacing")
-    epsilon: number("epsilon")
-    budget: integer("budget")
-    sharp_angle: number("sharp_angle")
-    smooth: switch("smooth")
-    keep_vertices: switch("keep_vertices")
-    seed: integer("seed")
-
-
-class LookProperties:
-    """How results look."""
-
-    colours: switch("colours", of=LOOKS)
-    parent: switch("parent", of=LOOKS)
-    within: number("within", of=LOOKS)
-    smallest_island: number("smallest_island", of=LOOKS)
-
-
-def look_from(properties) -> Look:
-    """Properties of an operator or of the panel -> Look."""
-    return Look(
-        **{name: _value(option, getattr(properties, name)) for name, option in LOOKS.items()}
-    )
+    """The options of the sampling, which all operators have that compute from a surface."""
 
 
 def draw_sampling(layout, properties):
@@ -145,21 +89,25 @@ def draw_sampling(layout, properties):
         row.prop(properties, name)
 
 
-def settings_from(properties) -> Settings:
-    """Properties of an operator or of the panel -> Settings, raising InvalidInputError; what an operator does not
-    have is the default."""
-    return Settings(
+def settings_from(properties, kind=Settings):
+    """Properties of an operator or of a panel as settings of a kind; an option that has no property has its default.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+    return kind(
         **{
             name: _value(option, getattr(properties, name))
-            for name, option in OPTIONS.items()
+            for name, option in options_of(kind).items()
             if hasattr(properties, name)
         }
     )
 
 
-def copy_settings(source, target) -> None:
-    """Set the properties of an operator button to those of the panel."""
-    for name in (*OPTIONS, *LOOKS):
+def copy_settings(source, target, options=OPTIONS | LOOKS) -> None:
+    """Set the properties of an operator button to those of a panel."""
+    for name in options:
         if hasattr(target, name):
             setattr(target, name, getattr(source, name))
 
@@ -227,7 +175,7 @@ def _refilter(panel, context):
 def _refilter_result(result, panel) -> str:
     kept = settings_of(result)
     wanted = settings_from(panel)
-    analysed = {name: getattr(kept, name) for name in (*ANALYSED, *SAMPLING_OPTIONS)}
+    analysed = {name: getattr(kept, name) for name in _ANALYSED}
     wanted = replace(wanted, **analysed)  # others need another analysis
     axis = refilter(result[ANALYSIS], wanted)
     if axis is None:
@@ -236,29 +184,19 @@ def _refilter_result(result, panel) -> str:
         return "No facet passes these conditions; the medial axis was left as it was"
     topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
     settings = replace(wanted, form=wanted.form_of_side)
-    update_result(result, axis, settings, topology, look_from(panel))
+    update_result(result, axis, settings, topology, settings_from(panel, Look))
     return ""
 
 
-class MedialAxisPanelSettings(SamplingProperties, bpy.types.PropertyGroup):
-    """What the sidebar panel shows; the form, its sliders, theta, rho, rule, criteria and the look act on the result at
-    once."""
+_ANALYSED = {name: OPTIONS[name] for name in (*ANALYSED, *SAMPLING_OPTIONS)}
+_LIVE = {name: option for name, option in OPTIONS.items() if name not in _ANALYSED} | LOOKS
 
-    form: choice("form", _refilter)
-    simplify: number("simplify", _refilter)
-    erode: number("erode", _refilter)
-    limb: number("limb", _refilter)
-    theta: number("theta", _refilter)
-    rho: number("rho", _refilter)
-    side: choice("side")
-    sides: choice("sides")
-    rule: choice("rule", _refilter)
-    criteria: choice("criteria", _refilter)
-    limit_set: switch("limit_set", _refilter)
-    colours: switch("colours", _refilter, of=LOOKS)
-    parent: switch("parent", of=LOOKS)
-    within: number("within", _refilter, of=LOOKS)
-    smallest_island: number("smallest_island", _refilter, of=LOOKS)
+
+@with_options(_ANALYSED)
+@with_options(_LIVE, _refilter)
+class MedialAxisPanelSettings(bpy.types.PropertyGroup):
+    """The settings of the sidebar panel; those that need no other analysis act on the result at once."""
+
     note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
 

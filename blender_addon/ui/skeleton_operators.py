@@ -9,29 +9,30 @@ from ..bridge.armature_object import (
     bind_by_axis,
     bind_by_heat,
     check_armature_writable,
+    in_rest,
     write_armature,
 )
+from ..bridge.read_object import read_object
 from ..bridge.skeleton_object import (
     check_parts_writable,
     check_skeleton_writable,
     write_parts,
     write_skeleton,
 )
-from ..core.settings import BIND, LOOKS, SKELETON_OPTIONS, SkeletonSettings
+from ..core.settings import BIND, LOOKS, OPTIONS, SKELETON_OPTIONS, SkeletonSettings
 from ..core.skeleton.compute import compute_skeleton
 from ..core.skeleton.rig import compute_rig
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
 from .properties import (
     SamplingProperties,
-    choice,
-    choice_of,
     copy_settings,
     draw_sampling,
+    prop,
     settings_from,
-    switch,
+    with_options,
 )
-from .translation import IN_CONTEXT, say
+from .translation import say
 
 SKELETON_OPERATORS = {
     "object.medial_axis_skeleton": "OUTLINER_OB_CURVE",
@@ -40,58 +41,21 @@ SKELETON_OPERATORS = {
 HEAT_FAILED = "Automatic weights left vertices without a bone; the weights of the axis were taken"
 
 
-def _number(name):
-    """A slider for a number of SKELETON_OPTIONS."""
-    option = SKELETON_OPTIONS[name]
-    return bpy.props.FloatProperty(
-        name=option.label,
-        description=option.description,
-        default=option.default,
-        min=option.minimum,
-        max=option.maximum,
-        soft_max=option.soft_maximum,
-        subtype="FACTOR",
-        **IN_CONTEXT,
-    )
-
-
-def _switch(option):
-    return bpy.props.BoolProperty(
-        name=option.label, description=option.description, default=option.default, **IN_CONTEXT
-    )
-
-
+@with_options(SKELETON_OPTIONS)
 class SkeletonProperties:
     """The options of a skeleton."""
-
-    detail: _number("detail")
-    simplify: _number("simplify")
-    mirror: _switch(SKELETON_OPTIONS["mirror"])
 
 
 class ArmatureProperties:
     """How an armature is used."""
 
-    bind: choice_of(BIND)
-
-
-def skeleton_settings(properties) -> SkeletonSettings:
-    """Properties of an operator -> SkeletonSettings; Blender keeps float32, so a rounded default means that number."""
-    values = {}
-    for name, option in SKELETON_OPTIONS.items():
-        value = getattr(properties, name)
-        near = isinstance(value, float) and abs(value - option.default) < 1e-6
-        values[name] = option.default if near else value
-    return SkeletonSettings(**values)
+    bind: prop(BIND)
 
 
 def copy_all(context, button) -> None:
     """Set the properties of an operator button to those of the panels."""
     copy_settings(context.scene.medial_axis, button)
-    panel = context.scene.medial_axis_skeleton
-    for name in (*SKELETON_OPTIONS, "bind"):
-        if hasattr(button, name):
-            setattr(button, name, getattr(panel, name))
+    copy_settings(context.scene.medial_axis_skeleton, button, (*SKELETON_OPTIONS, "bind"))
 
 
 class OBJECT_OT_medial_axis_skeleton(
@@ -106,8 +70,8 @@ class OBJECT_OT_medial_axis_skeleton(
 
     product = "skeleton"
 
-    sides: choice("sides")
-    parent: switch("parent", of=LOOKS)
+    sides: prop(OPTIONS["sides"])
+    parent: prop(LOOKS["parent"])
     parts: bpy.props.BoolProperty(
         name="Parts",
         description="Also give the faces of the object itself the attribute ma_part: the branch "
@@ -127,7 +91,7 @@ class OBJECT_OT_medial_axis_skeleton(
             check_parts_writable(thing)
 
     def work(self, shape):
-        settings, wanted = settings_from(self), skeleton_settings(self)
+        settings, wanted = settings_from(self), settings_from(self, SkeletonSettings)
         return partial(compute_skeleton, shape, settings, wanted, limit=memory_limit())
 
     def write(self, thing, found, frame):
@@ -157,19 +121,28 @@ class OBJECT_OT_medial_axis_armature(
     product = "armature"
     parent = False  # the object follows its bones
 
-    sides: choice("sides")
+    sides: prop(OPTIONS["sides"])
+    replace_weights: bpy.props.BoolProperty(
+        name="Replace Weights",
+        description="Replace weights also where they were painted since they were made",
+        default=False,
+    )
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in ("bind", *SKELETON_OPTIONS, "sides", "sampling"):
+        for name in ("bind", "replace_weights", *SKELETON_OPTIONS, "sides", "sampling"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
     def check_writable(self, thing):
-        check_armature_writable(thing, self.bind != "NONE")
+        check_armature_writable(thing, self.bind != "NONE", self.replace_weights)
+
+    def read(self, thing, _depsgraph):
+        with in_rest(thing):
+            return read_object(thing, bpy.context.evaluated_depsgraph_get())
 
     def work(self, shape):
-        settings, wanted = settings_from(self), skeleton_settings(self)
+        settings, wanted = settings_from(self), settings_from(self, SkeletonSettings)
         return partial(compute_rig, shape, settings, wanted, limit=memory_limit())
 
     def write(self, thing, rig, frame):

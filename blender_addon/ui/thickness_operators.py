@@ -17,13 +17,13 @@ from ..bridge.thickness_object import (
     write_thickness,
 )
 from ..bridge.thin_selection import least_of, patch_at, patches_of, select_thin
-from ..core.settings import LOOKS, THICKNESS_OPTIONS, Noise
+from ..core.settings import LOOKS, OPTIONS, THICKNESS_OPTIONS, Noise, ThicknessSettings
 from ..core.solid.thickness import measure_thickness
 from ..core.solid.thin_parts import find_thin_parts
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
-from .properties import SamplingProperties, choice, draw_sampling, settings_from, switch
-from .thickness_properties import ThicknessProperties, shown_thickness, thickness_settings_from
+from .properties import SamplingProperties, draw_sampling, prop, settings_from
+from .thickness_properties import ThicknessProperties, shown_thickness
 from .translation import say
 from .view_place import show_place
 
@@ -42,8 +42,8 @@ class OBJECT_OT_medial_axis_thickness(
     product = "thickness"
     check_writable = staticmethod(check_thickness_writable)
 
-    sides: choice("sides")
-    parent: switch("parent", of=LOOKS)
+    sides: prop(OPTIONS["sides"])
+    parent: prop(LOOKS["parent"])
 
     def draw(self, _context):
         self.layout.use_property_split = True
@@ -57,7 +57,7 @@ class OBJECT_OT_medial_axis_thickness(
         draw_sampling(box, self)
 
     def work(self, shape):
-        wanted = thickness_settings_from(self)
+        wanted = settings_from(self, ThicknessSettings)
         return partial(measure_thickness, shape, settings_from(self), wanted, limit=memory_limit())
 
     def write(self, thing, found, frame):

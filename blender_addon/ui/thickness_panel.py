@@ -15,7 +15,7 @@ from .legend import draw_legend
 from .properties import copy_settings
 from .show import shows_colours
 from .tab import Closed, settings_column
-from .thickness_properties import copy_thickness_settings, shown_thickness
+from .thickness_properties import shown_thickness
 from .translation import say
 from .wrapped_text import draw_wrapped
 
@@ -32,7 +32,7 @@ class VIEW3D_PT_medial_axis_thickness(Closed, bpy.types.Panel):
         if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
             button = layout.operator("object.medial_axis_thickness", icon="DRIVER_DISTANCE")
             copy_settings(context.scene.medial_axis, button)
-            copy_thickness_settings(settings, button)
+            copy_settings(settings, button, THICKNESS_OPTIONS)
         if settings.note:
             draw_wrapped(context, layout, settings.note, "INFO")
         carrier = shown_thickness(context)

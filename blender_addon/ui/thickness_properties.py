@@ -6,39 +6,16 @@ import bpy
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.thickness_object import KEY, carrier_of, is_copy, show_limit
 from ..core.errors import MedialAxisError
-from ..core.settings import THICKNESS_OPTIONS, Choice, ThicknessSettings
+from ..core.settings import THICKNESS_OPTIONS
 from ..core.solid.thickness import kept_measurement
 from ..core.solid.thin_parts import find_thin_parts
 from . import current_job
-from .properties import choice_of, number
+from .properties import with_options
 
 
 def shown_thickness(context):
     """The object that carries the thickness of the active object; None where it was not measured."""
     return carrier_of(getattr(context, "object", None))
-
-
-def thickness_settings_from(properties) -> ThicknessSettings:
-    """Properties of an operator or of the panel -> ThicknessSettings, raising InvalidInputError."""
-    values = {name: getattr(properties, name) for name in THICKNESS_OPTIONS}
-    for name, option in THICKNESS_OPTIONS.items():
-        if isinstance(option, Choice):
-            values[name] = type(option.default)[values[name]]
-    return ThicknessSettings(**values)
-
-
-def copy_thickness_settings(source, target) -> None:
-    """Set the properties of an operator button to those of the panel."""
-    for name in THICKNESS_OPTIONS:
-        setattr(target, name, getattr(source, name))
-
-
-def _length(name, update=None):
-    return number(name, update, of=THICKNESS_OPTIONS)
-
-
-def _choice(name):
-    return choice_of(THICKNESS_OPTIONS[name])
 
 
 def _apply_limit(panel, context):
@@ -65,24 +42,16 @@ def _is_edited(carrier) -> bool:
     return carrier.mode == "EDIT" or (not is_gone(source) and source.mode == "EDIT")
 
 
+@with_options(THICKNESS_OPTIONS)
 class ThicknessProperties:
-    """What is measured, of the operator."""
-
-    limit: _length("limit")
-    between: _choice("between")
-    edges: _choice("edges")
-    noise: _choice("noise")
-    minimum_patch: _length("minimum_patch")
+    """The options of thickness, for the operator."""
 
 
+@with_options({name: THICKNESS_OPTIONS[name] for name in ("limit", "minimum_patch")}, _apply_limit)
+@with_options(THICKNESS_OPTIONS)
 class MedialAxisThicknessSettings(bpy.types.PropertyGroup):
-    """What the panel shows; the limit and the smallest patch act at once."""
+    """The settings of the panel; the limit and the smallest patch act at once."""
 
-    limit: _length("limit", _apply_limit)
-    between: _choice("between")
-    edges: _choice("edges")
-    noise: _choice("noise")
-    minimum_patch: _length("minimum_patch", _apply_limit)
     note: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The page of the race: what is measured goes below a mark in it, what people wrote above stays."""
+"""The page of the race: results go between two marks in it, the text around them stays; long tables are CSV files."""
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,11 +14,11 @@ from .solids import SOLIDS
 MARK = "<!-- Below this line stands what `python3 -m lab.race` measured. -->"
 END = "<!-- Above this line stands what was measured. -->"
 FULL = 8000
-"""The size whose rows are shown whole."""
+"""The size whose rows are written whole, and shown on the page."""
 
 
 def write(rows: list[Row], skipped: dict[str, list[str]], path: Path) -> None:
-    """The tables, into a page that has the marks, else into a new one; the plots beside it."""
+    """The tables, into a page that has the marks, else into a new one; CSV files and plots next to it."""
     rows = sorted(rows, key=_order)
     text = path.read_text(encoding="utf-8") if path.exists() else f"# The race\n\n{MARK}\n{END}\n"
     above, mark, rest = text.partition(MARK)
@@ -27,9 +28,18 @@ def write(rows: list[Row], skipped: dict[str, list[str]], path: Path) -> None:
     pictures = path.parent.parent / "pictures"
     pictures.mkdir(exist_ok=True)
     plots = "\n".join(_plot(rows, measure, pictures) for measure in ("mean", "missed_mean"))
-    parts = [_better(rows), plots, _overview(rows), _wholes(rows), _outer(rows), _cost(rows)]
+    parts = [_better(rows), plots, _overview(rows), _outer(rows), _cost(rows)]
     parts.append(_failures(rows, skipped))
+    _save(path, "losses", [*LOST, "its price", "why"], _paid_rows(rows))
+    _save(path, "accuracy", ACCURACY, _accuracy_rows(rows))
+    _save(path, "measures", MEASURES, _measure_rows(rows))
     path.write_text(f"{above}{MARK}\n\n" + "\n".join(parts) + f"\n{END}{below}", encoding="utf-8")
+
+
+def _save(page: Path, name: str, header: list[str], rows: list[list[str]]) -> None:
+    """A CSV file next to the page, under the name to which the page links."""
+    with page.with_name(f"benchmark_{name}.csv").open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([header, *rows])
 
 
 def _order(row: Row) -> tuple:
@@ -56,11 +66,9 @@ def _better(rows: list[Row]) -> str:
             "## Where somebody is better\n",
             f"Of {_cells(rows)} places in the tables (a solid, a number of samples, clean or noisy, a measure) the "
             f"best of the others is more than a tenth better than our default in {len(plain)} and worse in no other "
-            f"measure, and in {len(paid)} at a price. Why stands [above](#why-they-are-better).\n",
+            f"measure, and in {len(paid)} at a price. The reasons are [above](#why-they-are-better), the rows at a "
+            "price in [`benchmark_losses.csv`](benchmark_losses.csv).\n",
             table([*LOST, "why"], [[*_loss(loss), reason(loss)] for loss in plain]),
-            "<details><summary>At a price: every row</summary>\n",
-            table([*LOST, "its price", "why"], [[*_loss(x), x.pays, reason(x)] for x in paid]),
-            "</details>\n",
             "Others have the topology of the solid where ours, clean, has not:\n"
             if topology
             else "",
@@ -85,6 +93,10 @@ def _loss(loss: compare.Loss) -> list[str]:
         f"{loss.ours[measure]:.1e}",
         f"{loss.ratio:.1f}",
     ]
+
+
+def _paid_rows(rows: list[Row]) -> list[list[str]]:
+    return [[*_loss(x), x.pays, reason(x)] for x in compare.losses(rows) if x.pays]
 
 
 def reason(loss: compare.Loss) -> str:
@@ -149,13 +161,35 @@ def _betti(row: Row) -> str:
     return _numbers(row["betti"])
 
 
-def _overview(rows: list[Row]) -> str:
+ACCURACY = ["samples", "noise", "program", "solid", "off, mean", "missed, mean"]
+
+
+def _accuracy_rows(rows: list[Row]) -> list[list[str]]:
     """Mean accuracy and coverage of every program at every size."""
+    return [
+        [str(row["size"]), _noise(row), row["program"], row["solid"], *_means(row)]
+        for row in compare.scored(rows)
+        if not row["outer"]
+    ]
+
+
+def _noise(row: Row) -> str:
+    return "noisy" if row["noisy"] else "clean"
+
+
+def _means(row: Row) -> list[str]:
+    return [f"{row['mean']:.0e}", f"{row['missed_mean']:.0e}"]
+
+
+def _overview(rows: list[Row]) -> str:
+    """Mean accuracy and coverage of every program at one size, in a table each for clean and noisy samples."""
     parts = [
         "## Accuracy and coverage\n",
-        "Mean distance off the exact axis / of the exact axis missed.\n",
+        "Mean distance off the exact axis / of the exact axis missed. All sizes are in "
+        f"[`benchmark_accuracy.csv`](benchmark_accuracy.csv); every measure at {FULL:,} samples, with topology, size, "
+        "time and memory, is in [`benchmark_measures.csv`](benchmark_measures.csv).\n",
     ]
-    scored = [row for row in compare.scored(rows) if not row["outer"]]
+    scored = [row for row in compare.scored(rows) if not row["outer"] and row["size"] == FULL]
     for noisy in (False, True):
         for size in sorted({row["size"] for row in scored if row["noisy"] == noisy}):
             chosen = [r for r in scored if r["size"] == size and r["noisy"] == noisy]
@@ -179,33 +213,25 @@ def _rank(rows: list[Row]) -> Callable[[str], tuple]:
 
 
 def _pair(row: Row | None) -> str:
-    return f"{row['mean']:.0e} / {row['missed_mean']:.0e}" if row else "—"
+    return " / ".join(_means(row)) if row else "—"
 
 
-def _wholes(rows: list[Row]) -> str:
-    """All that was measured at one size, solid by solid."""
-    parts = [f"## Every measure, {FULL:,} samples\n"]
-    header = ["program", *WORDS.values(), "Betti", "area", "length", "CPU s", "MB"]
-    for noisy in (False, True):
-        for name, solid in SOLIDS.items():
-            chosen = [
-                row
-                for row in compare.scored(rows)
-                if row["solid"] == name
-                and row["size"] == FULL
-                and row["noisy"] == noisy
-                and not row["outer"]
-            ]
-            if chosen:
-                truth = f"axis: {solid.parts}, Betti {_numbers(solid.shape.betti)}, "
-                truth += f"area {solid.area:.3f}, length {solid.length:.3f}"
-                parts.append(f"<details><summary>{name}{', noisy' if noisy else ''}</summary>\n")
-                parts += [
-                    truth + "\n",
-                    table(header, [_whole(row) for row in chosen]),
-                    "</details>\n",
-                ]
-    return "\n".join(parts)
+MEASURES = ["solid", "noise", "program", *WORDS.values(), "Betti", "area", "length", "CPU s", "MB"]
+MEASURES += ["axis: Betti", "axis: area", "axis: length"]
+
+
+def _measure_rows(rows: list[Row]) -> list[list[str]]:
+    """Every measure at one size, and the exact numbers of each solid's axis."""
+    return [
+        [row["solid"], _noise(row), *_whole(row), *_truth(row["solid"])]
+        for row in compare.scored(rows)
+        if row["size"] == FULL and not row["outer"]
+    ]
+
+
+def _truth(name: str) -> list[str]:
+    solid = SOLIDS[name]
+    return [_numbers(solid.shape.betti), f"{solid.area:.3f}", f"{solid.length:.3f}"]
 
 
 def _whole(row: Row) -> list[str]:
@@ -285,4 +311,4 @@ def _plot(rows: list[Row], measure: str, folder: Path) -> str:
     }[measure]
     ordered = {solid: data[solid] for solid in SOLIDS if solid in data}
     (folder / name).write_text(plot.panels(ordered, title), encoding="utf-8")
-    return f"![{title}, over the number of samples, a panel for each solid](pictures/{name})\n"
+    return f"![{title}, over the number of samples, a panel for each solid](../pictures/{name})\n"

@@ -23,15 +23,17 @@ COLOURS = {
 WIDTH, HEIGHT, GAP, COLUMNS = 190, 140, 46, 4
 
 
-def panels(data: Mapping[str, Mapping[str, Points]], title: str) -> str:
-    """Of each panel the points of each line; x and y are positive."""
+def panels(
+    data: Mapping[str, Mapping[str, Points]], title: str, colours: Mapping[str, str] = COLOURS
+) -> str:
+    """Draws a panel for each name, from the points of its lines; x and y are positive. Lines have `colours` by name."""
     rows = math.ceil(len(data) / COLUMNS)
     wide, high = COLUMNS * (WIDTH + GAP) + 12, rows * (HEIGHT + GAP) + 78
-    body = [f'<text x="12" y="22" font-size="15">{escape(title)}</text>', _legend()]
+    body = [f'<text x="12" y="22" font-size="15">{escape(title)}</text>', _legend(colours)]
     for i, (name, lines) in enumerate(data.items()):
         x = 42 + (i % COLUMNS) * (WIDTH + GAP)
         y = 84 + (i // COLUMNS) * (HEIGHT + GAP)
-        body.append(f'<g transform="translate({x},{y})">{_panel(name, lines)}</g>')
+        body.append(f'<g transform="translate({x},{y})">{_panel(name, lines, colours)}</g>')
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {wide} {high}" '
         'font-family="sans-serif" font-size="11">\n'
@@ -39,9 +41,9 @@ def panels(data: Mapping[str, Mapping[str, Points]], title: str) -> str:
     )
 
 
-def _legend() -> str:
+def _legend(colours: Mapping[str, str]) -> str:
     words, x, y = [], 12, 42
-    for name, colour in COLOURS.items():
+    for name, colour in colours.items():
         if x > 800:
             x, y = 12, y + 16
         words.append(f'<rect x="{x}" y="{y - 8}" width="14" height="4" fill="{colour}"/>')
@@ -50,7 +52,7 @@ def _legend() -> str:
     return "".join(words)
 
 
-def _panel(name: str, lines: Mapping[str, Points]) -> str:
+def _panel(name: str, lines: Mapping[str, Points], colours: Mapping[str, str]) -> str:
     every = [point for line in lines.values() for point in line]
     parts = [f'<text x="0" y="-6">{escape(name)}</text>']
     parts.append(f'<rect width="{WIDTH}" height="{HEIGHT}" fill="none" stroke="#bbb"/>')
@@ -65,13 +67,14 @@ def _panel(name: str, lines: Mapping[str, Points]) -> str:
             parts.append(f'<text x="-4" y="{y + 4:.1f}" text-anchor="end">1e{power}</text>')
     for x in sorted({x for x, _ in every}):
         parts.append(
-            f'<text x="{across(x):.1f}" y="{HEIGHT + 14}" text-anchor="middle">{x / 1000:g}k</text>'
+            f'<text x="{across(x):.1f}" y="{HEIGHT + 14}" text-anchor="middle">{_round(x / 1000):g}k</text>'
         )
-    return "".join(parts) + "".join(_line(n, p, across, up) for n, p in lines.items())
+    return "".join(parts) + "".join(
+        _line(points, colours.get(line, "#ccc"), across, up) for line, points in lines.items()
+    )
 
 
-def _line(name: str, points: Points, across, up) -> str:
-    colour = COLOURS.get(name, "#ccc")
+def _line(points: Points, colour: str, across, up) -> str:
     places = [(across(x), up(y)) for x, y in sorted(points)]
     path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
     dots = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2" fill="{colour}"/>' for x, y in places)
@@ -80,6 +83,11 @@ def _line(name: str, points: Points, across, up) -> str:
         if places
         else ""
     )
+
+
+def _round(value: float) -> float:
+    """Two digits, for the label of an axis."""
+    return float(f"{value:.2g}")
 
 
 def _scale(values: Sequence[float], start: float, end: float):

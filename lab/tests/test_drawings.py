@@ -60,8 +60,15 @@ def test_drawing_is_as_its_script_draws_it(drawn, name):
         assert np.allclose(places(one), places(other), rtol=0, atol=PIXELS)
 
 
+def test_plot_of_the_convergence_shows_its_rows(tmp_path):
+    words = ["--draw", "--picture", tmp_path / "convergence.svg"]
+    subprocess.run([sys.executable, ROOT / "lab/benchmarks/convergence.py", *words], check=True)
+    drawn = (tmp_path / "convergence.svg").read_text(encoding="utf-8")
+    assert drawn == (PICTURES / "convergence.svg").read_text(encoding="utf-8")
+
+
 def test_every_drawing_has_a_script_or_is_drawn_by_hand():
     """Race plots are made by the benchmark's page, and the rooms by hand."""
     known = {name for names in NAMES.values() for name in names}
-    others = {"race_mean", "race_missed_mean", "rooms"}
+    others = {"convergence", "race_mean", "race_missed_mean", "rooms"}
     assert {path.stem for path in PICTURES.glob("*.svg")} == known | others

@@ -545,11 +545,13 @@ def test_who_is_better_and_at_what_price(others, found):
 
 
 def test_the_page_keeps_what_people_wrote_and_shows_losses_first(tmp_path):
+    import csv
     from xml.etree import ElementTree
 
     from lab.race import page
 
-    path = tmp_path / "page.md"
+    path = tmp_path / "lab" / "page.md"
+    path.parent.mkdir()
     path.write_text(f"words\n\n{page.MARK}\nold\n{page.END}\nmore words\n")
     failed = {**rows_of()[0], "program": "y", "group": "peer", "failed": "exit code 3"}
     page.write([*rows_of(mean=1e-4), failed], {"z": ["zz"]}, path)
@@ -561,6 +563,13 @@ def test_the_page_keeps_what_people_wrote_and_shows_losses_first(tmp_path):
     assert "| slab | 8,000 | y | exit code 3 |" in text and "z was skipped: `zz`" in text
     for name in ("race_mean.svg", "race_missed_mean.svg"):
         ElementTree.parse(tmp_path / "pictures" / name)
+    files = {
+        name: path.with_name(f"benchmark_{name}.csv").read_text() for name in ("losses", "accuracy")
+    }
+    assert files["losses"].count("\n") == 1  # nothing is at a price here
+    assert "8000,clean,x,slab,1e-04,1e-03\n" in files["accuracy"]
+    measures = path.with_name("benchmark_measures.csv").read_text().splitlines()
+    assert len(measures) == 3 and len({len(row) for row in csv.reader(measures)}) == 1
 
 
 def test_the_page_of_the_docs_explains_every_letter():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Jobs of render farms: they compile as the engines document it, and their command lines are run for real."""
+"""Jobs of render farms: they are valid, and their command lines are run for real."""
 
 import json
 import os
@@ -8,15 +8,12 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import bpy
 import pytest
 from scene import MODULE, addon, program
-from test_cli import in_blender, reports_of, walking
+from test_cli import in_blender, walking
 
 FARM = Path(addon().__file__).resolve().parent / "farm"
-JOB_TYPE = FARM / "medial_axis_sequence.js"
 TEMPLATE = FARM / "medial_axis_sequence.openjd.yaml"
-STAND_IN = Path(__file__).resolve().parents[1] / "flamenco" / "stand_in.js"
 
 
 @pytest.fixture
@@ -42,85 +39,6 @@ def expected_files(here):
 
 def made_files(folder):
     return {path.name: path.read_bytes() for path in folder.glob("*.npz")}
-
-
-# --- Flamenco
-
-
-def compile_job(here, **settings):
-    """Job type and tasks, or the error of the engine."""
-    node = shutil.which("node") or shutil.which("nodejs")
-    if node is None:
-        pytest.skip("no node: it is Debian's package nodejs")
-    (here / "settings.json").write_text(json.dumps(settings))
-    done = run(node, STAND_IN, JOB_TYPE, here / "settings.json")
-    return json.loads(done.stdout) if done.returncode == 0 else done.stderr
-
-
-def job_settings(here, **others):
-    usual = {"frames": "1-5", "chunk_size": 2, "object_name": "Body", "options": "--rho 9"}
-    usual |= {"blendfile": str(here / "walk.blend"), "addon": MODULE}
-    return {**usual, "output_folder": str(here / "axes"), **others}
-
-
-def command_line(command):
-    """What a worker starts: {exe} {exeArgs} {argsBefore} {blendfile} {args}."""
-    words = command["parameters"]
-    assert command["name"] == "blender-render"
-    assert (words["exe"], words["exeArgs"]) == ("{blender}", "{blenderArgs}")
-    return [
-        program(),
-        "-b",
-        "-y",
-        *words["argsBefore"],
-        words["blendfile"],
-        *words["args"],
-    ]
-
-
-def test_flamenco_job_is_split_into_chunks(here):
-    tasks = compile_job(here, **job_settings(here, frames="1-10, 20", chunk_size=4))["tasks"]
-    assert [task["name"] for task in tasks] == [
-        "medial-axis-1-4", "medial-axis-5-8", "medial-axis-9,10,20"
-    ]  # fmt: skip
-    assert all(task["type"] == "blender" and len(task["commands"]) == 1 for task in tasks)
-    assert not any(task["dependencies"] for task in tasks)
-
-
-def test_flamenco_commands_do_the_work(here):
-    tasks = compile_job(here, **job_settings(here))["tasks"]
-    assert len(tasks) == 3
-    for task in tasks:
-        (command,) = task["commands"]
-        done = run(*command_line(command))
-        assert done.returncode == 0, done.stdout + done.stderr
-        assert {r["status"] for r in reports_of(done.stdout)} == {"done"}
-    assert made_files(here / "axes") == expected_files(here)
-    done = run(*command_line(tasks[1]["commands"][0]))
-    assert [r["status"] for r in reports_of(done.stdout)] == ["kept"] * 2
-
-
-def test_flamenco_task_fails_when_a_frame_fails(here):
-    settings = job_settings(here, object_name="Nobody")
-    (command,) = compile_job(here, **settings)["tasks"][0]["commands"]
-    assert run(*command_line(command)).returncode != 0
-
-
-def test_flamenco_refuses(here):
-    assert "add-on Medial Axis is not enabled" in compile_job(here, **job_settings(here, addon=""))
-    assert "invalid range" in compile_job(here, **job_settings(here, frames="x"))
-    evil = job_settings(here, addon="os; import sys")
-    assert "not enabled" in compile_job(here, **evil)
-
-
-def test_flamenco_expressions_work_in_blender(here):
-    """Those of `eval`, with the names that Flamenco documents."""
-    job_type = compile_job(here, **job_settings(here))["jobType"]
-    names = {"bpy": bpy, "C": bpy.context, "Path": Path, "jobname": "test"}
-    found = {s["key"]: eval(s["eval"], names) for s in job_type["settings"] if "eval" in s}
-    assert found == {"frames": "1-5", "object_name": bpy.context.object.name, "addon": MODULE}
-    formats = next(s["choices"] for s in job_type["settings"] if s["key"] == "format")
-    assert {f".{name}" for name in formats} == set(addon("core.files.write").FORMATS)
 
 
 # --- Open Job Description

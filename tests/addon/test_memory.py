@@ -56,7 +56,10 @@ def tight(monkeypatch):
 
 def test_preferences_are_what_settings_say():
     settings = addon("core.settings")
-    for name, option in {"cache_size": settings.CACHE_SIZE, **settings.LIMITS}.items():
+    for name, option in {
+        "cache_size": settings.CACHE_SIZE,
+        **addon("core.machine.memory_limit").LIMITS,
+    }.items():
         shown = preferences().bl_rna.properties[name]
         assert (shown.name, shown.description) == (option.label, option.description)
         if shown.type == "ENUM":

@@ -42,7 +42,7 @@ def expected(changes):
     settings = addon("core.settings")
     values = {
         name: type(settings.OPTIONS[name].default)[value]
-        if isinstance(settings.OPTIONS[name], settings.Choice)
+        if isinstance(settings.OPTIONS[name], addon("core.options").Choice)
         else value
         for name, value in changes.items()
     }

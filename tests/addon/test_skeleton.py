@@ -376,3 +376,125 @@ def turned(source, thing, name, head):
     bone.matrix_basis = Matrix.Identity(4)
     bpy.context.view_layer.update()
     return places @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+# --- an armature that someone works with is made again
+
+
+def posed_cross():
+    """A bound cross whose first bones are turned."""
+    source = cross()
+    make_armature(bind="AXIS")
+    thing = armature_of(source)
+    for bone in thing.pose.bones:
+        bone.rotation_mode = "XYZ"
+        bone.rotation_euler = (0.3, 0.1, 0.0)
+    bpy.context.view_layer.update()
+    select(source)
+    return source, thing
+
+
+def places(thing):
+    bpy.context.view_layer.update()
+    evaluated = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return positions(evaluated.data)
+
+
+def heads(thing):
+    return {bone.name: np.array(bone.head_local) for bone in thing.data.bones}
+
+
+def test_again_in_a_pose_changes_nothing():
+    """It once read the posed mesh, put the bones there, and kept the pose on top of it."""
+    source, thing = posed_cross()
+    before, bones = places(source), heads(thing)
+    make_armature(bind="AXIS")
+    assert armature_of(source) == thing
+    after = heads(thing)
+    assert set(after) == set(bones)
+    assert all(np.allclose(after[name], bones[name], atol=1e-5) for name in bones)
+    assert np.allclose(places(source), before, atol=1e-4)
+    assert all(tuple(b.rotation_euler) != (0, 0, 0) for b in thing.pose.bones)
+
+
+def test_own_bones_constraints_and_names_stay():
+    source, thing = posed_cross()
+    first, last = thing.data.bones[0].name, thing.data.bones[-1].name
+    bpy.context.view_layer.objects.active = thing
+    bpy.ops.object.mode_set(mode="EDIT")
+    own = thing.data.edit_bones.new("IK")
+    own.head, own.tail = (0, 1, 0), (0, 2, 0)
+    own.parent = thing.data.edit_bones[first]
+    bpy.ops.object.mode_set(mode="OBJECT")
+    constraint = thing.pose.bones[last].constraints.new("IK")
+    constraint.target, constraint.subtarget = thing, "IK"
+    thing.data.bones[first].name = "hips"
+    select(source)
+    make_armature(bind="AXIS")
+    assert thing.data.bones["IK"].parent.name == "hips" and first not in thing.data.bones
+    assert np.allclose(thing.data.bones["IK"].head_local, (0, 1, 0), atol=1e-5)
+    assert [c.type for c in thing.pose.bones[last].constraints] == ["IK"]
+    assert "hips" in source.vertex_groups and "IK" not in source.vertex_groups
+    assert_weights_hold(source)
+
+
+def test_groups_of_the_artist_stay_also_with_names_of_bones():
+    source = cross()
+    make_armature(bind="AXIS")
+    name = armature_of(source).data.bones[0].name
+    bpy.data.objects.remove(armature_of(source))
+    source.vertex_groups.clear()
+    source.modifiers.clear()
+    source.vertex_groups.new(name=name).add(range(5), 0.25, "REPLACE")
+    for _ in range(2):
+        select(source)
+        make_armature(bind="AXIS")
+        thing = armature_of(source)
+        own = source.vertex_groups[name]
+        assert [own.weight(row) for row in range(5)] == [0.25] * 5
+        assert name not in thing.data.bones and f"{name}.001" in thing.data.bones
+        assert {g.name for g in source.vertex_groups} == {*thing.data.bones.keys(), name}
+
+
+def test_painted_weights_are_replaced_only_when_asked_to():
+    source, _ = posed_cross()
+    group = source.vertex_groups[0]
+    group.add([0], 0.123, "REPLACE")
+    before = contents()
+    refuse("found some painted since", operator="medial_axis_armature", bind="AXIS")
+    assert contents() == before and group.weight(0) == pytest.approx(0.123)
+    make_armature(bind="NONE")
+    assert group.weight(0) == pytest.approx(0.123)
+    select(source)
+    make_armature(bind="AXIS", replace_weights=True)
+    select(source)
+    make_armature(bind="AXIS")
+    assert_weights_hold(source)
+
+
+@pytest.mark.parametrize("bind", ["AXIS", "AUTOMATIC"])
+def test_a_parent_of_the_artist_stays(bind):
+    source = cross()
+    bpy.ops.object.empty_add(location=(1, 2, 3))
+    rig = bpy.context.object
+    source.parent = rig
+    bpy.context.view_layer.update()
+    before = world_positions(source)
+    select(source)
+    make_armature(bind=bind)
+    thing = armature_of(source)
+    assert source.parent == rig and thing.parent == rig
+    assert np.allclose(places(source), positions(source.data), atol=1e-5)
+    assert np.allclose(world_positions(source), before, atol=1e-5)
+    rig.location.x += 1.0
+    bpy.context.view_layer.update()
+    assert np.allclose(world_positions(source), before + np.array((1, 0, 0)), atol=1e-5)
+    assert np.allclose(places(source), positions(source.data), atol=1e-5)
+
+
+def test_a_modifier_with_our_name_is_no_reason_to_fail():
+    source = cross()
+    source.modifiers.new("Medial Axis Armature", "SMOOTH").iterations = 0
+    make_armature(bind="AXIS")
+    assert [m.type for m in source.modifiers] == ["SMOOTH", "ARMATURE"]
+    assert source.modifiers[1].object == armature_of(source)

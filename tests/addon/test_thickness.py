@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Vector
-from scene import addon, attribute, link, positions, refuse, scan, select, suzanne
+from scene import addon, attribute, ellipsoid, link, positions, refuse, scan, select, suzanne
 
 MEASURE = "medial_axis_thickness"
 
@@ -208,3 +208,86 @@ def test_feature_size_on_the_source():
     weights = np.array([group.weight(i) for i in range(len(sizes))])
     assert weights.min() == 0.0 and weights.max() == 1.0
     assert np.corrcoef(np.log(sizes), weights)[0, 1] < -0.9, "more weight where detail is"
+
+
+# --- values belong to vertices, whatever modifiers do with their order
+
+
+def reordered(kind):
+    """A flat ellipsoid whose modifiers keep the number of vertices and change their order."""
+    source = ellipsoid(axes=(1.0, 0.7, 0.2), segments=4)
+    if kind == "BUILD":
+        build = source.modifiers.new("Build", "BUILD")
+        build.frame_start, build.frame_duration = 1, 1
+        build.use_random_order = True
+        bpy.context.scene.frame_set(10)
+    elif kind == "BUILD REVERSED":
+        build = source.modifiers.new("Build", "BUILD")
+        build.frame_start, build.frame_duration = 1, 1
+        build.use_reverse, build.use_random_order = False, True
+        build.seed = 7
+        bpy.context.scene.frame_set(10)
+    elif kind == "DEFORM":
+        source.modifiers.new("Cast", "CAST").factor = 0.01
+    return source
+
+
+@pytest.mark.parametrize("kind", ["BUILD", "BUILD REVERSED", "DEFORM", "NONE"])
+def test_thickness_is_of_the_vertex_that_has_it(kind):
+    """Looked up by place: the value of each vertex is that of the measured place where it lies."""
+    source = reordered(kind)
+    assert bpy.ops.object.medial_axis_thickness() == {"FINISHED"}
+    carrier = addon("bridge.thickness_object").carrier_of(source)
+    values = attribute(carrier.data, "ma_thickness")
+    places = positions(carrier.data)
+    height = 2 * 0.2 * np.sqrt(np.maximum(0, 1 - (places[:, 0]) ** 2 - (places[:, 1] / 0.7) ** 2))
+    middle = height > 0.25
+    assert np.corrcoef(values[middle], height[middle])[0, 1] > 0.9
+    own = kind in ("DEFORM", "NONE")
+    assert ("ma_thickness" in source.data.attributes) == own
+    if own:
+        values, x, y = attribute(source.data, "ma_thickness"), *positions(source.data).T[:2]
+        height = 0.4 * np.sqrt(np.maximum(0, 1 - x**2 - (y / 0.7) ** 2))
+        assert np.corrcoef(values[height > 0.25], height[height > 0.25])[0, 1] > 0.9
+    assert not [a.name for a in source.data.attributes if "index" in a.name]
+
+
+@pytest.mark.parametrize("kind", ["BUILD", "DEFORM"])
+def test_weights_and_parts_are_of_the_vertex_that_has_them(kind):
+    """The bone with most weight is one that is near, also where a modifier reorders the vertices."""
+    source = reordered(kind)
+    rows = addon("bridge.evaluated_rows").row_of_vertices(source)
+    bpy.context.view_layer.update()
+    evaluated = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    there, here = positions(evaluated)[rows], positions(source.data)
+    assert np.abs(there - here).max() < 0.05
+    if kind == "BUILD":
+        assert not np.array_equal(rows, np.arange(len(rows)))
+
+
+def test_a_report_is_not_written_on_a_source_in_another_order():
+    source = reordered("BUILD")
+    with pytest.raises(RuntimeError, match="keep the order of vertices"):
+        bpy.ops.object.medial_axis_sampling_report(target="SOURCE", sampling="VERTICES")
+    assert "ma_epsilon" not in source.data.attributes
+    bpy.ops.object.medial_axis_sampling_report(target="COPY", sampling="VERTICES")
+
+
+@pytest.mark.parametrize(
+    "add",
+    [
+        lambda: bpy.ops.surface.primitive_nurbs_surface_torus_add(),
+        lambda: bpy.ops.object.metaball_add(),
+        lambda: bpy.ops.curve.primitive_bezier_circle_add(),
+    ],
+    ids=["surface", "metaball", "curve"],
+)
+def test_thickness_of_what_is_no_mesh_is_on_a_copy(add):
+    """It once ended in a traceback after the whole computation."""
+    add()
+    source = bpy.context.object
+    if source.type == "CURVE":
+        source.data.bevel_depth = 0.2
+    assert bpy.ops.object.medial_axis_thickness(samples=2000) == {"FINISHED"}
+    carrier = addon("bridge.thickness_object").carrier_of(source)
+    assert carrier != source and carrier["ma_thickness_minimum"] > 0

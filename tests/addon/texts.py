@@ -14,8 +14,10 @@ from scene import MODULE, addon
 HIDDEN = {
     "bridge/material.py",
     "core/batch/batch.py",
+    "core/batch/outputs.py",
     "core/machine/free_memory.py",
     "core/batch/option_words.py",
+    "core/machine/cache.py",
     "ui/translation.py",
 }
 DATA = {

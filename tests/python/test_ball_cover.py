@@ -389,6 +389,14 @@ def test_the_command_line_writes_the_same(tmp_path, capsys):
     words = ["--count", "6", "--mode", "around", "--sampling", "vertices"]
     assert run(["balls", str(source), str(output), *words]) == 0
     assert "6 balls, 100.0 % of the volume" in capsys.readouterr().out
+    report = json.loads((tmp_path / "torus.json.json").read_text())
+    assert report["count"] == 6 and report["mode"] == report["settings"]["mode"] == "around"
+    assert run(["balls", str(source), str(output), *words]) == 0
+    assert ", kept" in capsys.readouterr().out
+    folder = ["balls", str(source), str(tmp_path / "many") + "/", "--format", "ma", "--json"]
+    assert run([*folder, "--count", "3"]) == 0
+    assert json.loads(capsys.readouterr().out)["count"] == 3
+    assert len((tmp_path / "many" / "torus.ma").read_text().split("\n")) == 5
     balls = covered(TORUS, count=6, mode="around", sampling="vertices").balls
     assert json.loads(output.read_text())["balls"][5]["radius"] == balls.radii[5]
     assert run(["balls", str(source), str(tmp_path / "x.ply")]) == 2

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.machine.cache import CACHE, key_of
+from medial_axis.core.options import Choice, Integer, Switch
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import (
     BALL_OPTIONS,
@@ -15,13 +16,10 @@ from medial_axis.core.settings import (
     SKELETON_OPTIONS,
     THICKNESS_OPTIONS,
     BallSettings,
-    Choice,
     Form,
-    Integer,
     SamplingMode,
     Settings,
     SkeletonSettings,
-    Switch,
     ThicknessSettings,
 )
 from medial_axis.core.skeleton.compute import compute_skeleton

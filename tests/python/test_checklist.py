@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.docs
+
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "docs" / "lab" / "checklist.md").read_text(encoding="utf-8")
 TESTS = sorted(set(re.findall(r"`(test_\w+)::(test_\w+)`", TEXT)))

@@ -23,13 +23,12 @@ from medial_axis.core.files.axis_arrays import as_arrays
 from medial_axis.core.files.load_axis import load_axis
 from medial_axis.core.files.read import import_points
 from medial_axis.core.files.write import export_axis
+from medial_axis.core.machine.memory_limit import LIMITS
+from medial_axis.core.options import Choice, Switch
 from medial_axis.core.settings import (
-    LIMITS,
     OPTIONS,
-    Choice,
     Settings,
     Side,
-    Switch,
 )
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -258,9 +257,66 @@ def test_what_fails_without_fault_of_the_input_is_another_code(here, run, monkey
 def test_two_results_never_share_a_file(here, run):
     (here / "other").mkdir()
     write_egg(here / "other" / "egg.xyz", 1.5)
-    code, reports, _ = run("egg.xyz", "other/egg.xyz", "out/")
-    assert code == cli.INPUT and [r["status"] for r in reports] == ["done", "failed"]
-    assert "found 'out/egg.ma' again" in reports[1]["error"]
+    code, reports, said = run("egg.xyz", "other/egg.xyz", "out/")
+    assert code == cli.USAGE and reports == [] and not (here / "out").exists()
+    assert "found 'out/egg.ma' again" in said
+
+
+def written(folder):
+    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+COMMANDS = [
+    ["egg.ply", "egg.ply"],
+    ["egg.ply", "./", "--format", "ply"],
+    ["egg.ply", "sub/../egg.ply"],
+    ["egg.ply", "linked.ply"],
+    ["egg.ply", "hard.ply"],
+    ["linked.ply", "egg.ply"],
+    ["egg.ply", "other.ply", ".", "--format", "ply"],
+    ["egg_####.ply", "egg_####.ply", "--frames", "1-2"],
+    ["egg.ply", "egg_####.ply", "new/{file}.ply"],
+    ["thickness", "egg.ply", "egg.ply"],
+    ["thickness", "egg.ply", "other.ply", ".", "--format", "ply"],
+    ["skeleton", "egg.obj", "egg.obj"],
+    ["skeleton", "egg.obj", ".", "--format", "obj"],
+    ["egg.npz", "egg.npz"],
+]
+
+
+@pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
+def test_no_output_replaces_an_input(here, run, words):
+    """By name, by link, in a folder, frame by frame: refused with nothing computed and no byte changed."""
+    points = egg(1.0, 30)[:, :3]
+    rows = "\n".join(" ".join(map(repr, row)) for row in points.tolist())
+    header = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
+    header += "".join(f"property double {axis}\n" for axis in "xyz") + "end_header\n"
+    for name in ("egg", "other", "egg_0001", "egg_0002"):
+        (here / f"{name}.ply").write_text(f"{header}{rows}\n")
+    (here / "egg.obj").write_text("v " + rows.replace("\n", "\nv "))
+    np.savez(here / "egg.npz", vertices=points)
+    (here / "sub").mkdir()
+    (here / "linked.ply").symlink_to("egg.ply")
+    os.link(here / "egg.ply", here / "hard.ply")
+    before = written(here)
+    code, reports, said = run(*words)
+    assert code == cli.USAGE and reports == [] and written(here) == before
+    if "new/{file}.ply" not in words:
+        assert "Expected an output that replaces no input" in said
+
+
+def test_a_report_replaces_no_other_output(here, run):
+    """The report of a.json is a.json.json, which is the output of the second input."""
+    for name in ("a", "a.json"):
+        write_egg(here / f"{name}.xyz")
+    code, reports, said = run("balls", "a.xyz", "a.json.xyz", "out/", "--format", "json")
+    assert code == cli.USAGE and reports == [] and "again" in said
+
+
+def test_outputs_next_to_inputs_are_written(here, run):
+    assert run("egg.xyz", "./", "--format", "ply")[0] == cli.DONE
+    assert files(here) == ["egg.ply", "egg.ply.json", "egg.xyz"]
+    assert run("egg.xyz", "./", "--format", "ply")[1][0]["status"] == "kept"
 
 
 def test_numbered_files(here, run):
@@ -430,7 +486,8 @@ def wait_for(condition, seconds=60):
 def test_cancelled(here, program, number):
     """The second of three is stopped in the middle of its computation; the first is there."""
     np.save("big.npy", egg(count=300_000))
-    process = program("egg.xyz", "big.npy", "egg.xyz", "out/{name}.ma", "--json", popen=True)
+    write_egg(here / "third.xyz")
+    process = program("egg.xyz", "big.npy", "third.xyz", "out/{name}.ma", "--json", popen=True)
     assert json.loads(process.stdout.readline())["status"] == "done"
     time.sleep(0.5)
     process.send_signal(number)

@@ -20,6 +20,8 @@ from test_docs import PAGES
 
 import build_addon
 
+pytestmark = pytest.mark.docs
+
 PAGES = [*PAGES, ROOT / "CONTRIBUTING.md"]
 PROGRAMS = (
     "python3",
@@ -41,7 +43,6 @@ RUN_BY = {
     "blender --background FILE.blend --python-expr": "addon/test_cli.py::test_module_path_of_an_enabled_addon",
     "blender --background FILE.blend --python FOLDER": "addon/test_cli.py::in_blender",
     "blender FILE.blend --command": "addon/test_cli.py::test_documented_commands",
-    "blender -b -y FILE.blend": "addon/test_cli.py::test_module_path_of_an_enabled_addon",
     "blender --background --python-exit-code 1 --python": "addon/test_documented_scripts.py::test_script",
     "python3 FOLDER INPUT OUTPUT": "python/test_cli.py::test_folder_of_the_package_is_a_program",
     "openjd run": "addon/test_farm.py::test_openjd_runs_the_job",

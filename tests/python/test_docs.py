@@ -8,16 +8,18 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT
+from medial_axis.core.machine.memory_limit import LIMITS
+from medial_axis.core.options import Switch
 from medial_axis.core.settings import (
-    LIMITS,
     LOOKS,
     OPTIONS,
     THICKNESS_OPTIONS,
-    Switch,
 )
 from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
 from tests.wrap_docs import WRITTEN, wrap
+
+pytestmark = pytest.mark.docs
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
@@ -45,6 +47,7 @@ FOREIGN = {
     "template.yaml": "Open Job Description",
     "demo_output/": "made by build_addon.py demo",
     "build/": "made by cmake",
+    "dist/": "made by build_addon.py build",
     "dist/medial_axis-VERSION.zip": "made by build_addon.py build",
     "OUTPUT.json": "made by the command line",
     "FOLDER/__main__.py": "FOLDER is the user's",
@@ -307,6 +310,14 @@ def test_links_lead_somewhere(page):
         if not path.exists() or (place and place not in anchors(path)):
             wrong.append(target)
     assert wrong == []
+
+
+def test_every_page_is_once_in_the_navigation():
+    """mkdocs.yml lists the pages of docs/; those of docs/lab are not part of the manual."""
+    text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    listed = re.findall(r"^ +- (\S+\.md)$", text[text.index("\nnav:") :], re.MULTILINE)
+    assert sorted(listed) == sorted(path.name for path in (ROOT / "docs").glob("*.md"))
+    assert "\nexclude_docs: lab/\n" in text
 
 
 # --- the width of lines

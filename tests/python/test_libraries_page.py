@@ -8,6 +8,9 @@ import sys
 from pathlib import Path
 
 import medial_axis
+import pytest
+
+pytestmark = pytest.mark.docs
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "libraries.md").read_text(encoding="utf-8")

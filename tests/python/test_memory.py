@@ -5,6 +5,7 @@ import argparse
 import os
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from medial_axis.core.axis.compute import compute_axis, refilter
 from medial_axis.core.batch import option_words
 from medial_axis.core.errors import InvalidInputError, MemoryLimitError
 from medial_axis.core.files import numpy_arrays
-from medial_axis.core.machine import cache, free_memory
+from medial_axis.core.machine import cache, few_addresses, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
 from medial_axis.core.machine.memory_limit import MemoryLimit, Use, memory_needed
@@ -185,6 +186,22 @@ def test_free_memory_of_control_groups(tmp_path, line, folder, names, dropped):
     assert list(free_memory._left_in_groups(lines, tmp_path)) == [750]
     (place / names[0]).write_text("max\n")
     assert list(free_memory._left_in_groups(lines, tmp_path)) == []
+
+
+# --- few addresses
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="heaps of threads are those of Linux")
+@pytest.mark.parametrize(("limited", "calls"), [(True, [(-8, 1)]), (False, [])])
+def test_threads_share_one_heap_where_addresses_are_limited(monkeypatch, limited, calls):
+    import resource  # there is none on Windows
+
+    found, limit = [], 1 << 32 if limited else resource.RLIM_INFINITY
+    library = SimpleNamespace(mallopt=lambda option, value: found.append((option, value)))
+    monkeypatch.setattr(few_addresses.ctypes, "CDLL", lambda name: library)
+    monkeypatch.setattr(resource, "getrlimit", lambda kind: (limit, limit))
+    few_addresses.share_one_heap()
+    assert found == calls
 
 
 # --- what an analysis needs

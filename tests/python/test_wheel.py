@@ -24,7 +24,6 @@ FRONT = {
     "__init__.py",
     "__main__.py",
     "cli.py",
-    "cli_balls.py",
     "console.py",
     "library.py",
     "py.typed",

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 # Grids of distances came with 4.x, behind an experimental option, and are there for all from 5.0.
 HAS_DISTANCE_GRIDS = bpy.app.version >= (5, 0, 0)
+_VOXEL = 2.0**-7  # the size at which the solid is made
 
 
 def build(name: str) -> bpy.types.GeometryNodeTree:
@@ -25,9 +26,25 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     voxel = _voxel(tree)
     merge = tree.number("Merge", 1.0, "Of vertices closer than this only one counts; voxels")
     points, radius = points_with_radii(tree, tree.math("MULTIPLY", voxel, merge))
+    # OpenVDB ends Blender for voxels whose volume is next to nothing. So the solid is made of voxels of one size,
+    # and scaled back.
+    growth = tree.math("DIVIDE", _VOXEL, voxel)
     surface = _from_distances if HAS_DISTANCE_GRIDS else _from_fog
-    mesh = surface(tree, points, radius, voxel)
+    mesh = surface(
+        tree, _scaled(tree, points, growth), tree.math("MULTIPLY", radius, growth), _VOXEL
+    )
+    mesh = _scaled(tree, mesh, tree.math("DIVIDE", voxel, _VOXEL))
     return tree.output(tree.node("GeometryNodeSetShadeSmooth", mesh))
+
+
+def _scaled(tree: Tree, geometry: NodeSocket, factor: NodeSocket) -> NodeSocket:
+    """The geometry with its positions multiplied by a factor."""
+    place = tree.node(
+        "ShaderNodeVectorMath",
+        named={"Vector": tree.node("GeometryNodeInputPosition"), "Scale": factor},
+        operation="SCALE",
+    )
+    return tree.node("GeometryNodeSetPosition", named={"Geometry": geometry, "Position": place})
 
 
 def _voxel(tree: Tree) -> NodeSocket:
@@ -56,9 +73,7 @@ def _voxel(tree: Tree) -> NodeSocket:
     )
 
 
-def _from_distances(
-    tree: Tree, points: NodeSocket, radius: NodeSocket, voxel: NodeSocket
-) -> NodeSocket:
+def _from_distances(tree: Tree, points: NodeSocket, radius: NodeSocket, voxel: float) -> NodeSocket:
     grid = tree.node(
         "GeometryNodePointsToSDFGrid",
         named={"Points": points, "Radius": radius, "Voxel Size": voxel},
@@ -66,7 +81,7 @@ def _from_distances(
     return tree.node("GeometryNodeGridToMesh", named={"Grid": grid, "Threshold": 0.0})
 
 
-def _from_fog(tree: Tree, points: NodeSocket, radius: NodeSocket, voxel: NodeSocket) -> NodeSocket:
+def _from_fog(tree: Tree, points: NodeSocket, radius: NodeSocket, voxel: float) -> NodeSocket:
     fog = tree.node(
         "GeometryNodePointsToVolume",
         named={"Points": points, "Radius": radius, "Voxel Size": voxel, "Density": 1.0},

@@ -8,54 +8,18 @@ import math
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
-from ..machine.memory_limit import MemoryLimit
-from ..settings import (
-    BALL_OPTIONS,
-    LIMITS,
-    OPTIONS,
-    SAMPLING_OPTIONS,
-    SKELETON_OPTIONS,
-    THICKNESS_OPTIONS,
-    BallSettings,
-    Between,
-    Choice,
-    Settings,
-    SkeletonSettings,
-    Switch,
-    ThicknessSettings,
-)
+from ..options import Choice, Switch, options_of
+from ..settings import OPTIONS, SAMPLING_OPTIONS, THICKNESS_OPTIONS, Between, Settings
 
 _UNITS = {"rad": "DEG", "%": "PERCENT", "MB": "MB", "length": "LENGTH"}
-# Of the method only what is measured depends on: thresholds do not change it.
+# Thickness, skeletons and balls depend on these options of the method only; thresholds do not change them.
 _MEASURED = ("sides", "sampling", *SAMPLING_OPTIONS)
-_OPTIONS_OF: dict[type, Mapping[str, Any]] = {
-    Settings: OPTIONS,
-    ThicknessSettings: THICKNESS_OPTIONS,
-    SkeletonSettings: SKELETON_OPTIONS,
-    BallSettings: BALL_OPTIONS,
-    MemoryLimit: LIMITS,
-}
 T = TypeVar("T")
 
 
-def add_options(parser: argparse._ArgumentGroup) -> None:
-    """An argument `--name` for every option of the method; what is not given is left to Settings."""
-    _add(parser, OPTIONS)
-
-
-def add_limits(parser: argparse._ArgumentGroup) -> None:
-    """As `add_options`, for MemoryLimit."""
-    _add(parser, LIMITS)
-
-
-def add_skeleton_options(parser: argparse._ArgumentGroup) -> None:
-    """As `add_options`, for SkeletonSettings."""
-    _add(parser, SKELETON_OPTIONS)
-
-
-def add_ball_options(parser: argparse._ArgumentGroup) -> None:
-    """As `add_options`, for BallSettings."""
-    _add(parser, BALL_OPTIONS)
+def add_options(parser: argparse._ArgumentGroup, kind: type) -> None:
+    """An argument `--name` for every option of a kind of settings; an option that is not given has its default."""
+    _add(parser, options_of(kind))
 
 
 def add_thickness(parser: argparse._ArgumentGroup) -> None:
@@ -73,7 +37,7 @@ def add_thickness(parser: argparse._ArgumentGroup) -> None:
 
 
 def add_sampling(parser: argparse._ArgumentGroup) -> None:
-    """As `add_options`, of those that lengths depend on."""
+    """As `add_options`, for the options of Settings that lengths, skeletons and balls depend on."""
     _add(parser, {name: OPTIONS[name] for name in _MEASURED})
 
 
@@ -103,7 +67,7 @@ def settings_from(words: argparse.Namespace, kind: type[T]) -> T:
     InvalidInputError
         A number out of its range.
     """
-    return kind(**_given(words, _OPTIONS_OF[kind]))
+    return kind(**_given(words, options_of(kind)))
 
 
 def sampling_from(words: argparse.Namespace) -> Settings:
@@ -113,7 +77,7 @@ def sampling_from(words: argparse.Namespace) -> Settings:
 
 def as_words(settings: Any) -> dict[str, str | float | bool]:
     """{option: value} of settings of any kind, as one would write it on the command line."""
-    options = _OPTIONS_OF[type(settings)]
+    options = options_of(type(settings))
     return {name: _outward(option, getattr(settings, name)) for name, option in options.items()}
 
 

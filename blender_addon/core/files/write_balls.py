@@ -9,7 +9,7 @@ import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from ..solid.ball_cover import Balls
 from .extensions import extension_of
@@ -75,17 +75,24 @@ def _write_ma(balls: Balls, stream: BinaryIO) -> None:
 
 
 def _write_json(balls: Balls, stream: BinaryIO) -> None:
-    """Everything; null is a figure that nobody knows."""
+    """Everything; null is a figure that is unknown."""
     rows = zip(balls.centres.tolist(), balls.radii.tolist(), strict=True)
-    found = {
-        "mode": balls.mode.name.lower(),
-        "covered": _known(balls.covered),
-        "outside": _known(balls.outside),
-        "farthest": _known(balls.farthest),
+    found: dict[str, Any] = {
+        **as_figures(balls),
         "balls": [{"centre": centre, "radius": radius} for centre, radius in rows],
     }
     stream.write(json.dumps(found, separators=(",", ":"), allow_nan=False).encode("ascii"))
     stream.write(b"\n")
+
+
+def as_figures(balls: Balls) -> dict[str, str | float | None]:
+    """How well balls represent the solid, for JSON; None is a figure that is unknown."""
+    return {
+        "mode": balls.mode.name.lower(),
+        "covered": _known(balls.covered),
+        "outside": _known(balls.outside),
+        "farthest": _known(balls.farthest),
+    }
 
 
 def _known(figure: float) -> float | None:

@@ -7,7 +7,8 @@ from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 
 from ..errors import MemoryLimitError
-from ..settings import LIMITS, MEGABYTE, AboveLimit, Side, check_ranges
+from ..options import Options, choice, integer, options_of
+from ..settings import MEGABYTE, AboveLimit, Side
 from . import native
 from .cache import CACHE
 from .free_memory import free_memory
@@ -42,29 +43,34 @@ class Use:
 
 
 @dataclass(frozen=True)
-class MemoryLimit:
-    """What an analysis may need.
+class MemoryLimit(Options):
+    """The memory that an analysis may need.
 
-    Parameters
-    ----------
-    memory_limit : int
-        Megabytes. 0 means what is free on this machine; analyses that the cache keeps are dropped to make room.
-    above_limit : AboveLimit
-    use : Use or None
-        What becomes of the analysis; None: it is all.
-
-    Raises
-    ------
-    InvalidInputError
-        A number out of its range.
+    The free memory of the machine, which a limit of 0 means, includes the analyses that the cache keeps: they are
+    dropped to make room. `use` is the further use of the analysis; None: there is none.
     """
 
-    memory_limit: int = LIMITS["memory_limit"].default
-    above_limit: AboveLimit = LIMITS["above_limit"].default
+    memory_limit: int = integer(
+        "Memory Limit",
+        "Memory that an analysis may need, in MB; 0: what is free when it starts",
+        default=0,
+        limits=(0, 1 << 24),
+        soft_limits=(0, 1 << 16),
+        unit="MB",
+    )
+    above_limit: AboveLimit = choice(
+        "Above the Limit",
+        "What is done when an analysis would need more memory",
+        default=AboveLimit.REFUSE,
+        items={
+            AboveLimit.REFUSE: ("Refuse", "Nothing is computed; a message says what it would need"),
+            AboveLimit.THIN: (
+                "Thin",
+                "As many samples of the faces, or evenly spread points of a cloud, as fit",
+            ),
+        },
+    )
     use: Use | None = field(default=None, repr=False, compare=False)
-
-    def __post_init__(self) -> None:
-        check_ranges(self, LIMITS)
 
     def used(self, **parts: object) -> MemoryLimit:
         """The same limit, of which more is known for what; `parts` are fields of Use."""
@@ -113,6 +119,7 @@ class MemoryLimit:
         return self.needed(_MOST) if free is None else free + CACHE.bytes
 
 
+LIMITS = options_of(MemoryLimit)
 WHAT_IS_FREE = MemoryLimit()
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..errors import DegenerateInputError, MemoryLimitError
@@ -23,6 +23,7 @@ from .check_faces import check_faces, check_not_flat
 from .chosen import Begun, ChosenSamples
 from .closing_samples import close_openings
 from .density import percent
+from .effort import EFFORT
 from .sample_spacing import FirstPass, first_pass, next_amount
 from .sides import decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces
@@ -32,32 +33,6 @@ if TYPE_CHECKING:
     from .shape import Shape
 
 
-@dataclass(frozen=True)
-class _Effort:
-    """The effort that a choice of Sampling allows.
-
-    Parameters
-    ----------
-    passes : int
-        The largest number of times that the faces are sampled.
-    at_edges, elsewhere, walls : float
-        The smallest spacing at sharp edges, elsewhere, and between walls where that much is needed to see the axis,
-        as shares of the first pass's spacing.
-    """
-
-    passes: int
-    at_edges: float
-    elsewhere: float
-    walls: float
-
-
-# The effort of Automatic is small, so that a first click is fast.
-_EFFORT = {
-    SamplingMode.VERTICES: _Effort(0, 0.0, 0.0, 0.0),
-    SamplingMode.SURFACE: _Effort(1, 1.0, 1.0, 1.0),
-    SamplingMode.AUTOMATIC: _Effort(2, 1.0, 0.5, 0.0625),
-    SamplingMode.ADAPTIVE: _Effort(4, 0.25, 0.0625, 0.0625),
-}
 # The budget counts as spent from this share on: all spacings are scaled to meet it, which is not exact.
 _SPENT = 0.97
 # Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
@@ -213,7 +188,7 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
     reason = f"{len(samples.points):,} samples of the surface: {why}"
     if passes > 1:
         reason += f"; closer together where it is thin, in {passes} passes"
-    most = _EFFORT[settings.sampling].passes
+    most = EFFORT[settings.sampling].passes
     if most > 1 and not samples.density.dense_enough and _is_spent(request, samples):
         reason += f", until the budget of {settings.budget:,} was spent"
     return ChosenSamples(samples, kind, reason, sides, request.gaps)
@@ -221,7 +196,7 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
 
 def _passes(request: Request, sides: Sides, first: FirstPass) -> tuple[AnalysedSamples, int]:
     """Return the samples of the last pass, and the number of passes."""
-    settings, effort = request.settings, _EFFORT[request.settings.sampling]
+    settings, effort = request.settings, EFFORT[request.settings.sampling]
     share = 1.0 if effort.passes == 1 else 0.4
     samples, passes = _pass(request, sides, first.amount, share, first.count), 1
     while (
@@ -314,6 +289,6 @@ def _kept(key: str, samples: AnalysedSamples) -> AnalysedSamples:
 def _judged(request: Request, samples: AnalysedSamples) -> AnalysedSamples:
     """Judge the density by the settings of the request: the cache may have kept the samples for another epsilon."""
     settings = request.settings
-    finest = _EFFORT[settings.sampling].at_edges * samples.spacing
+    finest = EFFORT[settings.sampling].at_edges * samples.spacing
     density = replace(samples.density, limit=settings.epsilon, finest=finest)
     return replace(samples, density=density)

@@ -550,7 +550,8 @@ def scene_what_comes_after():
 
 
 def scene_hide_and_seek():
-    """H hides the axis with its source; undo, redo and Alt H know it, too."""
+    """H hides the axis with its source where the preference says so; undo, redo and Alt H know it, too."""
+    bpy.context.preferences.addons[addon().__name__].preferences.hide_with_source = True
     source = bpy.data.objects["Cube"]
     select(source)
     yield from open_tab()

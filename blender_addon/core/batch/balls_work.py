@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A batch of solids as few balls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..files.write_balls import as_figures, export_balls
+from ..machine.memory_limit import MemoryLimit
+from ..machine.progress import Progress
+from ..samples.shape import Shape
+from ..settings import BallSettings, Settings
+from ..solid.ball_cover import BallCover, cover_by_balls
+from .option_words import as_words
+
+
+@dataclass(frozen=True)
+class BallsWork:
+    """Balls of some settings, as files."""
+
+    settings: Settings
+    wanted: BallSettings
+
+    def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> BallCover:
+        return cover_by_balls(shape, self.settings, self.wanted, progress, limit)
+
+    def check(self, found: BallCover) -> None:
+        """A solid has at least one ball, or computing it fails."""
+
+    def write(self, found: BallCover, path: Path, frame: np.ndarray) -> tuple[str, ...]:
+        export_balls(found.balls, path, frame)
+        return ()
+
+    def words(self) -> dict[str, Any]:
+        """The settings, as one would write them."""
+        return {**as_words(self.settings), **as_words(self.wanted)}
+
+    def figures(self, found: BallCover) -> dict[str, Any]:
+        return {
+            "points": found.points,
+            "count": len(found.balls.radii),
+            **as_figures(found.balls),
+            "sampled": found.chosen.reason,
+            "density": str(found.chosen.samples.density),
+            "inside": str(found.chosen.sides),
+        }

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""No output of a run replaces an input or another output.
+
+Files are the same if the system says so (links included) or if their paths are, because an output need not exist yet.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+from ..errors import InvalidInputError
+from .batch import report_path
+
+
+class Files:
+    """The files that a run reads, and those that it writes."""
+
+    def __init__(self, inputs: Iterable[str] = ()) -> None:
+        self._read = {key: path for path in inputs for key in _identities(Path(path))}
+        self._written: dict[object, Path] = {}
+
+    def check_not_read(self, output: Path) -> None:
+        """Check that neither an output nor the report next to it is an input.
+
+        Raises
+        ------
+        InvalidInputError
+        """
+        for path in (output, report_path(output)):
+            if found := [self._read[key] for key in _identities(path) if key in self._read]:
+                raise InvalidInputError(
+                    f"Expected an output that replaces no input, found '{path}', which is the input "
+                    f"'{found[0]}'; choose another folder or name"
+                )
+
+    def claim(self, output: Path) -> None:
+        """Check an output and its report, and keep them for this run.
+
+        Raises
+        ------
+        InvalidInputError
+        """
+        self.check_not_read(output)
+        for path in (output, report_path(output)):
+            if any(key in self._written for key in _identities(path)):
+                raise InvalidInputError(
+                    f"Expected another output for each input, found '{output}' again; put {{file}} "
+                    "or {name} in OUTPUT"
+                )
+        for path in (output, report_path(output)):
+            self._written |= dict.fromkeys(_identities(path), path)
+
+
+def _identities(path: Path) -> set[object]:
+    """The path with links resolved and, if the file exists, what the system identifies it by."""
+    found: set[object] = {os.path.normcase(os.path.realpath(path))}
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return found
+    return found | {(status.st_dev, status.st_ino)}
