@@ -14,7 +14,7 @@ import _module
 import numpy as np
 from _drawing import INK, ORANGE, PALE, RED, path, picture, stroke
 
-medial = _module.load()
+medial = _module.study()
 
 from support.shapes import SHAPES  # noqa: E402
 

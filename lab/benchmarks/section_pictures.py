@@ -19,7 +19,7 @@ from algorithm_pictures import BLUE, GREEN, bent, crossings, dot, fill, text
 from scipy.spatial import Delaunay, Voronoi
 from stage_pictures import inside, outline
 
-medial = _module.load()
+medial = _module.study()
 
 from support.shapes import SHAPES  # noqa: E402
 
@@ -333,7 +333,7 @@ def labels() -> str:
         analysis = medial.MedialAnalysis(points, sides=kind)
         parts.append(text(middle, 30, name, INK, "middle", size=15))
         for side, colour in ((medial.Side.OUTER, BLUE), (medial.Side.INNER, RED)):
-            found = slab(analysis.poles(side).vertices, 0.08)
+            found = slab(medial.pole_axis(analysis, side).vertices, 0.08)
             parts += [dot(p, colour, 2.6) for p in shell_page(found, middle)]
         parts += [dot(p, INK, 1.6) for p in shell_page(slab(points, 0.03), middle)]
     legend = [

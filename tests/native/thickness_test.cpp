@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "axis/ball_reach.h"
+#include "balls/ball_reach.h"
 #include "base/nearest_ball.h"
 #include "base/patches.h"
 #include "shapes.h"

@@ -90,8 +90,8 @@ def assert_levels_hold(hierarchy, analysis, thresholds=THRESHOLDS):
             assert (pieces, euler) == (b0, b0 - b1 + b2), chosen
 
 
-def reference(medial, points, analysis, hierarchy):
-    cells = medial.delaunay(points)[0]
+def reference(study, points, analysis, hierarchy):
+    cells = study.delaunay(points)[0]
     c = collapse_reference.inner_complex(
         points, cells, hierarchy.cells, hierarchy.vertices, hierarchy.generators, hierarchy.edges
     )
@@ -117,11 +117,11 @@ def same(found, expected):
 
 
 @pytest.mark.parametrize("seed", [s for s in range(36) if s % 6 in (0, 1, 5)])
-def test_values_are_those_of_the_definition(medial, seed):
+def test_values_are_those_of_the_definition(study, seed):
     points = random_points(seed)
-    analysis = analysed(medial, points, seed)
+    analysis = analysed(study, points, seed)
     hierarchy = analysis.hierarchy()
-    c, collapse, spacing = reference(medial, points, analysis, hierarchy)
+    c, collapse, spacing = reference(study, points, analysis, hierarchy)
     assert hierarchy.betti == collapse_reference.betti(c)
     assert sorted(hierarchy.bubbles) == sorted(c.bubbles)
     values = {
