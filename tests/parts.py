@@ -268,6 +268,7 @@ def asan_and_module(blender: Path) -> None:
     first = " ".join(library_of(name) for name in ("asan", "stdc++"))
     environment = {"LD_PRELOAD": first, "ASAN_OPTIONS": "detect_leaks=0"}
     environment.update({"UBSAN_OPTIONS": "halt_on_error=1:print_stacktrace=1"})
+    environment["MEDIAL_AXIS_STUDY"] = str(paths.BUILD / "asan")
     tests = [f"tests/python/{name}" for name in SANITIZED_TESTS]
     run_pytest(blender, *tests, MEDIAL_AXIS_PACKAGE=str(package), **environment)
 

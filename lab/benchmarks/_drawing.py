@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the drawings of the docs share: a white page of their own, a legend, and lines."""
+"""Parts that the drawings of the docs share: a white page, a legend, and lines."""
 
 WIDTH = 760
 INK, RED, ORANGE, PALE = "#1c2833", "#c0392b", "#e08a1e", "#b4bec8"

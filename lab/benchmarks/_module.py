@@ -12,7 +12,8 @@ PACKAGE = Path(os.environ.get("MEDIAL_AXIS_PACKAGE", ROOT / "blender_addon"))
 
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
-from support.data import DATA  # noqa: E402, F401 - found through the line above
+from support import study as study_module  # noqa: E402 - found through the line above
+from support.data import DATA  # noqa: E402, F401
 
 
 def load():
@@ -22,6 +23,11 @@ def load():
     from medial_axis.core.machine import native
 
     return native.load()
+
+
+def study():
+    """The module that is not shipped: all of the compiled one, the stages by themselves and the methods of others."""
+    return study_module.load()
 
 
 def _register_package():
@@ -45,7 +51,7 @@ def markdown(header: list[str], rows: list[list[str]]) -> str:
 
 
 def parser(description: str) -> argparse.ArgumentParser:
-    """Of a script that prints a table, with the option to write it to a file."""
+    """A parser for a script that prints a table, with the option to write the table to a file."""
     made = argparse.ArgumentParser(
         description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )

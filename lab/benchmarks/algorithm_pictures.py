@@ -14,7 +14,7 @@ import _module
 import numpy as np
 from _drawing import INK, ORANGE, PALE, RED, path, picture, stroke
 
-medial = _module.load()
+medial = _module.study()
 
 from support.shapes import SHAPES  # noqa: E402
 
@@ -312,7 +312,7 @@ def depths(cells, neighbors, side):
 
 
 def shade(depth: float) -> str:
-    """Of a cell outside, by its depth as a share of the deepest; below zero: of one inside."""
+    """The colour of an outer cell by its depth as a share of the largest depth; below zero, that of an inner cell."""
     if depth < 0:
         return "#f0b869"
     low, high = np.array([222, 235, 247]), np.array([24, 76, 128])
@@ -338,7 +338,7 @@ def crossings(corners, pairs):
 
 
 def lines(points, triangles, middle: float, colour: str, width: float) -> list[str]:
-    """What the plane cuts of triangles."""
+    """Strokes along the cuts of the triangles with the plane y = 0."""
     found = [crossings(points[t], [(0, 1), (1, 2), (0, 2)]) for t in triangles]
     return [stroke(on_cut(cut, middle), colour, width) for cut in found if len(cut) == 2]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a medial axis costs beside the bare Delaunay triangulation of the same points: JSON and Markdown tables.
+"""Measures the cost of a medial axis relative to the bare Delaunay triangulation of the same points.
 
     python3 build_addon.py bench [--quick] [--largest N] [--repeats K] [--only WORD ...] [--output FOLDER]
         [--table PAGE]
@@ -107,7 +107,7 @@ def measured(work: Input, options: argparse.Namespace) -> dict:
 
 
 def cases(work: Input) -> list[tuple[str, int]]:
-    """What tells inside from outside, and how many threads."""
+    """Pairs of the source of inside and outside, and the number of threads."""
     sides = ["NONE"]
     if len(work.triangles):
         sides.append("SURFACE")
@@ -130,7 +130,7 @@ def summary(sides: str, threads: int, turns: list[dict]) -> dict:
 
 
 def speed_up(row: dict, rows: list[dict]) -> float:
-    """Of all but CGAL's part, from one thread to those of this row."""
+    """The speed-up of all but CGAL's part from one thread to the threads of this row."""
     one = next(r for r in rows if (r["sides"], r["threads"]) == (row["sides"], 1))
     return one["seconds"]["own"] / row["seconds"]["own"]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the whole operator costs in Blender beside the bare triangulation of the same points, and what a slider costs.
+"""Measures the cost of the operator in Blender relative to the bare triangulation, and that of a change of a slider.
 
 Used by bench.py. Click: the operator with its defaults, from the mesh object to the evaluated object of the clean
 axis. Change: another value of Erode, from the panel's property to the evaluated mesh; rho: another Rho, which needs

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the hierarchy and its levels cost beside the bare Delaunay triangulation of the same points: Markdown tables.
+"""Measures the cost of the hierarchy relative to the bare Delaunay triangulation of the same points: Markdown tables.
 
     python3 lab/benchmarks/hierarchy_cost.py [--only WORD ...] [--turns K] [--threads N ...] [--largest N]
         [--blender PROGRAM]

@@ -23,13 +23,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 AGAIN = 5  # extracts after the first one; their median counts
-# What CGAL does, as the analysis calls it.
+# The names that the analysis gives to CGAL's part.
 DELAUNAY = ("delaunay", "triangulation")
 
 
 @dataclass(frozen=True)
 class Input:
-    """What is measured: (n, 3) float64 points, and (m, 3) int32 triangles, none for a cloud of points."""
+    """An input to measure: (n, 3) float64 points, and (m, 3) int32 triangles, none for a cloud of points."""
 
     name: str
     points: NDArray[np.float64]
@@ -81,7 +81,7 @@ def _of_this_script(*words: object) -> dict:
 
 
 def median(values: list) -> object:
-    """Of numbers; of each value of equal dictionaries or lists."""
+    """The median of numbers, or of each value of dictionaries with the same keys."""
     first = values[0]
     if isinstance(first, dict):
         return {key: median([value[key] for value in values]) for key in first}

@@ -142,7 +142,7 @@ def table_1() -> str:
 
 
 def _bare_seconds(points: np.ndarray) -> float:
-    """Of CGAL's triangulation alone."""
+    """Seconds of CGAL's triangulation alone."""
     with tempfile.NamedTemporaryFile() as file:
         np.ascontiguousarray(points).tofile(file.name)
         told = subprocess.run([BARE, file.name], check=True, capture_output=True, text=True).stdout

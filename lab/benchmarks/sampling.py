@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What samples of a triangulated surface cost, and how good they are: a Markdown table.
+"""Measures the cost and the quality of samples of a triangulated surface: a Markdown table.
 
     python3 lab/benchmarks/sampling.py [--output table.md] [--threads N]
 

@@ -19,7 +19,7 @@ from algorithm_pictures import BLUE, GREEN, bent, crossings, dot, fill, text
 from scipy.spatial import Delaunay, Voronoi
 from stage_pictures import inside, outline
 
-medial = _module.load()
+medial = _module.study()
 
 from support.shapes import SHAPES  # noqa: E402
 
@@ -46,7 +46,7 @@ def sampling() -> str:
 
 
 def box_triangles():
-    """Of corners in the order of x, y, z; outward."""
+    """The outward triangles of a box whose corners are sorted by x, y, z."""
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     return np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))], dtype=np.int32)
 
@@ -132,7 +132,7 @@ def radii(points, found, centres):
 
 
 def voronoi(found, centres, within) -> list[str]:
-    """What both ends see inside in blue; the picture's frame cuts off what leads far away."""
+    """Voronoi edges, in blue if both ends are inside; the picture's frame clips them."""
     drawn = {False: [], True: []}
     for t, others in enumerate(found.neighbors):
         for corner, other in enumerate(others):
@@ -333,7 +333,7 @@ def labels() -> str:
         analysis = medial.MedialAnalysis(points, sides=kind)
         parts.append(text(middle, 30, name, INK, "middle", size=15))
         for side, colour in ((medial.Side.OUTER, BLUE), (medial.Side.INNER, RED)):
-            found = slab(analysis.poles(side).vertices, 0.08)
+            found = slab(medial.pole_axis(analysis, side).vertices, 0.08)
             parts += [dot(p, colour, 2.6) for p in shell_page(found, middle)]
         parts += [dot(p, INK, 1.6) for p in shell_page(slab(points, 0.03), middle)]
     legend = [
@@ -348,7 +348,7 @@ def labels() -> str:
 
 
 def slab(points, width: float):
-    """Those near the plane y = 0 and not far from the shell."""
+    """The points near the plane y = 0 and not far from the shell."""
     points = np.asarray(points)
     near = np.abs(points[:, 1]) < width
     return points[near & (np.abs(points[:, 0]) < 1.15) & (np.abs(points[:, 2]) < 0.85)][:, [0, 2]]

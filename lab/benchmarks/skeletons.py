@@ -155,7 +155,7 @@ def places_of(lines: Lines) -> tuple[np.ndarray, np.ndarray, np.ndarray | None]:
 
 
 class Truth:
-    """What is asked of the surface itself: distances to samples of it, and where rays meet its triangles."""
+    """Queries of the surface itself: distances to samples of it, and where rays meet its triangles."""
 
     def __init__(self, shape: Shape) -> None:
         settings = Settings(sampling=SamplingMode.SURFACE, samples=100_000)
@@ -180,7 +180,7 @@ class Truth:
         return np.array([np.isfinite(self._hits(p, way)).sum() % 2 == 1 for p in points])
 
     def off_centre(self, place: np.ndarray, along: np.ndarray) -> float:
-        """Of a place inside: how far the mean of what rays across the line meet is from it, in mean rays."""
+        """The distance of an inner place from the mean of the hits of rays across the line, in mean ray lengths."""
         across = np.linalg.svd(along[None])[2][1:]
         turn = np.linspace(0.0, 2 * np.pi, RAYS, endpoint=False)
         rays = np.column_stack((np.cos(turn), np.sin(turn))) @ across
@@ -241,7 +241,7 @@ print("FOUND " + json.dumps([len(rig.data.bones), skin, weights, bare, most]))
 
 
 def skin_modifier(blender: str, shape: Shape, lines: Lines) -> str:
-    """What Blender's Skin modifier and automatic weights make of a skeleton, in words."""
+    """Reports, in words, what Blender's Skin modifier and automatic weights make of a skeleton."""
     with tempfile.TemporaryDirectory() as folder:
         given, script = Path(folder, "given.json"), Path(folder, "script.py")
         script.write_text(IN_BLENDER)

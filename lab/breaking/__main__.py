@@ -55,7 +55,7 @@ def _processor_time() -> float:
 
 
 def _batch(kind: str, seed: int) -> str:
-    """What a batch said. Its temporary folders lie in one that goes with it, however it ends."""
+    """Runs a batch and returns its output. Its temporary files are deleted, however it ends."""
     command = [sys.executable, "-m", "lab.breaking", "--batch", kind, str(seed)]
     with TemporaryDirectory(prefix="breaking_", ignore_cleanup_errors=True) as folder:
         process = subprocess.Popen(

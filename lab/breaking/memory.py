@@ -25,7 +25,7 @@ NOBODY = 61_234  # who has no processes, so that a limit of them is one of threa
 
 
 def told(random: Random, folder: Path) -> None:
-    """What is told is the peak within 15 %, and what every process takes; solids without symmetry."""
+    """The forecast is within 15 % of the peak, but for the memory of any process; the solids have no symmetry."""
     points, triangles = _solid(random)
     faces, side = bool(random.integers(0, 2)), str(random.choice(["inner", "both", "outer"]))
     form = str(random.choice(["published", "clean"])) if side == "inner" else "published"

@@ -30,7 +30,7 @@ EQUIVALENT, SURVIVED, UNDECIDED = "equivalent", "survived", "not noticed by ctes
 
 
 def problems() -> list[str]:
-    """What is wrong with the list: texts that do not occur once, and names that occur twice."""
+    """The errors of the list: texts that do not occur exactly once, and names that occur twice."""
     found = []
     for mutation in MUTATIONS:
         try:
@@ -125,7 +125,7 @@ class Copy:
 
 
 def outcome(copy: Copy, mutation: Mutation, native: bool) -> str:
-    """What notices the fault; `native`: ctest alone is asked. The copy is left without it."""
+    """The test that notices the mutation; with `native` only ctest runs. The copy is restored."""
     path = copy.tree / mutation.path
     text = path.read_text()
     path.write_text(mutation.applied(text))

@@ -175,7 +175,7 @@ def made(name, make):
 
 
 def as_mesh(source):
-    """What to draw of the source: itself, or a mesh of a text, curve or metaball."""
+    """The mesh to draw for the source: itself, or the mesh of a text, curve or metaball."""
     if source.type == "MESH":
         return source
     graph = bpy.context.evaluated_depsgraph_get()

@@ -123,7 +123,7 @@ def new_object(name, turn, points, faces):
 
 
 def made(source, operator, **options):
-    """What an operator of the add-on makes of an object."""
+    """The object that an operator of the add-on makes from another."""
     bpy.ops.object.select_all(action="DESELECT")
     source.select_set(True)
     bpy.context.view_layer.objects.active = source

@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 VIEWPORT = "1056x636+0+22"  # of the window: without the editors on the right and below
 WIDTH, COLOURS = 880, 128
-# What a scene saw -> the picture of the panel alone, and where that is in the window.
+# The screenshot of a scene -> the picture of the panel alone, and its place in the window.
 PANELS = {
     "cancel_with_escape-running": ("progress", "192x240+836+84"),
     "missing_module-message": ("missing_module", "192x320+836+84"),

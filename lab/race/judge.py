@@ -49,7 +49,7 @@ class Score:
 
 
 def judge(name: str, found: Complex, samples: int, outer: bool = False) -> Score:
-    """Of the inner axis of a solid; or of the outer one, in the box of the surface."""
+    """The score of the inner axis of a solid, or of the outer one in the box of the surface."""
     solid = SOLIDS[name]
     if outer:
         return _outer(name, found, samples)

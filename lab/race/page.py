@@ -296,7 +296,7 @@ def _failures(rows: list[Row], skipped: dict[str, list[str]]) -> str:
 
 
 def _plot(rows: list[Row], measure: str, folder: Path) -> str:
-    """Of clean samples, over their number."""
+    """Plots a measure over the number of samples, for samples without noise."""
     data: dict[str, dict[str, list[tuple[float, float]]]] = {}
     for row in compare.scored(rows):
         if row["noisy"] or row["outer"] or row["program"] not in plot.COLOURS:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the add-on of this checkout importable as `medial_axis`, and its compiled module as `load()`."""
+"""Makes the add-on of this checkout importable as `medial_axis`, and its compiled module as `load()`; and the module
+that is not shipped as `study()`."""
 
 import sys
 
@@ -9,5 +10,5 @@ sys.path.insert(0, str(ROOT / "lab" / "benchmarks"))
 
 import _module
 
-load = _module.load
+load, study = _module.load, _module.study
 load()

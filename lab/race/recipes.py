@@ -38,7 +38,7 @@ class Recipe:
             )
 
     def missing(self) -> list[str]:
-        """What it needs and this machine has not."""
+        """The needs of the recipe that this machine does not meet."""
         return [need for need in self.needs if not _there(need.format(root=ROOT))]
 
     def words(self, files: dict[str, Path], outer: bool = False) -> list[str]:

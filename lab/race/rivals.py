@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The methods that the paper compares itself with, on the Voronoi diagram that is ours, as programs of the race.
 
-All but the shrinking ball are options of the product, too (`--method`); what is restated here, with NumPy, is what
-its tests compare with.
+All but the shrinking ball are in the module _medial_study, too; what is restated here, with NumPy, is what its tests
+compare with.
 
     python3 -m lab.race.rivals METHOD INPUT OUTPUT.off [--side OUTER] [option=value ...]
 
@@ -34,7 +34,7 @@ from scipy.spatial import cKDTree
 
 from . import product
 
-medial = product.load()
+medial = product.study()
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -68,7 +68,7 @@ class Samples:
     def facets(self):
         """All Voronoi facets of the side: no pq is shorter than 0."""
         analysis = medial.MedialAnalysis(self.points, sides=medial.SidesFrom.TIGHT_COCONE)
-        return analysis.extract(criteria=medial.Criteria.LAMBDA, length=0.0, side=self.side)
+        return medial.axis_by_size(analysis, medial.SizeCondition.LAMBDA, 0.0, side=self.side)
 
     @cached_property
     def lengths(self) -> Array:

@@ -295,7 +295,7 @@ def test_what_is_no_axis_is_refused(text, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def rivals(medial):
+def rivals(study):
     from lab.race import rivals
 
     return rivals
@@ -382,9 +382,9 @@ def test_angle_and_length_hold_at_every_corner(rivals, torus):
         assert angle.min() >= math.radians(60.0) * (1 - 1e-9)
 
 
-def test_tangent_polygons_reach_to_where_voronoi_edges_cross_them(rivals, torus, medial):
+def test_tangent_polygons_reach_to_where_voronoi_edges_cross_them(rivals, torus, study):
     """Corners of the polygon are as far from p as from two other samples, and from no sample less."""
-    vectors, _ = medial.poles(torus.points)
+    vectors, _ = study.poles(torus.points)
     reach = rivals.polygon_reach(torus.points, vectors)
     for i in range(0, 300, 25):
         p, normal = torus.points[i], vectors[i] / np.linalg.norm(vectors[i])

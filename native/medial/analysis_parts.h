@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an analysis keeps: the results of the stages that extractions read.
+// What an analysis keeps: the results of the stages, which extractions read.
 #pragma once
 
 #include <medial/analysis.h>
@@ -36,5 +36,23 @@ struct MedialAnalysis::Parts {
   // Of a stage that reads these parts.
   Run run(Progress* progress = nullptr) const { return {threads, progress, arena.get()}; }
 };
+
+// Runs the stages.
+std::unique_ptr<const MedialAnalysis::Parts> analysed(const AnalysisInput& input,
+                                                      const AnalysisOptions& options,
+                                                      Progress* progress);
+
+// Throws InvalidInputError unless there is one finite normal per row, and not all are zero.
+void require_normals(std::span<const Vec3> normals, size_t rows);
+// Throws InvalidInputError where inside and outside are not known, DegenerateInputError where the
+// samples enclose nothing.
+void require_solid(const MedialAnalysis::Parts& made);
+
+// What a selection reads.
+Facets facets_of(const MedialAnalysis::Parts& made);
+// All edges in lexicographic order of their input rows.
+std::vector<int32_t> edges_by_row(const MedialAnalysis::Parts& made);
+// Brings a mesh from the frame of the analysis into that of the input.
+void bring_outward(MedialMesh& mesh, const Frame& frame);
 
 }  // namespace medial

@@ -27,48 +27,47 @@ class Cancelled(Exception):
 class Side:
     """Which axis a facet belongs to; also the values of `MedialMesh.side`."""
 
-    BOTH: Side  # 0: as an argument every facet, as a value "not known"
-    INNER: Side  # 1: every Voronoi vertex of the facet is inside; by Tight Cocone, every cell round the dual edge, too
-    OUTER: Side  # 2: none is
-    CROSSING: Side  # 3: some are (only as a value)
+    BOTH: Side  # 0
+    """As an argument every facet, as a value "not known"."""
+    INNER: Side  # 1
+    """Every Voronoi vertex of the facet is inside; by Tight Cocone, every cell round the dual edge, too."""
+    OUTER: Side  # 2
+    """No Voronoi vertex of the facet is inside."""
+    CROSSING: Side  # 3
+    """Some Voronoi vertices of the facet are inside; only as a value."""
 
 class SidesFrom:
     """What tells inside from outside, for `MedialAnalysis`."""
 
-    AUTOMATIC: SidesFrom  # 0: SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE; or
-    # POLES where its `pole_disagreement` is above 0.05
-    SURFACE: SidesFrom  # 1: the winding number of the triangles
-    NORMALS: SidesFrom  # 2: a vote of outward normals of the samples nearest to a Voronoi vertex
-    TIGHT_COCONE: SidesFrom  # 3: the watertight surface of `TightCocone`; needs the points only
-    NONE: SidesFrom  # 4: nothing; every facet has side BOTH
-    POLES: SidesFrom  # 5: labels that go from pole to pole, and a vote of the samples by those of their own; needs the
-    # points only, and keeps cavities
+    AUTOMATIC: SidesFrom  # 0
+    """SURFACE when the triangles are closed, else NORMALS when given, else TIGHT_COCONE; or POLES where its
+    `pole_disagreement` is above 0.05."""
+    SURFACE: SidesFrom  # 1
+    """The winding number of the triangles."""
+    NORMALS: SidesFrom  # 2
+    """A vote of outward normals of the samples nearest to a Voronoi vertex."""
+    TIGHT_COCONE: SidesFrom  # 3
+    """The watertight surface of `TightCocone`; needs the points only."""
+    NONE: SidesFrom  # 4
+    """Nothing; every facet has side BOTH."""
+    POLES: SidesFrom  # 5
+    """Labels that go from pole to pole, and a vote of the samples by those of their own; needs the points only, and
+    keeps cavities."""
 
 class Rule:
     """Which ends of a Delaunay edge pq must pass a condition (Dey & Zhao, sect. 3)."""
 
-    EITHER: Rule  # 0: p or q, the paper's text
-    BOTH: Rule  # 1: p and q, per criterion
+    EITHER: Rule  # 0
+    """p or q, the paper's text."""
+    BOTH: Rule  # 1
+    """p and q, per criterion."""
 
 class Criteria:
-    """Which conditions select: those of Dey & Zhao (sect. 3.1 and 3.2; figures 5 and 7 show one alone), or of others
-    on the same facets."""
+    """Which conditions select (Dey & Zhao, sect. 3.1 and 3.2; figures 5 and 7 show one alone)."""
 
     ANGLE_OR_RATIO: Criteria  # 0
     ANGLE: Criteria  # 1
     RATIO: Criteria  # 2
-    ANGLE_AND_LENGTH: Criteria  # 3: after Attali & Lachaud (2001): every ball of the facet
-    # sees pq under at least twice theta, and |pq| is at least `length`
-    LAMBDA: Criteria  # 4: Chazal & Lieutier (2005): the nearest samples fit in no ball
-    # with a diameter below `length`, twice their lambda. Of edges, too
-
-class Against:
-    """What theta and rho at a sample are measured against (Dey & Zhao, the Remark in sect. 3.2)."""
-
-    UMBRELLA: Against  # 0: the normals and the circumradii of its umbrella
-    POLE: Against  # 1: the pole vector for the normals; edges of umbrellas are tried, too
-    POLYGON: Against  # 2: the farthest corner of the tangent polygon for the circumradii
-    POLE_AND_POLYGON: Against  # 3: both
 
 @final
 class Progress:
@@ -447,8 +446,10 @@ class Hierarchy:
 class CoverMode:
     """What `cover_by_balls` promises."""
 
-    INSIDE: CoverMode  # 0: no ball reaches out of the solid
-    AROUND: CoverMode  # 1: the balls hold all of the surface, and all places of the lattice in the solid
+    INSIDE: CoverMode  # 0
+    """No ball reaches out of the solid."""
+    AROUND: CoverMode  # 1
+    """The balls hold all of the surface, and all places of the lattice in the solid."""
 
 @final
 class BallCover:
@@ -480,13 +481,15 @@ class BallCover:
 class ThicknessMode:
     """What `MedialAnalysis.thickness` measures."""
 
-    # Balls between walls, whose normals differ by 120 degrees or more. Elsewhere, as next to an edge, what the nearest
-    # wall along the surface has, or the largest ball that is near, but never less than the ball at the sample itself.
     WALL: ThicknessMode  # 0
-    BALL: ThicknessMode  # 1: all balls; zero at every convex edge
-    # The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No normals
-    # are used; what tapers reads too thick.
+    """Balls between walls, whose normals differ by 120 degrees or more. Elsewhere, as next to an edge, what the
+    nearest wall along the surface has, or the largest ball that is near, but never less than the ball at the
+    sample itself."""
+    BALL: ThicknessMode  # 1
+    """All balls; zero at every convex edge."""
     SCAN: ThicknessMode  # 2
+    """The ball that comes nearest, of those at facets with a theta above 50 degrees at both ends, for noise. No
+    normals are used; what tapers reads too thick."""
 
 @final
 class WallThickness:
@@ -524,8 +527,6 @@ class MedialAnalysis:
     bounding_sphere : bool
         Add 200 points at twice the radius (Dey & Zhao, sect. 4.2). It bounds the outer axis and removes
         its far junk; only edges between true samples are analysed and selected.
-    against : Against
-        What theta and rho are measured against; default UMBRELLA.
     progress : Progress, optional
     threads : int
         0: as many as the machine has. The result does not depend on it.
@@ -545,7 +546,6 @@ class MedialAnalysis:
         sides: SidesFrom = ...,
         cocone: CoconeOptions | None = None,
         bounding_sphere: bool = False,
-        against: Against = ...,
         progress: Progress | None = None,
         threads: int = 0,
     ) -> None: ...
@@ -712,7 +712,6 @@ class MedialAnalysis:
         criteria: Criteria = ...,
         *,
         limit_set: bool = False,
-        length: float = 0.05,
     ) -> NDArray[np.int32]:
         """Ids (rows of `edges`), ascending, of the edges that satisfy Angle[theta] or Ratio[rho]: the set F of
         MEDIAL, unbounded and zero-area facets included. An edge of U_p is not tried from p (step 5 of MEDIAL), which
@@ -726,7 +725,6 @@ class MedialAnalysis:
         criteria: Criteria = ...,
         *,
         limit_set: bool = False,
-        length: float = 0.05,
         progress: Progress | None = None,
     ) -> MedialMesh:
         """The closure of the selected facets.
@@ -742,24 +740,10 @@ class MedialAnalysis:
         rule : Rule
             EITHER (default) or BOTH.
         criteria : Criteria
-            ANGLE_OR_RATIO (default), ANGLE, RATIO, ANGLE_AND_LENGTH or LAMBDA.
+            ANGLE_OR_RATIO (default), ANGLE or RATIO.
         limit_set : bool
             Keep a facet selected by the Ratio condition alone only if |pq| >= eps^(1/4) mu (Definition 4), where
             mu is the smallest ball radius at the facet's vertices and eps = |pq| / (rho mu). Default off.
-        length : float
-            Of ANGLE_AND_LENGTH and LAMBDA, a share of the diagonal of the samples' box, at least 0; default 0.05. It
-            is reached, not exceeded.
-
-        Raises
-        ------
-        InvalidInputError, Cancelled
-        DegenerateInputError
-            INNER or OUTER, and `TightCocone.encloses` is false.
-        """
-    def poles(self, side: Side = ..., *, progress: Progress | None = None) -> MedialMesh:
-        """The poles as balls: a MedialMesh of vertices without facets (Amenta & Bern 1998; Boissonnat & Cazals 2001).
-        They are the farthest Voronoi vertex of each cell and the farthest against it, on one side or on both, where
-        they are finite. In the order of `samples`.
 
         Raises
         ------
@@ -771,12 +755,18 @@ class MedialAnalysis:
 class SampleKind:
     """What a sample lies on; the values of `SurfaceSamples.kind`."""
 
-    CORNER: SampleKind  # 0: a vertex that ends other than two creases, a sharp turn of a chain, or the tip of a cone
-    SHARP: SampleKind  # 1: a sharp edge
-    BOUNDARY: SampleKind  # 2: an edge of one triangle
-    VERTEX: SampleKind  # 3: a kept vertex away from creases
-    SURFACE: SampleKind  # 4: anywhere
-    OPENING: SampleKind  # 5: off the triangles; only `closing_samples` makes them
+    CORNER: SampleKind  # 0
+    """A vertex that ends other than two creases, a sharp turn of a chain, or the tip of a cone."""
+    SHARP: SampleKind  # 1
+    """A sharp edge."""
+    BOUNDARY: SampleKind  # 2
+    """An edge of one triangle."""
+    VERTEX: SampleKind  # 3
+    """A kept vertex away from creases."""
+    SURFACE: SampleKind  # 4
+    """Anywhere."""
+    OPENING: SampleKind  # 5
+    """Off the triangles; only `closing_samples` makes them."""
 
 @final
 class SurfaceSamples:
@@ -952,99 +942,6 @@ def closing_samples(
 def memory_needed(points: int) -> int:
     """Bytes at the peak of an analysis of so many samples of a surface and an extraction, as measured. Facets that are
     long and thin, as on a torus of random points, take up to four times as many."""
-
-# The stages by themselves, for study and tests. Every one starts from the points.
-
-def delaunay(
-    points: NDArray[np.float64],
-) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.float64]]:
-    """Delaunay triangulation of the distinct rows.
-
-    Returns
-    -------
-    cells : (c, 4) int32
-        Rows of the corners, positively oriented; -1 is the infinite vertex. Infinite cells included.
-    neighbors : (c, 4) int32
-        Cell across the facet opposite to each corner.
-    circumcentres : (c, 3) float64
-        Voronoi vertex of a finite cell, relative error below 2^-24 of its radius; of an infinite cell the outward
-        unit normal of its hull triangle: the direction of its Voronoi ray.
-    """
-
-def poles(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Pole vectors (Definition 1) of the distinct rows in ascending order.
-
-    Returns
-    -------
-    vectors : (k, 3) float64
-        v_p = p+ - p; for an unbounded cell the mean of the unit directions of its distinct infinite edges.
-    unbounded : (k,) bool
-        The pole is at infinity.
-    """
-
-def umbrellas(points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
-    """Umbrellas U_p (Definition 3) of the distinct rows in ascending order.
-
-    Returns
-    -------
-    offsets : (k + 1,) int64
-    triangles : (t, 3) int32
-        Rows (p, a, b), a < b, sorted; U_p of the i-th sample is `triangles[offsets[i] : offsets[i + 1]]`.
-    """
-
-def power_shape(
-    centres: NDArray[np.float64],
-    radii: NDArray[np.float64],
-    wanted: NDArray[np.bool_],
-    *,
-    progress: Progress | None = None,
-) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
-    """The power shape (Amenta, Choi & Kolluri 2001): where the power cells of balls meet.
-
-    Parameters
-    ----------
-    centres : (n, 3) float64
-    radii : (n,) float64
-        At least 0.
-    wanted : (n,) bool
-        The balls of the shape, say the inner poles; the others take their cells of space.
-    progress : Progress, optional
-
-    Returns
-    -------
-    balls : (k,) int32
-        Rows, ascending, of the wanted balls that have a cell. Of equal balls the first has it.
-    triangles : (t, 3) int32
-        Rows of three wanted balls whose cells meet, ascending, in lexicographic order.
-    edges : (e, 2) int32
-        Of two, in no such triangle.
-
-    Raises
-    ------
-    InvalidInputError, Cancelled
-    """
-
-def cocone(
-    points: NDArray[np.float64], options: CoconeOptions | None = None
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.int32]]:
-    """Cocone's flat samples and candidate triangles; samples are the distinct rows in ascending order.
-
-    With v_p the pole vector and C_p the points y whose line p y is within `cocone_angle` of the plane through p
-    normal to v_p, the cocone neighbours of p are the samples of the triangles at p whose dual Voronoi edge
-    meets C_p.
-
-    Returns
-    -------
-    thin : (k,) bool
-        `flatness_ratio` times the distance of the farthest crossing of V_p's edges with that plane is at most the
-        distance of p to its pole and to its second pole: the farthest Voronoi vertex on the other side of the plane.
-    flat : (k,) bool
-        Thin, and its pole line is within `flatness_angle` of that of every cocone neighbour; or, grown from those:
-        thin, and within it of that of one flat cocone neighbour.
-    candidates : (t, 3) int32
-        Rows, ascending, sorted: triangles with a flat corner, whose dual Voronoi edge meets the cocone of every
-        flat corner.
-    """
 
 def open_edges(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> int:
     """`MedialAnalysis.boundary_edges` without the analysis: edges of the triangles that are not used equally often in

@@ -4,51 +4,10 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "docstrings.h"
 
 namespace medial::python {
 namespace {
-
-constexpr const char* kReduceDoc =
-    "The same solid with fewer spheres: `(vertices, radius, triangles, edges)`.\n\n"
-    "Edges collapse as long as the homotopy type stays, those first that change the surface of the "
-    "solid least; then the\nspheres are fitted to that surface. Where no more edge can collapse, "
-    "more spheres stay than wanted.\n\n"
-    "Parameters\n----------\n"
-    "vertices : (v, 3) float64\n"
-    "radius : (v,) float64\n"
-    "triangles : (t, 3) int32\n"
-    "edges : (w, 2) int32\n    Those without a triangle; others are passed over.\n"
-    "wanted : int\n    Number of spheres.\n"
-    "progress : Progress, optional\n"
-    "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
-    "Raises\n------\nInvalidInputError, Cancelled";
-
-constexpr const char* kDistancesDoc =
-    "(q,) float64: signed distance of each query to the balls, cones and slabs of a sphere mesh, "
-    "negative inside.\n\nOutside it is that to the solid; inside the surface is at least as far "
-    "away.\n\n"
-    "Parameters\n----------\n"
-    "queries : (q, 3) float64\n"
-    "vertices : (v, 3) float64\n"
-    "radius : (v,) float64\n"
-    "triangles : (t, 3) int32\n"
-    "edges : (w, 2) int32\n"
-    "progress : Progress, optional\n"
-    "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
-    "Raises\n------\nInvalidInputError, Cancelled";
-
-constexpr const char* kSurfaceDoc =
-    "(k, 3) float64: points on the surface of the solid of a sphere mesh, about `spacing` apart or "
-    "closer.\n\n"
-    "Parameters\n----------\n"
-    "vertices : (v, 3) float64\n"
-    "radius : (v,) float64\n"
-    "triangles : (t, 3) int32\n"
-    "edges : (w, 2) int32\n"
-    "spacing : float\n"
-    "progress : Progress, optional\n"
-    "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
-    "Raises\n------\nInvalidInputError, Cancelled";
 
 std::span<const Edge> edges_of(const py::object& edges) {
   using Rows = py::array_t<int32_t, py::array::c_style>;
@@ -120,13 +79,13 @@ py::array surface(const py::object& vertices, const py::object& radius, const py
 }  // namespace
 
 void bind_reduce(py::module_& m) {
-  m.def("reduce_sphere_mesh", &reduced, kReduceDoc, py::arg("vertices"), py::arg("radius"),
-        py::arg("triangles"), py::arg("edges"), py::arg("wanted"), py::kw_only(),
+  m.def("reduce_sphere_mesh", &reduced, docs::reduce_sphere_mesh, py::arg("vertices"),
+        py::arg("radius"), py::arg("triangles"), py::arg("edges"), py::arg("wanted"), py::kw_only(),
         py::arg("progress") = nullptr, py::arg("threads") = 0);
-  m.def("solid_distances", &distances, kDistancesDoc, py::arg("queries"), py::arg("vertices"),
-        py::arg("radius"), py::arg("triangles"), py::arg("edges"), py::kw_only(),
-        py::arg("progress") = nullptr, py::arg("threads") = 0);
-  m.def("solid_surface", &surface, kSurfaceDoc, py::arg("vertices"), py::arg("radius"),
+  m.def("solid_distances", &distances, docs::solid_distances, py::arg("queries"),
+        py::arg("vertices"), py::arg("radius"), py::arg("triangles"), py::arg("edges"),
+        py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("solid_surface", &surface, docs::solid_surface, py::arg("vertices"), py::arg("radius"),
         py::arg("triangles"), py::arg("edges"), py::arg("spacing"), py::kw_only(),
         py::arg("progress") = nullptr, py::arg("threads") = 0);
 }

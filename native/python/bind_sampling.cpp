@@ -7,40 +7,11 @@
 #include "base/rows.h"
 #include "base/text.h"
 #include "bindings.h"
+#include "docstrings.h"
 #include "sampling/closing_samples.h"
 
 namespace medial::python {
 namespace {
-
-constexpr const char* kSamplesDoc =
-    "Samples of a triangulated surface, as made by `sample_surface`: corners first, then along "
-    "sharp edges, along\nboundary edges, kept vertices, and the surface.";
-
-constexpr const char* kSampleDoc =
-    "Blue-noise samples of a triangulated surface, its corners and sharp edges among them.\n\n"
-    "One of `count`, `spacing` and `sizing` says how dense; `count` with `sizing` is the most that "
-    "is allowed. The\nfull description stands in _medial.pyi.\n\n"
-    "Parameters\n----------\n"
-    "vertices : (v, 3) float64\ntriangles : (m, 3) int32\n    Rows of vertices, outward.\n"
-    "count : int, optional\nspacing : float, optional\n"
-    "sizing : ((k, 3) float64, (k,) float64), optional\n    Sites and the spacings there.\n"
-    "sharp_angle : float\n    Radians; default pi/6.\n"
-    "sharp_edges : (e, 2) int32, optional\nsmooth : bool\nkeep_vertices : bool\n"
-    "mirrored_rows : int\n    Beside each sharp edge; default 2.\nseed : int\n"
-    "progress : Progress, optional\nthreads : int\n\n"
-    "Raises\n------\nInvalidInputError, Cancelled";
-
-constexpr const char* kClosingDoc =
-    "Samples that close the openings of a surface: blue noise where the winding number is 1/2, off "
-    "the triangles.\n\n"
-    "Parameters\n----------\n"
-    "points : (n, 3) float64\n    Samples of the surface that bound its solid.\n"
-    "normals : (n, 3) float64\nradius : (n,) float64\n    Of their discs.\n"
-    "vertices : (v, 3) float64\ntriangles : (m, 3) int32\nseed : int\n"
-    "progress : Progress, optional\nthreads : int\n\n"
-    "Returns\n-------\npoints : (k, 3) float64\nnormals : (k, 3) float64\nradius : (k,) "
-    "float64\n\n"
-    "Raises\n------\nInvalidInputError, Cancelled";
 
 using FloatArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using IntArray = py::array_t<int32_t, py::array::c_style | py::array::forcecast>;
@@ -164,42 +135,40 @@ py::tuple close_openings(const py::object& points, const py::object& normals,
 }  // namespace
 
 void bind_sampling(py::module_& m) {
-  py::enum_<SampleKind>(m, "SampleKind", py::module_local(), "What a sample lies on.")
-      .value("CORNER", SampleKind::corner)
-      .value("SHARP", SampleKind::sharp)
-      .value("BOUNDARY", SampleKind::boundary)
-      .value("VERTEX", SampleKind::vertex)
-      .value("SURFACE", SampleKind::surface)
-      .value("OPENING", SampleKind::opening);
+  py::enum_<SampleKind>(m, "SampleKind", py::module_local(), docs::SampleKind)
+      .value("CORNER", SampleKind::corner, docs::SampleKind_CORNER)
+      .value("SHARP", SampleKind::sharp, docs::SampleKind_SHARP)
+      .value("BOUNDARY", SampleKind::boundary, docs::SampleKind_BOUNDARY)
+      .value("VERTEX", SampleKind::vertex, docs::SampleKind_VERTEX)
+      .value("SURFACE", SampleKind::surface, docs::SampleKind_SURFACE)
+      .value("OPENING", SampleKind::opening, docs::SampleKind_OPENING);
   using S = SurfaceSamples;
-  py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", kSamplesDoc, py::is_final(),
+  py::class_<S, std::shared_ptr<S>>(m, "SurfaceSamples", docs::SurfaceSamples, py::is_final(),
                                     py::module_local())
       .def_property_readonly("points", view_property<double>(&S::points),
-                             "(n, 3) float64: the samples.")
+                             docs::SurfaceSamples_points)
       .def_property_readonly("normals", view_property<double>(&S::normals),
-                             "(n, 3) float64: outward unit normals; where sides meet their mean; "
-                             "zero where there is none.")
+                             docs::SurfaceSamples_normals)
       .def_property_readonly("triangle", view_property<int32_t>(&S::triangle),
-                             "(n,) int32: row of the triangle that the sample lies on.")
+                             docs::SurfaceSamples_triangle)
       .def_property_readonly("barycentric", view_property<double>(&S::barycentric),
-                             "(n, 3) float64: where on its triangle.")
-      .def_property_readonly("kind", view_property<int32_t>(&S::kind),
-                             "(n,) int32: values of `SampleKind`, ascending.")
+                             docs::SurfaceSamples_barycentric)
+      .def_property_readonly("kind", view_property<int32_t>(&S::kind), docs::SurfaceSamples_kind)
       .def_property_readonly("radius", view_property<double>(&S::radius),
-                             "(n,) float64: radius of the sample's disc.")
+                             docs::SurfaceSamples_radius)
       .def_property_readonly("sharp_edges", view_property<int32_t>(&S::sharp_edges),
-                             "(e, 2) int32: rows p < q of the ends of the sharp edges, sorted.")
-      .def_readonly("area", &S::area, "Area of the sampled surface.");
-  m.def("sample_surface", &sample, kSampleDoc, py::arg("vertices"), py::arg("triangles"),
+                             docs::SurfaceSamples_sharp_edges)
+      .def_readonly("area", &S::area, docs::SurfaceSamples_area);
+  m.def("sample_surface", &sample, docs::sample_surface, py::arg("vertices"), py::arg("triangles"),
         py::kw_only(), py::arg("count") = py::none(), py::arg("spacing") = py::none(),
         py::arg("sizing") = py::none(), py::arg("sharp_angle") = SamplingOptions{}.sharp_angle,
         py::arg("sharp_edges") = py::none(), py::arg("smooth") = false,
         py::arg("keep_vertices") = false,
         py::arg("mirrored_rows") = SamplingOptions{}.mirrored_rows, py::arg("seed") = 0,
         py::arg("progress") = nullptr, py::arg("threads") = 0);
-  m.def("closing_samples", &close_openings, kClosingDoc, py::arg("points"), py::arg("normals"),
-        py::arg("radius"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
-        py::arg("seed") = 0, py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("closing_samples", &close_openings, docs::closing_samples, py::arg("points"),
+        py::arg("normals"), py::arg("radius"), py::arg("vertices"), py::arg("triangles"),
+        py::kw_only(), py::arg("seed") = 0, py::arg("progress") = nullptr, py::arg("threads") = 0);
 }
 
 }  // namespace medial::python

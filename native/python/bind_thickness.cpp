@@ -8,23 +8,11 @@
 #include "base/patches.h"
 #include "base/rows.h"
 #include "bindings.h"
+#include "docstrings.h"
 #include "inside/surface.h"
 
 namespace medial::python {
 namespace {
-
-constexpr const char* kPatchesDoc =
-    "(m,) int32: number of the patch of each triangle: those of `wanted` that share a corner are "
-    "in one. Patches are\nnumbered in the order of their first triangles; -1: not wanted.\n\n"
-    "Parameters\n----------\n"
-    "triangles : (m, 3) int32\n"
-    "wanted : (m,) bool\n"
-    "vertices : int\n    The number of rows that the triangles count.\n\n"
-    "Raises\n------\nInvalidInputError";
-
-constexpr const char* kNearestDoc =
-    "(k,) int32: row of the site nearest to each of (k, 3) queries, of equally near ones the "
-    "lowest; -1 where there are no\nsites.\n\nRaises\n------\nInvalidInputError";
 
 py::array patches_of(const py::object& triangles, const py::object& wanted, int64_t vertices) {
   const Triangles faces(triangles);
@@ -68,31 +56,24 @@ py::array nearest_rows(const py::object& sites, const py::object& queries) {
 }  // namespace
 
 void bind_thickness(py::module_& m) {
-  py::enum_<ThicknessMode>(m, "ThicknessMode", py::module_local(),
-                           "What `MedialAnalysis.thickness` measures.")
-      .value("WALL", ThicknessMode::wall,
-             "Balls between walls: where their two normals differ by 120 degrees or more.")
-      .value("BALL", ThicknessMode::ball, "All balls; zero at every convex edge.")
-      .value("SCAN", ThicknessMode::scan,
-             "The ball that comes nearest, for noise; no normals are used.");
-  py::class_<WallThickness>(m, "WallThickness",
-                            "How thick a solid is at its samples, or how wide the gap; made by "
-                            "`MedialAnalysis.thickness`.",
-                            py::is_final(), py::module_local())
+  py::enum_<ThicknessMode>(m, "ThicknessMode", py::module_local(), docs::ThicknessMode)
+      .value("WALL", ThicknessMode::wall, docs::ThicknessMode_WALL)
+      .value("BALL", ThicknessMode::ball, docs::ThicknessMode_BALL)
+      .value("SCAN", ThicknessMode::scan, docs::ThicknessMode_SCAN);
+  py::class_<WallThickness>(m, "WallThickness", docs::WallThickness, py::is_final(),
+                            py::module_local())
       .def_property_readonly("values", view_property<double>(&WallThickness::values),
-                             "(k,) float64: at each of `MedialAnalysis.samples`, in the unit of "
-                             "the input; infinite where there is\nno wall, or no ball.")
+                             docs::WallThickness_values)
       .def_property_readonly(
           "measured",
           [](const py::object& self) {
             return view_of<uint8_t>(self.cast<const WallThickness&>().measured, self)
                 .attr("view")("bool");
           },
-          "(k,) bool: measured at the sample itself; else filled from the nearest along the "
-          "surface, or infinite.");
-  m.def("patches", &patches_of, kPatchesDoc, py::arg("triangles"), py::arg("wanted"),
+          docs::WallThickness_measured);
+  m.def("patches", &patches_of, docs::patches, py::arg("triangles"), py::arg("wanted"),
         py::arg("vertices"));
-  m.def("nearest", &nearest_rows, kNearestDoc, py::arg("sites"), py::arg("queries"));
+  m.def("nearest", &nearest_rows, docs::nearest, py::arg("sites"), py::arg("queries"));
 }
 
 }  // namespace medial::python

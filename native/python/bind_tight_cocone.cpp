@@ -3,33 +3,10 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "cocone/watertight_surface.h"
+#include "docstrings.h"
 
 namespace medial::python {
 namespace {
-
-constexpr const char* kOptionsDoc =
-    "The constants of Cocone and Tight Cocone; all are angles in radians or pure numbers.\n\n"
-    "Parameters\n----------\n"
-    "cocone_angle : float\n    Half-angle of the cocone about the tangent plane; default pi/8 "
-    "(Amenta, Choi, Dey & Leekha 2002).\n"
-    "flatness_ratio : float\n    A flat sample's cell is longer towards both poles than this times "
-    "its width; default 1.2\n    (Dey & Giesen 2001).\n"
-    "flatness_angle : float\n    A flat sample's normal line agrees with its cocone neighbours' "
-    "within this; default pi/3\n    (Dey & Giesen 2001).\n"
-    "sharp_angle : float\n    An edge is sharp when no two of its triangles continue each other "
-    "with normals closer than\n    this; default 2 pi/3 (Dey & Goswami 2003).\n\n"
-    "Raises\n------\nInvalidInputError\n    An angle outside (0, pi/2), a sharp_angle outside (0, "
-    "pi), or a ratio that is not positive.";
-
-constexpr const char* kTightConeDoc =
-    "The watertight surface through the samples: a subcomplex of their Delaunay triangulation (Dey "
-    "& Goswami 2003).\n\n"
-    "Parameters\n----------\n"
-    "points : (n, 3) float64\n    As for `MedialAnalysis`.\n"
-    "options : CoconeOptions, optional\n"
-    "progress : Progress, optional\n"
-    "threads : int\n    0: as many as the machine has. The result does not depend on it.\n\n"
-    "Raises\n------\nInvalidInputError, DegenerateInputError, Cancelled";
 
 using Surface = WatertightSurface;
 
@@ -58,68 +35,51 @@ auto flags(std::vector<uint8_t> Surface::*member) {
 
 void bind_options(py::module_& m) {
   const CoconeOptions paper;
-  py::class_<CoconeOptions>(m, "CoconeOptions", kOptionsDoc, py::is_final(), py::module_local())
+  py::class_<CoconeOptions>(m, "CoconeOptions", docs::CoconeOptions, py::is_final(),
+                            py::module_local())
       .def(py::init(&options), py::kw_only(), py::arg("cocone_angle") = paper.cocone_angle,
            py::arg("flatness_ratio") = paper.flatness_ratio,
            py::arg("flatness_angle") = paper.flatness_angle,
            py::arg("sharp_angle") = paper.sharp_angle)
-      .def_readonly("cocone_angle", &CoconeOptions::cocone_angle,
-                    "Half-angle of the cocone about the tangent plane, radians.")
+      .def_readonly("cocone_angle", &CoconeOptions::cocone_angle, docs::CoconeOptions_cocone_angle)
       .def_readonly("flatness_ratio", &CoconeOptions::flatness_ratio,
-                    "A flat sample's cell is longer towards both poles than this times its width.")
+                    docs::CoconeOptions_flatness_ratio)
       .def_readonly("flatness_angle", &CoconeOptions::flatness_angle,
-                    "Largest angle between the normal lines of flat cocone neighbours, radians.")
-      .def_readonly(
-          "sharp_angle", &CoconeOptions::sharp_angle,
-          "Largest angle between the normals of triangles that continue each other, radians.");
+                    docs::CoconeOptions_flatness_angle)
+      .def_readonly("sharp_angle", &CoconeOptions::sharp_angle, docs::CoconeOptions_sharp_angle);
 }
 
 }  // namespace
 
 void bind_tight_cocone(py::module_& m) {
   bind_options(m);
-  py::class_<Surface, std::shared_ptr<Surface>>(m, "TightCocone", kTightConeDoc, py::is_final(),
+  py::class_<Surface, std::shared_ptr<Surface>>(m, "TightCocone", docs::TightCocone, py::is_final(),
                                                 py::module_local())
       .def(py::init(&reconstruct), py::arg("points"), py::kw_only(),
            py::arg("options") = py::none(), py::arg("progress") = nullptr, py::arg("threads") = 0)
-      .def_property_readonly(
-          "triangles", view_property<int32_t>(&Surface::triangles),
-          "(f, 3) int32: facets between inner and outer cells, outward, lowest row first, in "
-          "lexicographic order.")
+      .def_property_readonly("triangles", view_property<int32_t>(&Surface::triangles),
+                             docs::TightCocone_triangles)
       .def_property_readonly(
           "cell_side", [](const Surface& s) { return numbers_of(s.sides); },
-          "(c,) int32: INNER or OUTER for each cell of `delaunay(points)`, infinite cells "
-          "included.")
+          docs::TightCocone_cell_side)
       .def_property_readonly("samples", view_property<int32_t>(&Surface::samples),
-                             "(k,) int32: rows of the distinct points, ascending.")
-      .def_property_readonly("flat", flags(&Surface::flat),
-                             "(k,) bool: well sampled there: the Voronoi cell is long and thin and "
-                             "its neighbours agree.")
-      .def_property_readonly("good", flags(&Surface::good),
-                             "(k,) bool: the triangles that Cocone finds at the sample are one "
-                             "disc round it.")
+                             docs::TightCocone_samples)
+      .def_property_readonly("flat", flags(&Surface::flat), docs::TightCocone_flat)
+      .def_property_readonly("good", flags(&Surface::good), docs::TightCocone_good)
       .def_property_readonly("on_surface", flags(&Surface::on_surface),
-                             "(k,) bool: a corner of one of `triangles`.")
+                             docs::TightCocone_on_surface)
       .def_readonly("nonmanifold_edges", &Surface::nonmanifold_edges,
-                    "Edges in more than two of `triangles`.")
+                    docs::TightCocone_nonmanifold_edges)
       .def_readonly("nonmanifold_vertices", &Surface::nonmanifold_vertices,
-                    "Samples round which `triangles` are not one disc, ends of those edges "
-                    "included.")
-      .def_readonly("cavities", &Surface::cavities,
-                    "Patches of good samples inside the solid that flooding from infinity cannot "
-                    "reach: closed inner\ncavities, most likely, which are filled.")
-      .def_readonly("inner_cells", &Surface::inner_cells,
-                    "Delaunay cells inside; 0 when the samples enclose nothing.")
-      .def_readonly("left_outside", &Surface::left_outside,
-                    "Samples without an inner cell: outliers, or parts that could not be closed.")
-      .def_property_readonly("encloses", &Surface::encloses,
-                             "At most half of the samples are left outside. Otherwise the solid is "
-                             "empty, or pinched to\npieces, and says nothing about the shape.")
-      .def_readonly("duplicates", &Surface::duplicates,
-                    "Rows merged into an earlier row with the same coordinates.")
+                    docs::TightCocone_nonmanifold_vertices)
+      .def_readonly("cavities", &Surface::cavities, docs::TightCocone_cavities)
+      .def_readonly("inner_cells", &Surface::inner_cells, docs::TightCocone_inner_cells)
+      .def_readonly("left_outside", &Surface::left_outside, docs::TightCocone_left_outside)
+      .def_property_readonly("encloses", &Surface::encloses, docs::TightCocone_encloses)
+      .def_readonly("duplicates", &Surface::duplicates, docs::TightCocone_duplicates)
       .def_property_readonly(
           "timings", [](const Surface& s) { return seconds(s.timings); },
-          "Seconds of each stage, in order; none for that of a `MedialAnalysis`.");
+          docs::TightCocone_timings);
 }
 
 }  // namespace medial::python

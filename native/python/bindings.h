@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What module.cpp puts together.
+// The parts of the module _medial, and all of them together.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
 namespace medial::python {
 
+void bind_product(pybind11::module_& module);
 void bind_analysis(pybind11::module_& module);
 void bind_thickness(pybind11::module_& module);  // before the analysis
 void bind_hierarchy(pybind11::module_& module);  // after the progress, before the analysis
 void bind_reduce(pybind11::module_& module);     // after the progress
 void bind_tight_cocone(pybind11::module_& module);
 void bind_sampling(pybind11::module_& module);
-void bind_stages(pybind11::module_& module);
+void bind_surfaces(pybind11::module_& module);
 void bind_balls(pybind11::module_& module);
 
 }  // namespace medial::python

@@ -68,7 +68,7 @@ def chosen(random, options):
 
 
 def grown(*names, **options):
-    """What an operator of Blender adds, as points and faces."""
+    """A function that returns the points and faces of a primitive, which an operator of Blender adds."""
 
     def base(random):
         getattr(bpy.ops.mesh, f"primitive_{chosen(random, names)}_add")(**options)

@@ -148,7 +148,7 @@ def compute(**settings):
 
 
 def compute_or_not(**settings):
-    """What the operator answers for the selection: by its vertices, as published and whole, if nothing else is said."""
+    """The operator's result for the selection; by default it samples vertices and keeps the whole axis as published."""
     usual = {"sampling": "VERTICES", "form": "PUBLISHED", "within": 0.0}
     return bpy.ops.object.medial_axis(**usual | settings)
 
@@ -167,7 +167,7 @@ def refuse(match, operator="medial_axis", **settings):
 
 
 def contents():
-    """What is in the file, by name."""
+    """The names of the objects, meshes and materials in the file."""
     return [
         sorted(thing.name for thing in kind)
         for kind in (bpy.data.objects, bpy.data.meshes, bpy.data.materials)
@@ -197,12 +197,12 @@ renders = pytest.mark.skipif(in_wine(), reason="Blender does not render in Wine"
 
 
 def flush():
-    """What Blender has printed leaves its buffer."""
+    """Flushes the buffer of Blender's output."""
     ctypes.CDLL("ucrtbase" if sys.platform == "win32" else None).fflush(None)
 
 
 def reports(capfd):
-    """What operators reported since the last call: [('Info', text), ...]."""
+    """The reports of operators since the last call: [('Info', text), ...]."""
     flush()
     return re.findall(r"^(Info|Warning|Error): (.*)$", capfd.readouterr().out, re.MULTILINE)
 

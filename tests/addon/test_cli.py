@@ -70,7 +70,7 @@ def load(path):
 
 
 def operator_axis(name, frame):
-    """What a click gives at a frame, in the world."""
+    """The result of the operator at a frame, in world space."""
     bpy.context.scene.frame_set(frame)
     select(bpy.data.objects[name])
     assert bpy.ops.object.medial_axis() == {"FINISHED"}
@@ -265,7 +265,7 @@ def test_module_path_of_an_enabled_addon(here):
 
 
 def test_documented_commands(here):
-    """Those of the page that need Blender."""
+    """The commands of the page that need Blender."""
     page = os.environ.get("MEDIAL_AXIS_DOCS") or Path(__file__).parents[2] / "docs"
     text = Path(page, "command_line.md").read_text(encoding="utf-8")
     lines = "\n".join(re.findall(r"```sh\n(.*?)```", text, re.DOTALL)).splitlines()

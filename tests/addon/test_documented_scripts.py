@@ -10,7 +10,7 @@ from scene import MODULE, program
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = (ROOT / "README.md", ROOT / "docs" / "user_guide.md")
-# What stands in each script alone, what it prints, and about how many facets these are.
+# Text that occurs in one script only -> the output of the script, and about how many facets it reports.
 SCRIPTS = {
     "suzanne.ma": (r"Suzanne Medial Axis: (\d+) vertices, radius", None),
     "memory_limit": (None, 0),

@@ -30,7 +30,7 @@ def run(*words):
 
 
 def expected_files(here):
-    """What one run of the command line makes of frames 1 to 5."""
+    """The files that one run of the command line writes for frames 1 to 5."""
     done = in_blender("whole/", "--frames=1-5", "--format=npz", "--object=Body", "--rho=9",
                       file=["walk.blend"])  # fmt: skip
     assert done.returncode == 0, done.stderr

@@ -145,7 +145,7 @@ def test_path_beside_the_blend_file(folder):
 
 @pytest.mark.parametrize("forward, up", [(f, u) for f in AXES for u in AXES if f[-1] != u[-1]])
 def test_axes(folder, forward, up):
-    """What points forward in the file points along Y, what points up along Z; normals turn too."""
+    """The forward axis of the file becomes Y and its up axis Z; normals are rotated too."""
     read(folder / "oriented.xyzn", axis_forward=forward, axis_up=up)
     thing = bpy.context.object
     axes = {"XYZ"[i]: row for i, row in enumerate(np.identity(3))}

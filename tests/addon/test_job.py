@@ -20,7 +20,7 @@ def task(count=60_000, name="Cloud"):
 
 
 def task_of(name, points):
-    """What the operator asks for a cloud of points."""
+    """The task that the operator makes for a cloud of points."""
     none, settings = np.zeros((0, 3), np.int32), addon("core.settings").Settings()
     return addon("core.machine.job").Task(
         name, partial(addon("core.axis.compute").compute, points, none, settings)

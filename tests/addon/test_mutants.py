@@ -35,7 +35,7 @@ def blocks():
 
 @pytest.fixture
 def little_memory():
-    """What asks for too much fails alone, and not the machine, where the system has such limits."""
+    """Limits the memory, where the system can, so that an excessive computation fails and not the machine."""
     if resource is None:
         yield
         return
@@ -98,7 +98,7 @@ def state(thing):
 
 
 def check_made(name):
-    """What was made is a valid mesh of finite numbers."""
+    """The result is a valid mesh of finite numbers."""
     made = [other for other in bpy.data.objects if "ma_version" in other]
     assert made, "nothing was made"
     for other in made:

@@ -37,7 +37,7 @@ class Layout:
 
 
 def page(whole=True):
-    """What the preferences show, with the part that is closed at first where `whole` says so."""
+    """The rows of the preferences; with `whole` those of the part that is closed at first, too."""
     layout = Layout()
     region = SimpleNamespace(width=10_000)
     system = SimpleNamespace(ui_scale=1.0)

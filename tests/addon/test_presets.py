@@ -9,7 +9,7 @@ import pytest
 from scene import addon
 
 FOLDER = Path(addon().__file__).parent / "presets" / "medial_axis"
-# What each changes of the defaults.
+# The settings in which each preset differs from the defaults.
 SHIPPED = {
     "As_Published": {"form": "PUBLISHED", "sampling": "VERTICES"},
     "Curve": {"form": "CURVE"},

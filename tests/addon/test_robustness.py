@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What other processes do at the same time: Blender is killed while it writes, two write the same file."""
+"""Tests of concurrent processes: Blender is killed while it writes, and two write the same file."""
 
 import os
 import signal
@@ -57,7 +57,7 @@ def save(path):
 
 
 def content_of(path):
-    """What the export of the active object is."""
+    """The bytes of the file that the export of the active object writes."""
     assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
     return path.read_bytes()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tells inside from outside: which source is used, why, what is said of it, what is refused."""
+"""Tests of the source of inside and outside: which one is used and why, its reports, and its errors."""
 
 import collections
 import re

@@ -134,7 +134,7 @@ def test_names_are_not_translated(german):
 
 
 def reports(capfd):
-    """What operators reported since the last call; Blender says in its language of which kind."""
+    """The reports of operators since the last call; Blender translates their kind."""
     flush()
     kinds = "(?:Info|Warning|Warnung|Error|Fehler)"
     return re.findall(rf"^{kinds}: (.*)$", capfd.readouterr().out, re.MULTILINE)

@@ -102,7 +102,7 @@ def is_ours(cls):
 
 
 def own_properties(cls, rna):
-    """Those that the add-on declares and a user sees."""
+    """The properties that the add-on declares and a user sees."""
     names = {
         name
         for base in cls.__mro__

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <new>
 #include <type_traits>
 
 #include "analysis_parts.h"
@@ -36,10 +37,19 @@ TEST(Arena, ServesTheNextWithWhatOneHasFreed) {
   EXPECT_EQ(arena.held(), 4 * kMegabyte);
   arena.give_back(second, kMegabyte);
   arena.give_back(third, 2 * kMegabyte);
-  // What is free has become one piece again.
+  // The free memory is one block again.
   void* const all = arena.take(16 * kMegabyte);
   EXPECT_EQ(all, first);
   arena.give_back(all, 16 * kMegabyte);
+}
+
+TEST(Arena, DoesNotCountMemoryThatTheSystemRefuses) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers end the program where memory is refused";
+#endif
+  Arena arena(kMegabyte);
+  EXPECT_THROW(arena.take(size_t{1} << 62), std::bad_alloc);
+  EXPECT_EQ(arena.held(), 0u);
 }
 
 TEST(Arena, ReturnsWhatIsFreeAndKeepsWhatIsNot) {

@@ -271,9 +271,9 @@ TEST(Creases, AreSharpWhereSidesDoNotJoin) {
   EXPECT_FALSE(at_flipped.edges[at_flipped.find(0, 2)].manifold);
 }
 
-// Of an octahedron everything is known: with the normals of its corners along the axes the handles
-// are (1, 1/3, 0) and so on, the middle of an edge is (5/8, 5/8, 0), that of a face (4/9, 4/9,
-// 4/9).
+// The values for an octahedron are exact: with the normals of its corners along the axes the
+// handles are (1, 1/3, 0) and so on, the middle of an edge is (5/8, 5/8, 0), that of a face (4/9,
+// 4/9, 4/9).
 TEST(PnTriangles, RoundAnOctahedron) {
   const test::Mesh mesh{
       {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},

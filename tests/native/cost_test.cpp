@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an analysis and an extract cost, in counts that are the same on every machine.
+// The cost of an analysis and of an extract, in counts that are the same on every machine.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the global operators new and delete of a test program counted so far.
+// Counts of the calls of the global operators new and delete in a test program.
 #pragma once
 
 #include <atomic>

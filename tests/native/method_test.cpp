@@ -549,7 +549,7 @@ TEST(Method, SamplesOfASphereHaveNoFacets) {
   }
 }
 
-// Of Voronoi vertices that are equally far the one of the lowest cell is the pole.
+// If several Voronoi vertices are equally far, the vertex of the lowest cell is the pole.
 TEST(Method, OfEquallyFarVerticesTheLowestIsThePole) {
   const auto rows = Cloud{lattice(4), 1}.rows();
   const medial::Run run{1, nullptr};
@@ -761,7 +761,7 @@ TEST(MethodSides, ByAClosedSurface) {
   }
 }
 
-// Of so many cells that sides are told one from another.
+// These have so many cells that the winding number of one is derived from that of a neighbour.
 TEST(MethodSides, ByALargerClosedSurface) {
   expect_same_sides_of_surface(rough_star(4, 0.03, 1));
   expect_same_sides_of_surface(rough_star(3, 0.7, 2));
@@ -842,8 +842,7 @@ TEST(MethodSides, ByNormals) {
   }
 }
 
-// What tells inside from outside, when it was not said: a closed surface, else normals, else Tight
-// Cocone.
+// AUTOMATIC takes the sides from a closed surface, else from normals, else from Tight Cocone.
 TEST(MethodSides, AreFromTheBestThatThereIs) {
   auto mesh = rough_star(2, 0.02, 1);
   const std::vector<Vec3> normals = mesh.vertices;
@@ -863,8 +862,8 @@ TEST(MethodSides, AreFromTheBestThatThereIs) {
                InvalidInputError);
 }
 
-// Of two stars that overlap, the parts inside of the other bound nothing; a flake without thickness
-// neither.
+// If two stars overlap, the part of each inside the other bounds nothing; neither does a flake
+// without thickness.
 TEST(MethodSides, WhatLiesInsideOfTheUnionIsBuried) {
   test::Mesh mesh = rough_star(2, 0.3, 11);
   const auto other = rough_star(2, 0.3, 12);

@@ -227,7 +227,7 @@ class Oracle {
     const auto w = static_cast<long double>(centres_[cell].w);
     return (unit_ / w) * to<long double>(centres_[cell].xyz);
   }
-  // Of the empty ball.
+  // The radius of the empty ball.
   long double radius(int32_t cell) const {
     return unit_ * length(real(arm(cells_[cell][0], cell)));
   }

@@ -2,7 +2,6 @@
 // The methods that the paper compares itself with, by brute force on some dozens of points.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
-#include <medial/power_shape.h>
 
 #include <set>
 
@@ -10,6 +9,8 @@
 #include "delaunay/samples.h"
 #include "delaunay/triangulation.h"
 #include "delaunay/voronoi.h"
+#include "rivals/power_shape.h"
+#include "rivals/rival_axes.h"
 #include "shapes.h"
 
 namespace medial {
@@ -21,9 +22,9 @@ double diagonal(const std::vector<Vec3>& points) {
   return length(box.extent());
 }
 
-std::vector<uint8_t> chosen(const MedialAnalysis& analysis, const Thresholds& thresholds) {
+std::vector<uint8_t> chosen(const MedialAnalysis& analysis, const SizeExtraction& extraction) {
   std::vector<uint8_t> flags(analysis.edge_rows().size(), 0);
-  for (const int32_t id : analysis.select({.thresholds = thresholds})) flags[id] = 1;
+  for (const int32_t id : select_by_size(analysis, extraction)) flags[id] = 1;
   return flags;
 }
 
@@ -33,7 +34,7 @@ TEST(Rivals, LambdaReachesTheLength) {
   const auto edges = analysis.edge_rows();
   for (const Edge& limit : edges) {
     const double share = distance(points[limit[0]], points[limit[1]]) / diagonal(points);
-    const auto flags = chosen(analysis, {.criteria = Criteria::lambda, .length = share});
+    const auto flags = chosen(analysis, {.length = share});
     for (size_t e = 0; e < edges.size(); ++e) {
       const double size = distance(points[edges[e][0]], points[edges[e][1]]);
       EXPECT_EQ(flags[e] != 0, size >= share * diagonal(points));
@@ -66,8 +67,7 @@ TEST(Rivals, AngleAndLengthAskEveryBall) {
   const auto edges = analysis.edge_rows();
   int kept = 0;
   for (const double length : {0.0, 0.3}) {
-    const auto flags =
-        chosen(analysis, {.theta = 0.4, .criteria = Criteria::angle_and_length, .length = length});
+    const auto flags = chosen(analysis, {SizeCondition::angle_and_length, length, 0.4});
     for (size_t e = 0; e < edges.size(); ++e) {
       const double size = distance(points[edges[e][0]], points[edges[e][1]]);
       const bool expected =
@@ -99,7 +99,8 @@ TEST(Rivals, PolesAreTheFarthestVerticesOfCells) {
       if (pole != samples.points[p]) expected.insert({pole.x, pole.y, pole.z});
     }
   }
-  const MedialMesh found = MedialAnalysis({.points = points}, {.sides = SidesFrom::none}).poles();
+  const MedialMesh found =
+      pole_axis(MedialAnalysis({.points = points}, {.sides = SidesFrom::none}));
   std::set<std::array<double, 3>> places;
   for (const Vec3& x : found.vertices) places.insert({x.x, x.y, x.z});
   EXPECT_EQ(places, expected);
@@ -107,14 +108,13 @@ TEST(Rivals, PolesAreTheFarthestVerticesOfCells) {
   EXPECT_TRUE(found.generators.empty());
 }
 
-TEST(Rivals, OnlySelectionsTakeOtherCriteria) {
+TEST(Rivals, RefuseWhatMeansNothing) {
   const auto points = test::ellipsoid(60, 3);
-  const MedialAnalysis analysis({.points = points}, {.sides = SidesFrom::tight_cocone});
-  const Thresholds lambda{.criteria = Criteria::lambda};
-  EXPECT_THROW(analysis.hierarchy(lambda), InvalidInputError);
-  EXPECT_THROW(analysis.feature_size(lambda), InvalidInputError);
-  EXPECT_THROW(analysis.thickness({}, {.thresholds = lambda}), InvalidInputError);
-  EXPECT_THROW(analysis.select({.thresholds = {.length = -1}}), InvalidInputError);
+  const MedialAnalysis analysis({.points = points}, {.sides = SidesFrom::none});
+  EXPECT_THROW(axis_by_size(analysis, {.length = -1}), InvalidInputError);
+  EXPECT_THROW(axis_by_size(analysis, {.side = Side::inner}), InvalidInputError);
+  EXPECT_THROW(axis_by_remark(analysis, Against::pole, {.side = Side::inner}), InvalidInputError);
+  EXPECT_THROW(pole_axis(analysis, Side::crossing), InvalidInputError);
 }
 
 TEST(PowerShape, HasNoHiddenBalls) {

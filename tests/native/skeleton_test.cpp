@@ -51,6 +51,50 @@ TEST(Hierarchy, OfABlockIsDownToOnePoint) {
   EXPECT_NEAR(level.radius[0], 0.4, 0.05);
 }
 
+// A facet burns after all facets that were at the edge through which the fire comes, so that edge
+// and every other one of its ring is at least as thick.
+TEST(Hierarchy, NoFacetHasALargerErosionThanAnEdgeOfIt) {
+  const auto points = test::ellipsoid(2000, 3);
+  const Hierarchy h = MedialAnalysis({points}, {.threads = 2}, nullptr).hierarchy({});
+  const auto& parts = h.parts();
+  int burned = 0;
+  for (int32_t f = 0; f < parts.complex.facets(); ++f) {
+    const float erosion = parts.values.facet[f].erosion;
+    burned += erosion > 0 && erosion < HUGE_VALF;
+    for (const Corner& c : parts.complex.ring(f)) {
+      EXPECT_GE(parts.values.of_edge(parts.partner[c.edge]).erosion, erosion) << f;
+      EXPECT_GE(parts.values.vertex[c.vertex].erosion, erosion) << f;
+    }
+  }
+  EXPECT_GT(burned, 100);
+}
+
+// The samples of a flat block on a lattice are cospherical in eights, so many cells shrink.
+TEST(Hierarchy, EdgesOfAShrunkComplexGoFromTheLowerVertexToTheHigher) {
+  const int size = 12, height = 3;
+  std::vector<Vec3> points;
+  for (int x = 0; x <= size; ++x) {
+    for (int y = 0; y <= size; ++y) {
+      for (int z = 0; z <= height; ++z) {
+        const bool inside = x > 0 && x < size && y > 0 && y < size && z > 0 && z < height;
+        if (!inside) points.push_back(Vec3{1.0 * x, 1.0 * y, 1.0 * z});
+      }
+    }
+  }
+  const Hierarchy h = MedialAnalysis({points}, {.threads = 2}, nullptr).hierarchy({});
+  const InnerComplex& complex = h.parts().complex;
+  ASSERT_GT(complex.shrunk.size(), 50u);
+  for (const auto& [low, high] : complex.ends) EXPECT_LE(low, high);
+  for (int32_t f = 0; f < complex.facets(); ++f) {
+    const auto ring = complex.ring(f);
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const auto [low, high] =
+          std::minmax(ring[i].vertex, ring[i + 1 < ring.size() ? i + 1 : 0].vertex);
+      EXPECT_EQ(complex.ends[ring[i].edge], (Edge{low, high})) << f;
+    }
+  }
+}
+
 TEST(Hierarchy, IsTheSameForEveryThreadCount) {
   const test::Mesh mesh = test::torus(120, 60);
   const Hierarchy one = hierarchy_of(mesh, 1), four = hierarchy_of(mesh, 4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of the solid its surface alone tells: how thick it is, its topology, where its openings
-// close, and which parts of its cells only the samples have cut off.
+// Properties of the solid that its surface alone determines: its thickness, its topology, the
+// closing of its openings, and the parts of its cells that only the samples have cut off.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
 #include <medial/sampling.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What thickness is made of, against plain loops.
+// The building blocks of thickness are compared with plain loops.
 #include <gtest/gtest.h>
 #include <medial/analysis.h>
 
 #include <random>
 
-#include "axis/ball_reach.h"
+#include "balls/ball_reach.h"
 #include "base/nearest_ball.h"
 #include "base/patches.h"
 #include "shapes.h"

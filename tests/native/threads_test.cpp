@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What becomes of loops where the system gives no more threads: it says so by pthread_create, for
-// which this program has its own.
+// Loops also finish if the system gives no more threads. This program has its own pthread_create,
+// which then fails.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <medial/analysis.h>

@@ -287,7 +287,7 @@ def test_one_heap_where_addresses_are_few(program):  # noqa: F811
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_while_a_weak_reference_dies(folder, monkeypatch, capsys, number):
-    """What is raised there, Python drops, and says so; it is raised again."""
+    """Python prints and drops an exception that a weak reference's callback raises; the signal is raised again."""
 
     class Thing:
         pass
@@ -319,7 +319,7 @@ def test_ctrl_c_while_the_compiled_module_is_loaded(folder, monkeypatch, capsys)
 
 
 def test_the_package_loads_nothing_before_signals_are_ours(program):  # noqa: F811
-    """What it loads before takes a time in which Ctrl-C is a traceback."""
+    """Ctrl-C prints a traceback during imports that come before the handler is set."""
     code = (
         "import _signal, runpy, sys; known = {*sys.modules}\n"
         "_signal.signal = lambda *_: sys.exit(' '.join({*sys.modules} - known))\n"

@@ -237,7 +237,7 @@ def test_balls_do_not_depend_on_the_settings_before(name):
 
 @pytest.mark.parametrize("name", names_of(ThicknessSettings))
 def test_a_thickness_does_not_depend_on_the_settings_before(name):
-    """What is thin depends on the limit and the smallest patch, too, which no measurement does."""
+    """The thin parts also depend on the limit and on the smallest patch; the measurement does not."""
     shape = bent_shape()
     pairs = pairs_of([ThicknessSettings()], THICKNESS_OPTIONS, name)
 

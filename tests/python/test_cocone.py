@@ -65,11 +65,11 @@ STRUCTURED = {  # those of which exact arithmetic settles most
 
 
 @cache
-def medial_of(medial, name):
+def medial_of(study, name):
     """The exact Voronoi diagram: of Qhull's cells, or of the module's own where many samples are cospherical."""
     if name in CLOUDS:
         return reference.Medial(CLOUDS[name], reference.delaunay_qhull(CLOUDS[name]))
-    cells = medial.delaunay(STRUCTURED[name])[0]
+    cells = study.delaunay(STRUCTURED[name])[0]
     cells = reference.sort_cells(cells[(cells >= 0).all(axis=1)])
     reference.assert_delaunay(STRUCTURED[name], cells)
     return reference.Medial(STRUCTURED[name], cells)
@@ -80,10 +80,10 @@ def assert_between(bounds, found):
     assert (found[surely]).all() and not (found & ~possibly).any()
 
 
-def assert_equals_brute_force(medial, name, options):
-    expected = Cocone(medial_of(medial, name), **OPTIONS[options])
-    thin, flat, candidates = medial.cocone(
-        expected.medial.points, medial.CoconeOptions(**OPTIONS[options])
+def assert_equals_brute_force(study, name, options):
+    expected = Cocone(medial_of(study, name), **OPTIONS[options])
+    thin, flat, candidates = study.cocone(
+        expected.study.points, study.CoconeOptions(**OPTIONS[options])
     )
     assert_between(expected.thin, thin)
     assert_between(expected.flat, flat)
@@ -100,22 +100,22 @@ def keys(triangles):
 
 @pytest.mark.parametrize("options", OPTIONS)
 @pytest.mark.parametrize("name", CLOUDS)
-def test_equals_brute_force(medial, name, options):
-    assert_equals_brute_force(medial, name, options)
+def test_equals_brute_force(study, name, options):
+    assert_equals_brute_force(study, name, options)
 
 
 @pytest.mark.parametrize("name", STRUCTURED)
-def test_coplanar_and_cospherical_samples(medial, name):
+def test_coplanar_and_cospherical_samples(study, name):
     """On flat faces with Voronoi vertices 1e15 away, too."""
-    surely, possibly = Cocone(medial_of(medial, name)).candidates
+    surely, possibly = Cocone(medial_of(study, name)).candidates
     assert np.mean(surely == possibly) > 0.6 and surely.any()
-    assert_equals_brute_force(medial, name, "default")
+    assert_equals_brute_force(study, name, "default")
 
 
-def test_rounding_decides_little(medial):
-    """Of the clouds in general position; and every condition has samples that pass it and samples that do not."""
+def test_rounding_decides_little(study):
+    """Rounding rarely matters for clouds in general position; some samples pass each condition and some fail it."""
     for options in OPTIONS:
-        found = [Cocone(medial_of(medial, name), **OPTIONS[options]) for name in CLOUDS]
+        found = [Cocone(medial_of(study, name), **OPTIONS[options]) for name in CLOUDS]
         for stage in ("thin", "flat", "candidates"):
             surely, possibly = (
                 np.concatenate([getattr(x, stage)[i] for x in found]) for i in (0, 1)
@@ -124,27 +124,27 @@ def test_rounding_decides_little(medial):
             assert 0 < surely.sum() < len(surely), (options, stage)
 
 
-def test_flat_samples_grow(medial):
+def test_flat_samples_grow(study):
     """Some samples are flat although a cocone neighbour disagrees, and some thin ones stay out."""
     grown = out = 0
     for name in CLOUDS:
-        x = Cocone(medial_of(medial, name), **OPTIONS["strict and low"])
+        x = Cocone(medial_of(study, name), **OPTIONS["strict and low"])
         at_once = x.thin[0] & (x.agree[0] | ~x.neighbours(x.meets[1])).all(axis=1)
         grown += (x.flat[0] & ~at_once).sum()
         out += (x.thin[0] & ~x.flat[1]).sum()
     assert grown > 50 and out > 50
 
 
-def test_repeated_rows_are_one_sample(medial):
+def test_repeated_rows_are_one_sample(study):
     points = CLOUDS["torus 200"]
-    thin, flat, candidates = medial.cocone(points)
-    again = medial.cocone(np.concatenate((points, points[:70])))
+    thin, flat, candidates = study.cocone(points)
+    again = study.cocone(np.concatenate((points, points[:70])))
     for a, b in zip((thin, flat, candidates), again):
         assert a.dtype == b.dtype and np.array_equal(a, b)
 
 
-def test_types(medial):
-    thin, flat, candidates = medial.cocone(CLOUDS["torus 200"])
+def test_types(study):
+    thin, flat, candidates = study.cocone(CLOUDS["torus 200"])
     assert thin.dtype == flat.dtype == bool and thin.shape == flat.shape == (200,)
     assert candidates.dtype == np.int32 and candidates.shape[1] == 3
     assert not any(array.flags.writeable for array in (thin, flat, candidates))

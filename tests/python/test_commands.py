@@ -74,7 +74,7 @@ NOT_RUN = {
 
 
 def commands_of(page):
-    """Of blocks and of spans, without prompts, comments and what stands beside them."""
+    """The commands in blocks and spans, without prompts, comments and the text next to them."""
     text = page.read_text(encoding="utf-8")
     fenced = re.findall(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
     text = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)

@@ -44,7 +44,7 @@ CASES = [
 
 
 def curve_of(hierarchy, name, **options):
-    """Of closed tubes the closed curve alone: noise gives spurs."""
+    """Extracts the curve; for closed tubes only the closed curve, because noise gives spurs."""
     return hierarchy.extract(spacings=1.0, limb=0.04 if name == "capsule" else math.inf, **options)
 
 
@@ -96,7 +96,7 @@ def analysed(medial, shape, n, noise, seed=0):
     [(2000, 0.0, 4.5e-5, 1.5e-4), (8000, 0.0, 1.5e-5, 3.0e-5), (8000, 0.1, 1e-3, 3e-3)],
 )
 def test_bent_tube_of_changing_radius_has_its_axis(medial, n, noise, mean, largest):
-    """What lies across the curve there touches balls farther on: by parallel sections the mean stays at 2.4e-3."""
+    """Sections across this curve touch balls farther along it: parallel sections would leave a mean of 2.4e-3."""
     shape = Cyclide()
     hierarchy = analysed(medial, shape, n, noise).hierarchy()
     level = hierarchy.extract(**CURVE, limb=math.inf, relaxed=True)

@@ -22,16 +22,16 @@ pytestmark = pytest.mark.oracle
         ("graded", 2000),
     ],
 )
-def test_cells_equal_qhull(medial, kind, n):
+def test_cells_equal_qhull(study, kind, n):
     points = inputs.generic(kind, n, 1)
-    cells, _neighbors, _ = medial.delaunay(points)
+    cells, _neighbors, _ = study.delaunay(points)
     finite = (cells >= 0).all(axis=1)
     wanted = reference.sort_cells(Delaunay(points, qhull_options="Qbb Qc Qz Q12").simplices)
     assert np.array_equal(reference.sort_cells(cells[finite]), wanted)
 
 
-def test_neighbors_share_three_corners_and_know_each_other(medial):
-    cells, neighbors, _ = medial.delaunay(inputs.generic("ellipsoid", 2000, 5))
+def test_neighbors_share_three_corners_and_know_each_other(study):
+    cells, neighbors, _ = study.delaunay(inputs.generic("ellipsoid", 2000, 5))
     for column in range(4):
         other = neighbors[:, column]
         assert (neighbors[other] == np.arange(len(cells))[:, None]).sum(axis=1).min() >= 1
@@ -39,24 +39,24 @@ def test_neighbors_share_three_corners_and_know_each_other(medial):
         assert not common[:, column].any() and (common.sum(axis=1) == 3).all()
 
 
-def test_cells_fill_the_convex_hull(medial):
+def test_cells_fill_the_convex_hull(study):
     """The volumes add up: no overlap, no gap, also for exactly cospherical and coplanar samples."""
     for points, volume in (
         (inputs.grid((5, 6, 7)), 4.0 * 5 * 6),
         (inputs.hollow((8, 8, 8)), 7.0**3),
     ):
-        cells = medial.delaunay(points)[0]
+        cells = study.delaunay(points)[0]
         cells = cells[(cells >= 0).all(axis=1)].astype(np.int64)
         grid, _ = reference.to_integers(points)
         sizes = reference.orientation(grid, cells)
         assert (sizes > 0).all() and sizes.sum() == 6 * volume
 
 
-def test_empty_spheres_of_20000_samples(medial):
+def test_empty_spheres_of_20000_samples(study):
     from scipy.spatial import cKDTree
 
     points = shapes.SHAPES["ellipsoid"].sample(20000, 3)
-    cells, _, centres = medial.delaunay(points)
+    cells, _, centres = study.delaunay(points)
     finite = (cells >= 0).all(axis=1)
     radius = np.linalg.norm(centres[finite] - points[cells[finite, 0]], axis=1)
     nearest, _ = cKDTree(points).query(centres[finite])

@@ -34,11 +34,11 @@ def points_of(case):
 
 
 @cache
-def reference_of(medial, case):
+def reference_of(study, case):
     points = points_of(case)
     if not isinstance(case, str):
         return reference.Medial(points, reference.delaunay_qhull(points))
-    cells = medial.delaunay(points)[0]
+    cells = study.delaunay(points)[0]
     cells = reference.sort_cells(cells[(cells >= 0).all(axis=1)])
     reference.assert_delaunay(points, cells)
     return reference.Medial(points, cells)
@@ -58,9 +58,9 @@ def settled_edges(expected):
     return ~expected.ambiguous[expected.edges].any(axis=1)
 
 
-def test_cells_are_the_delaunay_triangulation(medial, case):
-    expected = reference_of(medial, case)
-    cells, neighbors, _centres = medial.delaunay(points_of(case))
+def test_cells_are_the_delaunay_triangulation(study, case):
+    expected = reference_of(study, case)
+    cells, neighbors, _centres = study.delaunay(points_of(case))
     finite = (cells >= 0).all(axis=1)
     assert np.array_equal(reference.sort_cells(cells[finite]), expected.cells)
     assert (cells < 0).sum() == (~finite).sum() == len(expected.rays)
@@ -71,9 +71,9 @@ def test_cells_are_the_delaunay_triangulation(medial, case):
         assert all(set(a) <= set(b) for a, b in zip(rest.tolist(), other.tolist()))
 
 
-def test_circumcentres_are_right_to_24_bits(medial, case):
-    expected = reference_of(medial, case)
-    cells, _, centres = medial.delaunay(points_of(case))
+def test_circumcentres_are_right_to_24_bits(study, case):
+    expected = reference_of(study, case)
+    cells, _, centres = study.delaunay(points_of(case))
     finite = np.flatnonzero((cells >= 0).all(axis=1))
     order = np.lexsort(np.sort(cells[finite], axis=1).T[::-1])
     error = np.linalg.norm(centres[finite][order] - expected.centres, axis=1)
@@ -81,17 +81,17 @@ def test_circumcentres_are_right_to_24_bits(medial, case):
     assert (error <= expected.radius * 2.0**-24 + rounding).all()
 
 
-def test_directions_of_infinite_cells_are_outward_unit_normals(medial, case):
-    expected = reference_of(medial, case)
-    cells, _, centres = medial.delaunay(points_of(case))
+def test_directions_of_infinite_cells_are_outward_unit_normals(study, case):
+    expected = reference_of(study, case)
+    cells, _, centres = study.delaunay(points_of(case))
     for row in np.flatnonzero((cells < 0).any(axis=1)):
         corners = tuple(sorted(int(x) for x in cells[row] if x >= 0))
         assert np.allclose(centres[row], reference.unit(expected.rays[corners]), atol=1e-12, rtol=0)
 
 
-def test_poles(medial, case):
-    expected = reference_of(medial, case)
-    vectors, unbounded = medial.poles(points_of(case))
+def test_poles(study, case):
+    expected = reference_of(study, case)
+    vectors, unbounded = study.poles(points_of(case))
     assert np.array_equal(unbounded, expected.unbounded_cells)
     settled = ~expected.ambiguous
     size = np.linalg.norm(expected.pole_vectors, axis=1)
@@ -99,35 +99,33 @@ def test_poles(medial, case):
     assert (error <= 1e-7 * size)[settled].all()
 
 
-def test_umbrellas(medial, case):
-    expected = reference_of(medial, case)
-    offsets, triangles = medial.umbrellas(points_of(case))
+def test_umbrellas(study, case):
+    expected = reference_of(study, case)
+    offsets, triangles = study.umbrellas(points_of(case))
     found = [triangles[a:b] for a, b in pairwise(offsets)]
     assert len(found) == len(expected.points)
     for sample in np.flatnonzero(~expected.ambiguous):
         assert found[sample].tolist() == [list(t) for t in expected.umbrellas[sample]]
 
 
-def test_few_samples_are_left_out(medial):
-    shares = [reference_of(medial, case).ambiguous.mean() for case in GENERIC]
+def test_few_samples_are_left_out(study):
+    shares = [reference_of(study, case).ambiguous.mean() for case in GENERIC]
     assert max(shares) <= 0.2 and np.mean(shares) < 0.002
-    turned = [
-        reference_of(medial, case).ambiguous.mean() for case in STRUCTURED if "turned" in case
-    ]
+    turned = [reference_of(study, case).ambiguous.mean() for case in STRUCTURED if "turned" in case]
     assert np.mean(turned) < 0.7
 
 
-def test_edges_and_bounded(medial, case):
-    expected, analysis = reference_of(medial, case), analysis_of(medial, case)
+def test_edges_and_bounded(study, case):
+    expected, analysis = reference_of(study, case), analysis_of(study, case)
     assert np.array_equal(analysis.edges, expected.edges)
     assert np.array_equal(analysis.bounded, expected.bounded)
     assert analysis.cells == len(expected.cells)
 
 
 @pytest.mark.parametrize("rule", ["", "_both"])
-def test_theta(medial, case, rule):
+def test_theta(study, case, rule):
     """asin loses half the digits at pi/2, and nothing below 1.5."""
-    expected, analysis = reference_of(medial, case), analysis_of(medial, case)
+    expected, analysis = reference_of(study, case), analysis_of(study, case)
     settled = settled_edges(expected) & ~expected.in_umbrella.any(axis=1)
     found, wanted = (getattr(x, "theta" + rule)[settled] for x in (analysis, expected))
     assert np.allclose(np.sin(found), np.sin(wanted), atol=1e-9, rtol=0)
@@ -135,8 +133,8 @@ def test_theta(medial, case, rule):
 
 
 @pytest.mark.parametrize("rule", ["", "_both"])
-def test_rho(medial, case, rule):
-    expected, analysis = reference_of(medial, case), analysis_of(medial, case)
+def test_rho(study, case, rule):
+    expected, analysis = reference_of(study, case), analysis_of(study, case)
     settled = settled_edges(expected) & ~expected.in_umbrella.any(axis=1)
     found, wanted = (getattr(x, "rho" + rule)[settled] for x in (analysis, expected))
     assert np.allclose(found, wanted, rtol=1e-9, atol=0)
@@ -150,26 +148,26 @@ def near_threshold(expected, theta, rho):
 
 
 @pytest.mark.parametrize("limit_set", [False, True])
-def test_selected_edges(medial, case, limit_set):
+def test_selected_edges(study, case, limit_set):
     """Exact set equality for every rule, criterion and several thresholds."""
     for theta, rho in THETAS_AND_RHOS:
-        assert_same_selection(medial, case, theta, rho, limit_set)
+        assert_same_selection(study, case, theta, rho, limit_set)
 
 
-def test_edges_of_an_umbrella_are_not_tried_from_its_sample(medial, case):
+def test_edges_of_an_umbrella_are_not_tried_from_its_sample(study, case):
     """Step 5 of MEDIAL: below rho0 = 2, and at theta0 = 0 by rounding, edges of U_p would pass from p."""
     for theta, rho in LOW:
-        assert_same_selection(medial, case, theta, rho, False)
+        assert_same_selection(study, case, theta, rho, False)
 
 
-def assert_same_selection(medial, case, theta, rho, limit_set):
-    expected, analysis = reference_of(medial, case), analysis_of(medial, case)
+def assert_same_selection(study, case, theta, rho, limit_set):
+    expected, analysis = reference_of(study, case), analysis_of(study, case)
     compared = settled_edges(expected) & ~near_threshold(expected, theta, rho)
     for rule, criteria in product(("EITHER", "BOTH"), ("ANGLE_OR_RATIO", "ANGLE", "RATIO")):
         found = np.zeros(len(expected.edges), dtype=bool)
         options = {
-            "rule": getattr(medial.Rule, rule),
-            "criteria": getattr(medial.Criteria, criteria),
+            "rule": getattr(study.Rule, rule),
+            "criteria": getattr(study.Criteria, criteria),
         }
         found[analysis.select(theta, rho, **options, limit_set=limit_set)] = True
         wanted = expected.selected(theta, rho, rule, criteria, limit_set)
@@ -186,9 +184,9 @@ def test_defaults_are_the_papers(medial, case):
     )
 
 
-def test_polygons(medial, case):
+def test_polygons(study, case):
     """Each selected bounded facet of positive area comes out with exactly its Voronoi vertices, and no other."""
-    expected, analysis = reference_of(medial, case), analysis_of(medial, case)
+    expected, analysis = reference_of(study, case), analysis_of(study, case)
     mesh = analysis.extract(0.1, 3.0)
     chosen = analysis.select(0.1, 3.0)
     assert mesh.unbounded == (~expected.bounded[chosen]).sum()
@@ -242,7 +240,7 @@ def test_radius_and_attributes_of_facets(medial, case):
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_cells_equal_exact_brute_force(medial, seed):
+def test_cells_equal_exact_brute_force(study, seed):
     """All subsets of four points, exact empty spheres: no library in common at all."""
     n = 5 + seed % 16
     points = (
@@ -254,7 +252,7 @@ def test_cells_equal_exact_brute_force(medial, seed):
     if np.linalg.matrix_rank(points - points[0]) < 3:
         pytest.skip("no volume")
     balls = reference.delaunay_brute_force(points)
-    cells = medial.delaunay(points)[0]
+    cells = study.delaunay(points)[0]
     cells = cells[(cells >= 0).all(axis=1)]
     reference.assert_delaunay(points, cells.astype(np.int64))
     owner = [

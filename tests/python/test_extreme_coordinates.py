@@ -182,8 +182,8 @@ def test_relaxed_levels_far_from_the_origin(medial, factor):
         assert np.array_equal(far.betti, level.betti)
         distance, nearest = cKDTree(level.vertices).query(far.vertices / factor - offset)
         change = np.abs(far.radius / factor - level.radius[nearest])
-        # Of a length of 6. Wires are divided into pieces of 0.06, and along an axis the radius of the
-        # balls changes by no more than the way: so much at any place, and much less at most of them.
+        # The object is 6 long. Wires are divided into pieces of 0.06, and along an axis the radius changes
+        # by no more than the distance: by up to that much anywhere, and by much less at most places.
         assert distance.max() < 0.05 and change.max() < 0.05
         assert np.median(distance) < 0.02 and np.median(change) < 0.005
 

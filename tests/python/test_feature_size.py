@@ -22,9 +22,9 @@ def analysis_of(medial, points, **options):
     return medial.MedialAnalysis(points, sides=medial.SidesFrom.NONE, **options)
 
 
-def vertices_of_selected(medial, analysis, points, **thresholds):
+def vertices_of_selected(study, analysis, points, **thresholds):
     """Voronoi vertices, by the cells, of the selected facets: those that are finite."""
-    cells, _, centres = medial.delaunay(points)
+    cells, _, centres = study.delaunay(points)
     selected = set(map(tuple, analysis.edges[analysis.select(**thresholds)].tolist()))
     finite = (cells >= 0).all(axis=1)
     pairs = np.sort(cells[finite][:, [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]], axis=2)
@@ -45,25 +45,25 @@ CASES = {
 
 @pytest.mark.parametrize("theta, rho", [(np.pi / 8, 8.0), (0.8, 100.0), (0.0, 0.0)])
 @pytest.mark.parametrize("name", CASES)
-def test_distance_to_the_selected_vertices(medial, name, theta, rho):
+def test_distance_to_the_selected_vertices(study, name, theta, rho):
     """By brute force: never nearer, and too far by the thinning at most; unbounded facets' finite vertices count."""
     points = CASES[name]
-    analysis = analysis_of(medial, points)
-    vertices = vertices_of_selected(medial, analysis, points, theta=theta, rho=rho)
+    analysis = analysis_of(study, points)
+    vertices = vertices_of_selected(study, analysis, points, theta=theta, rho=rho)
     wanted = cKDTree(vertices).query(points[analysis.samples])[0]
     found = analysis.feature_size(theta, rho)
     assert (found >= wanted * (1 - 1e-9)).all()
     assert (found <= wanted * (1 + THINNING + 1e-9)).all()
 
 
-def test_vertices_of_unbounded_facets_count(medial):
-    """Of few points nearly all facets reach infinity."""
+def test_vertices_of_unbounded_facets_count(study):
+    """With few points nearly all facets are unbounded."""
     points = inputs.generic("cube", 8, 1)
-    analysis = analysis_of(medial, points)
+    analysis = analysis_of(study, points)
     selected = analysis.select(0.0, 0.0)
     assert (~analysis.bounded[selected]).any()
     only = analysis.extract(0.0, 0.0).vertices
-    every = vertices_of_selected(medial, analysis, points, theta=0.0, rho=0.0)
+    every = vertices_of_selected(study, analysis, points, theta=0.0, rho=0.0)
     assert len(every) > len(only)
     wanted = cKDTree(every).query(points[analysis.samples])[0]
     assert (cKDTree(only).query(points[analysis.samples])[0] > 1.1 * wanted).any()
@@ -143,10 +143,10 @@ def test_nothing_selected_is_infinitely_far(medial):
 
 
 @pytest.mark.parametrize("name", ["ellipsoid", "random", "turned grid", "box"])
-def test_spacing_is_the_largest_circumradius_of_the_umbrella(medial, name):
+def test_spacing_is_the_largest_circumradius_of_the_umbrella(study, name):
     points = CASES[name]
-    analysis = analysis_of(medial, points)
-    offsets, triangles = medial.umbrellas(points)
+    analysis = analysis_of(study, points)
+    offsets, triangles = study.umbrellas(points)
     a, b, c = (points[triangles[:, i]] for i in range(3))
     sides = [np.linalg.norm(u - v, axis=1) for u, v in ((a, b), (b, c), (c, a))]
     radius = np.prod(sides, axis=0) / (2 * np.linalg.norm(np.cross(b - a, c - a), axis=1))

@@ -67,7 +67,7 @@ def random_triangles(rng, n):
 
 
 def random_sides(medial, rng, points, seed):
-    """What tells inside from outside: every source in turn."""
+    """The source of inside and outside: every source in turn."""
     if seed % 4 == 0:
         triangles = random_triangles(rng, len(points))
         is_open = (

@@ -90,8 +90,8 @@ def assert_levels_hold(hierarchy, analysis, thresholds=THRESHOLDS):
             assert (pieces, euler) == (b0, b0 - b1 + b2), chosen
 
 
-def reference(medial, points, analysis, hierarchy):
-    cells = medial.delaunay(points)[0]
+def reference(study, points, analysis, hierarchy):
+    cells = study.delaunay(points)[0]
     c = collapse_reference.inner_complex(
         points, cells, hierarchy.cells, hierarchy.vertices, hierarchy.generators, hierarchy.edges
     )
@@ -117,11 +117,11 @@ def same(found, expected):
 
 
 @pytest.mark.parametrize("seed", [s for s in range(36) if s % 6 in (0, 1, 5)])
-def test_values_are_those_of_the_definition(medial, seed):
+def test_values_are_those_of_the_definition(study, seed):
     points = random_points(seed)
-    analysis = analysed(medial, points, seed)
+    analysis = analysed(study, points, seed)
     hierarchy = analysis.hierarchy()
-    c, collapse, spacing = reference(medial, points, analysis, hierarchy)
+    c, collapse, spacing = reference(study, points, analysis, hierarchy)
     assert hierarchy.betti == collapse_reference.betti(c)
     assert sorted(hierarchy.bubbles) == sorted(c.bubbles)
     values = {
@@ -232,8 +232,8 @@ def test_levels_are_what_lies_above_their_thresholds(sampled, name, noise):
 @pytest.mark.parametrize("name", SOLIDS)
 @pytest.mark.parametrize("n", [2000, 8000, pytest.param(20000, marks=pytest.mark.slow)])
 def test_level_zero_is_what_medial_selects_and_bridges(medial, sampled, name, n):
-    """Of what is selected, `extract` cannot draw the facets without area, of which tubes have hundreds. The sixteen
-    levels above it hold, too."""
+    """`extract` cannot draw the selected facets without area, of which tubes have hundreds. The sixteen levels above
+    it are correct, too."""
     _, analysis, hierarchy = sampled(name, n)
     assert hierarchy.betti == SOLIDS[name] and not Levels(hierarchy, analysis).wrong()
     level = {tuple(g) for g in hierarchy.extract(limb=0.0).generators.tolist()}

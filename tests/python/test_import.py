@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is read from `.xyz`, `.xyzn` and `.off` files, and what is refused."""
+"""Tests of reading `.xyz`, `.xyzn` and `.off` files, and of the errors for wrong ones."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What must hold for every output: empty balls, planar convex polygons, order, welded vertices, types."""
+"""Invariants of every output: empty balls, planar convex polygons, order, welded vertices, types."""
 
 import numpy as np
 import pytest
@@ -167,12 +167,12 @@ def test_types_and_shapes(result):
     )
 
 
-def test_stage_arrays_have_the_documented_types(medial):
+def test_stage_arrays_have_the_documented_types(study):
     points = CLOUDS["random"][:100]
-    cells, neighbors, centres = medial.delaunay(points)
-    vectors, unbounded = medial.poles(points)
-    offsets, triangles = medial.umbrellas(points)
-    winding = medial.winding_number(points, *meshes.icosphere(1))
+    cells, neighbors, centres = study.delaunay(points)
+    vectors, unbounded = study.poles(points)
+    offsets, triangles = study.umbrellas(points)
+    winding = study.winding_number(points, *meshes.icosphere(1))
     for array, dtype in (
         (cells, "i4"),
         (neighbors, "i4"),
@@ -238,26 +238,26 @@ def umbrella_is_disc(triangles):
         ("shell", 4),
     ],
 )
-def test_umbrellas_of_dense_closed_samples_are_discs(medial, name, chi):
+def test_umbrellas_of_dense_closed_samples_are_discs(study, name, chi):
     """And they make a closed surface: sum |U_p| / n = 6 (1 - chi / n)."""
     points = shapes.SHAPES[name].sample(4000, 1)
-    offsets, triangles = medial.umbrellas(points)
+    offsets, triangles = study.umbrellas(points)
     umbrellas = np.split(triangles, offsets[1:-1])
     assert all(umbrella_is_disc(umbrella) for umbrella in umbrellas)
     assert len(triangles) / len(points) == pytest.approx(6 * (1 - chi / len(points)), rel=3e-3)
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_umbrellas_are_never_empty(medial, seed):
+def test_umbrellas_are_never_empty(study, seed):
     points = np.random.default_rng(seed).random((5 + 40 * seed, 3))
-    offsets, _ = medial.umbrellas(points)
+    offsets, _ = study.umbrellas(points)
     assert (np.diff(offsets) > 0).all()
 
 
-def test_umbrella_edges_have_angle_zero_and_ratio_below_two(medial):
+def test_umbrella_edges_have_angle_zero_and_ratio_below_two(study):
     points = shapes.SHAPES["ellipsoid"].sample(2000, 4)
-    analysis = medial.MedialAnalysis(points)
-    _, triangles = medial.umbrellas(points)
+    analysis = study.MedialAnalysis(points)
+    _, triangles = study.umbrellas(points)
     own = {(min(p, x), max(p, x)) for p, a, b in triangles.tolist() for x in (a, b)}
     rows = np.array([tuple(edge) in own for edge in analysis.edges.tolist()])
     assert analysis.theta_both[rows].max() < 1e-14 and analysis.rho_both[rows].max() < 2 + 1e-12

@@ -16,7 +16,7 @@ ADDON = ROOT / "blender_addon"
 NATIVE = ROOT / "native"
 
 BLENDER_MODULES = {"bpy", "bpy_extras", "bmesh", "mathutils", "gpu", "blf", "addon_utils"}
-# What each room may import of the package beside itself; "" is the package itself (its name and version).
+# The rooms that each room may import besides itself; "" is the package itself (its name and version).
 CORE = {
     "core",
     "core/machine",
@@ -223,12 +223,14 @@ def users_of(*prefixes):
 
 
 MEDIAL = NATIVE / "medial"
-# What each room of the core may see beside itself: the paper's pipeline, read downwards.
+# The rooms that each room of the core may include besides itself: the paper's pipeline, read downwards.
 MAY_INCLUDE = {
     "base": set(),
     "delaunay": {"base"},
     "inside": {"base", "delaunay"},
     "axis": {"base", "delaunay", "inside"},
+    "thickness": {"base", "delaunay", "inside", "axis"},
+    "balls": {"base", "inside"},
     "cocone": {"base", "delaunay", "inside", "axis"},
     "skeleton": {"base", "delaunay", "inside", "axis"},
     "sampling": {"base", "inside"},
@@ -238,25 +240,26 @@ MAY_INCLUDE = {
         "delaunay",
         "inside",
         "axis",
+        "thickness",
         "cocone",
         "skeleton",
         "sampling",
     },  # the analysis, on top
+    "rivals": {"base", "delaunay", "inside", "axis", "."},  # not in the shipped module
 }
 
 
 # The words that every room may use, and the public headers that only those who make what is in them see.
 VOCABULARY = {"types.h", "errors.h", "progress.h", "options.h"}
 PUBLIC = {
-    "medial_mesh.h": {"axis"},
+    "medial_mesh.h": {"axis", "rivals"},
     "watertight_surface.h": {"cocone"},
     "hierarchy.h": {"skeleton"},
-    "power_shape.h": {"delaunay"},
     "sphere_mesh.h": {"reduce"},
-    "thickness.h": {"axis"},
-    "ball_cover.h": {"axis"},
+    "thickness.h": {"thickness"},
+    "ball_cover.h": {"balls"},
     "sampling.h": {"sampling"},
-    "analysis.h": {"."},
+    "analysis.h": {".", "rivals"},
 }
 
 
@@ -275,9 +278,13 @@ def test_public_headers_see_only_public_ones(path):
 
 
 def test_cgal_has_one_home():
-    """Triangulations of points, of balls and of polygons; all set CGAL up alike."""
-    units = ("polygon_triangles.cpp", "power_shape.cpp", "triangulation.cpp")
-    homes = [MEDIAL / "delaunay" / name for name in units]
+    """Triangulations of points and of polygons, and of balls for rivals; all set CGAL up alike."""
+    units = (
+        "delaunay/polygon_triangles.cpp",
+        "delaunay/triangulation.cpp",
+        "rivals/power_shape.cpp",
+    )
+    homes = [MEDIAL / unit for unit in units]
     assert sorted(set(users_of("CGAL/")) - {MEDIAL / "delaunay" / "cgal.h"}) == homes
     assert all("delaunay/cgal.h" in includes_of(home) for home in homes)
 
@@ -297,7 +304,8 @@ def test_the_system_has_one_home():
 
 
 def test_pybind_and_python_have_one_home():
-    assert {path.parent for path in users_of("pybind11/", "Python.h")} == {NATIVE / "python"}
+    homes = {NATIVE / "python", NATIVE / "python" / "study"}
+    assert {path.parent for path in users_of("pybind11/", "Python.h")} == homes
 
 
 def test_tbb_and_openmp_have_no_home():

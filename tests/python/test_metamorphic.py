@@ -309,13 +309,13 @@ def test_duplicates_are_merged_and_counted(medial, points):
     )
 
 
-def test_the_first_of_equal_rows_is_the_sample(medial, points):
+def test_the_first_of_equal_rows_is_the_sample(study, points):
     repeated = np.repeat(points, 2, axis=0)
     repeated[0::2] += 0.0
-    analysis = medial.MedialAnalysis(repeated)
+    analysis = study.MedialAnalysis(repeated)
     assert np.array_equal(analysis.samples, np.arange(0, len(repeated), 2))
-    assert np.array_equal(analysis.edges, 2 * medial.MedialAnalysis(points).edges)
-    vectors, _ = medial.poles(repeated)
+    assert np.array_equal(analysis.edges, 2 * study.MedialAnalysis(points).edges)
+    vectors, _ = study.poles(repeated)
     assert len(vectors) == len(points)
 
 

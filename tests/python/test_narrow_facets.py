@@ -9,7 +9,7 @@ from tests.support.fuzz import repeats
 
 pytestmark = pytest.mark.oracle
 
-# Of the largest radius; what is narrower than 2^-40 may be a point or a segment.
+# A share of the largest radius; a facet narrower than 2^-40 may be a point or a segment.
 NARROWEST = 2.0**-39
 
 
@@ -43,25 +43,25 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_what_has_a_width_is_there(medial, name):
-    assert_all_with_a_width(medial, CASES[name])
+def test_what_has_a_width_is_there(study, name):
+    assert_all_with_a_width(study, CASES[name])
 
 
 @pytest.mark.parametrize("seed", repeats(4))
-def test_fuzzed_boxes(medial, seed):
-    """Of any size and aspect, turned, in float32."""
+def test_fuzzed_boxes(study, seed):
+    """The boxes have any size and aspect, are rotated and rounded to float32."""
     random = np.random.default_rng([seed, 13])
     steps = random.integers(1, 6, 3).tolist()
     size = 10.0 ** random.uniform(-3, 1, 3)
-    assert_all_with_a_width(medial, turned(grid_of_a_box(size, steps), seed))
+    assert_all_with_a_width(study, turned(grid_of_a_box(size, steps), seed))
 
 
-def assert_all_with_a_width(medial, points):
+def assert_all_with_a_width(study, points):
     """Judged by exact centres; the reference shares no code with the product."""
-    cells = medial.delaunay(points)[0]
+    cells = study.delaunay(points)[0]
     cells = reference.sort_cells(cells[(cells >= 0).all(axis=1)])
     expected = reference.Medial(points, cells)
-    analysis = medial.MedialAnalysis(points, sides=medial.SidesFrom.NONE)
+    analysis = study.MedialAnalysis(points, sides=study.SidesFrom.NONE)
     mesh, chosen = analysis.extract(0.0, 0.0), analysis.select(0.0, 0.0)
     there = set(map(tuple, mesh.generators.tolist()))
     bounded = chosen[expected.bounded[chosen]]

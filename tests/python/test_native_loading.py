@@ -34,7 +34,7 @@ def refused(*_):
 
 
 def play(text):
-    """What a script says in a new Python that has the add-on's package."""
+    """The output of a script in a new Python that has the add-on's package."""
     script = START + textwrap.dedent(text)
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

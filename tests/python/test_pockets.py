@@ -35,9 +35,9 @@ def circumcentres(points, cells):
     return centres
 
 
-def parts(medial, points, mesh):
+def parts(study, points, mesh):
     """How many parts the cells have whose circumcentres lie inside, joined through triangles: one by one."""
-    cells = medial.delaunay(points)[0]
+    cells = study.delaunay(points)[0]
     inner = reference.winding_number(circumcentres(points, cells), *mesh) > 0.5
     first, pairs = {}, []
     for cell in np.flatnonzero(inner):
@@ -53,11 +53,11 @@ def betti(medial, mesh, count=2000, **options):
 
 
 @pytest.mark.parametrize("degrees, seed", [(25, 2), (25, 3), (35, 0), (50, 0)])
-def test_a_wedge_is_one_piece(medial, degrees, seed):
+def test_a_wedge_is_one_piece(study, degrees, seed):
     mesh = wedge(degrees)
-    found = medial.sample_surface(*mesh, count=1500, seed=seed, mirrored_rows=0)
-    assert parts(medial, found.points, mesh) > 1  # what the samples make of its edge
-    assert betti(medial, mesh, 1500, seed=seed, mirrored_rows=0)[0] == 1
+    found = study.sample_surface(*mesh, count=1500, seed=seed, mirrored_rows=0)
+    assert parts(study, found.points, mesh) > 1  # what the samples make of its edge
+    assert betti(study, mesh, 1500, seed=seed, mirrored_rows=0)[0] == 1
 
 
 def test_levels_have_the_topology_without_pockets(medial):
@@ -88,9 +88,9 @@ def beside(mesh, size, x):
     return size * mesh[0] + (x, 0.0, 0.0), mesh[1]
 
 
-def bodies_seen(medial, points, bodies, vertices):
+def bodies_seen(study, points, bodies, vertices):
     """In which bodies inner cells have their circumcentres, and in which places lie."""
-    centres = circumcentres(points, medial.delaunay(points)[0])
+    centres = circumcentres(points, study.delaunay(points)[0])
     cells = [(reference.winding_number(centres, *body) > 0.5).any() for body in bodies]
     return cells, [(reference.winding_number(vertices, *body) > 0.5).any() for body in bodies]
 
@@ -99,13 +99,13 @@ def bodies_seen(medial, points, bodies, vertices):
     "size, gap", [(1.0, 1e-6), (0.1, 1e-3), (0.01, 0.5), (0.01, 1e-6), (1e-4, 0.5)]
 )
 @pytest.mark.parametrize("body", [BALL, CUBE, wedge(60)], ids=["ball", "cube", "wedge"])
-def test_no_body_is_lost(medial, body, gap, size):
+def test_no_body_is_lost(study, body, gap, size):
     """However much smaller than the distance between samples, and closer. Samples are the vertices."""
     low = (size * body[0][:, 0]).min()
     other = beside(body, size, BALL[0][:, 0].max() + gap - low)
     points, triangles = meshes.join(BALL, other)
-    hierarchy = medial.MedialAnalysis(points, triangles).hierarchy()
-    cells, vertices = bodies_seen(medial, points, (BALL, other), hierarchy.vertices)
+    hierarchy = study.MedialAnalysis(points, triangles).hierarchy()
+    cells, vertices = bodies_seen(study, points, (BALL, other), hierarchy.vertices)
     assert vertices == cells
     if (
         gap == 0.5
@@ -121,13 +121,13 @@ def test_a_body_of_four_samples_is_a_piece(medial):
 
 
 @pytest.mark.parametrize("size", [1.0, 0.2, 0.05])
-def test_bodies_that_touch_in_an_edge_are_two(medial, size):
+def test_bodies_that_touch_in_an_edge_are_two(study, size):
     """Samples on the edge belong to both; no way through the solid leads from one to the other."""
     small = size * CUBE[0] + (0.5 + 0.5 * size, 0.5 + 0.5 * size, 0.0), CUBE[1]
     points, triangles = meshes.join(CUBE, small)
-    found = medial.sample_surface(points, triangles, count=1000)
-    hierarchy = medial.MedialAnalysis(found.points, triangles, vertices=points).hierarchy()
-    cells, vertices = bodies_seen(medial, found.points, (CUBE, small), hierarchy.vertices)
+    found = study.sample_surface(points, triangles, count=1000)
+    hierarchy = study.MedialAnalysis(found.points, triangles, vertices=points).hierarchy()
+    cells, vertices = bodies_seen(study, found.points, (CUBE, small), hierarchy.vertices)
     assert vertices == cells == [True, True]
 
 

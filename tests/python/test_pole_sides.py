@@ -38,20 +38,20 @@ def flat(medial, points):
 
 @pytest.mark.parametrize("name", ["shell", "ellipsoid", "torus", "knot", "box", "slab"])
 @pytest.mark.parametrize("n, seed", [(400, 0), (900, 1)])
-def test_sides_equal_those_of_the_reference(medial, name, n, seed):
+def test_sides_equal_those_of_the_reference(study, name, n, seed):
     points = np.unique(SHAPES[name].sample(n, seed), axis=0)
-    normals = Labels(medial, points, flat(medial, points)).normals()
+    normals = Labels(study, points, flat(study, points)).normals()
     assert np.count_nonzero(normals.any(axis=1)) > 0.5 * len(points)
-    expected = medial.MedialAnalysis(points, normals=normals, sides=medial.SidesFrom.NORMALS)
-    assert np.array_equal(poles(medial, points).side, expected.side)
+    expected = study.MedialAnalysis(points, normals=normals, sides=study.SidesFrom.NORMALS)
+    assert np.array_equal(poles(study, points).side, expected.side)
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_random_points_equal_the_reference(medial, seed):
+def test_random_points_equal_the_reference(study, seed):
     points = np.random.default_rng(seed).normal(size=(60, 3))
-    normals = Labels(medial, points, flat(medial, points)).normals()
-    expected = medial.MedialAnalysis(points, normals=normals, sides=medial.SidesFrom.NORMALS)
-    assert np.array_equal(poles(medial, points).side, expected.side)
+    normals = Labels(study, points, flat(study, points)).normals()
+    expected = study.MedialAnalysis(points, normals=normals, sides=study.SidesFrom.NORMALS)
+    assert np.array_equal(poles(study, points).side, expected.side)
 
 
 # ---- what it is good for

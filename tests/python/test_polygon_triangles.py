@@ -178,7 +178,7 @@ def test_random_polygons_cross_themselves_and_end_soon():
 
 
 def test_a_polygon_that_winds_twice_round_a_part_keeps_its_boundary():
-    """Of as many faces of its plane as a polygon without crossings would have; two of them count twice."""
+    """The polygon has as many faces in its plane as one without crossings; two of them count twice."""
     points = np.array([(0, 4, 1), (4, 0, 3), (4, 2, 4), (4, 0, 4), (3, 3, 4), (0, 4, 4)], float)
     cut(points, [0, 1, 2, 3, 4, 1, 3, 5])
     cut(

@@ -31,7 +31,7 @@ def in_row(places, row):
 
 
 def away_from_corners(along, edge):
-    """Where edges meet there is no room for all rows."""
+    """The places far from the ends of an edge: near a corner not all rows fit."""
     return along[np.abs(along) < HALF[edge] - 3.3 * SPACING]
 
 

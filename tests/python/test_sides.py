@@ -112,16 +112,16 @@ def analyse(medial, points, triangles, **options):
     return medial.MedialAnalysis(points, triangles, sides=medial.SidesFrom.SURFACE, **options)
 
 
-def circumcentres(medial, points):
+def circumcentres(study, points):
     """Finite cells of the points and their circumcentres, from a mesh's rows."""
-    cells, _, centres = medial.delaunay(points)
+    cells, _, centres = study.delaunay(points)
     finite = (cells >= 0).all(axis=1)
     return cells[finite], centres[finite]
 
 
-def expected_sides(medial, points, surface, analysis):
+def expected_sides(study, points, surface, analysis):
     """(e,) side by brute force, (6 c, 2) pairs of an edge and a cell of its ring, (c, 3) circumcentres."""
-    cells, centres = circumcentres(medial, points)
+    cells, centres = circumcentres(study, points)
     near = np.linalg.norm(centres - points.mean(axis=0), axis=1) < 1e3 * np.ptp(points)
     inside = np.zeros(len(cells), dtype=bool)
     inside[near] = reference.winding_number(centres[near], *surface) > 0.5
@@ -138,14 +138,14 @@ def expected_sides(medial, points, surface, analysis):
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_sides_equal_brute_force(medial, name):
+def test_sides_equal_brute_force(study, name):
     """Where they differ, a Voronoi vertex of the facet lies on the surface, up to rounding."""
     points, triangles = ALL[name]
-    assert_brute_force(medial, points, ALL[name], analyse(medial, points, triangles))
+    assert_brute_force(study, points, ALL[name], analyse(study, points, triangles))
 
 
-def assert_brute_force(medial, points, surface, analysis):
-    wanted, incident, centres = expected_sides(medial, points, surface, analysis)
+def assert_brute_force(study, points, surface, analysis):
+    wanted, incident, centres = expected_sides(study, points, surface, analysis)
     wrong = np.flatnonzero(analysis.side != wanted)
     if len(wrong) == 0:
         return
@@ -180,17 +180,17 @@ def with_unused_vertices(mesh):
 
 
 @pytest.mark.parametrize("name", ALL)
-def test_sides_of_a_separate_surface_equal_brute_force(medial, name):
+def test_sides_of_a_separate_surface_equal_brute_force(study, name):
     """The vertices are no samples, and the samples are no vertices."""
     vertices, triangles = ALL[name]
     if name == "one triangle":  # whose samples span no volume
         return
     points = samples_on(ALL[name])
-    analysis = analyse(medial, points, triangles, vertices=vertices)
+    analysis = analyse(study, points, triangles, vertices=vertices)
     assert np.array_equal(analysis.samples, np.arange(len(points)))
     assert analysis.boundary_edges == reference.boundary_edges(triangles)
     assert analysis.closed == (name in CLOSED)
-    assert_brute_force(medial, points, ALL[name], analysis)
+    assert_brute_force(study, points, ALL[name], analysis)
 
 
 @pytest.mark.parametrize("name", ["torus", "exact icosphere", "bowl", "flipped faces", "cube"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tells inside from outside: the rule of AUTOMATIC, the vote of normals, and the errors of each choice."""
+"""Tests of the source of inside and outside: the rule of AUTOMATIC, the vote of normals, and all errors."""
 
 import re
 import threading
@@ -81,9 +81,9 @@ def inner_edges(medial, analysis):
 # ---- normals
 
 
-def settled_sides(medial, points, shape):
+def settled_sides(study, points, shape):
     """(e,) side of every facet by the exact inside test, and (e,) whether its vertices are off the surface."""
-    cells, _, centres = medial.delaunay(points)
+    cells, _, centres = study.delaunay(points)
     finite = (cells >= 0).all(axis=1)
     spacing = cKDTree(points).query(points, 2)[0][:, 1]
     field = np.where(finite, np.inf, -np.inf)
@@ -95,31 +95,31 @@ def settled_sides(medial, points, shape):
 
 
 @pytest.mark.parametrize("name", SAMPLED)
-def test_normals_give_the_exact_sides(medial, name):
+def test_normals_give_the_exact_sides(study, name):
     """Away from the surface; cavities too, which no flooding from infinity can see. Flipped they swap the sides."""
     shape, rng = SAMPLED[name], np.random.default_rng(2)
     points = shape.sample(9000 if name == "shell" else 3000, 1)  # its wall is thin
-    edges, side, settled = settled_sides(medial, points, shape)
+    edges, side, settled = settled_sides(study, points, shape)
     normals = shape.normals(points)
     analysis = analysis_of(
-        medial, points, normals=normals * 2.0 ** rng.integers(-9, 9, (len(points), 1))
+        study, points, normals=normals * 2.0 ** rng.integers(-9, 9, (len(points), 1))
     )
     assert np.array_equal(analysis.edges, edges)
     assert np.array_equal(analysis.side[settled], side[settled])
     assert (side[settled] == 1).sum() > 1000
-    flipped = analysis_of(medial, points, normals=-normals)
+    flipped = analysis_of(study, points, normals=-normals)
     swapped = settled & analysis.bounded
     assert np.array_equal(flipped.side[swapped], np.array([0, 2, 1, 3])[side[swapped]])
 
 
-def test_a_zero_normal_has_no_vote(medial):
+def test_a_zero_normal_has_no_vote(study):
     shape, rng = SHAPES["torus"], np.random.default_rng(5)
     points = shape.sample(3000, 1)
     normals = shape.normals(points)
-    full = analysis_of(medial, points, normals=normals)
+    full = analysis_of(study, points, normals=normals)
     normals[rng.random(len(points)) < 0.3] = 0.0
-    some = analysis_of(medial, points, normals=normals)
-    _, side, settled = settled_sides(medial, points, shape)
+    some = analysis_of(study, points, normals=normals)
+    _, side, settled = settled_sides(study, points, shape)
     voters = (normals != 0.0).any(axis=1)[full.edges].any(axis=1)
     assert voters.mean() > 0.85
     assert np.array_equal(some.side[settled & voters], side[settled & voters])

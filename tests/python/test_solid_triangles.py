@@ -25,8 +25,8 @@ def boundary(cells, neighbors, inner):
     return found[np.lexsort(found.T[::-1])]
 
 
-def expected(medial, points, inside):
-    cells, neighbors, centres = medial.delaunay(points)
+def expected(study, points, inside):
+    cells, neighbors, centres = study.delaunay(points)
     inner = (cells >= 0).all(axis=1)
     inner[inner] = inside(centres[inner])
     return boundary(cells, neighbors, inner)
@@ -51,13 +51,13 @@ MESHES = {
 
 @pytest.mark.parametrize("sphere", [False, True])
 @pytest.mark.parametrize("name", MESHES)
-def test_triangles_of_a_surface(medial, name, sphere):
+def test_triangles_of_a_surface(study, name, sphere):
     """Between the cells whose Voronoi vertex is inside and the others; with a bounding sphere the same."""
     points, triangles = MESHES[name]
-    analysis = medial.MedialAnalysis(points, triangles, bounding_sphere=sphere)
+    analysis = study.MedialAnalysis(points, triangles, bounding_sphere=sphere)
     inside = lambda x: reference.winding_number(x, points, triangles) > 0.5
     found = analysis.solid_triangles()
-    assert np.array_equal(found, expected(medial, points, inside))
+    assert np.array_equal(found, expected(study, points, inside))
     assert found.dtype == np.int32 and topology.is_oriented(found)
     assert topology.volume(points, found) == pytest.approx(topology.volume(points, triangles), 0.02)
 

@@ -23,7 +23,7 @@ WORD = re.compile(r"[^\W\d_]+(?:'[^\W\d_]+)?")
 
 
 def words(page):
-    """What is read of a page: no code, no addresses, no marks of HTML."""
+    """The words of a page without code, addresses and HTML tags."""
     text = re.sub(r"`[^`\n]+`|\]\([^)]*\)|<[^>]+>|https?://\S+", " ", prose(page))
     return set(WORD.findall(text))
 
@@ -42,7 +42,7 @@ def unknown_to_hunspell(found):
 
 @pytest.fixture(scope="module")
 def unknown():
-    """What the dictionary lacks of all pages."""
+    """The list holds exactly the words of all pages that the dictionary lacks."""
     if shutil.which("hunspell") is None:
         pytest.skip("no hunspell: apt-get install hunspell hunspell-en-gb")
     assert unknown_to_hunspell({"colur", "color", "colour"}) == {"colur", "color"}

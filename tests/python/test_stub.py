@@ -1,19 +1,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The typed stub and the module say the same: names, parameters, defaults, docstrings; in both directions."""
+"""The typed stub and the module say the same: names, parameters, defaults; in both directions."""
 
 import ast
 import enum
 import inspect
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-STUB = Path(__file__).resolve().parents[2] / "native" / "python" / "_medial.pyi"
-TREE = ast.parse(STUB.read_text())
-CLASSES = {node.name: node for node in TREE.body if isinstance(node, ast.ClassDef)}
-FUNCTIONS = {node.name: node for node in TREE.body if isinstance(node, ast.FunctionDef)}
-CONSTANTS = {node.target.id for node in TREE.body if isinstance(node, ast.AnnAssign)}
+FOLDER = Path(__file__).resolve().parents[2] / "native" / "python"
+NONE = "no default"
+
+
+class Stub:
+    """What a stub declares itself, by name."""
+
+    def __init__(self, path, *shared):
+        text = path.read_text(encoding="utf-8")
+        self.lines, body = text.splitlines(), ast.parse(text).body
+        self.classes = {node.name: node for node in body if isinstance(node, ast.ClassDef)}
+        self.functions = {node.name: node for node in body if isinstance(node, ast.FunctionDef)}
+        self.others = {node.target.id for node in body if isinstance(node, ast.AnnAssign)}
+        for stub in shared:
+            self.others |= {*stub.classes, *stub.functions, *stub.others}
+
+    def methods(self):
+        return [
+            (owner, name, item)
+            for owner, node in self.classes.items()
+            for name, item in members(node).items()
+            if isinstance(item, ast.FunctionDef) and not is_property(item)
+        ]
 
 
 def is_property(node):
@@ -31,30 +50,31 @@ def members(node):
     return found
 
 
-METHODS = [
-    (c, name)
-    for c, node in CLASSES.items()
-    for name, item in members(node).items()
-    if isinstance(item, ast.FunctionDef) and not is_property(item)
-]
-PROPERTIES = [
-    (c, name)
-    for c, node in CLASSES.items()
-    for name, item in members(node).items()
-    if isinstance(item, ast.FunctionDef) and is_property(item)
-]
-VALUES = [
-    (c, name)
-    for c, node in CLASSES.items()
-    for name, item in members(node).items()
-    if isinstance(item, ast.AnnAssign)
-]
+MEDIAL = Stub(FOLDER / "_medial.pyi")
+STUDY = Stub(FOLDER / "study" / "_medial_study.pyi", MEDIAL)
+
+
+@pytest.fixture(params=["medial", "study"])
+def compiled(request):
+    """A module and its stub. That of the study has all of the other one, too."""
+    stub = {"medial": MEDIAL, "study": STUDY}[request.param]
+    return SimpleNamespace(module=request.getfixturevalue(request.param), stub=stub)
 
 
 def parameters(node):
-    """(positional, keyword only) names of a stub's function, without self."""
-    positional = [a.arg for a in node.args.args if a.arg != "self"]
-    return positional, [a.arg for a in node.args.kwonlyargs]
+    """(positional, keyword only) parameters of a stub's function without self, as name -> default or NONE."""
+    arguments = node.args
+    free = len(arguments.args) - len(arguments.defaults)
+    defaults = [NONE] * free + [default_of(d) for d in arguments.defaults]
+    positional = {a.arg: d for a, d in zip(arguments.args, defaults, strict=True)}
+    positional.pop("self", None)
+    named = zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)
+    return positional, {a.arg: NONE if d is None else default_of(d) for a, d in named}
+
+
+def default_of(node):
+    """A literal; the ellipsis stands for a member of an enum, or a number that is no short literal."""
+    return ast.literal_eval(node)
 
 
 def signature_line(function):
@@ -63,6 +83,7 @@ def signature_line(function):
 
 
 def compiled_parameters(function):
+    """As `parameters`, with defaults as text."""
     line = signature_line(function)
     inside = line[line.index("(") + 1 : line.rindex(")")]
     parts, depth, current = [], 0, ""
@@ -76,73 +97,77 @@ def compiled_parameters(function):
             current += character
     parts = [part for part in [*parts, current.strip()] if part]
     star = parts.index("*") if "*" in parts else len(parts)
-    names = [re.match(r"\w*", part).group() for part in parts]
-    return [n for n in names[:star] if n != "self"], names[star + 1 :]
+    found = [re.fullmatch(r"(\w+)(?:: .+?)?(?: = (.+))?", part) for part in parts if part != "*"]
+    pairs = [(m[1], NONE if m[2] is None else m[2]) for m in found]
+    return {n: d for n, d in pairs[:star] if n != "self"}, dict(pairs[star:])
 
 
-def docstring(thing):
-    return (thing.__doc__ or "").strip()
+def assert_same_parameters(function, node):
+    for found, wanted in zip(compiled_parameters(function), parameters(node), strict=True):
+        assert list(found) == list(wanted)
+        for name, default in wanted.items():
+            if default is ...:
+                assert found[name] is not NONE, name
+            elif default is NONE or default is None or isinstance(default, (bool, str)):
+                assert found[name] == (default if default is NONE else str(default)), name
+            else:
+                assert float(found[name]) == default, name
 
 
-def test_every_public_name_is_in_both(medial):
-    public = {name for name in dir(medial) if not name.startswith("_")} | {"__version__"}
-    assert public == set(CLASSES) | set(FUNCTIONS) | CONSTANTS
+def described(thing):
+    """The docstring, without the line of the signature."""
+    text = inspect.cleandoc(thing.__doc__ or "").partition("\n\nMembers:")[0]  # of an enum
+    return text.partition("\n")[2].strip() if re.match(r"\w+\(.*\) -> ", text) else text
 
 
-@pytest.mark.parametrize("name", CLASSES)
-def test_class_members_are_in_both(medial, name):
-    compiled, wanted = getattr(medial, name), members(CLASSES[name])
-    inherited = set(dir(Exception)) if issubclass(compiled, Exception) else set()
-    pybind_enum = {"name", "value", "names", "values"}
-    found = {m for m in dir(compiled) if not m.startswith("_")} - inherited
-    if any(isinstance(item, ast.AnnAssign) for item in wanted.values()):
-        found -= pybind_enum
-    assert found == {m for m in wanted if not m.startswith("_")}
+def test_every_public_name_is_in_both(compiled):
+    public = {name for name in dir(compiled.module) if not name.startswith("_")} | {"__version__"}
+    assert (
+        public == set(compiled.stub.classes) | set(compiled.stub.functions) | compiled.stub.others
+    )
 
 
-@pytest.mark.parametrize("name", CLASSES)
-def test_classes_have_docstrings(medial, name):
-    assert begins_alike(docstring(getattr(medial, name)), ast.get_docstring(CLASSES[name]))
+def test_class_members_are_in_both(compiled):
+    for name, node in compiled.stub.classes.items():
+        found_class, wanted = getattr(compiled.module, name), members(node)
+        inherited = set(dir(Exception)) if issubclass(found_class, Exception) else set()
+        found = {m for m in dir(found_class) if not m.startswith("_")} - inherited
+        if any(isinstance(item, ast.AnnAssign) for item in wanted.values()):
+            found -= {"name", "value", "names", "values"}  # of every enum
+        assert found == {m for m in wanted if not m.startswith("_")}, name
 
 
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_functions_have_parameters_and_docstrings(medial, name):
-    function = getattr(medial, name)
-    assert compiled_parameters(function) == parameters(FUNCTIONS[name])
-    described = docstring(function).removeprefix(signature_line(function)).strip()
-    assert begins_alike(described, ast.get_docstring(FUNCTIONS[name]))
+def test_functions_have_the_parameters_of_the_stub(compiled):
+    for name, node in compiled.stub.functions.items():
+        assert_same_parameters(getattr(compiled.module, name), node)
 
 
-@pytest.mark.parametrize("owner, name", METHODS)
-def test_methods_have_parameters_and_docstrings(medial, owner, name):
-    function, node = getattr(getattr(medial, owner), name), members(CLASSES[owner])[name]
-    assert compiled_parameters(function) == parameters(node)
-    described = docstring(function).removeprefix(signature_line(function)).strip()
-    text = ast.get_docstring(node)
-    assert text is None or begins_alike(described, text)
+def test_methods_have_the_parameters_of_the_stub(compiled):
+    for owner, name, node in compiled.stub.methods():
+        assert_same_parameters(getattr(getattr(compiled.module, owner), name), node)
 
 
-@pytest.mark.parametrize("owner, name", PROPERTIES)
-def test_properties_have_docstrings_with_shape_and_type(medial, owner, name):
-    compiled = docstring(getattr(getattr(medial, owner), name))
-    text = ast.get_docstring(members(CLASSES[owner])[name])
-    assert compiled and (text is None or begins_alike(compiled, text))
-    if text and text.startswith("("):
-        assert compiled.split(":")[0].split(",")[:2] == text.split(":")[0].split(",")[:2]
+def test_everything_has_its_own_docstring(compiled):
+    """The text has one home, but the bindings might take that of something else."""
+    for name, node in {**compiled.stub.functions, **compiled.stub.classes}.items():
+        assert described(getattr(compiled.module, name)) == ast.get_docstring(node), name
+    for owner, node in compiled.stub.classes.items():
+        for name, member in members(node).items():
+            if isinstance(member, ast.FunctionDef) and name != "__init__":
+                found = described(getattr(getattr(compiled.module, owner), name))
+                assert found == ast.get_docstring(member), f"{owner}.{name}"
 
 
-def begins_alike(found, wanted):
-    """The same first words; the rest of a sentence may be shorter in one of them."""
-    first = [re.findall(r"[\w/()+,]+", text)[:3] for text in (found, wanted)]
-    return first[0] == first[1] and len(first[0]) == 3
-
-
-@pytest.mark.parametrize("owner, name", VALUES)
-def test_enum_values(medial, owner, name):
-    """The comment behind a value in the stub starts with its number."""
-    source = STUB.read_text().splitlines()[members(CLASSES[owner])[name].lineno - 1]
-    number = int(re.search(r"#\s*(\d+)", source).group(1))
-    assert int(getattr(getattr(medial, owner), name)) == number
+def test_enum_values(compiled):
+    """The comment behind a value in the stub is its number."""
+    count = 0
+    for owner, node in compiled.stub.classes.items():
+        for name, item in members(node).items():
+            if isinstance(item, ast.AnnAssign):
+                number = re.search(r"#\s*(\d+)$", compiled.stub.lines[item.lineno - 1])[1]
+                assert int(getattr(getattr(compiled.module, owner), name)) == int(number)
+                count += 1
+    assert count > 2
 
 
 def test_defaults_of_the_thresholds(medial):
@@ -165,12 +190,10 @@ def test_settings_of_the_add_on_have_the_same_defaults(medial):
         Settings().theta, rel=1e-15
     )
     assert float(re.search(r"rho: [\w.]+ = ([\d.]+)", line).group(1)) == Settings().rho
-    others = {"ANGLE_AND_LENGTH", "LAMBDA"}  # the add-on does not offer them
     for choice in ("rule", "criteria"):
         value = getattr(Settings(), choice)
         assert value.name in line
-        compiled = {n for c, n in VALUES if c == type(value).__name__}
-        assert compiled - others == {member.name for member in type(value)}
+        assert set(members(MEDIAL.classes[type(value).__name__])) == {m.name for m in type(value)}
         assert isinstance(value, enum.Enum)
 
 
@@ -178,11 +201,9 @@ def test_the_fields_of_the_result_are_those_of_the_add_on(medial):
     from medial_axis.core.axis.medial_axis import MedialAxis
 
     own = {"level"}  # of clean forms and curves
-    assert set(MedialAxis.__dataclass_fields__) - own == {
-        name
-        for owner, name in PROPERTIES
-        if owner == "MedialMesh" and name != "rings"  # a count of work
-    }
+    count_of_work = {"rings"}
+    found = set(members(MEDIAL.classes["MedialMesh"])) - count_of_work
+    assert set(MedialAxis.__dataclass_fields__) - own == found
 
 
 def test_objects_cannot_be_subclassed_or_made_from_nothing(medial):

@@ -178,7 +178,7 @@ def test_a_solid_that_faces_nothing_has_no_gap():
 
 
 def test_what_has_no_walls_is_as_thick_as_its_largest_ball():
-    """Of a tetrahedron and a cube no two places face each other, but for the middles of the cube."""
+    """No two places of a tetrahedron face each other, and of a cube only the middles of its faces do."""
     corners = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
     found = measure((corners, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])))
     # The corner that is opposite to the face of the largest ball is out of its reach.

@@ -53,10 +53,10 @@ def assert_ordered(triangles):
     assert rows == sorted(rows) and len({tuple(sorted(row)) for row in rows}) == len(rows)
 
 
-def assert_between_inner_and_outer_cells(medial, points, surface):
+def assert_between_inner_and_outer_cells(study, points, surface):
     """The triangles are exactly the Delaunay facets with one side in and one out, and face the outer one."""
-    cells, neighbors, _ = medial.delaunay(points)
-    inner, outer = (surface.cell_side == int(x) for x in (medial.Side.INNER, medial.Side.OUTER))
+    cells, neighbors, _ = study.delaunay(points)
+    inner, outer = (surface.cell_side == int(x) for x in (study.Side.INNER, study.Side.OUTER))
     assert len(surface.cell_side) == len(cells) and (inner | outer).all()
     assert outer[(cells < 0).any(axis=1)].all()
     assert surface.inner_cells == inner.sum()
@@ -100,13 +100,13 @@ def test_triangles_face_outward_and_enclose_the_volume(surface_of, name, n):
 
 
 @pytest.mark.parametrize("name, n", CASES)
-def test_triangles_lie_between_inner_and_outer_cells(medial, surface_of, name, n):
-    assert_between_inner_and_outer_cells(medial, samples(name, n), surface_of(name, n))
+def test_triangles_lie_between_inner_and_outer_cells(study, surface_of, name, n):
+    assert_between_inner_and_outer_cells(study, samples(name, n), surface_of(name, n))
 
 
-def far_cells(medial, points, shape):
+def far_cells(study, points, shape):
     """Rows of finite cells whose Voronoi vertex is farther from the surface than the samples there from each other."""
-    cells, _, centres = medial.delaunay(points)
+    cells, _, centres = study.delaunay(points)
     finite = np.flatnonzero((cells >= 0).all(axis=1))
     spacing = cKDTree(points).query(points, 2)[0][:, 1]
     far = np.abs(shape.field(centres[finite])) > spacing[cells[finite]].max(axis=1)
@@ -114,12 +114,12 @@ def far_cells(medial, points, shape):
 
 
 @pytest.mark.parametrize("name, n", ALL)
-def test_cells_off_the_surface_have_the_right_side(medial, surface_of, name, n):
+def test_cells_off_the_surface_have_the_right_side(study, surface_of, name, n):
     points, shape = samples(name, n), SOLIDS[name].shape
-    rows, centres = far_cells(medial, points, shape)
+    rows, centres = far_cells(study, points, shape)
     inside = shape.inside(centres)
     assert inside.sum() > 0.5 * n
-    wanted = np.where(inside, int(medial.Side.INNER), int(medial.Side.OUTER))
+    wanted = np.where(inside, int(study.Side.INNER), int(study.Side.OUTER))
     assert np.array_equal(surface_of(name, n).cell_side[rows], wanted)
 
 
@@ -130,25 +130,25 @@ def test_dense_smooth_samples_are_flat_and_good(surface_of, name, n):
 
 
 @pytest.mark.parametrize("name, n", CASES)
-def test_flat_samples_are_those_of_cocone(medial, surface_of, name, n):
-    assert np.array_equal(surface_of(name, n).flat, medial.cocone(samples(name, n))[1])
+def test_flat_samples_are_those_of_cocone(study, surface_of, name, n):
+    assert np.array_equal(surface_of(name, n).flat, study.cocone(samples(name, n))[1])
 
 
 # ---- the same inside for the medial axis
 
 
 @pytest.mark.parametrize("name, n", CASES)
-def test_facets_are_inner_where_all_cells_and_voronoi_vertices_are(medial, surface_of, name, n):
+def test_facets_are_inner_where_all_cells_and_voronoi_vertices_are(study, surface_of, name, n):
     """A flat cell beneath the surface may have its Voronoi vertex outside: its facets are not inner."""
     points, surface = samples(name, n), surface_of(name, n)
-    analysis = medial.MedialAnalysis(points, sides=medial.SidesFrom.TIGHT_COCONE)
-    cells, _, centres = medial.delaunay(points)
-    solid = surface.cell_side == int(medial.Side.INNER)
+    analysis = study.MedialAnalysis(points, sides=study.SidesFrom.TIGHT_COCONE)
+    cells, _, centres = study.delaunay(points)
+    solid = surface.cell_side == int(study.Side.INNER)
     outside = np.zeros(len(cells), bool)
     outside[solid] = ~SOLIDS[name].shape.inside(centres[solid])
     edges, by_cells = rings.facet_sides(cells, solid)
     _, by_both = rings.facet_sides(cells, solid & ~outside)
-    inner = int(medial.Side.INNER)
+    inner = int(study.Side.INNER)
     assert np.array_equal(edges, analysis.edges)
     assert (by_cells[analysis.side == inner] == inner).all()
     differ = (analysis.side == inner) != (
@@ -290,12 +290,12 @@ GRIDS = {
 
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("name", GRIDS)
-def test_grids(medial, name, turned):
+def test_grids(study, name, turned):
     """Cospherical and coplanar samples, sharp edges: exact all the same, but for a corner of a box cut off."""
     points = GRIDS[name] @ inputs.rotation(5).T if turned else GRIDS[name]
-    surface = medial.TightCocone(points)
+    surface = study.TightCocone(points)
     assert_watertight(points, surface)
-    assert_between_inner_and_outer_cells(medial, points, surface)
+    assert_between_inner_and_outer_cells(study, points, surface)
     assert topology.euler(surface.triangles) == (0 if name == "torus" else 2)
     assert topology.components(surface.triangles) == 1 and surface.nonmanifold_vertices == 0
     is_corner = (np.abs(GRIDS["box"]) == GRIDS["box"].max(axis=0)).all(axis=1)
@@ -304,11 +304,11 @@ def test_grids(medial, name, turned):
 
 
 @pytest.mark.parametrize("layers", [2, 3, 5])
-def test_coplanar_layers(medial, layers):
+def test_coplanar_layers(study, layers):
     points = inputs.grid((8, 7, layers))
-    surface = medial.TightCocone(points)
+    surface = study.TightCocone(points)
     assert_watertight(points, surface)
-    assert_between_inner_and_outer_cells(medial, points, surface)
+    assert_between_inner_and_outer_cells(study, points, surface)
 
 
 def test_an_open_surface_is_closed(medial):
@@ -321,19 +321,19 @@ def test_an_open_surface_is_closed(medial):
     assert topology.volume(points, surface.triangles) == pytest.approx(2 * np.pi / 3, rel=0.1)
 
 
-def test_a_closed_cavity_is_filled_and_counted(medial):
+def test_a_closed_cavity_is_filled_and_counted(study):
     """Flooding from infinity cannot see it."""
     solid = Filled(SHAPES["shell"])
     points = solid.sample(6000, 0)
-    surface = medial.TightCocone(points)
+    surface = study.TightCocone(points)
     assert_watertight(points, surface)
     outer = solid.shell.field(points) > -1e-9
     outer &= np.abs(solid.field(points)) < 1e-9
     assert np.array_equal(surface.on_surface, outer) and 1000 < outer.sum() < 5000
     assert topology.euler(surface.triangles) == 2 and surface.cavities == 1
-    rows, centres = far_cells(medial, points, solid.shell)
+    rows, centres = far_cells(study, points, solid.shell)
     inside = solid.inside(centres)
-    assert np.array_equal(surface.cell_side[rows] == int(medial.Side.INNER), inside)
+    assert np.array_equal(surface.cell_side[rows] == int(study.Side.INNER), inside)
 
 
 @pytest.mark.parametrize("where", ["outside", "inside"])
@@ -358,10 +358,10 @@ def test_isolated_outliers_are_off_the_surface(medial, surface_of, where):
     ],
     ids=["tetrahedron", "five", "cube", "octahedron", "seven"],
 )
-def test_very_few_points(medial, points):
-    surface = medial.TightCocone(points)
+def test_very_few_points(study, points):
+    surface = study.TightCocone(points)
     assert_watertight(points, surface)
-    assert_between_inner_and_outer_cells(medial, points, surface)
+    assert_between_inner_and_outer_cells(study, points, surface)
 
 
 def test_nothing_enclosed_is_an_error_where_an_inside_is_needed(medial):
@@ -405,23 +405,23 @@ def test_noise_of_a_fifth_of_the_spacing_costs_few_samples(medial, surface_of, n
 
 
 @pytest.mark.parametrize("spacings", [0.1, 0.3, 1.0, 3.0])
-def test_noise_breaks_no_promise(medial, spacings):
+def test_noise_breaks_no_promise(study, spacings):
     points = noisy("torus", spacings, 1)
-    surface = medial.TightCocone(points)
+    surface = study.TightCocone(points)
     assert_watertight(points, surface)
-    assert_between_inner_and_outer_cells(medial, points, surface)
+    assert_between_inner_and_outer_cells(study, points, surface)
 
 
-def test_a_solid_in_pieces_encloses_nothing(medial):
+def test_a_solid_in_pieces_encloses_nothing(study):
     """Dust: some cells stay inside by chance, most samples do not."""
     dust = np.random.default_rng(2).normal(size=(300, 3))
-    surface = medial.TightCocone(dust)
+    surface = study.TightCocone(dust)
     assert_watertight(dust, surface)
-    used = np.isin(surface.samples, medial.delaunay(dust)[0][surface.cell_side == 1])
+    used = np.isin(surface.samples, study.delaunay(dust)[0][surface.cell_side == 1])
     assert surface.left_outside == (~used).sum() > 150 and not surface.encloses
-    analysis = medial.MedialAnalysis(dust)
-    for side in (medial.Side.INNER, medial.Side.OUTER):
-        with pytest.raises(medial.DegenerateInputError, match="that enclose nothing"):
+    analysis = study.MedialAnalysis(dust)
+    for side in (study.Side.INNER, study.Side.OUTER):
+        with pytest.raises(study.DegenerateInputError, match="that enclose nothing"):
             analysis.extract(side=side)
     assert len(analysis.extract().generators) > 0
 

@@ -30,7 +30,7 @@ def largest_tangent_balls(shape, points):
 
 
 def off_edges(name, points):
-    """Those whose normal is one: not on a sharp edge, where the numerical slope is a mixture."""
+    """The points with a unique normal: on a sharp edge the numerical slope is a mixture of two."""
     if name not in SHARP:
         return points
     shape, steps = ALL[name], 1e-4 * np.eye(3)
@@ -142,7 +142,7 @@ def test_a_tall_frustum_has_a_segment_between_its_two_inscribed_balls(bottom, to
 
 @pytest.mark.parametrize("bottom, top, half", [(1.0, 0.7, 0.3), (2.0, 1.9, 0.2)])
 def test_a_flat_frustum_has_a_disc_halfway(bottom, top, half):
-    """Of radius bottom - half / tan(base angle / 2), where the ball between the ends touches the wall."""
+    """Its radius is bottom - half / tan(base angle / 2): there the ball between the ends touches the wall."""
     base = np.arctan2(2 * half, bottom - top)
     rim = bottom - half / np.tan(base / 2)
     shape = frustum(bottom, top, half)

@@ -32,7 +32,7 @@ def plate(thickness, turned=False):
 
 
 def sheet_area(axis, turned=False):
-    """Of the facets, as seen along the plate's normal."""
+    """The area of the facets, projected along the plate's normal."""
     where = axis.vertices @ TURN if turned else axis.vertices
     corners, ends = where[axis.face_vertices], axis.face_offsets[1:]
     after = np.arange(1, len(corners) + 1)

@@ -98,7 +98,7 @@ def sdist(environment, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def wheel(environment, sdist, tmp_path_factory):
-    """Of the sdist, so that nothing else is needed."""
+    """The wheel built from the sdist, so that it needs nothing else."""
     folder = tmp_path_factory.mktemp("wheel")
     options = ("--no-build-isolation", "--no-deps", "-w", folder)
     said(environment / "pip", "wheel", *options, sdist)

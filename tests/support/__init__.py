@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tests and benchmarks share: shapes with known axes, meshes, oracles, measures."""
+"""Code that tests and benchmarks share: shapes with known axes, meshes, oracles, measures."""

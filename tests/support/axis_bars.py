@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the axis of a mesh of a shape with an exactly known axis is measured by, and the bars."""
+"""Measures, with their bars, of the axis of a mesh of a shape whose axis is known exactly."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -43,7 +43,7 @@ class Found:
 
 
 def measured(shape: Shape, mesh: Mesh, frame: Array, axis: Any, samples: int) -> Found:
-    """Of an axis of `mesh`, which is a mesh of the shape turned by `frame`."""
+    """The measures of an axis of `mesh`, which is a mesh of the shape rotated by `frame`."""
     vertices = axis.vertices @ frame
     scale = 100.0 / resampled.diagonal(mesh[0] @ frame)
     triangles = measure.fan_triangles(vertices, axis.face_offsets, axis.face_vertices)

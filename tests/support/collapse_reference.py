@@ -432,9 +432,9 @@ class Collapse:
         return result
 
     def farthest_out(self, v, children, leads_to, length):
-        """Of the branch by elongation: how far a ball of it sticks out of the one at its end, at most; 0 before the
-        last one that does so alike, and where it is no more than the radius of that at the end."""
-        # Of equal ones the first.
+        """How far a ball of the longest branch through v sticks out of the ball at its end, at most; 0 if a ball
+        nearer to the end sticks out about as far, or if it is no more than the radius of the ball at the end."""
+        # The first child wins if several are equally long.
         elder = {w: max(children[w], key=lambda u: length[u]) for w in children}
         before, end = [v], v
         while before[-1] in elder:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the levels of a hierarchy are, from its values alone: masks, closedness, Betti numbers by another count."""
+"""The levels of a hierarchy from its values alone: masks, closedness, Betti numbers by another count."""
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -73,7 +73,7 @@ class Levels:
         return pieces, pieces + cavities - euler, cavities
 
     def wrong(self, thresholds=SIXTEEN):
-        """Those whose levels lack faces of their own cells, or have other Betti numbers than the complex."""
+        """The thresholds whose levels are not closed, or have other Betti numbers than the complex."""
         alive = [(chosen, self.alive(**chosen)) for chosen in thresholds]
         return [
             chosen
@@ -82,7 +82,7 @@ class Levels:
         ]
 
     def drawn(self, alive):
-        """What is seen of a level: its facets, edges without a facet of it, and its vertices, as ascending ids."""
+        """The drawn cells of a level, as ascending ids: its facets, its edges without a facet, and its vertices."""
         facets, edges, vertices = alive
         bare = edges.copy()
         bare[self.corner_edge[facets[self.facet_of_corner]]] = False

@@ -78,9 +78,9 @@ def errors_of(
     )
 
 
-def spacing(medial, points: Array) -> float:
+def spacing(study, points: Array) -> float:
     """h: median over the samples of the largest circumradius in the umbrella."""
-    offsets, triangles = medial.umbrellas(points)
+    offsets, triangles = study.umbrellas(points)
     p, a, b = (points[triangles[:, i]] for i in range(3))
     area = np.linalg.norm(np.cross(a - p, b - p), axis=1)
     sides = [np.linalg.norm(x, axis=1) for x in (a - p, b - p, a - b)]

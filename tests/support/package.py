@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from . import study as study_module
 from .data import DATA
 from .sampled import Sampled
 from .tiers import (  # noqa: F401 - hooks, which pytest finds in a conftest that imports them
@@ -46,6 +47,12 @@ def medial():
     from medial_axis.core.machine import native
 
     return native.load()
+
+
+@pytest.fixture(scope="session")
+def study():
+    """The module that is not shipped: all of `medial`, and what only tests call. Its absence is a failure."""
+    return study_module.load()
 
 
 @pytest.fixture(scope="module")

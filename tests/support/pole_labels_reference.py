@@ -21,10 +21,10 @@ class Labels:
     `flat`: (n,) bool, the points whose two poles certainly lie on two sides.
     """
 
-    def __init__(self, medial, points, flat):
+    def __init__(self, study, points, flat):
         self.points, self.flat = points, flat
-        self.cells, self.neighbors, self.centres = medial.delaunay(points)
-        self.vectors, self.unbounded = medial.poles(points)
+        self.cells, self.neighbors, self.centres = study.delaunay(points)
+        self.vectors, self.unbounded = study.poles(points)
         self.infinite = (self.cells < 0).any(axis=1)
         self.links = defaultdict(list)
         self._find_poles()

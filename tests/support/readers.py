@@ -10,7 +10,7 @@ import numpy as np
 
 
 def area_of(points, faces):
-    """Of polygons by their vectors of area, so that it does not matter how they are cut."""
+    """The area of polygons by their area vectors, so that it does not depend on how they are triangulated."""
     points = np.asarray(points, np.float64)
     areas = []
     for face in faces:

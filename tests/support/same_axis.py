@@ -7,7 +7,7 @@ import numpy as np
 
 
 def same_axis(a: Any, b: Any) -> bool:
-    """Of two `MedialAxis`: every array, and those of their levels."""
+    """Whether two `MedialAxis` have equal arrays, also in their levels."""
     if (a.level is None) != (b.level is None):
         return False
     pairs = [(a, b)] if a.level is None else [(a, b), (a.level, b.level)]

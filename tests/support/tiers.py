@@ -16,7 +16,7 @@ def pytest_configure(config):
     config.addinivalue_line("markers", "slow: minutes long; left out unless --slow is given")
     config.addinivalue_line("markers", "oracle: many cases of one relation; --share I/N takes some")
     config.addinivalue_line("markers", "docs: about the documentation, not about the product")
-    # Of pytest-xdist: one worker runs them all, so that what compiles everything does it once.
+    # A marker of pytest-xdist: one worker runs them all, so that a shared compilation is done once.
     config.addinivalue_line("markers", "xdist_group(name): tests that run in one worker")
 
 

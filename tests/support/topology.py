@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What kind of surface some triangles are: uses of edges, components, Euler characteristic, volume."""
+"""The topology of a triangle mesh: uses of edges, components, Euler characteristic, volume."""
 
 import numpy as np
 from numpy.typing import NDArray

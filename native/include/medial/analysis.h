@@ -30,7 +30,6 @@ struct AnalysisOptions {
   CoconeOptions cocone = {};
   bool bounding_sphere = false;  // sect. 4.2
   int threads = 0;               // 0: all cores
-  Against against = Against::umbrella;
 };
 
 // Bytes at the peak of an analysis of so many samples of a surface, as measured: 1,430 to 1,470 for
@@ -52,9 +51,6 @@ class MedialAnalysis {
   MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
   // Ids of the selected edges: the set F of the paper, facets without area or end included.
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
-
-  // The poles as balls, without facets: a mesh of vertices alone. Throws as extract does.
-  MedialMesh poles(Side side = Side::both, Progress* progress = nullptr) const;
 
   // All levels of the inner axis; it does not need the analysis any more. Throws InvalidInputError
   // for other sides, DegenerateInputError for samples that enclose nothing.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The medial axis as a polygon mesh: the closure of the selected Voronoi facets. Of poles alone it
-// has the vertices only.
+// The medial axis as a polygon mesh: the closure of the selected Voronoi facets.
 #pragma once
 
 #include <medial/types.h>
@@ -16,7 +15,7 @@ struct MedialMesh {
   Column<double> theta, rho;      // (f) as the rule takes them
   Column<Side> side;              // (f)
   Column<Edge> generators;        // (f) input rows p < q; the facets are in their order
-  Column<Edge> edges;             // (e) edges without a facet: vertices; by Criteria::lambda alone
+  Column<Edge> edges;             // (e) ends of the edges without a facet; MEDIAL has none
   int64_t unbounded = 0;          // facets that reach infinity: counted, not emitted
   int64_t zero_area = 0;          // a point or a segment, within 2^-40 of a ball: not emitted
   int64_t rings = 0;              // of cells, walked to find all this

@@ -3,7 +3,6 @@
 
 #include <climits>
 
-#include "axis/loose_edges.h"
 #include "delaunay/circumcentre.h"
 
 namespace medial {
@@ -217,23 +216,20 @@ MedialMesh in_order(Found found, std::span<const int32_t> row, const Edges& edge
 
 // Numbers the Voronoi vertices in order of first use and replaces cells by these numbers. Returns
 // the number of each cell, and how many there are.
-std::pair<Array<int32_t>, int32_t> number_vertices(std::span<int32_t> corners,
-                                                   std::span<Edge> edges, int32_t cells,
+std::pair<Array<int32_t>, int32_t> number_vertices(std::span<int32_t> corners, int32_t cells,
                                                    const Run& run) {
   auto number = array<int32_t>(static_cast<size_t>(cells), -1, run);
   int32_t count = 0;
-  const auto rename = [&](int32_t& corner) {
+  for (int32_t& corner : corners) {
     if (number[corner] < 0) number[corner] = count++;
     corner = number[corner];
-  };
-  std::for_each(corners.begin(), corners.end(), rename);
-  for (Edge& edge : edges) std::for_each(edge.begin(), edge.end(), rename);
+  }
   return {std::move(number), count};
 }
 
 void add_vertices(MedialMesh& mesh, const Samples& samples, const Triangulation& t,
                   const Voronoi& voronoi, const Run& run) {
-  const auto [number, count] = number_vertices(mesh.face_vertices, mesh.edges, t.cell_count(), run);
+  const auto [number, count] = number_vertices(mesh.face_vertices, t.cell_count(), run);
   mesh.vertices.resize(static_cast<size_t>(count));
   mesh.radius.resize(static_cast<size_t>(count));
   parallel_for(t.finite_cells, run, [&, &number = number](int64_t c) {
@@ -260,10 +256,6 @@ MedialMesh voronoi_facets(const Selection& selection, const Samples& samples,
   MedialMesh mesh = in_order(find_polygons(selection, samples, t, voronoi, edges, run), samples.row,
                              edges, quiet);
   throw_if_cancelled(run.progress);
-  if (selection.wanted().thresholds.criteria == Criteria::lambda) {
-    const auto loose = loose_edges(selection, mesh.generators, samples.row, quiet);
-    mesh.edges.assign(loose.begin(), loose.end());
-  }
   add_vertices(mesh, samples, t, voronoi, quiet);
   start_at_lowest(mesh, quiet);
   return mesh;

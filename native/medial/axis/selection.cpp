@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axis/selection.h"
 
-#include "base/rows.h"
-
 namespace medial {
 namespace {
 
@@ -14,11 +12,6 @@ void check(const Extraction& x) {
   if (!(x.thresholds.rho >= 0)) {
     throw InvalidInputError("Expected rho of 0 or more, found " + std::to_string(x.thresholds.rho) +
                             "; the paper uses 8.");
-  }
-  if (!(x.thresholds.length >= 0)) {
-    throw InvalidInputError("Expected a length of 0 or more, found " +
-                            std::to_string(x.thresholds.length) +
-                            "; 0.05 is a twentieth of the diagonal.");
   }
   if (x.side == Side::crossing) {
     throw InvalidInputError(
@@ -51,34 +44,19 @@ Selection::Selection(const Extraction& wanted, const Facets& facets)
     : wanted_(wanted), facets_(facets) {
   check(wanted);
   sine_ = largest_sine(wanted.thresholds.theta);
-  const Thresholds& t = wanted.thresholds;
-  if (is_by_theta_or_rho(t.criteria)) return;
-  const size_t samples = facets.edges.first.size() - 1;  // other points are no samples
-  length_ = t.length * length(box_of(facets.points.first(samples)).extent());
 }
 
 bool Selection::wants(int32_t edge, std::vector<int32_t>& ring) const {
   ring.clear();
-  if (!may_satisfy(edge)) return false;
+  if (!satisfies_angle(edge) && !satisfies_ratio(edge)) return false;
   const Side side = wanted_.side;
-  const Criteria criteria = wanted_.thresholds.criteria;
-  const bool limited = wanted_.limit_set && is_by_theta_or_rho(criteria) && !satisfies_angle(edge);
-  const bool by_balls = criteria == Criteria::angle_and_length;
-  if (side == Side::both && !limited && !by_balls) return true;
+  const bool limited = wanted_.limit_set && !satisfies_angle(edge);
+  if (side == Side::both && !limited) return true;
   const int32_t cell = facets_.edges.cell[edge];
   if (side != Side::both && !may_be(side, cell, facets_.sides)) return false;
   ring_of_cells(facets_.triangulation, facets_.edges.ends[edge], cell, ring);
   if (side != Side::both && facet_side(ring, facets_.sides) != side) return false;
-  if (by_balls && !is_seen_wide(edge, ring)) return false;
   return !limited || in_limit_set(edge, ring);
-}
-
-// As far as the edge alone tells.
-bool Selection::may_satisfy(int32_t edge) const {
-  if (is_by_theta_or_rho(wanted_.thresholds.criteria)) {
-    return satisfies_angle(edge) || satisfies_ratio(edge);
-  }
-  return size(edge) >= length_;
 }
 
 FacetAttributes Selection::attributes(int32_t edge, std::span<const int32_t> ring) const {
@@ -112,23 +90,6 @@ bool Selection::in_limit_set(int32_t edge, std::span<const int32_t> ring) const 
   const double rho = tried_rho(facets_.significance, edge, wanted_.thresholds.rule);
   const double epsilon = size / (rho * mu);
   return size >= std::pow(epsilon, 0.25) * mu;
-}
-
-double Selection::size(int32_t edge) const {
-  const auto& [p, q] = facets_.edges.ends[edge];
-  return distance(facets_.points[p], facets_.points[q]);
-}
-
-// A ball of radius R sees pq under the angle 2 asin(|pq| / 2R): the least where it is the largest.
-bool Selection::is_seen_wide(int32_t edge, std::span<const int32_t> ring) const {
-  const Vec3& at = facets_.points[facets_.edges.ends[edge][0]];
-  double largest = 0;
-  for (const int32_t cell : ring) {
-    const bool infinite = facets_.triangulation.is_infinite(cell);
-    const double radius = infinite ? HUGE_VAL : distance(at, facets_.voronoi.centre[cell]);
-    largest = std::max(largest, radius);
-  }
-  return size(edge) / (2 * largest) >= std::sin(wanted_.thresholds.theta);
 }
 
 std::vector<int32_t> selected(const Selection& selection, std::span<const int32_t> edges,

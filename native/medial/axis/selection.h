@@ -28,40 +28,31 @@ struct FacetAttributes {
   Side side = Side::both;
 };
 
-// Tells of each edge whether its facet is selected. Keeps references to what it reads.
+// Decides for each edge whether its facet is selected. Keeps references to what it reads.
 class Selection {
  public:
+  virtual ~Selection() = default;
   // A side other than `both` needs sides that are known. Throws InvalidInputError for thresholds
   // out of range and for side `crossing`.
   Selection(const Extraction& wanted, const Facets& facets);
 
   // Walks the ring of cells only where the edge alone does not tell; then `ring` holds it
   // afterwards, else nothing.
-  bool wants(int32_t edge, std::vector<int32_t>& ring) const;
+  virtual bool wants(int32_t edge, std::vector<int32_t>& ring) const;
   const Facets& facets() const { return facets_; }
   const Extraction& wanted() const { return wanted_; }
-  double least_length() const { return length_; }
   // Of an edge that is wanted, with its ring.
   FacetAttributes attributes(int32_t edge, std::span<const int32_t> ring) const;
 
  private:
-  bool may_satisfy(int32_t edge) const;
   bool satisfies_angle(int32_t edge) const;
   bool satisfies_ratio(int32_t edge) const;
   bool in_limit_set(int32_t edge, std::span<const int32_t> ring) const;
-  double size(int32_t edge) const;
-  bool is_seen_wide(int32_t edge, std::span<const int32_t> ring) const;
 
   Extraction wanted_;
   Facets facets_;
-  double sine_ = 0;    // the largest that does not satisfy the Angle condition
-  double length_ = 0;  // the least that is long, of angle_and_length and lambda
+  double sine_ = 0;  // the largest that does not satisfy the Angle condition
 };
-
-// Whether conditions of the paper select: those that ask for theta and rho.
-inline bool is_by_theta_or_rho(Criteria criteria) {
-  return criteria != Criteria::angle_and_length && criteria != Criteria::lambda;
-}
 
 // Positions in `edges` of those whose facets are selected, ascending.
 std::vector<int32_t> selected(const Selection& selection, std::span<const int32_t> edges,

@@ -4,8 +4,6 @@
 // theta0, the Ratio condition [rho0] exactly when rho_p > rho0, where
 //   theta_p = pi/2 - max over t in U_p of angle(n_t, pq) = asin(min |n_t . pq| / |pq|)
 //   rho_p   = |pq| / max over t in U_p of R_t
-// By the Remark in sect. 3.2, theta_p = asin(|v_p . pq| / (|v_p| |pq|)) for every edge, also those
-// of the umbrella, or the reach of the tangent polygon stands for the radii.
 #pragma once
 
 #include <medial/options.h>
@@ -38,10 +36,7 @@ inline double theta_of(double sine) { return std::asin(sine); }
 // The largest sine whose theta is not above a threshold.
 double largest_sine(double theta);
 
-// The pole vectors are read only where the edges are measured against them.
 Significance significance(std::span<const Vec3> points, const Edges& edges,
-                          const Umbrellas& umbrellas, const Run& run,
-                          Against against = Against::umbrella,
-                          std::span<const Vec3> pole_vectors = {});
+                          const Umbrellas& umbrellas, const Run& run);
 
 }  // namespace medial

@@ -64,9 +64,11 @@ void* Arena::take(size_t bytes) {
     const std::lock_guard lock(mutex_);
     void* const found = bytes < kSmall ? nullptr : take_from_block(bytes);
     if (found != nullptr) return found;
-    elsewhere_ += bytes;
   }
-  return take_elsewhere(bytes);
+  void* const memory = take_elsewhere(bytes);  // may throw: only what there is counts
+  const std::lock_guard lock(mutex_);
+  elsewhere_ += bytes;
+  return memory;
 }
 
 // Where it fits first; null where it does not.

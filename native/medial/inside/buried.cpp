@@ -25,9 +25,9 @@ void check(std::span<const Vec3> points, std::span<const Vec3> normals, double o
 
 // Tells inside from outside at one place after the other; little surface lies between places that
 // follow each other.
-class Follower {
+class WindingFollower {
  public:
-  explicit Follower(const WindingNumber& winding) : winding_(winding) {}
+  explicit WindingFollower(const WindingNumber& winding) : winding_(winding) {}
 
   bool is_inside(const Vec3& query) {
     closed_ = started_ ? winding_.closed_from(last_, closed_, query) : winding_.closed(query);
@@ -57,7 +57,7 @@ std::vector<uint8_t> buried(std::span<const Vec3> points, std::span<const Vec3> 
   const auto order = hilbert_order(points, run);
   std::vector<uint8_t> result(points.size(), 0);
   parallel_chunks(static_cast<int64_t>(order.size()), run, [&](int64_t begin, int64_t end, int) {
-    Follower above(winding), below(winding);
+    WindingFollower above(winding), below(winding);
     for (int64_t i = begin; i < end; ++i) {
       const int32_t row = order[i];
       if (normals[row] == Vec3{}) continue;

@@ -15,7 +15,7 @@ constexpr double kFarthest = 0.05;  // of the radius: more it does not move at o
 constexpr double kTooFar = 0.15;    // of the radius: who wants to move so far sees something else
 constexpr double kSteep = 0.7;      // slope from which on trust falls, up to kSteepest
 constexpr int kFewest = 12;         // samples
-constexpr int kSteps = 1;           // of Newton's method
+constexpr int kNewtonSteps = 1;     // of Newton's method
 constexpr double kKept = 0.25;      // part of its curvature on a cone that a distance keeps
 constexpr double kPivot = 1e-9;     // of a column: below, the samples do not tell all unknowns
 
@@ -168,7 +168,7 @@ class Fit {
   }
 
   double place_on_canal(const Vec3& to, double t) const {
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kNewtonSteps; ++step) {
       const Vec3 out = to - t * half_width_ * from_.tangent - t * t * from_.bend,
                  way = half_width_ * from_.tangent + 2 * t * from_.bend;
       const double size = length(out), towards = dot(out, way) / size,

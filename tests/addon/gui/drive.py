@@ -72,7 +72,7 @@ def run_all(blender, folder: Path, wanted: list[str]) -> int:
 
 
 def size_of(name: str) -> tuple[int, int]:
-    """Of the screen of a scene, which the window fills."""
+    """The size of the screen of a scene; the window fills it."""
     return SIZES.get(name, SIZE)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What every shape with a known medial axis gives, and throwing random points."""
+"""The base class of shapes with a known medial axis, and random points."""
 
 import numpy as np
 from numpy.typing import NDArray

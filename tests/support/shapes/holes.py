@@ -39,7 +39,7 @@ class HoledPlate(Shape):
 
     @property
     def _areas(self) -> list[float]:
-        """Of the slab without holes, and of the walls of the holes."""
+        """The areas of the slab without holes and of the walls of the holes."""
         wall = 2 * np.pi * self.radius * (np.pi * self.hole - 2 * self.radius)
         return [self._slab.area, len(self.centres) * wall]
 

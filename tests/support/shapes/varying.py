@@ -24,7 +24,7 @@ class RoundCone(Shape):
 
     @property
     def _slope(self) -> float:
-        """What the radius loses along the axis: also the x of the unit normal on the cone."""
+        """The decrease of the radius along the axis, which is also the x of the unit normal on the cone."""
         return (self.big - self.small) / (2 * self.length)
 
     @property

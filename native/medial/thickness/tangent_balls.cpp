@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/tangent_balls.h"
+#include "thickness/tangent_balls.h"
 
 #include <array>
 

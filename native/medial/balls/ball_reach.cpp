@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/ball_reach.h"
+#include "balls/ball_reach.h"
 
 #include <array>
 

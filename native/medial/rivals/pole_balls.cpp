@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/pole_balls.h"
+#include "rivals/pole_balls.h"
 
 namespace medial {
 namespace {

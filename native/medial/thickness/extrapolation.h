@@ -3,7 +3,7 @@
 #pragma once
 
 #include "axis/significance.h"
-#include "axis/tangent_balls.h"
+#include "thickness/tangent_balls.h"
 
 namespace medial {
 

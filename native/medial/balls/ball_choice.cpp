@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/ball_choice.h"
+#include "balls/ball_choice.h"
 
 #include <queue>
 

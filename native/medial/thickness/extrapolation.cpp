@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/extrapolation.h"
+#include "thickness/extrapolation.h"
 
 #include <queue>
 #include <tuple>

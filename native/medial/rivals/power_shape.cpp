@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <medial/power_shape.h>
+#include "rivals/power_shape.h"
 
 #include <string>
 

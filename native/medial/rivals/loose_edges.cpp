@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/loose_edges.h"
+#include "rivals/loose_edges.h"
 
 #include <set>
 
@@ -10,7 +10,8 @@
 namespace medial {
 namespace {
 
-// Of the smallest ball that holds a triangle: on its longest side, unless the triangle is acute.
+// The diameter of the smallest ball that holds a triangle. It is on the longest side, unless the
+// triangle is acute.
 double smallest_diameter(const Vec3& p, const Vec3& q, const Vec3& r) {
   std::array<double, 3> sides = {distance(p, q), distance(q, r), distance(r, p)};
   std::sort(sides.begin(), sides.end());
@@ -28,7 +29,8 @@ struct LooseEdge {
 
 class Finder {
  public:
-  Finder(const Selection& selection, std::span<const Edge> generators, std::span<const int32_t> row)
+  Finder(const SizeSelection& selection, std::span<const Edge> generators,
+         std::span<const int32_t> row)
       : selection_(selection), s_(selection.facets()), generators_(generators), row_(row) {}
 
   // The triangles of a cell that are not seen from a lower one.
@@ -73,7 +75,7 @@ class Finder {
     return has(0, 1) || has(0, 2) || has(1, 2);
   }
 
-  const Selection& selection_;
+  const SizeSelection& selection_;
   const Facets& s_;
   std::span<const Edge> generators_;
   std::span<const int32_t> row_;
@@ -81,7 +83,7 @@ class Finder {
 
 }  // namespace
 
-std::vector<Edge> loose_edges(const Selection& selection, std::span<const Edge> generators,
+std::vector<Edge> loose_edges(const SizeSelection& selection, std::span<const Edge> generators,
                               std::span<const int32_t> row, const Run& run) {
   const Finder finder(selection, generators, row);
   std::vector<std::vector<int32_t>> rings(run.threads);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/thickness.h"
+#include "thickness/thickness.h"
 
 #include <numeric>
 
-#include "axis/extrapolation.h"
+#include "thickness/extrapolation.h"
 #include "base/nearest_ball.h"
 
 namespace medial {

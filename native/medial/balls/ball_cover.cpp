@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "axis/ball_cover.h"
+#include "balls/ball_cover.h"
 
 #include <string>
 
-#include "axis/ball_choice.h"
-#include "axis/ball_reach.h"
+#include "balls/ball_choice.h"
+#include "balls/ball_reach.h"
 #include "base/frame.h"
 #include "base/parallel.h"
 #include "base/rows.h"
@@ -17,7 +17,7 @@ namespace {
 
 // Places of a lattice in the box of the solid, at most. An open surface asks for each of them.
 constexpr int64_t kMost = 1 << 24, kMostOpen = 1 << 20;
-constexpr double kPiece = 0.5;   // edges of pieces of the surface, in steps of the lattice
+constexpr double kPiece = 0.5;         // edges of pieces of the surface, in steps of the lattice
 constexpr int64_t kBallsOfTask = 256;  // of one piece of work
 
 void check(const BallCoverInput& input, const BallCoverOptions& options) {

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Python module _medial_study, which is not shipped: all of _medial, and what only tests and
+// the laboratory call.
+#include "bindings.h"
+#include "study/study_bindings.h"
+#include "study_docstrings.h"
+
+PYBIND11_MODULE(_medial_study, m) {
+  medial::python::bind_product(m);
+  m.doc() = medial::python::docs::about_medial_study;
+  medial::python::bind_stages(m);
+  medial::python::bind_rivals(m);
+}
