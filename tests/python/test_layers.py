@@ -279,7 +279,11 @@ def test_public_headers_see_only_public_ones(path):
 
 def test_cgal_has_one_home():
     """Triangulations of points and of polygons, and of balls for rivals; all set CGAL up alike."""
-    units = ("delaunay/polygon_triangles.cpp", "delaunay/triangulation.cpp", "rivals/power_shape.cpp")
+    units = (
+        "delaunay/polygon_triangles.cpp",
+        "delaunay/triangulation.cpp",
+        "rivals/power_shape.cpp",
+    )
     homes = [MEDIAL / unit for unit in units]
     assert sorted(set(users_of("CGAL/")) - {MEDIAL / "delaunay" / "cgal.h"}) == homes
     assert all("delaunay/cgal.h" in includes_of(home) for home in homes)
