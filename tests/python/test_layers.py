@@ -270,7 +270,7 @@ def test_every_public_header_is_in_a_table():
 
 @pytest.mark.parametrize("path", native_files("include"), ids=lambda path: path.name)
 def test_public_headers_see_only_public_ones(path):
-    """And the standard library, whose headers have no ending."""
+    """Public headers include public headers and the standard library, whose headers have no ending."""
     assert path.suffix == ".h", "nothing is compiled here"
     for name in includes_of(path):
         if "." in name or "/" in name:
@@ -279,7 +279,11 @@ def test_public_headers_see_only_public_ones(path):
 
 def test_cgal_has_one_home():
     """Triangulations of points and of polygons, and of balls for rivals; all set CGAL up alike."""
-    units = ("delaunay/polygon_triangles.cpp", "delaunay/triangulation.cpp", "rivals/power_shape.cpp")
+    units = (
+        "delaunay/polygon_triangles.cpp",
+        "delaunay/triangulation.cpp",
+        "rivals/power_shape.cpp",
+    )
     homes = [MEDIAL / unit for unit in units]
     assert sorted(set(users_of("CGAL/")) - {MEDIAL / "delaunay" / "cgal.h"}) == homes
     assert all("delaunay/cgal.h" in includes_of(home) for home in homes)
