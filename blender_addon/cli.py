@@ -48,8 +48,9 @@ from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 from .core.machine.memory_limit import MemoryLimit
 from .core.settings import BallSettings, Settings, Side, SkeletonSettings, ThicknessSettings
+from .core.solid.measurement import UNKNOWN
 
-DONE, FAILED, USAGE, INPUT, CANCELLED, THIN = range(6)
+DONE, FAILED, USAGE, INPUT, CANCELLED, THIN, UNMEASURED = range(7)
 CLOSED_PIPE = 128 + 13  # the exit code by which shells report that SIGPIPE ended a program
 
 _EXAMPLES = """\
@@ -89,7 +90,8 @@ examples:
 
 exit codes:
   0 nothing is thinner than the limit   1 something failed   2 wrong usage   3 an input cannot be used
-  4 cancelled   5 something is thinner than the limit   141 nobody reads the results any more
+  4 cancelled   5 something is thinner than the limit   6 something could not be measured
+  141 nobody reads the results any more
 """
 
 _EXAMPLES_OF_SKELETONS = """\
@@ -150,7 +152,7 @@ def main(words: Sequence[str]) -> int:
             return CANCELLED
         except ClosedPipeError:
             return CLOSED_PIPE
-    return FAILED if code in (DONE, THIN) and console.lost else code
+    return FAILED if code in (DONE, THIN, UNMEASURED) and console.lost else code
 
 
 def run() -> None:
@@ -406,7 +408,7 @@ def _is_file(path: str) -> bool:
 
 
 def _items(wanted: argparse.Namespace) -> Iterator[Item]:
-    """One after the other, for frames and files of Blender have to be loaded in between."""
+    """The items one after the other, because Blender loads frames and files in between."""
     if not wanted.inputs:
         yield from _items_of_blender(None, wanted)
     for path in wanted.inputs:
@@ -472,12 +474,13 @@ def _raise(error: Exception) -> Any:
 
 def _run(items: Iterable[Item], wanted: argparse.Namespace, console: Console) -> int:
     """All items; one that fails, however it does, does not stop the others."""
-    code, thin, files = DONE, False, Files(wanted.inputs)
+    code, thin, unknown, files = DONE, False, False, Files(wanted.inputs)
     for item in items:
         try:
             files.claim(item.output)
             report = _done(item, wanted, console)
             thin |= bool(report.get("patches"))
+            unknown |= report.get("share_unmeasured", 0.0) > UNKNOWN
         except (KeyboardInterrupt, Cancelled):
             console.tell({**failure(item, Cancelled("cancelled")), "status": "cancelled"})
             return CANCELLED
@@ -486,7 +489,9 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, console: Console) ->
             of_input = isinstance(error, (ReadError, InvalidInputError, DegenerateInputError))
             code = INPUT if of_input and code in (DONE, INPUT) else FAILED
         console.tell(report)
-    return THIN if thin and code == DONE else code
+    if code != DONE:
+        return code
+    return THIN if thin else UNMEASURED if unknown else DONE
 
 
 def _done(item: Item, wanted: argparse.Namespace, console: Console) -> dict[str, Any]:

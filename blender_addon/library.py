@@ -326,12 +326,12 @@ def _shape(points: ArrayLike, triangles: ArrayLike | None, normals: ArrayLike | 
 
 
 def _numbers(rows: ArrayLike, name: str) -> NDArray[np.float64]:
-    """(n, 3) float64, a copy only where it has to be one."""
+    """(n, 3) float64, a copy only where that is necessary."""
     return np.ascontiguousarray(_rows(rows, name, "fiu", "numbers"), np.float64)
 
 
 def _corners(rows: ArrayLike) -> NDArray[np.int32]:
-    """(m, 3) int32, a copy only where it has to be one."""
+    """(m, 3) int32, a copy only where that is necessary."""
     found = _rows(rows, "triangles", "iu", "integers")
     limits = np.iinfo(np.int32)
     if found.size and not (limits.min <= found.min() and found.max() <= limits.max):

@@ -82,7 +82,7 @@ def in_rest(source: bpy.types.Object) -> Iterator[None]:
 
 
 def write_armature(source: bpy.types.Object, rig: Rig, frame: np.ndarray) -> bpy.types.Object:
-    """Make the armature of a source, or give the one there is other bones; the source is not bound to it.
+    """Make the armature of a source, or give the existing one other bones; the source is not bound to it.
 
     Bones that an artist added stay, with their constraints, and so do the pose and the names that he gave to others.
 

@@ -68,7 +68,7 @@ is_result, result_of, check_writable = RESULT.has, RESULT.of, RESULT.check_writa
 def write_result(
     source: bpy.types.Object, computation: Computation, frame: np.ndarray, look: Look = ALL
 ) -> bpy.types.Object:
-    """Make the result of a source, or update the one there is; all or nothing.
+    """Make the result of a source, or update the existing one; all or nothing.
 
     Parameters
     ----------

@@ -44,7 +44,7 @@ is_balls, balls_of, check_balls_writable = BALLS.has, BALLS.of, BALLS.check_writ
 
 
 def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -> bpy.types.Object:
-    """Make the balls of a source, or update the ones there are; all or nothing.
+    """Make the balls of a source, or update the existing ones; all or nothing.
 
     Parameters
     ----------

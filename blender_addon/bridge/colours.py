@@ -28,7 +28,7 @@ def colour_mesh(
     Parameters
     ----------
     mesh : Mesh
-        In object mode; an attribute of that name that it had is replaced.
+        In object mode; an existing attribute of that name is replaced.
     values : (number of vertices,)
         NaN is grey.
     start, end : float

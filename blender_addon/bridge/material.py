@@ -22,7 +22,7 @@ FLAT = (0.08, 0.42, 0.5, 1.0)  # of results without colours; orange is what Blen
 
 
 def radius_material() -> bpy.types.Material:
-    """The material, made when it does not exist; what an artist changed in it stays."""
+    """The material, made when it does not exist; changes that an artist made in it stay."""
     found = bpy.data.materials.get((NAME, None))
     return found or _new_material(NAME, RADIUS.name)
 

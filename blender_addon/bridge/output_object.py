@@ -110,7 +110,7 @@ def check_mode(output: bpy.types.Object | None) -> None:
 
 
 def new_object(source: bpy.types.Object, suffix: str, mesh: bpy.types.Mesh) -> bpy.types.Object:
-    """An object named after its source, in the collections of that."""
+    """An object named after its source, in the collections of the source."""
     output = bpy.data.objects.new(source.name + suffix, mesh)
     editable = [collection for collection in source.users_collection if collection.library is None]
     for collection in editable or [bpy.context.scene.collection]:

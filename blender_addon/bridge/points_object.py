@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def new_points(
     found: ImportedPoints, name: str, turn: Matrix, scale: float
 ) -> tuple[bpy.types.Object, tuple[str, ...]]:
-    """A new object at the origin, in the active collection, and what has to be said about it.
+    """A new object at the origin, in the active collection, and warnings about it.
 
     Parameters
     ----------

@@ -50,7 +50,7 @@ def modifier_of(rebuilt: bpy.types.Object) -> bpy.types.NodesModifier | None:
 
 
 def rebuild(result: bpy.types.Object) -> bpy.types.Object:
-    """The solid of a result: the one there is, or a new one.
+    """The solid of a result: the existing one, or a new one.
 
     Raises
     ------

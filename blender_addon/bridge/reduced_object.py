@@ -36,7 +36,7 @@ def check_reduced_writable(result: bpy.types.Object) -> None:
 
 
 def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> bpy.types.Object:
-    """Make the small medial mesh of a result, or update the one there is; all or nothing.
+    """Make the small medial mesh of a result, or update the existing one; all or nothing.
 
     Parameters
     ----------

@@ -57,7 +57,7 @@ def has_report(thing: bpy.types.Object) -> bool:
 def write_report(
     source: bpy.types.Object, found: SamplingReport, frame: np.ndarray, colours: bool = True
 ) -> bpy.types.Object:
-    """Make the report of a source, or update the one there is; all or nothing.
+    """Make the report of a source, or update the existing one; all or nothing.
 
     Parameters
     ----------

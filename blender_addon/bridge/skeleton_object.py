@@ -41,7 +41,7 @@ is_skeleton, skeleton_of, check_skeleton_writable = (
 def write_skeleton(
     source: bpy.types.Object, found: Skeletonization, frame: np.ndarray
 ) -> bpy.types.Object:
-    """Make the skeleton of a source, or update the one there is, whose bevel and materials stay.
+    """Make the skeleton of a source, or update the existing one, whose bevel and materials stay.
 
     Parameters
     ----------

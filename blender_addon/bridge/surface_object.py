@@ -29,7 +29,7 @@ is_surface, surface_of, check_surface_writable = SURFACE.has, SURFACE.of, SURFAC
 def write_surface(
     source: bpy.types.Object, found: Reconstruction, frame: np.ndarray
 ) -> bpy.types.Object:
-    """Make the surface of a source, or update the one there is; all or nothing.
+    """Make the surface of a source, or update the existing one; all or nothing.
 
     Parameters
     ----------

@@ -191,8 +191,7 @@ def _remember(carrier: bpy.types.Object, found: Measurement, local: NDArray[np.f
     carrier[WARNINGS] = "\n".join(found.warnings)
     carrier["ma_thickness_local"] = local.ravel().tolist()
     if len(found.triangles):
-        thinnest = found.triangles[found.of_triangles.argmin()]
-        carrier[LEAST] = _moved(local, found.points[thinnest].mean(axis=0)).tolist()
+        carrier[LEAST] = _moved(local, found.thinnest_place).tolist()
 
 
 def _remember_parts(carrier: bpy.types.Object, parts: ThinParts) -> None:

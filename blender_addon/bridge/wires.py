@@ -82,7 +82,7 @@ def _size(axis: MedialAxis) -> float:
 
 
 def _group() -> bpy.types.NodeTree:
-    """The node group, made where the file has none; what an artist changed in it stays."""
+    """The node group, made where the file has none; changes that an artist made in it stay."""
     found = bpy.data.node_groups.get((NAME, None))
     return found or _new_group()
 

@@ -73,7 +73,9 @@ def _modules() -> tuple[ModuleType, ...]:
 
 
 def register() -> None:
-    native.load_a_copy = not __package__.startswith("bl_ext.")  # then this is no extension
+    native.load_a_copy = not __package__.startswith(
+        "bl_ext."
+    )  # then the add-on is not an extension
     for module in _modules():
         module.register()
 

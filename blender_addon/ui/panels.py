@@ -74,7 +74,7 @@ class VIEW3D_PT_medial_axis_sampling(Closed, bpy.types.Panel):
 
 
 class VIEW3D_PT_medial_axis_method(Closed, bpy.types.Panel):
-    """What the published method leaves open"""
+    """Choices that the published method leaves open"""
 
     bl_label = "Method"
     bl_idname = "VIEW3D_PT_medial_axis_method"
@@ -112,7 +112,7 @@ class VIEW3D_PT_medial_axis_show(Closed, bpy.types.Panel):
 
 
 class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
-    """What matters of the result, and files"""
+    """The most important figures of the result, and files"""
 
     bl_label = "Result"
     bl_idname = "VIEW3D_PT_medial_axis_result"

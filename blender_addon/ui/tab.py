@@ -19,7 +19,7 @@ class Inside(Tab):
 
 
 class Closed(Inside):
-    """One that is closed until someone opens it."""
+    """A panel that is closed until someone opens it."""
 
     bl_options = {"DEFAULT_CLOSED"}
 

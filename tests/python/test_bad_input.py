@@ -59,18 +59,18 @@ def with_value(row, value):
         "scalar",
     ],
 )
-def test_points_of_a_wrong_shape_or_type(medial, stage, points):
-    with pytest.raises(medial.InvalidInputError) as error:
-        getattr(medial, stage)(points)
+def test_points_of_a_wrong_shape_or_type(study, stage, points):
+    with pytest.raises(study.InvalidInputError) as error:
+        getattr(study, stage)(points)
     one_sentence(error)
 
 
 @pytest.mark.parametrize("stage", STAGES)
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("row", [0, 17, 49])
-def test_values_that_are_not_finite_name_their_row(medial, stage, value, row):
-    with pytest.raises(medial.InvalidInputError) as error:
-        getattr(medial, stage)(with_value(row, value))
+def test_values_that_are_not_finite_name_their_row(study, stage, value, row):
+    with pytest.raises(study.InvalidInputError) as error:
+        getattr(study, stage)(with_value(row, value))
     assert re.search(rf"\b{row}\b", one_sentence(error))
 
 
@@ -117,9 +117,9 @@ def test_the_first_row_that_is_not_finite_is_named(medial):
         "grid line",
     ],
 )
-def test_points_without_volume(medial, stage, points):
-    with pytest.raises(medial.DegenerateInputError) as error:
-        getattr(medial, stage)(points)
+def test_points_without_volume(study, stage, points):
+    with pytest.raises(study.DegenerateInputError) as error:
+        getattr(study, stage)(points)
     one_sentence(error)
 
 

@@ -359,9 +359,9 @@ def test_progress_rises_to_one_and_names_its_stages(medial, call):
     [CLOUD[:, :2], CLOUD.ravel(), CLOUD.astype(int), with_value(np.nan), with_value(np.inf)],
     ids=["two columns", "flat", "int", "nan", "inf"],
 )
-def test_points_that_are_not_valid(medial, call, points):
-    with pytest.raises(medial.InvalidInputError) as error:
-        getattr(medial, call)(points)
+def test_points_that_are_not_valid(study, call, points):
+    with pytest.raises(study.InvalidInputError) as error:
+        getattr(study, call)(points)
     one_sentence(error)
 
 
@@ -371,9 +371,9 @@ def test_points_that_are_not_valid(medial, call, points):
     [CLOUD[:0], CLOUD[:3], np.ones((9, 3)), inputs.grid((5, 5, 1)), inputs.grid((9, 1, 1))],
     ids=["none", "three", "identical", "plane", "line"],
 )
-def test_points_without_volume(medial, call, points):
-    with pytest.raises(medial.DegenerateInputError) as error:
-        getattr(medial, call)(points)
+def test_points_without_volume(study, call, points):
+    with pytest.raises(study.DegenerateInputError) as error:
+        getattr(study, call)(points)
     one_sentence(error)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cocone's flat samples and candidates restated by brute force from the docstring of `_medial.cocone`.
+"""Cocone's flat samples and candidates restated by brute force from the docstring of `_medial_study.cocone`.
 
 Starts from the exact Voronoi vertices of `reference.Medial`. Where a comparison is closer than `reference.NEAR`, so
 that the rounding of the product's Voronoi vertices may decide it, both answers are followed: every result is a pair

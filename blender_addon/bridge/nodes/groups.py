@@ -15,7 +15,7 @@ from . import balls, filter, rebuild, thickness_colour
 FILE = "medial_axis_nodes.blend"
 CATALOGUE_FILE = "blender_assets.cats.txt"
 CATALOGUE = "0d5dd5d2-6c05-4d0c-8a7a-6d1f5a0c6c1e"  # any UUID, always the same
-_BUILT_BY = "ma_nodes"  # how groups are known again when someone renamed them
+_BUILT_BY = "ma_nodes"  # identifies our groups after someone renamed them
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def is_group(tree: bpy.types.NodeTree | None, key: str) -> bool:
 
 
 def group(key: str) -> bpy.types.GeometryNodeTree:
-    """The group of this file, built when it has none; what someone changed in it stays."""
+    """The group of this file, built when it has none; changes that a user made in it stay."""
     for found in bpy.data.node_groups:
         if found.library is None and is_group(found, key):
             return found

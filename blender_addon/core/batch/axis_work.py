@@ -56,7 +56,7 @@ class AxisWork:
         return (left,) if left else ()
 
     def words(self) -> dict[str, Any]:
-        """The settings, as one would write them."""
+        """The settings, as one would write them on the command line."""
         words = as_words(self.settings)
         return {**words, "vertices": self.vertices} if self.vertices else words
 

@@ -2,7 +2,7 @@
 """Results as files, one after the other; finished outputs are recognised and kept.
 
 Next to every output is its report, `<output>.json`: figures, warnings, and a stamp of all that the output
-depends on. An output is finished when its report has the right stamp and the digest of the file that is there.
+depends on. An output is finished when its report has the right stamp and the digest of the existing file.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class Begun:
     shape : Shape
     warnings : tuple of str
     kept : dict or None
-        The report of the output that is there and finished; None: it has to be computed.
+        The report of the output where this exists and is finished; None: it has to be computed.
     """
 
     item: Item
@@ -191,7 +191,7 @@ def _said(error: BaseException) -> str:
     words = " ".join(str(error).split())
     return (
         f"Expected to finish this, found {type(error).__name__}{place}: '{words}'; "
-        "this is a fault of the program, please report it with the input"
+        "this is a bug of the program, please report it with the input"
     )
 
 
@@ -214,7 +214,7 @@ def stamp_of(shape: Shape, settings: object, suffix: str, limit: MemoryLimit | N
 
 
 def finished(output: Path, stamps: set[str]) -> dict[str, Any] | None:
-    """The report of an output that is there and has one of these stamps."""
+    """The report of an existing output that has one of these stamps."""
     try:
         report = json.loads(report_path(output).read_text("utf-8", "surrogateescape"))
         right = report["stamp"] in stamps and report["digest"] == _digest(output)

@@ -38,7 +38,7 @@ class SkeletonWork:
         return ()
 
     def words(self) -> dict[str, Any]:
-        """The settings, as one would write them."""
+        """The settings, as one would write them on the command line."""
         return {**as_words(self.settings), **as_words(self.wanted)}
 
     def figures(self, found: Skeletonization) -> dict[str, Any]:

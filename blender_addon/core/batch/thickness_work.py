@@ -39,7 +39,7 @@ class ThicknessWork:
         return ()
 
     def words(self) -> dict[str, Any]:
-        """The settings, as one would write them."""
+        """The settings, as one would write them on the command line."""
         return {**as_words(self.settings), **as_words(self.wanted)}
 
     def figures(self, found: Measurement) -> dict[str, Any]:

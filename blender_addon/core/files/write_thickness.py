@@ -66,6 +66,7 @@ def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str
         "unit": unit or None,
         "area_below": parts.area,
         "share_below": parts.share,
+        "share_unmeasured": found.unmeasured,
         "between": found.settings.between.name.lower(),
         "patches": [
             {

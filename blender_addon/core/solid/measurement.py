@@ -11,7 +11,8 @@ import numpy as np
 
 from ..machine import native
 from ..samples.surface_normals import cross
-from ..settings import Between, ThicknessSettings
+from ..settings import Between, Edges, ThicknessSettings
+from .close_walls import CloseWalls
 from .thin_faces import face_of_triangles, thinnest_of_faces
 
 if TYPE_CHECKING:
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
 
 # Coordinates may once have been float32, as all of Blender's are: lengths that differ by less are equal.
 _ROUNDING = 4 * float(np.finfo(np.float32).eps)
+
+
+# A larger share of the surface without a thickness is reported; smaller ones come from single triangles at rims.
+UNKNOWN = 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +53,8 @@ class Measurement:
         The standard deviation of the samples in spacings, 0 to 0.25.
     warnings : tuple of str
     seconds : float
+    walls : CloseWalls
+        Places whose opposite wall is closer than the measured lengths show.
     key : str
         The name of the measurement for `kept_measurement`.
     """
@@ -63,6 +70,7 @@ class Measurement:
     noise: float
     warnings: tuple[str, ...]
     seconds: float
+    walls: CloseWalls
     key: str = ""
 
     @property
@@ -95,8 +103,31 @@ class Measurement:
 
     @cached_property
     def minimum(self) -> float:
-        """The smallest length of all triangles; infinite where there is none."""
-        return float(self.of_triangles.min(initial=np.inf))
+        """The smallest length of all triangles and of the walls that they miss; infinite where there is none."""
+        return float(
+            min(self.of_triangles.min(initial=np.inf), self.walls.distance.min(initial=np.inf))
+        )
+
+    @cached_property
+    def thinnest_place(self) -> NDArray[np.float64]:
+        """(3,) the place of the minimum: the middle of a triangle, or a place on the faces."""
+        if self.walls.distance.min(initial=np.inf) < self.of_triangles.min(initial=np.inf):
+            return self.walls.points[self.walls.distance.argmin()]
+        return self.points[self.triangles[self.of_triangles.argmin()]].mean(axis=0)
+
+    @cached_property
+    def unmeasured(self) -> float:
+        """The share of the surface whose thickness is unknown; 0 where the settings leave something out.
+
+        Every place on the surface of a solid has an opposite wall, so an infinite thickness was not measured.
+        """
+        left_out = self.settings.edges is Edges.GREY or self.settings.between is not Between.WALLS
+        if left_out:
+            return 0.0
+        if not len(self.triangles):
+            return 1.0
+        unknown = float(self.areas[~np.isfinite(self.of_triangles)].sum() / self.areas.sum())
+        return max(0.0, unknown - float(self.walls.share.sum()))
 
     @cached_property
     def slack(self) -> float:

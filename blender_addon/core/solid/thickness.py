@@ -19,7 +19,8 @@ from ..samples.noise import noise_of
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.surface_normals import SurfaceNormals, measured_surface, surface_normals, unit
 from ..settings import Between, Edges, Noise, Settings, ThicknessSettings
-from .measurement import Measurement
+from .close_walls import close_walls
+from .measurement import UNKNOWN, Measurement
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -72,6 +73,7 @@ def measure_thickness(
         noise=noise_of(chosen.samples.points, surface, unit(known.normals)),
         warnings=(),
         seconds=begun.seconds,
+        walls=close_walls(shape, chosen, lengths, wanted.between),
         key=key_of(
             "thickness", chosen.samples.key, astuple(settings), astuple(replace(wanted, limit=0.0))
         ),
@@ -115,8 +117,18 @@ def _warnings(found: Measurement) -> Iterator[str]:
             "the points scatter by a fifth of their spacing or more: no figure is honest; smooth them "
             "first, or scan more finely"
         )
-    elif not np.isfinite(found.lengths).any():
+    elif not np.isfinite(found.minimum):
         yield _nothing(found)
+    if len(found.walls.distance):
+        yield (
+            f"at {percent(float(found.walls.share.sum()))} of the surface the walls are closer than the axis "
+            f"shows, down to {found.walls.distance.min():.3g}; there the distance straight through the solid counts"
+        )
+    if found.unmeasured > UNKNOWN:
+        yield (
+            f"at {percent(found.unmeasured)} of the surface no thickness could be measured; take more "
+            "samples, or look at the place"
+        )
     if _SOME < found.noise < _TOO_MUCH and found.settings.noise is Noise.CLEAN:
         yield (
             f"the points scatter by {percent(found.noise)} of their spacing, so that single figures are "

@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "thickness/extrapolation.h"
 #include "base/nearest_ball.h"
+#include "thickness/extrapolation.h"
 
 namespace medial {
 namespace {
