@@ -86,7 +86,7 @@ def test_thick_solids_are_as_before():
     faces = halves([(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (0, 2, 5, 3)])
     for points, triangles in (box(1, 1, 1), box(1, 0.5, 0.3), (wedge, faces)):
         found = measured(points, triangles)
-        assert len(found.walls.distance) == 0 and found.unmeasured == 0.0
+        assert len(found.walls.distance) == 0 and found.unmeasured < 0.01
 
 
 def test_a_gap_is_no_wall():
