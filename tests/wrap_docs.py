@@ -45,7 +45,7 @@ def words_of(text: str) -> list[str]:
 
 
 def filled(text: str, first: str, others: str) -> list[str]:
-    """The lines of a paragraph; `first` and `others` stand before its first line and the others."""
+    """The lines of a paragraph; `first` and `others` are put before its first line and the others."""
     lines, line = [], first
     for i, word in enumerate(words_of(text)):
         if i and len(line) + 1 + len(word) > WIDTH:

@@ -49,7 +49,7 @@ MARK = "<!-- written by build_addon.py bench: do not edit below -->"
 
 
 def ladder(largest: int, wanted: list[str]) -> Iterator[Input]:
-    """The inputs, made when they are asked for."""
+    """The inputs, each made when it is first needed."""
     for name, count, make in _makers():
         if count <= largest and (not wanted or any(word in name for word in wanted)):
             work = Input(name, *make(count))

@@ -66,7 +66,7 @@ def bare(program: Path, folder: Path) -> dict:
 
 
 def ours(folder: Path, sides: str, threads: int) -> dict:
-    """As `_ours` returns it."""
+    """The result of `_ours` in a process of its own."""
     return _of_this_script(folder, "ours", "--sides", sides, "--threads", threads)
 
 
@@ -104,7 +104,7 @@ def _children() -> float:
 
 
 class Memory:
-    """Resident bytes beside what there was at the beginning."""
+    """Resident bytes in addition to those at the beginning."""
 
     def __init__(self) -> None:
         Path("/proc/self/clear_refs").write_text("5")  # forgets the highest so far

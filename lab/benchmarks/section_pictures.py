@@ -54,7 +54,7 @@ def box_triangles():
 def kinds_of(samples):
     """0 on edges and corners, 1 in the rows beside them, 2 elsewhere.
 
-    Of a row all samples are as far from an edge; of blue noise no two are.
+    All samples of a row are equally far from an edge; no two samples of blue noise are.
     """
     walls = np.concatenate((samples.points, (1.5, 1.0, 0.8) - samples.points), axis=1)
     away = np.sort(np.abs(walls), axis=1)[:, 1].round(6)
@@ -307,7 +307,7 @@ def facets(mesh):
 
 
 def sections(polygons):
-    """Where the plane y = 0 cuts polygons, as far as it is in the frame."""
+    """The cuts of polygons with the plane y = 0, clipped to the frame."""
     for corners in polygons:
         cut = crossings(corners, [(i, (i + 1) % len(corners)) for i in range(len(corners))])
         kept = clipped(*(cut - (0, CENTRE)), (1.05, 0.82)) if len(cut) == 2 else None

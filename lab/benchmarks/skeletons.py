@@ -175,7 +175,7 @@ class Truth:
         return (gaps > 1.5 * self.away(nodes)).all(axis=1)
 
     def inside(self, points: np.ndarray) -> np.ndarray:
-        """By the parity of what a slanted ray meets."""
+        """Whether points are inside, by the parity of the hits of a slanted ray."""
         way = np.array([0.5377, 0.2391, 0.8085])
         return np.array([np.isfinite(self._hits(p, way)).sum() % 2 == 1 for p in points])
 

@@ -42,7 +42,7 @@ def outline(count: int):
 
 
 def inside(points, polygon):
-    """By the crossings of a ray."""
+    """Whether points are inside, by the crossings of a ray."""
     a, b = polygon, np.roll(polygon, -1, axis=0)
     x, y = points[:, :1], points[:, 1:]
     crosses = (a[:, 1] > y) != (b[:, 1] > y)

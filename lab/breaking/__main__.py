@@ -83,7 +83,7 @@ def _batch(kind: str, seed: int) -> str:
 
 
 def _kill(process: subprocess.Popen) -> None:
-    """And all that it has started, which would hold its pipes and its folder."""
+    """Kills the process and all that it has started, because those would hold its pipes and its folder."""
     try:
         os.killpg(process.pid, signal.SIGKILL)
     except ProcessLookupError:

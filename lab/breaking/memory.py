@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Trials of memory: what is told before against what a process took; few addresses and few threads in every command."""
+"""Trials of memory: the forecast against the use of a process; few addresses and few threads in every command."""
 
 import os
 import resource
@@ -20,7 +20,7 @@ from .written import WORKS
 MEGABYTE = 1 << 20
 SMALL = (
     16 * MEGABYTE
-)  # what a process takes beside, for modules, threads and the input, whatever the points
+)  # what a process takes for modules, threads and the input, for any number of points
 NOBODY = 61_234  # who has no processes, so that a limit of them is one of threads
 
 

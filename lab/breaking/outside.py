@@ -73,7 +73,7 @@ def _no_traceback(err: bytes) -> None:
 
 
 def killed(random: Random, folder: Path) -> None:
-    """Whatever is there is whole; going on leaves what an undisturbed run leaves."""
+    """Every file there is whole; resuming leaves the same files as an undisturbed run."""
     names, suffix = _shapes(folder, random, 3), str(random.choice(SUFFIXES))
     words = (*names, "out/{name}" + suffix)
     process = _start(folder, *words)
@@ -117,7 +117,7 @@ def few_addresses(random: Random, folder: Path) -> None:
 
 
 def closed_pipes(random: Random, folder: Path) -> None:
-    """Whoever reads goes after some bytes."""
+    """The reader of the output closes the pipe after some bytes."""
     names = _shapes(folder, random, 4, 300)
     process = _start(folder, *names, "out/", *(["--json"] if random.random() < 0.5 else []))
     process.stdout.read(int(random.integers(0, 400)))

@@ -26,7 +26,7 @@ class Mutation:
         return SOURCES / self.file
 
     def applied(self, text: str) -> str:
-        """The source with the fault. Raises ValueError where the sources have moved on."""
+        """The source with the mutation. Raises ValueError if `old` does not occur once."""
         count = text.count(self.old)
         if count != 1:
             raise ValueError(

@@ -127,7 +127,7 @@ def test_poles(study, points):
 
 
 def test_every_threshold_is_a_mask(study):
-    """Of |pq| as a share of the diagonal, which is reached and not exceeded; twice the points, twice the lengths."""
+    """Thresholds of |pq| are shares of the diagonal, reached and not exceeded; lengths scale with the points."""
     points = sampled("torus", 400)
     for scale in (1.0, 1e-3, 1e6):
         analysis = study.MedialAnalysis(scale * points, sides=study.SidesFrom.NONE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs in a Blender of its own: what one run of the operator takes at its peak, and what was told before.
+"""Runs in a Blender of its own: the peak memory of one run of the operator, and its forecast.
 
     blender ... --python tests/addon/memory_at_peak.py -- MODULE faces|bare SIDE FORM
 

@@ -147,7 +147,7 @@ def poisoned(random, points, faces):
 
 
 def enormous(random, points, faces):
-    """Near the largest numbers that Blender holds."""
+    """Some points lie near the largest numbers that Blender holds."""
     points = points.copy()
     points[rows(random, points)] *= 1e37
     return points, faces
@@ -266,7 +266,7 @@ def stretched(random, thing):
 
 
 def sheared(random, thing):
-    """By a parent that is stretched; sometimes not finite."""
+    """A stretched parent shears the object; its scale is sometimes not finite."""
     parent = bpy.data.objects.new("Parent", None)
     bpy.context.scene.collection.objects.link(parent)
     parent.scale = (1, 5, chosen(random, (1.0, -2.0, 0.0, np.nan, 1e20)))
@@ -388,7 +388,7 @@ def options(random):
             found[name] = bool(random.integers(2))
         else:
             found[name] = number(random, option)
-    # As many samples as can be waited for a thousand times.
+    # Few samples, so that a thousand computations do not take too long.
     found["samples"] = int(random.integers(100, 800))
     found["budget"] = int(random.integers(100, 2000))
     found["spacing"] = chosen(random, (0.0, 3.0, 10.0))

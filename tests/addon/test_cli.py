@@ -112,7 +112,7 @@ def scripted(path="scripted.blend"):
 
 @pytest.mark.parametrize("flag, ran", [((), False), (("--allow-scripts",), True)])
 def test_python_in_a_file_runs_only_where_it_is_allowed(here, flag, ran):
-    """Whatever the machine prefers: here Blender itself is told to let it run, or not to."""
+    """The preference of the machine does not matter: Blender's own option allows or forbids scripts here."""
     path = scripted()
     for option in ("--enable-autoexec", "--disable-autoexec"):
         Path("ran").unlink(missing_ok=True)

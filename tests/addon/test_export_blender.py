@@ -27,7 +27,7 @@ BEFORE_4 = bpy.app.version < (4, 0, 0)
 
 @pytest.fixture
 def result():
-    """The inner axis of a torus that stands somewhere, turned; selected and active."""
+    """The inner axis of a moved and rotated torus; selected and active."""
     source = torus()
     source.location, source.rotation_euler = (3, -2, 1), (0.3, -0.5, 0.7)
     select(source)

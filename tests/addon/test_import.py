@@ -407,7 +407,7 @@ def test_blenders_ply_importer_keeps_points_beside_faces(folder):
 
 
 def test_blenders_obj_importer_keeps_points_alone(folder):
-    """But not their normals."""
+    """Blender's importer drops the normals."""
     with open(folder / "cloud.obj", "w") as stream:
         np.savetxt(stream, POINTS, fmt="v %.9g %.9g %.9g")
         np.savetxt(stream, NORMALS, fmt="vn %.9g %.9g %.9g")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rebuild Solid: what stands in the panel is what can be measured by hand."""
+"""Rebuild Solid: the figures in the panel are those that can be measured by hand."""
 
 import re
 
@@ -135,7 +135,7 @@ def test_solids_of_any_size_are_rebuilt(size):
 
 @pytest.mark.parametrize("size", [1e-9, 1e-4])
 def test_the_group_by_itself_takes_small_axes(size):
-    """As an artist adds it: without the size of voxels that the operator gives."""
+    """An artist adds the modifier by hand, without the voxel size that the operator sets."""
     source = ellipsoid()
     source.scale = (size,) * 3
     bpy.context.view_layer.update()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reduce to Few Vertices: a small medial mesh beside the axis, which can be rebuilt, exported and undone."""
+"""Reduce to Few Vertices: a small medial mesh next to the axis, which can be rebuilt, exported and undone."""
 
 import re
 

@@ -68,7 +68,7 @@ def patience():
 
 
 def half_written(folder):
-    """The files beside the target that are being written, and have something in them."""
+    """The files next to the target that are being written and are not empty."""
     found = []
     for path in folder.glob(".medial_axis_*.tmp"):
         try:

@@ -449,7 +449,7 @@ def test_export_after_sampling(tmp_path):
     assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
     axis = np.load(path)
     assert axis["generators"].max() < result["ma_points"] and axis["generators"].min() >= 0
-    # Two samples of a facet are equally far from its corners, as far as the radius says.
+    # Two samples of a facet are equally far from its corners, at the distance of the radius.
     bpy.context.view_layer.objects.active = result
     source = result["ma_source"]
     select(source)

@@ -175,7 +175,7 @@ def test_normals_that_point_inward_are_noticed(capfd):
 
 @pytest.mark.parametrize("scale", [(1, 1, 1), (-1, 1, 1), (2, 0.5, 1), (-1, -2, -3)], ids=str)
 def test_normals_turn_with_the_object(scale, capfd):
-    """Also where it is mirrored or stretched: inside stays inside."""
+    """Inside stays inside if the object is mirrored or stretched, too."""
     source = oriented()
     source.scale = scale
     source.rotation_euler = (0.4, -0.8, 1.3)

@@ -44,7 +44,7 @@ DATA = {
     "{}:Medial Axis:Medial Axis",
     "Voxel Size",
 }
-# Parts of sentences that stand in a source as a single word, or inside of another sentence.
+# Parts of sentences that occur in a source as a single word, or inside of another sentence.
 PARTS = {"Preparing", "unknown", "arrays that contradict each other"}
 # How sentences are put together.
 FRAMES = {"'{}': {}"}
@@ -196,7 +196,7 @@ def compiled():
 
 
 def said(expression):
-    """A message in C++, with {} for what stands between literals."""
+    """A message in C++, with {} for each expression between literals."""
     between, *pieces = re.split(r'"((?:[^"\\]|\\.)*)"', expression)
     text = ""
     for literal, after in zip(pieces[::2], pieces[1::2], strict=True):

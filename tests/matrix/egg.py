@@ -32,7 +32,7 @@ def egg(steps=12):
 
 
 def write_egg(path):
-    """As an OFF file, with the coordinates that Blender's mesh has."""
+    """Writes the egg as an OFF file with the coordinates of Blender's mesh."""
     vertices, triangles = egg()
     rows = np.array(vertices, np.float32).tolist()
     lines = ["OFF", f"{len(vertices)} {len(triangles)} 0", *(" ".join(map(repr, r)) for r in rows)]

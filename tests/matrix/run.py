@@ -150,7 +150,7 @@ def probe(row: Row, blender, use: list[str], keep: Path, arguments: argparse.Nam
 
 
 def extension_zip(archive: Path, platform: str) -> Path:
-    """The zip for the extensions platform, which lies beside the one for people."""
+    """The zip for the extensions platform, which lies next to the one for people."""
     return archive.with_name(f"{archive.stem}-{platform}.zip")
 
 
@@ -212,7 +212,7 @@ def table(rows: list[tuple[str, ...]]) -> str:
 
 
 def write_table(path: Path, rows: list[Row], sources: list[str]) -> None:
-    """Replace what stands below the mark; of Blenders that were not asked now, the old row stays."""
+    """Replaces the text below the mark; Blenders that did not run this time keep their rows."""
     above, _, below = path.read_text(encoding="utf-8").partition(MARK)
     old = [tuple(line[2:-2].split(" | ")) for line in below.splitlines() if line.startswith("| ")]
     cells = {row[1]: row for row in [*old[2:], *(row.cells() for row in rows)] if row[1] in sources}

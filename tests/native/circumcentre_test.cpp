@@ -81,7 +81,7 @@ TEST(Circumcentre, SurvivesTetrahedraThatAreFlatUpToRounding) {
     const Circumcentre o = circumcentre(a, b, c, d);
     const double r = length(o.centre);
     if (!std::isfinite(r)) continue;  // exactly flat: not a Delaunay cell
-    // However far away, it lies on the axis of the square, which is one unit wide.
+    // It lies on the axis of the square, which is one unit wide, however far away.
     EXPECT_LE(length(cross(o.centre - middle, n)), 2 + 1e-9 * r);
     ++finite;
   }

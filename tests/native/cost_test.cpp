@@ -15,7 +15,7 @@ namespace {
 struct Cost {
   double held;         // bytes per point, by the analysis when it is done: its peak
   double beside;       // at the peak beside its arena, the axis among it, the input not counted
-  double allocations;  // per 1000 points, beside the arena
+  double allocations;  // per 1000 points, outside the arena
   double rings;        // walked by the extract, per facet
 };
 

@@ -200,7 +200,7 @@ class Oracle {
     long double largest = 0;
     for (const auto& [a, b] : umbrellas_[p]) {
       const long double ab = size(a, b), pa = size(p, a), pb = size(p, b);
-      // By the angle opposite to ab, as in the law of sines.
+      // The angle opposite to ab gives it, as in the law of sines.
       const auto u = to<long double>(points_[a] - points_[p]);
       const auto v = to<long double>(points_[b] - points_[p]);
       const long double sine = unit_ * unit_ * length(cross(u, v)) / (pa * pb);

@@ -266,7 +266,7 @@ def test_cancel_from_another_thread(medial, when):
 
 
 def test_progress_rises_to_one_and_names_its_stages(medial):
-    """Also shows that the GIL is released: this thread looks on while the other computes."""
+    """This thread watches the progress while the other computes, so the GIL is released, too."""
     points = np.random.default_rng(0).random((60_000, 3))
     progress, seen = medial.Progress(), []
     assert progress.fraction == 0.0 and not progress.cancelled and isinstance(progress.stage, str)

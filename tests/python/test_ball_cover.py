@@ -74,7 +74,7 @@ def cover(medial, case, count, mode="INSIDE", **options):
 
 
 def inner(medial, case):
-    """The candidates as far as they lie in the solid, by functions that are tested elsewhere."""
+    """The candidates inside the solid, by functions that are tested elsewhere."""
     (vertices, triangles), centres, radii = case
     depth = medial.surface_distances(centres, vertices, triangles)
     inside = medial.winding_number(centres, vertices, triangles) > 0.5

@@ -10,23 +10,15 @@ import medial_axis
 import pytest
 from medial_axis import cli
 from support import meshes
+from support.meshes import write_off
 
 TORUS = meshes.torus(1.0, 0.4, 48, 24)
 WORDS = ("--count", "6", "--mode", "around", "--sampling", "vertices")
 
 
-def write_off(path, mesh=TORUS):
-    vertices, triangles = mesh
-    rows = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
-    rows += [" ".join(map(repr, row)) for row in vertices.tolist()]
-    rows += [f"3 {a} {b} {c}" for a, b, c in triangles.tolist()]
-    path.write_text("\n".join(rows) + "\n")
-    return str(path)
-
-
 @pytest.fixture
 def source(tmp_path):
-    return write_off(tmp_path / "torus.off")
+    return write_off(tmp_path / "torus.off", TORUS)
 
 
 def run(*words):
@@ -45,7 +37,7 @@ def test_the_file_is_the_library_s(source, tmp_path, capsys):
 def test_a_batch_reports_in_json_and_one_bad_input_stops_no_other(source, tmp_path, capsys):
     bad = tmp_path / "bad.off"
     bad.write_text("nonsense")
-    code = run(source, bad, write_off(tmp_path / "b.off"), f"{tmp_path}/out/", "--format", "ma",
+    code = run(source, bad, write_off(tmp_path / "b.off", TORUS), f"{tmp_path}/out/", "--format", "ma",
                "--json")  # fmt: skip
     reports = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert code == cli.INPUT

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A batch never ends early: names that are no text, streams that are closed, faults that nobody foresaw, signals."""
+"""A batch never ends early: names that are no text, closed streams, unexpected exceptions, signals."""
 
 import json
 import os
@@ -108,7 +108,7 @@ def test_a_folder_without_permission(folder, run):  # noqa: F811
 
 
 def test_a_folder_whose_permission_the_system_denies(folder, run, monkeypatch):  # noqa: F811
-    """As it is for those who are not root."""
+    """This happens to every user but root."""
 
     def denied(self, *rest, **options):
         raise PermissionError(13, "Permission denied")
@@ -261,7 +261,7 @@ def test_little_address_space_has_an_end(folder, program, megabytes, axes):  # n
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
 def test_one_heap_where_addresses_are_few(program):  # noqa: F811
-    """Asked for where there is a limit, before NumPy is loaded; not elsewhere."""
+    """One heap is requested only under a limit, and before NumPy is loaded."""
     code = (
         "import ctypes, sys; asked = []\n"
         "class Library: mallopt = staticmethod(lambda *words: asked.append(words))\n"

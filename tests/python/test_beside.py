@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work beside other work: its value, its error, that it ends with the body, and what the add-on does that way."""
+"""Work in parallel with other work: its value, its error, its end, and the add-on's uses of it."""
 
 import threading
 

@@ -69,7 +69,7 @@ def test_help_is_there(command):
 
 
 def test_the_driver_runs_on_python_3_8():
-    """Its files hold no newer syntax, as far as Python itself can tell; a newer library is up to the linter."""
+    """Python's own parser finds no newer syntax in its files; the linter finds uses of a newer library."""
     files = [ROOT / "build_addon.py", *(ROOT / "native" / "packaging").glob("*.py")]
     files += [ROOT / "tests" / name for name in ("parts.py", "lint.py", "demo/show.py")]
     for file in files:
@@ -118,7 +118,7 @@ def test_readme_names_what_the_commands_install(command):
 
 
 def test_packages_are_installed_while_the_core_is_compiled(monkeypatch, tmp_path, capsys):
-    """And are there at the end of the `with` statement; what apt-get prints goes to a file."""
+    """They are installed at the end of the `with` statement; the output of apt-get goes to a file."""
     events = []
 
     def run(*words, **options):

@@ -286,7 +286,7 @@ COMMANDS = [
 
 @pytest.mark.parametrize("words", COMMANDS, ids=" ".join)
 def test_no_output_replaces_an_input(here, run, words):
-    """By name, by link, in a folder, frame by frame: refused with nothing computed and no byte changed."""
+    """The command refuses it, by name, link, folder or frame, computes nothing and changes no byte."""
     points = egg(1.0, 30)[:, :3]
     rows = "\n".join(" ".join(map(repr, row)) for row in points.tolist())
     header = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n"
@@ -498,7 +498,7 @@ def test_cancelled(here, program, number):
 
 
 def test_killed_while_writing_leaves_the_old_file(here, program):
-    """kill -9 as soon as the new file begins to grow beside the old one."""
+    """kill -9 comes as soon as the new file begins to grow next to the old one."""
     Path("out").mkdir()
     np.save("big.npy", egg(count=60_000))
     assert program("big.npy", "out/big.off", "--rho", "20").returncode == 0
@@ -519,7 +519,7 @@ def test_killed_while_writing_leaves_the_old_file(here, program):
 
 
 def test_two_at_once_in_one_folder(here, program):
-    """The same work twice and other work beside it: every file is whole and as if made alone."""
+    """The same work runs twice, next to other work: every file is whole, and equal to one made alone."""
     names = []
     for i in range(6):
         np.save(f"egg{i}.npy", egg(1 + i / 5, 3000))

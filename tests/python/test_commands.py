@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every command in the docs is run by a test, or stands below with the reason why none runs it.
+"""Every command in the docs is run by a test, or is listed below with the reason why none runs it.
 
-Commands stand in blocks of code and between backticks. Those of the command line that need no Blender are run here,
+Commands are in blocks of code and between backticks. Those of the command line that need no Blender are run here,
 those of build_addon.py are read by its parser, and of scripts the names and the options are looked for.
 """
 
@@ -163,7 +163,7 @@ def stl(triangles):
 
 @pytest.mark.parametrize("command", [c for c in ALL if "build_addon.py " in c])
 def test_build_addon_takes_its_words(command):
-    """Also those in brackets, which need not be there."""
+    """The options of a command, also the optional ones in brackets."""
     text = re.sub(r"\[(-[^\]]+?)( \.\.\.)?\]", r"\1", command.partition("build_addon.py ")[2])
     assert build_addon.parse(shlex.split(text)).command
 

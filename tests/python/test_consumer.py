@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The library for C++ from outside: public headers that stand alone, and a project that uses them both ways."""
+"""The library for C++ from outside: public headers that compile alone, and a project that uses them both ways."""
 
 import shutil
 import subprocess

@@ -123,7 +123,7 @@ def test_turned_grid_cube(medial, turn):
 
 
 def test_radius_is_the_distance_to_the_surface(extracted):
-    """Against the closed form for the ellipsoid: r^2 = c^2 (1 - x^2/(a^2 - c^2) - y^2/(b^2 - c^2))."""
+    """The closed form for the ellipsoid is r^2 = c^2 (1 - x^2/(a^2 - c^2) - y^2/(b^2 - c^2))."""
     mesh, ellipsoid = extracted("ellipsoid", 8000, 0), SHAPES["ellipsoid"]
     p, q = ellipsoid.axis_ellipse
     middle = (mesh.vertices[:, 0] / p) ** 2 + (mesh.vertices[:, 1] / q) ** 2 < 0.9

@@ -165,7 +165,7 @@ def test_exact_places_lie_on_the_voronoi_edges(sampled, name):
     points = shape.sample(2000, 0)
     nearest = np.linalg.norm(level.exact[:, None] - points, axis=2).min(axis=1)
     assert level.exact_radius == pytest.approx(nearest, rel=1e-12)
-    # In the order of the curve: of all the wires each new one stands for a piece.
+    # The exact places follow the curve: each new wire represents a piece of the old wires.
     assert lengths(level, level.exact).sum() < lengths(raw, raw.vertices).sum()
     assert lengths(level, level.exact).sum() > 0.9 * lengths(level, level.vertices).sum()
 
@@ -196,7 +196,7 @@ def test_a_level_that_is_not_relaxed_is_exact(sampled):
 @pytest.mark.parametrize("noise", [0.0, 0.25])
 @pytest.mark.parametrize("round_limbs", [False, True])
 def test_topology_stays(sampled, name, noise, round_limbs):
-    """As counted on the level by the library, and on the mesh by the test."""
+    """The library counts on the level, and the test counts on the mesh."""
     _, _, hierarchy = sampled(name, 2000, 0, noise)
     b0, b1, b2 = hierarchy.betti
     for chosen in ({}, CLEAN, {"sheet": 0.02}, {"erosion": 0.01, "limb": 0.01}, CURVE,
@@ -224,7 +224,7 @@ def test_ends_at_facets_and_junctions_stay(sampled):
 
 @pytest.mark.parametrize("scale", [2.0**-60, 2.0**60])
 def test_scale_changes_nothing(medial, scale):
-    """Nor does it matter where small numbers end: a power of two changes no digit."""
+    """A power of two changes no digit, so denormal numbers do not matter either."""
     points = SHAPES["knot"].random_sample(3000, 0)
     normals = SHAPES["knot"].normals(points)
     a, b = (
@@ -239,7 +239,7 @@ def test_scale_changes_nothing(medial, scale):
 
 
 def test_a_tube_of_few_samples_and_one_point_of_all(medial):
-    """Fewer than tell a canal: the wires stay as they are smoothed; a point stays a point."""
+    """Too few samples determine no canal: the wires are smoothed only; a point stays a point."""
     angle = 2 * math.pi * np.arange(5) / 5
     ring = np.column_stack((np.cos(angle), np.sin(angle), 0 * angle))
     points = np.concatenate([ring + np.array([0, 0, 3.0 * z]) for z in range(4)])
@@ -286,7 +286,7 @@ def test_the_curve_of_a_plate_is_no_round_limb(sampled):
 
 
 def test_round_limbs_are_part_of_all(sampled):
-    """And of the rest no facet is missing."""
+    """The option removes wires only: no facet is missing."""
     shed = 0
     for name, noise in (("oblate", 0.25), ("slab", 0.0), ("capsule", 0.0)):
         _, _, hierarchy = sampled(name, 2000, 0, noise)
@@ -379,7 +379,7 @@ def test_each_leg_of_spot_has_its_tip(data_file):
 @pytest.mark.parametrize("seed", range(4))
 def test_wires_far_from_samples_that_nearly_coincide_are_not_divided_without_end(seed):
     """Triangles at random that pass through each other: where samples nearly coincide, their spacing is next to
-    nothing, and the wires beside them are long."""
+    nothing, and the wires next to them are long."""
     vertices = np.random.default_rng(seed).normal(size=(54, 3))
     triangles = np.arange(54, dtype=np.int32).reshape(-1, 3)
     settings = Settings(samples=253, budget=1394, keep_vertices=True)

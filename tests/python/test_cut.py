@@ -12,7 +12,7 @@ from support.meshes import icosphere
 
 
 def axis_of(points, polygons):
-    """A medial axis of these polygons, whose attributes tell the facets apart."""
+    """A medial axis of these polygons, whose attributes identify the facets."""
     count = len(polygons)
     return MedialAxis(
         vertices=np.asarray(points, np.float64),

@@ -40,7 +40,7 @@ TEXTS = {
     ".map",
 }
 
-# Words that do not stand in the sources, each with whose it is.
+# Words that do not occur in the sources, each with its origin.
 FOREIGN = {
     "Parallel_tag": "CGAL",
     "suzanne_axis.py": "the user's own script",

@@ -18,7 +18,7 @@ CASES = [
 
 @pytest.mark.parametrize("name, turn", CASES)
 def test_bars(name, turn):
-    """As it lies (0), and turned at random and rounded to float32."""
+    """The mesh is as it is (turn 0), or rotated at random and rounded to float32."""
     shape, mesh = MESHED[name]
     frame = inputs.rotation(turn) if turn else np.eye(3)
     mesh = resampled.turned(mesh, frame) if turn else mesh

@@ -289,7 +289,7 @@ def test_off_holds_polygons(axis, tmp_path):
 
 
 def test_npz_holds_everything(axis, tmp_path):
-    """Exact balls under the names that every axis has; what is shown instead of them beside it."""
+    """Exact balls have the names that every axis has; the shown places have names of their own."""
     arrays = np.load(export_axis(axis, tmp_path / "a.npz"))
     wanted = {name: value for name, value in vars(axis).items() if name != "level"}
     if (level := axis.level) is not None:

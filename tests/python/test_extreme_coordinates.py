@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Coordinates at the ends of the documented range: the same axis, scaled or moved; rows too close to be told."""
+"""Coordinates at the ends of the documented range: the same axis, scaled or moved; rows that nearly coincide."""
 
 import numpy as np
 import pytest
@@ -99,7 +99,7 @@ def test_rows_that_can_be_told_are_several(medial, small):
     assert np.isfinite(analysis.rho).all() and np.isfinite(analysis.extract().vertices).all()
 
 
-# --- what else is told in lengths
+# --- other results that are lengths
 
 FRAMES = [
     *[(2.0**power, (0.0, 0.0, 0.0)) for power in (-160, -80, 80, 150)],

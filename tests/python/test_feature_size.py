@@ -46,7 +46,7 @@ CASES = {
 @pytest.mark.parametrize("theta, rho", [(np.pi / 8, 8.0), (0.8, 100.0), (0.0, 0.0)])
 @pytest.mark.parametrize("name", CASES)
 def test_distance_to_the_selected_vertices(study, name, theta, rho):
-    """By brute force: never nearer, and too far by the thinning at most; unbounded facets' finite vertices count."""
+    """Brute force gives a lower bound, exceeded by the thinning at most; finite vertices of unbounded facets count."""
     points = CASES[name]
     analysis = analysis_of(study, points)
     vertices = vertices_of_selected(study, analysis, points, theta=theta, rho=rho)

@@ -195,7 +195,7 @@ def test_topology_of_known_solids(sampled, name, seed):
 @pytest.mark.parametrize("name", SOLIDS)
 @pytest.mark.parametrize("noise", NOISE)
 def test_topology_of_noisy_solids(sampled, name, noise):
-    """By the normals of the clean surface; thin solids may be torn by the noise, levels are as their complex is."""
+    """The normals are those of the clean surface; noise may tear thin solids, and the levels are like their complex."""
     _, analysis, hierarchy = sampled(name, 2000, 0, noise)
     assert_levels_hold(hierarchy, analysis)
 
@@ -212,7 +212,7 @@ def test_sixteen_levels_of_noisy_solids(sampled, name, noise):
     "name, noise", [("slab", 0.25), ("torus", 0.1), ("capsule", 0.0), ("box", 0.0)]
 )
 def test_levels_are_what_lies_above_their_thresholds(sampled, name, noise):
-    """Whatever is drawn of a level is what its values say, and the stricter level is part of the looser one."""
+    """The values determine the drawn cells of a level, and a stricter level is part of a looser one."""
     _, analysis, hierarchy = sampled(name, 2000, 0, noise)
     levels = Levels(hierarchy, analysis)
     for chosen in THRESHOLDS:

@@ -496,7 +496,7 @@ def damaged(data, rng):
 
 @pytest.mark.parametrize("name", FUZZED)
 def test_damaged_files_are_read_or_refused(name, file):
-    """Whatever is found keeps what ImportedPoints promises; nothing else than our errors is raised."""
+    """Every result satisfies the promises of ImportedPoints; the only exceptions are our errors."""
     rng = np.random.default_rng(5)
     content, outcomes = FUZZED[name].encode(), set()
     for _ in range(1500):

@@ -239,7 +239,7 @@ def umbrella_is_disc(triangles):
     ],
 )
 def test_umbrellas_of_dense_closed_samples_are_discs(study, name, chi):
-    """And they make a closed surface: sum |U_p| / n = 6 (1 - chi / n)."""
+    """They make a closed surface: sum |U_p| / n = 6 (1 - chi / n)."""
     points = shapes.SHAPES[name].sample(4000, 1)
     offsets, triangles = study.umbrellas(points)
     umbrellas = np.split(triangles, offsets[1:-1])

@@ -270,7 +270,7 @@ def test_every_public_header_is_in_a_table():
 
 @pytest.mark.parametrize("path", native_files("include"), ids=lambda path: path.name)
 def test_public_headers_see_only_public_ones(path):
-    """And the standard library, whose headers have no ending."""
+    """Public headers include public headers and the standard library, whose headers have no ending."""
     assert path.suffix == ".h", "nothing is compiled here"
     for name in includes_of(path):
         if "." in name or "/" in name:

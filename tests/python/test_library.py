@@ -26,7 +26,7 @@ def egg(count=2000):
 
 
 def test_import_is_cheap():
-    """Neither NumPy nor the compiled module nor Blender, and no name but those that are offered."""
+    """The import loads neither NumPy nor the compiled module nor Blender, and adds only the offered names."""
     code = (
         f"import sys; sys.path[:0] = {[str(medial_axis.__path__[0]) + '/..']!r}; "
         "import importlib.util as u; "

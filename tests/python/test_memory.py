@@ -450,7 +450,7 @@ def test_command_line_thins_and_resumes(here, capsys):
     assert '"status": "kept"' in capsys.readouterr().out
     assert cli.main(["egg.npy", "egg.ma", "--json"]) == cli.DONE  # all points: another output
     assert '"status": "done"' in capsys.readouterr().out
-    assert cli.main(words) == cli.DONE  # more than was asked for is kept
+    assert cli.main(words) == cli.DONE  # more than was requested is kept
     assert '"status": "kept"' in capsys.readouterr().out
 
 
@@ -493,7 +493,7 @@ def test_what_says_nothing_of_its_points_is_read(tmp_path, name):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
 def test_a_limit_of_addresses_counts(tmp_path):
-    """As by ulimit -v."""
+    """Limits the addresses like ulimit -v."""
     program = (
         "import resource, sys; sys.path.insert(0, sys.argv[1]);"
         "import conftest; from medial_axis.core.machine.free_memory import free_memory;"

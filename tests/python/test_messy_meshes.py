@@ -168,7 +168,7 @@ def test_open_meshes_say_so(medial, computed, name):
 
 @pytest.mark.parametrize("sampling", [SamplingMode.SURFACE, SamplingMode.VERTICES])
 def test_faces_that_look_inward_say_so(computed, sampling):
-    """As a warning beside an empty axis, or as a refusal."""
+    """A warning goes with an empty axis, or the computation is refused."""
     try:
         _, result = computed("inside out", sampling=sampling)
     except (DegenerateInputError, InvalidInputError) as refusal:

@@ -279,7 +279,7 @@ def test_limit_set_removes_fins_of_a_tube(medial):
 
 @pytest.mark.parametrize("name", ["torus", "knot"])
 def test_limit_set_leaves_tubes_of_8000_samples_as_they_are(medial, name):
-    """As the README and the panel say: it acts on dense samples only."""
+    """It acts on dense samples only, as the README and the panel say."""
     analysis = medial.MedialAnalysis(shapes.SHAPES[name].sample(8000, 0))
     inner = {"side": medial.Side.INNER}
     plain, limited = (analysis.extract(**inner, limit_set=x).generators for x in (False, True))

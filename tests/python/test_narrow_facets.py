@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Facets of some width are never dropped, however narrow they are beside the balls at their vertices."""
+"""Facets of some width are never dropped, however narrow they are relative to the balls at their vertices."""
 
 import numpy as np
 import pytest

@@ -74,7 +74,7 @@ def test_file_is_loaded_where_the_system_refuses_files_in_memory(file):
 
 @needs_memory_files
 def test_file_is_loaded_where_the_system_refuses_libraries_in_memory(file):
-    """As where such files may not be executed; here the loader finds nothing in the file that it is given."""
+    """Some systems forbid executing such files; here the loader finds an empty file instead."""
     said = play(
         """
         os.memfd_create = lambda name: os.open(os.devnull, os.O_RDWR)

@@ -100,7 +100,7 @@ def bodies_seen(study, points, bodies, vertices):
 )
 @pytest.mark.parametrize("body", [BALL, CUBE, wedge(60)], ids=["ball", "cube", "wedge"])
 def test_no_body_is_lost(study, body, gap, size):
-    """However much smaller than the distance between samples, and closer. Samples are the vertices."""
+    """A body counts even if it is smaller and closer than the distance between samples, which are the vertices."""
     low = (size * body[0][:, 0]).min()
     other = beside(body, size, BALL[0][:, 0].max() + gap - low)
     points, triangles = meshes.join(BALL, other)

@@ -59,7 +59,7 @@ def test_random_points_equal_the_reference(study, seed):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_thin_shell_is_told_exactly(medial, seed):
-    """A wall hardly thicker than the spacing, about a cavity: Tight Cocone tells a third of its facets, poles all."""
+    """A wall hardly thicker than the spacing, about a cavity: Tight Cocone finds a third of its facets, poles all."""
     shape = SHAPES["shell"]
     points = shape.sample(2000, seed)
     exact = exactly_inner(medial, points, shape)

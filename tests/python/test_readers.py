@@ -41,7 +41,7 @@ def test_others_read_triangles(axis, reader, suffix, tmp_path):
 
 @pytest.mark.parametrize("reader", ["ours", *NAMES])
 def test_an_infinite_rho_is_read_too(axis, reader, tmp_path):
-    """As small medial meshes have."""
+    """Small medial meshes have an infinite rho."""
     without = replace(axis, rho=np.full(axis.facets, np.inf), theta=np.full(axis.facets, np.inf))
     path = medial_axis.write(without, tmp_path / "a.ply", triangles=True)
     if reader == "ours":
@@ -90,7 +90,7 @@ def test_the_other_formats_are_as_ever(axis, suffix, tmp_path):
 
 
 def wired(axis, facets=True):
-    """With two edges and a vertex beside the facets, or in their place."""
+    """The axis has two edges and a vertex in addition to the facets, or instead of them."""
     extra = np.array([(9, 9, 9), (9, 9, 10), (9, 10, 9), (8, 8, 8)], float)
     first = len(axis.vertices) if facets else 0
     changes = {

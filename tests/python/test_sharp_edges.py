@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Samples beside sharp edges mirror each other, and the axis of what they are sampled from is clean there."""
+"""Samples near sharp edges mirror each other, and the axis of their surface is clean there."""
 
 import numpy as np
 import pytest

@@ -287,7 +287,7 @@ def test_sides_do_not_depend_on_the_bounding_sphere(medial, name):
 
 @pytest.mark.parametrize("name", ALL)
 def test_winding_number_is_on_the_right_side_of_one_half(medial, name):
-    """And within 0.1 of the sum of the solid angles: inside, outside, near the surface, far away."""
+    """It is also within 0.1 of the sum of the solid angles: inside, outside, near the surface, far away."""
     points, triangles = ALL[name]
     rng = np.random.default_rng(3)
     near = points[rng.integers(0, len(points), 500)] * (1 + rng.normal(size=(500, 1)) * 0.02)

@@ -46,7 +46,7 @@ def analysis_of(medial, points, triangles=None, sides="AUTOMATIC", **options):
     ],
 )
 def test_automatic(medial, triangles, normals, chosen):
-    """The faces when they close a volume, else the normals, else Tight Cocone; exactly as when it is asked for."""
+    """The faces when they close a volume, else the normals, else Tight Cocone; an explicit choice gives the same."""
     found = medial.MedialAnalysis(CLOSED[0], triangles, normals=normals)
     assert found.sides_from == getattr(medial.SidesFrom, chosen)
     assert (found.tight_cocone is None) == (chosen != "TIGHT_COCONE")
@@ -57,7 +57,7 @@ def test_automatic(medial, triangles, normals, chosen):
 
 @pytest.mark.parametrize("chosen", ["SURFACE", "NORMALS", "TIGHT_COCONE", "POLES", "NONE"])
 def test_what_is_asked_for_is_used(medial, chosen):
-    """Also with everything given; and the faces are looked at all the same."""
+    """The choice holds even if everything is given; the faces are examined all the same."""
     analysis = analysis_of(medial, *OPEN, chosen, normals=OUTWARD)
     assert analysis.sides_from == getattr(medial.SidesFrom, chosen)
     assert (analysis.tight_cocone is None) == (chosen != "TIGHT_COCONE")

@@ -197,7 +197,7 @@ def test_the_same_ends_at_every_density_and_however_turned(data_file, name, tips
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_limb_that_is_cut_flat_ends_in_the_ball_that_touches_its_end(seed):
-    """And in no corner of it: a rod of radius 0.2 from -1 to 1."""
+    """No joint lies in a corner of the solid, a rod of radius 0.2 from -1 to 1."""
     points, triangles = rod()
     frame = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
     frame *= np.sign(np.linalg.det(frame))

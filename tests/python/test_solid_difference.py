@@ -98,7 +98,7 @@ def test_a_smaller_box(medial):
 
 
 def test_a_part_that_is_missing_counts_whichever_way_it_is_asked(medial):
-    """Two cubes beside one: only the way from the second cube is far."""
+    """Two cubes are compared with one: only the distance from the second cube is large."""
     one = box()
     far = box(offset=3.0)
     two = Shape(

@@ -85,7 +85,7 @@ def test_the_surface_as_separate_samples_see_it(medial):
 
 
 def test_a_bounding_sphere_is_no_part_of_the_solid(medial):
-    """However far outside the surface says that inside is."""
+    """The surface may be larger than the sphere: its inside then contains the sphere."""
     vertices, triangles = meshes.icosphere(2, 10.0)
     points = SHAPES["ellipsoid"].random_sample(500, 1)
     analysis = medial.MedialAnalysis(points, triangles, vertices=vertices, bounding_sphere=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The words of the docs are spelt as in British English, or stand in words_of_the_docs.txt.
+"""The words of the docs are spelt as in British English, or are listed in words_of_the_docs.txt.
 
 By hunspell with its British dictionary; where these are absent, the tests are skipped by name. The list holds terms of
 the field, and names of people, programs and meshes, in any case.

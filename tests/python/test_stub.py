@@ -15,7 +15,7 @@ NONE = "no default"
 
 
 class Stub:
-    """What a stub declares itself, by name."""
+    """The classes and functions that a stub declares itself, by name."""
 
     def __init__(self, path, *shared):
         text = path.read_text(encoding="utf-8")

@@ -6,16 +6,8 @@ import json
 import numpy as np
 import pytest
 from medial_axis import cli
+from support.meshes import write_off
 from support.thick_meshes import block
-
-
-def write_off(path, mesh):
-    vertices, triangles = mesh
-    rows = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
-    rows += [" ".join(map(repr, row)) for row in vertices.tolist()]
-    rows += [f"3 {a} {b} {c}" for a, b, c in triangles.tolist()]
-    path.write_text("\n".join(rows) + "\n")
-    return str(path)
 
 
 @pytest.fixture

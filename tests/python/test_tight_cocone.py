@@ -159,7 +159,7 @@ def test_facets_are_inner_where_all_cells_and_voronoi_vertices_are(study, surfac
 
 @pytest.mark.parametrize("name, n", CASES)
 def test_inner_facets_do_not_depend_on_the_bounding_sphere(medial, name, n):
-    """But for some at flat cells on the surface, where the sphere changes the cells outside."""
+    """Some facets at flat cells on the surface differ, because the sphere changes the cells outside."""
     inner = [
         set(map(tuple, analysis.edges[analysis.select(side=medial.Side.INNER)].tolist()))
         for analysis in (

@@ -81,7 +81,7 @@ def test_depth_is_the_distance_to_the_surface(name):
 
 @pytest.mark.parametrize("name", [*SHAPES, *MORE_SHAPES])
 def test_random_samples_lie_on_the_surface_evenly(name):
-    """As those of the mesh, beyond a plane of each axis."""
+    """Their share beyond a plane of each axis is that of the mesh."""
     shape = ALL[name]
     points = shape.random_sample(4000, 7)
     assert np.abs(shape.field(points)).max() < 1e-6

@@ -84,7 +84,7 @@ def test_two_files_of_the_module_live_side_by_side(tmp_path):
 
 
 def test_two_packages_live_side_by_side(tmp_path):
-    """As Blender has an extension beside what pip installed: two folders, two names."""
+    """Blender may have the extension and pip a package: two folders, two names."""
     folder = Path(medial_axis.__file__).parent
     copy = shutil.copytree(folder, tmp_path / "copy", ignore=shutil.ignore_patterns("__pycache__"))
     run(TWO_PACKAGES, folder, copy)

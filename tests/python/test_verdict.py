@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The traffic light of a computation, and the sentence that stands beside it."""
+"""The traffic light of a computation, and the sentence next to it."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""No wrong axis in silence: walls closer than the samples are told by the faces, refined, and said."""
+"""No axis is silently wrong: the faces reveal walls closer than the samples, which are refined and reported."""
 
 import json
 import re
@@ -99,7 +99,7 @@ def test_a_sheet_of_some_thickness_is_not_taken_for_one_without(thickness):
 
 
 def test_sheets_without_thickness_bound_nothing():
-    """A sheet that is there twice, and turned, beside a block."""
+    """A sheet that is there twice, and rotated, next to a block."""
     sheet = np.array([(1, 1, 0), (2, 1, 0), (2, 2, 0), (1, 2, 0)], float)
     twice = np.array([(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], np.int32)
     block = meshes.box((1, 1, 1), (0.3, 0.3, 0.3))

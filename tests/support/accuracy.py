@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the axis of sampled shapes may lie from the exact one, as `measure.errors` tells it.
+"""Bars of the distances between the axis of sampled shapes and the exact one, as `measure.errors` reports them.
 
 The bars are the worst of 5 seeds times 1.5, measured with an independent exact implementation.
 """

@@ -95,7 +95,7 @@ def in_turn(ring, number, edges) -> list[int]:
 
 
 def betti(c: Complex) -> tuple[int, int, int]:
-    """By ranks of the boundary matrices over the two elements 0 and 1."""
+    """Betti numbers by ranks of the boundary matrices over the two elements 0 and 1."""
     d1 = [sum(1 << v for v in e) for e in c.edges]
     d2 = [sum(1 << e for e in own) for own in c.edges_of_facet]
     d3 = [sum(1 << f for f, g in enumerate(c.generators) if p in g) for p in c.bubbles]

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Closed and open triangle meshes: (vertices (n, 3) float64, triangles (m, 3) int32, outward)."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -187,10 +186,6 @@ def flip(mesh: Mesh) -> Mesh:
     return mesh[0], np.ascontiguousarray(mesh[1][:, ::-1])
 
 
-def warp(mesh: Mesh, function: Callable) -> Mesh:
-    return function(mesh[0]), mesh[1]
-
-
 def jitter(mesh: Mesh, amount: float, seed: int = 0) -> Mesh:
     """General position: every vertex moved by up to `amount` along each axis."""
     vertices, triangles = mesh
@@ -202,6 +197,16 @@ def jitter(mesh: Mesh, amount: float, seed: int = 0) -> Mesh:
 def nested_shell(subdivisions: int = 2) -> Mesh:
     """A ball with a round cavity: the inner sphere faces inward."""
     return join(icosphere(subdivisions, 1.0), flip(icosphere(subdivisions, 0.6, (0.1, 0.05, 0.0))))
+
+
+def write_off(path: Path, mesh: Mesh) -> str:
+    """Writes every coordinate in full, and returns the path as text."""
+    vertices, triangles = mesh
+    rows = [f"OFF\n{len(vertices)} {len(triangles)} 0"]
+    rows += [" ".join(map(repr, row)) for row in vertices.tolist()]
+    rows += [f"3 {a} {b} {c}" for a, b, c in triangles.tolist()]
+    path.write_text("\n".join(rows) + "\n")
+    return str(path)
 
 
 def read_off(path: Path) -> Mesh:

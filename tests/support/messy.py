@@ -126,7 +126,7 @@ DAMAGED: dict[str, tuple[str, Callable[[Mesh], Mesh]]] = {
 
 
 def load(name: str, find: Find) -> Mesh:
-    """By name; `find` gives the path of a file of the data folder."""
+    """Loads a mesh by its name; `find` gives the path of a file of the data folder."""
     if name in MADE:
         return MADE[name]()
     file, damage = DAMAGED.get(name, (name, lambda mesh: mesh))

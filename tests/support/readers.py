@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Readers of meshes that others wrote, as far as they are installed: {name: path -> (vertices, faces, area)}.
+"""Readers of meshes that others wrote, those that are installed: {name: path -> (vertices, faces, area)}.
 
 They come from PyPI for this check alone; `READERS` has those that are there.
 """

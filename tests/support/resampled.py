@@ -29,7 +29,7 @@ def of_surface(mesh: Mesh, count: int, **options: Any) -> Any:
 
 
 def graded(medial: Any, mesh: Mesh, count: int, ratio: float = 10.0) -> tuple[Any, Any]:
-    """So many samples with spacings that grow by `ratio` along x, and the inner axis, by the bare module."""
+    """Samples whose spacings grow by `ratio` along x, and their inner axis, by the bare module."""
     vertices, triangles = mesh
     sites = distance.points_on_triangles(vertices[triangles], 5000, np.random.default_rng(0))
     along = (sites[:, 0] - sites[:, 0].min()) / np.ptp(sites[:, 0])

@@ -70,7 +70,7 @@ def close_walls(
         Gaps are not looked for.
     """
     walls = chosen.samples.walls_to_show
-    if walls is None or between is not Between.WALLS or not len(walls.area):
+    if walls is None or between is not Between.WALL or not len(walls.area):
         return no_close_walls()
     near = np.flatnonzero(np.isfinite(walls.distance))
     with native.own_errors() as module:

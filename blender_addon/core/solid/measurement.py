@@ -121,7 +121,7 @@ class Measurement:
 
         Every place on the surface of a solid has an opposite wall, so an infinite thickness was not measured.
         """
-        left_out = self.settings.edges is Edges.GREY or self.settings.between is not Between.WALLS
+        left_out = self.settings.edges is Edges.GREY or self.settings.between is not Between.WALL
         if left_out:
             return 0.0
         if not len(self.triangles):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs each scene of scenes.py in a Blender window under Xvfb, and tells which passed."""
+"""Runs each scene of scenes.py in a Blender window under Xvfb, and reports which passed."""
 
 from __future__ import annotations
 

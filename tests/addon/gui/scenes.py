@@ -739,7 +739,7 @@ def scene_undo_storm():
 
 
 def storm(strokes, heights):
-    """As many undos, then as many redos, with hardly a pause; where the camera is in between."""
+    """Undoes `strokes` times, then redoes as often, with hardly a pause; adds the camera's heights in between."""
     area = viewport()
     yield from point(area.x + area.width // 4, window().height - (area.y + area.height // 3))
     for name in ("ctrl+z", "ctrl+shift+z"):
