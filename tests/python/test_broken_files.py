@@ -121,6 +121,17 @@ def test_ply_says_what_is_wrong(tmp_path, header, words):
         import_points(tmp_path / "a.ply")
 
 
+@pytest.mark.parametrize("rows", [-1, 10**30])
+def test_ply_with_a_count_that_is_none(tmp_path, rows):
+    """An element without properties takes no bytes, so the length of the file says nothing about its rows."""
+    header = f"element other {rows}\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+    (tmp_path / "a.ply").write_bytes(
+        f"ply\nformat binary_little_endian 1.0\n{header}end_header\n".encode() + bytes(12)
+    )
+    with pytest.raises(ReadError, match="Expected a header of PLY in line 3"):
+        import_points(tmp_path / "a.ply")
+
+
 def test_ply_with_a_negative_count(tmp_path):
     data = ply("binary_little_endian", MIXED).replace(b"list uchar", b"list char")
     start = data.index(b"end_header\n") + len(b"end_header\n") + 24 * len(POINTS)

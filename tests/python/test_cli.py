@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import PACKAGE
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.batch import axis_work, batch, option_words
@@ -30,6 +29,7 @@ from medial_axis.core.settings import (
     Settings,
     Side,
 )
+from support.package import PACKAGE
 
 ROOT = Path(__file__).resolve().parents[2]
 GOLDEN = np.pi * (1 + 5**0.5)

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import PACKAGE, ROOT
+from support.package import PACKAGE, ROOT
 from support.shape_meshes import of_ellipsoid
 from support.shapes import SHAPES
 from test_cli import documented, program, write_egg, write_input  # noqa: F401 - a fixture

@@ -7,7 +7,6 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
 from medial_axis.core.machine.memory_limit import LIMITS
 from medial_axis.core.options import Switch
 from medial_axis.core.settings import (
@@ -15,6 +14,7 @@ from medial_axis.core.settings import (
     OPTIONS,
     THICKNESS_OPTIONS,
 )
+from support.package import ROOT
 from test_layers import CORE, MAY_IMPORT, MAY_INCLUDE
 
 from tests.wrap_docs import WRITTEN, wrap

@@ -197,6 +197,16 @@ def test_front_doors_import_without_blender(path):
     assert not {module for module in outside if module.split(".")[0] in BLENDER_MODULES}
 
 
+@pytest.mark.parametrize("folder", ["blender_addon", "native", "tests"])
+def test_product_and_tests_do_without_the_laboratory(folder):
+    """The laboratory sees the tests' helpers; the product and its tests do not see the laboratory."""
+    files = sorted((ROOT / folder).rglob("*.py"))
+    assert files
+    for path in files:
+        outside, _ = imports_of(path.read_text(encoding="utf-8"), "")
+        assert "lab" not in {name.split(".")[0] for name in outside}, path
+
+
 # --- C++
 
 

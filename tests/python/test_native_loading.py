@@ -8,7 +8,7 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from conftest import PACKAGE
+from support.package import PACKAGE
 
 needs_memory_files = pytest.mark.skipif(
     not hasattr(os, "memfd_create"), reason="the system has no files in memory"

@@ -11,7 +11,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import ROOT
+from support.package import ROOT
 from test_docs import PAGES, prose
 
 pytestmark = pytest.mark.docs

@@ -32,6 +32,7 @@ _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _POSITION, _NORMAL = ("x", "y", "z"), ("nx", "ny", "nz")
 _CORNERS = ("vertex_indices", "vertex_index")
 _LONGEST = 1 << 16  # bytes of a line of the header; a file that is no PLY may have no lines
+_MOST_ROWS = 10**18  # no file holds as many, and larger counts do not fit into 64 bits
 
 
 @dataclass
@@ -138,7 +139,7 @@ def _take(words: list[str], order: str | None, elements: list[_Element]) -> str 
         if words[1] in ("vertex", "face") and any(x.name == words[1] for x in elements):
             raise ReadError(f"Expected one element '{words[1]}' in a PLY file, found two; split it")
         elements.append(_Element(words[1], int(words[2])))
-        if elements[-1].rows < 0:
+        if not 0 <= elements[-1].rows < _MOST_ROWS:
             raise ValueError
     elif words[:2] == ["property", "list"]:
         entry = _Property(words[4], _TYPES[words[3]], _TYPES[words[2]])
