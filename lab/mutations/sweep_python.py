@@ -125,7 +125,7 @@ def sweep(tests: Tests, words: list[str], results: Path) -> None:
             raise SystemExit(
                 f"Expected a test that passes without a bug, found {failed}; mend it first."
             )
-        found[key(mutation)] = failed or SURVIVED
+        found[key(mutation)] = failed.partition("[")[0] or SURVIVED
         print(f"{key(mutation)}  ->  {found[key(mutation)]}", flush=True)
         results.write_text(json.dumps(found, indent=1))
     publish(found)

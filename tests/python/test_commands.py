@@ -65,6 +65,7 @@ NOT_RUN = {
     "python3 -m lab.race": "half an hour; its parts have tests of their own in test_race.py",
     "python3 lab/benchmarks/": "minutes, with meshes of the optional data folder",
     "python3 lab/mutations/sweep.py": "half an hour; test_mutations.py tries that every fault fits",
+    "python3 lab/mutations/sweep_python.py": "ten minutes; test_mutations.py tries that every bug fits",
     "python3 lab/pictures/": "renders pictures",
     "python3 tests/fuzz.py": "minutes; the tests run a tenth of it",
     "python3 tests/readers.py": "needs programs of others",

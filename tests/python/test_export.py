@@ -529,3 +529,12 @@ def test_extension_in_capitals(tmp_path):
 
 def test_formats_are_the_documented_ones():
     assert tuple(FORMATS) == EXTENSIONS
+
+
+@pytest.mark.parametrize("scales", [(2.0, 2.0, 1.0), (2.0, 1.0, 1.0), (1.0, 1.0, 0.0)])
+def test_uneven_scales_are_refused(scales):
+    from medial_axis.core.errors import ExportError
+    from medial_axis.core.files.placing import parts_of
+
+    with pytest.raises(ExportError, match="scaled evenly"):
+        parts_of(np.diag([*scales, 1.0]))

@@ -275,3 +275,13 @@ def test_an_axis_without_faces_is_written(tmp_path, suffix):
     found = computed(SHAPES["torus"][0])
     path = medial_axis.write(found, tmp_path / f"ring{suffix}")
     assert Path(path).stat().st_size > 1_000
+
+
+def test_an_axis_of_as_many_pieces_as_the_faces_is_not_torn():
+    from types import SimpleNamespace
+
+    from medial_axis.core.axis.topology import _why
+
+    samples = SimpleNamespace(buried=0)
+    assert _why((1, 0, 0), (1, 1, 0), samples).startswith("walls or gaps are thinner")
+    assert _why((2, 0, 0), (1, 0, 0), samples).startswith("some parts are thinner")

@@ -594,3 +594,9 @@ def test_limbs_stay_and_ridges_go():
 def test_each_point_of_a_chain_has_its_own_tolerance(tolerance, kept):
     points = np.array([(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)])
     assert kept_points(points, np.array(tolerance)).tolist() == kept
+
+
+def test_an_image_is_as_far_behind_the_plane():
+    from medial_axis.core.skeleton.mirror import _image
+
+    assert _image(np.array([(1.0, 2.0, 3.0)]), 5.0).tolist() == [[9.0, 2.0, 3.0]]
