@@ -127,6 +127,12 @@ def _read_header(stream: BinaryIO, name: str) -> tuple[str, list[_Element], int]
             )
     if order is None:
         raise ReadError(f"Expected a line 'format' in the header of '{name}', found none; add it")
+    for element in elements:
+        if element.rows and not element.properties:
+            raise ReadError(
+                f"Expected properties of the element '{element.name}' in the header of '{name}', found "
+                "none; take the file from its source again"
+            )
     return order, elements, lines
 
 

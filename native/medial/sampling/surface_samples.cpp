@@ -184,9 +184,9 @@ class Division {
            const Spacing& spacing)
       : line_(measured(model, chain, spacing)),
         closed_(!begins_at_corner(model, chain, keep_vertices)) {
-    constexpr double kRounding = 1e-9;  // a length that is a multiple of the spacing
+    constexpr double kNearlyWhole = 1e-9;  // a length that is a multiple of the spacing
     const double least = closed_ ? 3 : 1, total = line_.knots.back().passed;
-    parts_ = std::max(least, std::ceil(total * (1 - kRounding)));
+    parts_ = std::max(least, std::ceil(total * (1 - kNearlyWhole)));
     if (!(parts_ < kMostSamples)) parts_ = 0;  // the caller has counted them
   }
 
