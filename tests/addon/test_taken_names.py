@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an artist named, changed or took away: one sentence or a result that is whole, never a traceback."""
+"""Names that are taken, and groups and properties that were changed, give one sentence or a whole result."""
 
 import bpy
 import pytest

@@ -186,7 +186,7 @@ class _Text:
         return self._read_lists(element, rows)
 
     def _check_finite(self, element: _Element, rows: Rows, table: NDArray[np.float64]) -> None:
-        """Of what is read; what is passed over may be as its program left it."""
+        """Check the columns that are read; the others may hold anything."""
         names = [entry.name for entry in element.properties]
         used = [i for i, name in enumerate(names) if name in _POSITION + _NORMAL]
         bad = np.argwhere(~np.isfinite(table[:, used]))

@@ -399,7 +399,7 @@ Turn sample_count(const Model& model, const SamplingOptions& options, const Run&
   constexpr int kTurns = 8;
   const auto wanted = static_cast<double>(*options.count);
   const auto error = [&](const Turn& t) { return std::abs(t.count() - wanted); };
-  // Of spikes, all length and no area, the creases alone would take any number of samples.
+  // On spikes, which have length and no area, the creases alone would take any number of samples.
   const double longest = crease_length(model) / (kMostOnCreases * wanted);
   Spacing spacing{std::max(std::sqrt(kHexagonal * model.area / wanted), longest)};
   Turn best = sample_once(model, options, spacing, run), last = best;
