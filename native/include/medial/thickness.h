@@ -10,9 +10,8 @@
 namespace medial {
 
 // The mode chooses the length that is measured at a sample p with the outward unit normal n_p. The
-// ball that is tangent at p
-// and touches q has the diameter |pq|^2 / (n_p . (p - q)); the least over the selected facets (p,
-// q) is what fits there.
+// ball that is tangent at p and touches q has the diameter |pq|^2 / (n_p . (p - q)); the smallest
+// one over the selected facets (p, q) fits there.
 //   wall  of the balls whose two normals differ by 120 degrees or more, as those of walls that face
 //         each other do. Elsewhere, as next to an edge, where the ball shrinks to nothing, that of
 //         the nearest wall along the surface, or where none is near that of the largest ball, but
