@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small bugs in the Python of the core, at least one in each of its rooms: the tests are measured by them.
+
+A mutation replaces `old`, which occurs exactly once in its file, by `new`. `sweep_python.py` makes each and runs the
+test files that it names, in their order.
+"""
+
+from pathlib import Path
+
+from mutations import Mutation
+
+SOURCES = Path("blender_addon/core")
+
+
+class PythonMutation(Mutation):
+    """`file` is below blender_addon/core; `python` names the test files that most likely notice the bug."""
+
+    @property
+    def path(self) -> Path:
+        return SOURCES / self.file
+
+
+def _bug(file: str, old: str, new: str, breaks: str, *tests: str) -> PythonMutation:
+    return PythonMutation(file, old, new, breaks, tests)
+
+
+MUTATIONS = (
+    # ---- machine
+    _bug(
+        "machine/cache.py",
+        'part.dtype.str} {part.shape};".encode()',
+        'part.dtype.str} {part.size};".encode()',
+        "keys ignore the shape of an array",
+        "test_cache.py",
+    ),
+    _bug(
+        "machine/cache.py",
+        "self._kept.popitem(last=False)",
+        "self._kept.popitem(last=True)",
+        "the newest analysis is dropped first",
+        "test_cache.py",
+        "test_memory.py",
+        "test_skeleton.py",
+    ),
+    _bug(
+        "machine/memory_limit.py",
+        "if needed > room:",
+        "if needed > 2 * room:",
+        "an analysis may need twice the limit",
+        "test_memory.py",
+    ),
+    _bug(
+        "machine/free_memory.py",
+        "return max(0, most - used + (",
+        "return max(0, most - used - (",
+        "memory that can be dropped counts as used twice",
+        "test_memory.py",
+    ),
+    # ---- samples
+    _bug(
+        "samples/thinning.py",
+        "key=lambda step: len(rows(step))) - 1",
+        "key=lambda step: len(rows(step)))",
+        "a thinned cloud has more points than the limit allows",
+        "test_memory.py",
+    ),
+    _bug(
+        "samples/choose_samples.py",
+        'names = ("sharp_angle", "smooth", "keep_vertices", "seed")',
+        'names = ("sharp_angle", "smooth", "keep_vertices")',
+        "the seed does not reach the sampling",
+        "test_cache.py",
+    ),
+    _bug(
+        "samples/density.py",
+        "return bool(self.at_edge.all()) or self.share <= DENSE_ENOUGH",
+        "return bool(self.at_edge.any()) or self.share <= DENSE_ENOUGH",
+        "one sample at a sharp edge makes all samples dense enough",
+        "test_density.py",
+        "test_sampling.py",
+    ),
+    _bug(
+        "samples/noise.py",
+        "heads = near[:, [1, 2, 2, 0, 0, 1]].ravel()",
+        "heads = near[:, [1, 2, 2, 0, 0, 0]].ravel()",
+        "noise misses one of the neighbours",
+        "test_density.py",
+        "test_thickness.py",
+        "test_sampling.py",
+    ),
+    _bug(
+        "samples/shape.py",
+        "self.points[self.triangles[:, corner]] - self.points[0] for corner",
+        "self.points[self.triangles[:, corner]] for corner",
+        "the volume is measured from the origin",
+        "test_sampling.py",
+        "test_extreme_coordinates.py",
+        "test_equality.py",
+    ),
+    _bug(
+        "samples/buried_samples.py",
+        "    if shape.volume < 0:\n",
+        "    if shape.volume > 0:\n",
+        "buried samples are left out only where faces point inward",
+        "test_sampling.py",
+        "test_solid_difference.py",
+        "test_messy_meshes.py",
+    ),
+    # ---- axis
+    _bug(
+        "axis/cut.py",
+        "large[0] = True",
+        "large[-1] = True",
+        "the smallest piece always stays, not the largest",
+        "test_cut.py",
+    ),
+    _bug(
+        "axis/cut.py",
+        "inside = (np.abs(axis.vertices - middle) <= half).all(axis=1)",
+        "inside = (np.abs(axis.vertices - middle) <= half).any(axis=1)",
+        "a vertex inside the box along one axis is inside",
+        "test_cut.py",
+    ),
+    _bug(
+        "axis/colours.py",
+        "return min(float(np.min(radii)), largest / 2), largest",
+        "return max(float(np.min(radii)), largest / 2), largest",
+        "the colour scale cuts small radii off",
+        "test_colours.py",
+    ),
+    _bug(
+        "axis/verdict.py",
+        "if isinstance(warning, Severe):",
+        "if isinstance(warnings[0], Severe):",
+        "only the first warning can be severe",
+        "test_verdict.py",
+    ),
+    _bug(
+        "axis/topology.py",
+        "torn = betti[0] > by_faces[0]",
+        "torn = betti[0] >= by_faces[0]",
+        "an axis of as many pieces as the faces counts as torn",
+        "test_hierarchy.py",
+        "test_forms.py",
+        "test_sampling.py",
+    ),
+    # ---- solid
+    _bug(
+        "solid/thin_parts.py",
+        "thin = found.of_triangles < limit - found.slack",
+        "thin = found.of_triangles <= limit + found.slack",
+        "a wall as thick as the limit is thin",
+        "test_thickness.py",
+    ),
+    _bug(
+        "solid/thin_parts.py",
+        "np.where(large, np.cumsum(large) - 1, -1)",
+        "np.where(large, np.cumsum(large), -1)",
+        "patches are numbered from 1",
+        "test_thickness.py",
+    ),
+    _bug(
+        "solid/measurement.py",
+        "np.minimum(np.maximum(a, b), c))",
+        "np.maximum(np.maximum(a, b), c))",
+        "the length of a triangle is the maximum, not the median",
+        "test_thickness.py",
+    ),
+    _bug(
+        "solid/close_walls.py",
+        "convex & (turned < -math.cos(_ACUTE))",
+        "~convex & (turned < -math.cos(_ACUTE))",
+        "wedges of air hide close walls, and wedges of the solid do not",
+        "test_close_walls.py",
+        "test_thickness.py",
+    ),
+    _bug(
+        "solid/ball_cover.py",
+        "settings = replace(settings, side=Side.INNER)",
+        "settings = replace(settings)",
+        "balls may be those of the outside",
+        "test_ball_cover.py",
+        "test_cache.py",
+        "test_balls_cli.py",
+    ),
+    _bug(
+        "solid/thickness_colours.py",
+        "return BLUE * red, (2.0 - BLUE) * red",
+        "return BLUE * red, 0.0",
+        "red is not half-way between the colours of thickness",
+        "test_thickness.py",
+        "test_colours.py",
+    ),
+    # ---- skeleton
+    _bug(
+        "skeleton/simplify.py",
+        "/ tolerance[inner]",
+        "/ tolerance[first]",
+        "one tolerance decides about a whole chain",
+        "test_skeleton.py",
+    ),
+    _bug(
+        "skeleton/names.py",
+        'found += [(number, ".L", chains[index]), (number, ".R", chains[other])]',
+        'found += [(number, ".R", chains[index]), (number, ".L", chains[other])]',
+        "left and right are exchanged",
+        "test_skeleton.py",
+    ),
+    _bug(
+        "skeleton/mirror.py",
+        "image[..., 0] = 2.0 * plane - image[..., 0]",
+        "image[..., 0] = plane - image[..., 0]",
+        "images lie at the wrong side of a plane that is not at 0",
+        "test_skeleton.py",
+    ),
+    _bug(
+        "skeleton/weights.py",
+        "weight[rows, hangs_on] += (block - left).sum(axis=1)",
+        "weight[rows, hangs_on] += block.sum(axis=1)",
+        "a parent gets weight that its child keeps",
+        "test_skeleton.py",
+    ),
+    _bug(
+        "skeleton/bones.py",
+        "heapq.heappush(queue, (so_far + segment.length, segment.ends[1]))",
+        "heapq.heappush(queue, (segment.length, segment.ends[1]))",
+        "loops are closed wherever the last bone is short",
+        "test_skeleton.py",
+    ),
+    # ---- files
+    _bug(
+        "files/placing.py",
+        "stretches[0] - stretches[2] > rounding",
+        "stretches[0] - stretches[1] > rounding",
+        "a transform that flattens is accepted",
+        "test_export.py",
+        "test_skeleton.py",
+    ),
+    _bug(
+        "files/stl.py",
+        "return corners[first[order]], place[inverse.ravel()]",
+        "return corners[first[order]], inverse.ravel()",
+        "triangles of an STL file have the wrong corners",
+        "test_import.py",
+        "test_import_meshes.py",
+    ),
+    _bug(
+        "files/off.py",
+        "places = (table[:, first : first + 3] for first in (3, 6, 7))",
+        "places = (table[:, first : first + 3] for first in (3, 6))",
+        "normals after four columns of colours are not found",
+        "test_import.py",
+        "test_import_meshes.py",
+        "test_broken_files.py",
+        "test_readers.py",
+    ),
+    _bug(
+        "files/whole_file.py",
+        "            temporary.unlink(missing_ok=True)\n",
+        "",
+        "a write that failed leaves its temporary file",
+        "test_export.py",
+        "test_batch_faults.py",
+        "test_cli.py",
+    ),
+    # ---- batch
+    _bug(
+        "batch/frames.py",
+        "range(int(first), int(last or first) + 1, int(step or 1))",
+        "range(int(first), int(last or first), int(step or 1))",
+        "the last frame is left out",
+        "test_cli.py",
+    ),
+    _bug(
+        "batch/outputs.py",
+        "return found | {(status.st_dev, status.st_ino)}",
+        "return found",
+        "a hard link to an input may be replaced",
+        "test_cli.py",
+        "test_batch_faults.py",
+        "test_balls_cli.py",
+        "test_thickness_cli.py",
+    ),
+    _bug(
+        "batch/batch.py",
+        "limit = self.limit if thinned else None",
+        "limit = None",
+        "a thinned output is kept when the memory limit changes",
+        "test_cli.py",
+        "test_memory.py",
+        "test_batch_faults.py",
+    ),
+)
