@@ -19,6 +19,7 @@ from medial_axis.core.settings import (
     Form,
     SamplingMode,
     Settings,
+    Side,
     SkeletonSettings,
     ThicknessSettings,
 )
@@ -255,3 +256,13 @@ def test_a_kept_measurement_is_not_replaced_by_one_of_other_settings(name):
         first = measure_thickness(shape, start, ThicknessSettings())
         measure_thickness(shape, other, ThicknessSettings())
         assert differences(kept_measurement(first.key), first) == []
+
+
+def test_balls_are_those_of_the_inside_whatever_side_is_set():
+    """So the analysis of another side is neither computed nor kept."""
+    shape = bent_shape()
+    first = cover_by_balls(shape, replace(FEW, side=Side.INNER), BallSettings(count=5))
+    analyses = CACHE.analyses
+    again = cover_by_balls(shape, replace(FEW, side=Side.OUTER), BallSettings(count=5))
+    assert CACHE.analyses == analyses
+    assert differences(again.balls, first.balls) == []

@@ -109,3 +109,20 @@ def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):
 
 def test_what_is_left_out_on_purpose_is_not_unknown():
     assert measured(*box(1, 1, 1), edges=Edges.GREY).unmeasured == 0.0
+
+
+def test_only_wedges_of_the_solid_are_acute_edges():
+    """Inside out, the sharp edge of a wedge is that of a groove, where ways through the solid do not become short."""
+    from medial_axis.core.solid.close_walls import _acute_edges
+
+    points = np.array(
+        [(x, y, z) for y in (0.0, 1.0) for x, z in ((0.0, 0.0), (4.0, -1.0), (4.0, 1.0))]
+    )
+    triangles = np.array(
+        [(0, 1, 2), (3, 5, 4), (0, 3, 4), (0, 4, 1), (1, 4, 5), (1, 5, 2), (2, 5, 3), (2, 3, 0)],
+        np.int32,
+    )
+    outward = triangles if Shape(points, triangles).volume > 0 else triangles[:, ::-1]
+    found = _acute_edges(Shape(points, outward))
+    assert sorted(map(tuple, found.reshape(-1, 3).tolist())) == [(0.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
+    assert len(_acute_edges(Shape(points, outward[:, ::-1]))) == 0

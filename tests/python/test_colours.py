@@ -73,3 +73,10 @@ def test_radii_that_hardly_differ_have_one_colour():
     start, end = colours_of.radius_range([0.99, 1.0, 1.01])
     assert (start, end) == (0.505, 1.01)
     assert colours_of.radius_range(np.array([0.25, 1.0])) == (0.25, 1.0)
+
+
+def test_red_is_half_way_between_the_limits_of_thickness():
+    from medial_axis.core.solid.thickness_colours import limits_of
+
+    start, end = limits_of(2.0)
+    assert start == 6.0 and (start + end) / 2 == 2.0

@@ -122,3 +122,10 @@ def test_a_report_is_of_all_samples(monkeypatch):
     assert len(some.chosen.samples.density.points) <= 100
     np.testing.assert_array_equal(some.epsilon, whole.epsilon)
     assert some.density.share == whole.density.share
+
+
+def test_samples_at_edges_do_not_make_the_others_dense():
+    points, far = np.array([(0.0, 0.0, 0.0), (5.0, 0.0, 0.0), (9.0, 0.0, 0.0)]), np.ones(3)
+    density = Density(points, far, far, edges=points[:1], finest=0.1, limit=0.5)
+    assert density.at_edge.tolist() == [True, False, False]
+    assert not density.dense_enough

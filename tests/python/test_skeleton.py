@@ -586,3 +586,11 @@ def test_limbs_stay_and_ridges_go():
     assert len(net.tips()) == 3 and net.stands_for()[4] == 0 and net.load[0] == pytest.approx(0.55)
     prune(net, 0.4, balls)
     assert len(net.tips()) == 2
+
+
+@pytest.mark.parametrize(
+    "tolerance, kept", [((0.1, 2.0, 0.1), [0, 2]), ((2.0, 0.1, 2.0), [0, 1, 2])]
+)
+def test_each_point_of_a_chain_has_its_own_tolerance(tolerance, kept):
+    points = np.array([(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)])
+    assert kept_points(points, np.array(tolerance)).tolist() == kept

@@ -447,3 +447,11 @@ def test_other_formats_are_refused(tmp_path):
     found = measure(BOX)
     with pytest.raises(ExportError, match=r"\.csv, \.json or \.ply"):
         export_thickness(found, find_thin_parts(found, 0.1), tmp_path / "box.obj")
+
+
+def test_the_length_of_a_triangle_is_the_median_of_its_corners():
+    found = measure(ellipsoid(np.array([1.0, 0.7, 0.5])))
+    inside = ~found.at_edge[found.triangles].any(axis=1)
+    lengths = found.lengths[found.triangles[inside]]
+    assert np.array_equal(found.of_triangles[inside], np.median(lengths, axis=1))
+    assert (found.of_triangles[inside] < lengths.max(axis=1)).any()

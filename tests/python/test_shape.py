@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Properties of the input that are measured from its faces."""
+
+import numpy as np
+import pytest
+from medial_axis.core.samples.shape import Shape
+from support.meshes import box
+
+
+@pytest.mark.parametrize("away", [0.0, 2.0**20])
+def test_volume_and_area_do_not_depend_on_the_place(away):
+    points, triangles = box((4, 3, 2))
+    size = np.ptp(points, axis=0)
+    shape = Shape(points + away, triangles)
+    assert shape.volume == pytest.approx(size.prod(), rel=1e-6)
+    assert shape.area == pytest.approx(2 * (size.prod() / size).sum(), rel=1e-6)
+    assert Shape(points + away, triangles[:, ::-1]).volume == pytest.approx(-size.prod(), rel=1e-6)
