@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ..core.errors import InvalidInputError
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -104,13 +106,31 @@ def level_attributes() -> tuple[Attribute, ...]:
 
 
 def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
-    """Give a mesh in object mode an attribute; one of that name and of another kind is replaced."""
+    """Give a mesh in object mode an attribute; one of that name and of another kind is replaced.
+
+    Raises
+    ------
+    InvalidInputError
+        Something else has the name, such as a vertex group.
+    """
     found = mesh.attributes.get(name)
     if found is not None and (found.domain, found.data_type) != (domain, kind):
         mesh.attributes.remove(found)
         found = None
-    target = found or mesh.attributes.new(name, kind, domain)
+    target = found or _new_attribute(mesh, name, kind, domain)
     target.data.foreach_set("value", values)
+
+
+def _new_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> bpy.types.Attribute:
+    made = mesh.attributes.new(name, kind, domain)
+    if made is not None and made.name == name:
+        return made
+    if made is not None:  # by another name, which nothing would read
+        mesh.attributes.remove(made)
+    raise InvalidInputError(
+        f"Expected the name '{name}' to be free on the mesh '{mesh.name}', found a vertex group, a UV "
+        "map or the like that has it; rename that"
+    )
 
 
 def has_attribute(mesh: bpy.types.Mesh, name: str) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.axis.cut import pieces, within_box, without_small_pieces
 from ..core.axis.verdict import verdict
-from ..core.options import Choice, Integer, Switch
+from ..core.options import Choice
 from ..core.settings import (
     LOOKS,
     OPTIONS,
@@ -121,16 +121,26 @@ def radius_range(result: bpy.types.Object) -> tuple[float, float]:
 
 
 def settings_of(result: bpy.types.Object) -> Settings:
-    """The settings that a result was made with; those of earlier versions, which had no forms, are as published."""
+    """The settings that a result was made with; those of earlier versions, which had no forms, are as published.
+
+    A property that someone changed to what is no value of its option counts as if it were not there.
+    """
     values = {}
     for name, option in OPTIONS.items():
         earlier = Form.PUBLISHED if name == "form" else option.default
-        value = result.get(f"ma_{name}", earlier)
-        if isinstance(option, Choice) and isinstance(value, str):
-            value = type(option.default)[value]
-        exact = isinstance(option, (Switch, Integer))
-        values[name] = type(option.default)(value) if exact else value
+        try:
+            values[name] = _value_of(option, result.get(f"ma_{name}", earlier))
+        except (KeyError, TypeError, ValueError):
+            values[name] = earlier
     return Settings(**values)
+
+
+def _value_of(option: Any, value: Any) -> Any:
+    if isinstance(option, Choice):
+        return (
+            type(option.default)[value] if isinstance(value, str) else type(option.default)(value)
+        )
+    return type(option.default)(value)
 
 
 def look_of(result: bpy.types.Object) -> Look:
@@ -153,7 +163,7 @@ def _shown(axis: MedialAxis, box: Sequence[float] | None, look: Look) -> MedialA
     """The part of an axis that the look leaves; the whole axis where nothing would be left, and where it is a level."""
     if axis.level is not None:
         return axis
-    if box is not None:
+    if box is not None and len(box) == 6:
         low, high = np.reshape(box, (2, 3))
         near = within_box(axis, low, high, look.within)
         axis = near if near.facets else axis

@@ -36,8 +36,9 @@ def show_wires(thing: bpy.types.Object, axis: MedialAxis) -> None:
         modifier.node_group = _group()
         modifier.show_in_editmode = False
         modifier.show_expanded = False
-        owner, key = width_of(modifier)
-        _set(owner, key, _THIN * _size(axis))
+        width = width_of(modifier)
+        if width is not None:
+            _set(*width, _THIN * _size(axis))
     elif modifier is not None and not count:
         thing.modifiers.remove(modifier)
 
@@ -48,17 +49,22 @@ def wires_of(thing: bpy.types.Object) -> bpy.types.Modifier | None:
     return modifier if modifier is not None and modifier.type == "NODES" else None
 
 
-def width_of(modifier: bpy.types.Modifier) -> tuple[Any, str]:
-    """(owner, path) of the width of the tubes, as `layout.prop` wants them."""
-    tree = modifier.node_group
-    if hasattr(tree, "interface"):  # from 4.0
-        sockets = [s for s in tree.interface.items_tree if s.name == _WIDTH]
-    else:
-        sockets = [s for s in tree.inputs if s.name == _WIDTH]
+def width_of(modifier: bpy.types.Modifier) -> tuple[Any, str] | None:
+    """(owner, path) of the width of the tubes, as `layout.prop` wants them; None where the input is gone."""
+    sockets = _width_sockets(modifier.node_group)
+    if not sockets:
+        return None
     identifier = sockets[0].identifier
     if hasattr(modifier, "properties"):  # from 5.2
         return getattr(modifier.properties.inputs, identifier), "value"
     return modifier, f'["{identifier}"]'
+
+
+def _width_sockets(tree: bpy.types.NodeTree | None) -> list[Any]:
+    if tree is None:
+        return []
+    sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs  # from 4.0
+    return [socket for socket in sockets if socket.name == _WIDTH]
 
 
 def _set(owner: Any, path: str, value: float) -> None:
@@ -82,9 +88,9 @@ def _size(axis: MedialAxis) -> float:
 
 
 def _group() -> bpy.types.NodeTree:
-    """The node group, made where the file has none; changes that an artist made in it stay."""
+    """The node group, made where the file has none with a width; other changes that an artist made in it stay."""
     found = bpy.data.node_groups.get((NAME, None))
-    return found or _new_group()
+    return found if _width_sockets(found) else _new_group()
 
 
 def _new_group() -> bpy.types.NodeTree:

@@ -52,7 +52,7 @@ def compute_box() -> Computation:
 
 
 def checks_of(box: Computation) -> list[Check]:
-    """What can be seen of the axis of the box; all lengths are right up to the spacing of the samples."""
+    """Check the axis of the box; all lengths are right up to the spacing of the samples."""
     module, samples = native.load(), box.chosen.samples
     return [
         Check(

@@ -106,9 +106,9 @@ class VIEW3D_PT_medial_axis_show(Closed, bpy.types.Panel):
         column.prop(settings, "parent")
         if Form[settings.form] is Form.PUBLISHED:
             column.prop(settings, "smallest_island", slider=True)
-        if modifier := wires_of(thing):
-            owner, path = width_of(modifier)
-            column.prop(owner, path, text="Wire Width")
+        modifier = wires_of(thing)
+        if modifier is not None and (width := width_of(modifier)):
+            column.prop(*width, text="Wire Width")
 
 
 class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an analysis keeps: the results of the stages, which extractions read.
+// The parts of an analysis: the results of the stages, which extractions read.
 #pragma once
 
 #include <medial/analysis.h>
@@ -33,7 +33,7 @@ struct MedialAnalysis::Parts {
   bool closed = false;
   Timings timings;
 
-  // Of a stage that reads these parts.
+  // The run of a stage that reads these parts.
   Run run(Progress* progress = nullptr) const { return {threads, progress, arena.get()}; }
 };
 
@@ -48,7 +48,7 @@ void require_normals(std::span<const Vec3> normals, size_t rows);
 // samples enclose nothing.
 void require_solid(const MedialAnalysis::Parts& made);
 
-// What a selection reads.
+// The facets that a selection reads.
 Facets facets_of(const MedialAnalysis::Parts& made);
 // All edges in lexicographic order of their input rows.
 std::vector<int32_t> edges_by_row(const MedialAnalysis::Parts& made);

@@ -363,3 +363,14 @@ def test_shape_of_a_file(tmp_path):
     assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(1.0)
     assert warnings == () and shape.normals is None
     np.testing.assert_array_equal(shape.frame, np.identity(4))
+
+
+@pytest.mark.parametrize("order", ["ascii", "binary_little_endian"])
+@pytest.mark.parametrize("rows", ["3", "99999999999999999999"])
+def test_an_element_without_properties_is_refused(tmp_path, order, rows):
+    path = tmp_path / "a.ply"
+    path.write_text(
+        f"ply\nformat {order} 1.0\nelement junk {rows}\nelement vertex 0\nproperty float x\nend_header\n"
+    )
+    with pytest.raises(ReadError, match="Expected properties of the element 'junk'"):
+        read_shape(path)

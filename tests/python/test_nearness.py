@@ -5,7 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
-from medial_axis.core.samples.nearness import near, nearest
+from medial_axis.core.samples.nearness import near, nearest, sample_of_row
 
 
 @pytest.fixture(autouse=True)
@@ -60,3 +60,10 @@ def test_the_largest_numbers():
     ends = np.array([(1.7e308, -1.7e308, 0.0), (-1.7e308, 1.7e308, 0.0)])
     assert near(ends, ends[:1], 1e300).tolist() == [True, False]
     assert nearest(ends[::-1], ends).tolist() == [1, 0]
+
+
+def test_rows_that_the_module_merged_belong_to_the_nearest_sample():
+    """Denormal differences: the module merges them and NumPy does not. The row once was read from unset memory."""
+    points = np.array([(0, 0, 0), (1e-310, 0, 0), (1, 0, 0), (1, 1e-312, 0), (0, 1, 0)])
+    samples = np.array([0, 2, 4], np.int32)
+    assert sample_of_row(points, samples).tolist() == [0, 0, 1, 1, 2]

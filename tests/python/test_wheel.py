@@ -139,7 +139,7 @@ def test_wheel_is_the_add_on_without_its_blender_side(wheel):
     assert f"medial_axis-{VERSION}.dist-info/licenses/LICENSE" in names
     for line in ("Name: medial-axis", f"Version: {VERSION}", "License: GPL-3.0-or-later"):
         assert line in metadata.splitlines()
-    assert "Requires-Dist: numpy" in metadata and "Requires-Python: >=3.10" in metadata
+    assert "Requires-Dist: numpy" in metadata and "Requires-Python: >=3.11" in metadata
 
 
 def test_same_bytes_as_the_add_on(installed, tmp_path):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-# Of every axis; of the clean ones and curves, too.
+# The arrays of every axis, and those that only clean forms and curves have.
 NAMES = tuple(name for name in MedialAxis.__dataclass_fields__ if name != "level")
 LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti")
 
@@ -40,7 +40,7 @@ def as_arrays(axis: MedialAxis) -> dict[str, NDArray]:
 
 
 def from_arrays(arrays: Mapping[str, NDArray]) -> MedialAxis:
-    """What `as_arrays` made; files of earlier versions have no `edges`."""
+    """The axis that `as_arrays` has split; files of earlier versions have no `edges`."""
     fields: dict[str, Any] = {name: arrays[name] for name in NAMES if name != "edges"}
     fields |= {name: int(arrays[name]) for name in ("unbounded", "zero_area")}
     fields["edges"] = arrays.get("edges", no_edges())

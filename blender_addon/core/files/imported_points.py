@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a file of points holds."""
+"""The contents of a file of points."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def checked(
 
 
 def _as_float64(rows: NDArray) -> NDArray[np.float64]:
-    """What is too large for it becomes infinite."""
+    """The rows as float64; numbers that are too large for it become infinite."""
     with np.errstate(over="ignore", invalid="ignore"):
         return np.ascontiguousarray(rows, np.float64)
 

@@ -101,7 +101,7 @@ def _rows(stream: IO[bytes]) -> int:
 
 
 def read_arrays(path: str | os.PathLike, names: Iterable[str]) -> dict[str, NDArray]:
-    """Those of the named arrays of an archive that are there."""
+    """The arrays of an archive that have one of the names; a name that is missing is left out."""
     with open_file(path) as stream, _refusing(Path(path).name):
         archive = np.load(stream, allow_pickle=False)
         if not isinstance(archive, np.lib.npyio.NpzFile):
@@ -112,7 +112,7 @@ def read_arrays(path: str | os.PathLike, names: Iterable[str]) -> dict[str, NDAr
 
 @contextmanager
 def _refusing(name: str) -> Iterator[None]:
-    """What NumPy says of a broken file, as a ReadError."""
+    """Turn the error that NumPy raises for a broken file into a ReadError."""
     try:
         yield
     except _BROKEN as error:

@@ -43,7 +43,7 @@ end_header
 
 
 def left_out(axis: Any) -> str:
-    """What `.ply` and `.off` do not hold, for a warning; "" where that is nothing."""
+    """A warning about the parts of an axis that `.ply` and `.off` do not hold; "" where there are none."""
     edges, alone = len(axis.edges), len(lone_vertices(axis))
     if not edges and not alone:
         return ""
@@ -65,7 +65,7 @@ def lone_vertices(axis: Any) -> NDArray[np.intp]:
 
 
 def write_lines(axis: Any, stream: BinaryIO) -> None:
-    """What of an axis OBJ has beside faces: edges without a facet, and lone vertices."""
+    """Write the parts of an axis that OBJ has besides faces: edges without a facet, and lone vertices."""
     write_rows(stream, "l %d %d\n", axis.edges + 1)
     write_rows(stream, "p %d\n", lone_vertices(axis) + 1)
 

@@ -128,6 +128,12 @@ def _read_header(stream: BinaryIO, name: str) -> tuple[str, list[_Element], int]
             )
     if order is None:
         raise ReadError(f"Expected a line 'format' in the header of '{name}', found none; add it")
+    for element in elements:
+        if element.rows and not element.properties:
+            raise ReadError(
+                f"Expected properties of the element '{element.name}' in the header of '{name}', found "
+                "none; take the file from its source again"
+            )
     return order, elements, lines
 
 
@@ -181,7 +187,7 @@ class _Text:
         return self._read_lists(element, rows)
 
     def _check_finite(self, element: _Element, rows: Rows, table: NDArray[np.float64]) -> None:
-        """Of what is read; what is passed over may be as its program left it."""
+        """Check the columns that are read; the others may hold anything."""
         names = [entry.name for entry in element.properties]
         used = [i for i, name in enumerate(names) if name in _POSITION + _NORMAL]
         bad = np.argwhere(~np.isfinite(table[:, used]))

@@ -16,7 +16,7 @@ from .read import import_points
 def read_shape(
     path: str | os.PathLike, limit: MemoryLimit | None = None
 ) -> tuple[Shape, tuple[str, ...]]:
-    """What a file holds, and what was left in it, a sentence each.
+    """Read a shape from a file; each part of the file that was left out gives a sentence.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What points lose when Blender keeps them in 32 bits, as scans with coordinates of a country do."""
+"""The loss of points that Blender keeps in 32 bits, as of scans with the coordinates of a country."""
 
 from __future__ import annotations
 

@@ -90,7 +90,7 @@ def export_axis(
 
 
 def left_out(axis: MedialAxis, path: str | os.PathLike, triangles: bool) -> str:
-    """What `export_axis` does not write of an axis, in a sentence; "" where it writes all."""
+    """A sentence about the parts of an axis that `export_axis` does not write; "" where it writes all."""
     known = format_of(path)
     left = triangles and known.write_triangles and not known.holds_edges
     return plain_triangles.left_out(axis) if left else ""
@@ -277,7 +277,7 @@ def _ply_edges(axis: MedialAxis) -> NDArray:
 
 
 def _write_npz(axis: MedialAxis, stream: BinaryIO) -> None:
-    """What np.savez writes; np.savez itself leaves an open archive behind when the disk is full."""
+    """Write the archive that np.savez would write; np.savez itself leaves it open when the disk is full."""
     with zipfile.ZipFile(stream, "w") as archive:
         for name, array in as_arrays(axis).items():
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:

@@ -50,7 +50,7 @@ def export_balls(
 
 
 def ball_format(path: str | os.PathLike) -> Callable[[Balls, BinaryIO], None]:
-    """What writes the format that the extension of `path` names."""
+    """Return the writer of the format that the extension of `path` names."""
     return BALL_FORMATS[extension_of(path, BALL_FORMATS)]
 
 

@@ -58,7 +58,7 @@ def export_thickness(
 
 
 def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str, Any]:
-    """What `.json` says: lengths in `unit`, areas in its square; null is no length."""
+    """The content of `.json`: lengths are in `unit`, areas in its square; null is no length."""
     place = _mover(found)
     return {
         "minimum": _number(found.minimum),
@@ -91,7 +91,7 @@ def _number(value: float) -> float | None:
 
 
 def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-    """What puts points of the shape where they are in the world."""
+    """Return the function that moves points of the shape to their places in the world."""
     frame = found.shape.frame
     if np.array_equal(frame, np.identity(4)):
         return lambda points: points

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the method needs of the machine: the compiled module, memory, threads, progress."""
+"""The parts of the machine that the method needs: the compiled module, memory, threads, progress."""

@@ -52,7 +52,7 @@ class Beside(Generic[T]):
         self._ended.wait()  # not by joining: a Ctrl-C there makes Python 3.11 believe that it ended
 
     def result(self) -> T:
-        """What the work returned; what it raised is raised here."""
+        """Wait for the work and return its result; an error of the work is raised here."""
         if self._failure is not None:
             raise self._failure
         return self._value

@@ -43,7 +43,7 @@ def _available(text: str) -> int:
 
 
 def _left_in_groups(text: str, root: Path) -> Iterator[int]:
-    """What the control groups of a process leave of their limits; `text` is of /proc/self/cgroup."""
+    """The bytes that the control groups of a process leave of their limits; `text` is that of /proc/self/cgroup."""
     for line in text.splitlines():
         _, controllers, path = line.split(":", 2)
         for controller, *files in _FILES:
@@ -69,7 +69,7 @@ def _left(folder: Path, limit: str, use: str, droppable: str) -> int | None:
 
 
 def _left_of_addresses() -> Iterator[int]:
-    """What the process may still map, where it has a limit, as by `ulimit -v`."""
+    """The bytes that the process may still map where it has a limit, as by `ulimit -v`."""
     import resource  # there is none on Windows
 
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)

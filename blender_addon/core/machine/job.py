@@ -23,7 +23,7 @@ class Task:
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """What became of a task: what its work returned, or an error."""
+    """The outcome of a task: the value that its work returned, or an error."""
 
     value: Any
     error: MedialAxisError | None

@@ -22,7 +22,7 @@ _DIGITS = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Use:
-    """What becomes of an analysis, on which the peak of the memory depends.
+    """The use of an analysis, on which its peak of memory depends.
 
     Parameters
     ----------

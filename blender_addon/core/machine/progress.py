@@ -26,7 +26,7 @@ class Progress:
         self._pass = 1
 
     def until(self, fraction: float) -> None:
-        """What follows is the work up to this fraction; the rest is for what comes after the next `until`."""
+        """The work that follows ends at this fraction; the rest belongs to the work after the next `until`."""
         with self._lock:
             self._end = fraction
 

@@ -27,6 +27,8 @@ def same_place(points: NDArray[np.float64]) -> NDArray[np.int64]:
 def sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> NDArray[np.int64]:
     """(n,) the number of the sample that each row is.
 
+    The module merges rows that differ by next to nothing, too, so a row may equal no sample: it is the nearest one.
+
     Parameters
     ----------
     points : (n, 3) float64
@@ -36,9 +38,12 @@ def sample_of_row(points: NDArray[np.float64], samples: NDArray[np.int32]) -> ND
     if len(samples) == len(points):
         return np.arange(len(points))
     which = same_place(points)
-    place = np.empty(which.max() + 1, np.int64)
+    place = np.full(which.max() + 1, -1, np.int64)
     place[which[samples]] = np.arange(len(samples))
-    return place[which]
+    found = place[which]
+    merged = np.flatnonzero(found < 0)
+    found[merged] = nearest(points[merged], points[samples])
+    return found
 
 
 def near(

@@ -96,7 +96,7 @@ def _line(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.
 
 
 def _roots(net: Net, fork: int) -> list[_Root]:
-    """Of the branches that leave the ball of a fork; a loop does so twice."""
+    """The branches that leave the ball of a fork; a loop leaves it twice."""
     found = []
     for name in dict.fromkeys(net.at[fork]):
         chain = net.branches[name]

@@ -78,7 +78,7 @@ def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
 
 
 def shares(samples: AnalysedSamples) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Of each sample the spacing round it, (n,), and its share of the surface, (n,); both 0 for duplicates.
+    """The spacing around each sample, (n,), and its share of the surface, (n,); both are 0 for duplicates.
 
     At sharp edges and at lone samples the umbrella may be as large as the solid; so no spacing counts for more than
     three usual ones.

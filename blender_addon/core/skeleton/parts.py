@@ -36,7 +36,7 @@ class Places:
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """What of a surface belongs to which branch.
+    """The branch to which each part of a surface belongs.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Parts:
 
 
 def places(net: Net, names: list[int]) -> Places:
-    """Of each point of a net; a fork belongs to the thickest of its branches.
+    """The branch of each point of a net; a fork belongs to the thickest of its branches.
 
     Parameters
     ----------

@@ -33,7 +33,7 @@ REACH = 1.6  # radii of the ball at the fork, from the centre of that to the far
 
 @dataclass(frozen=True)
 class Loops:
-    """What became of the small ones."""
+    """The numbers of small loops that were cut, and that were filled."""
 
     cut: int
     filled: int

@@ -83,7 +83,7 @@ class Skeleton:
 
     @property
     def length(self) -> float:
-        """Of all branches together."""
+        """The length of all branches together."""
         steps = np.diff(self.points[self.edges], axis=1)[:, 0]
         return float(np.linalg.norm(steps, axis=1).sum())
 

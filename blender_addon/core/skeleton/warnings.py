@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a person should know of a skeleton, a sentence each."""
+"""The warnings about a skeleton, a sentence each."""
 
 from __future__ import annotations
 

@@ -89,14 +89,14 @@ class MedialAnalysis {
   bool closed() const;
   int64_t boundary_edges() const;
   SidesFrom sides_from() const;
-  // Of samples whose labelled poles lie on two sides, the share for which Tight Cocone says
-  // otherwise; none unless Automatic had to choose between the two.
+  // The share of the samples whose labelled poles lie on two sides for which Tight Cocone
+  // disagrees; none unless Automatic had to choose between the two.
   std::optional<double> pole_disagreement() const;
   // Null unless the sides are from Tight Cocone; its own sides are moved away.
   const std::shared_ptr<const WatertightSurface>& tight_cocone() const;
   const Timings& timings() const;
 
-  // What the stages made, for the library itself.
+  // The results of the stages, for the library itself.
   struct Parts;
   const Parts& parts() const { return *parts_; }
 

@@ -65,7 +65,7 @@ class Hierarchy {
   Level extract(const LevelOptions& options, Progress* progress = nullptr) const;
   const Timings& timings() const;
 
-  // What the collapse made, for the library itself.
+  // The results of the collapse, for the library itself.
   const Parts& parts() const { return *parts_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one may ask for, and the defaults of those who published the methods.
+// The options of an analysis, with the defaults of those who published the methods.
 #pragma once
 
 #include <medial/types.h>
@@ -8,9 +8,9 @@
 
 namespace medial {
 
-// What tells inside from outside. Automatic: the surface when it is closed, else normals when there
-// are any, else Tight Cocone, or labels of the poles (Amenta, Choi & Kolluri 2001) where more than
-// 5 % of them disagree with it.
+// The source that decides between inside and outside. Automatic: the surface when it is closed,
+// else normals when there are any, else Tight Cocone, or labels of the poles (Amenta, Choi &
+// Kolluri 2001) where more than 5 % of them disagree with it.
 enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none, poles };
 
 // Which ends of a Delaunay edge must pass a condition (Dey & Zhao, sect. 3).
@@ -19,7 +19,8 @@ enum class Rule : int32_t { either = 0, both = 1 };
 // Which conditions select (Dey & Zhao, sect. 3.1 and 3.2).
 enum class Criteria : int32_t { angle_or_ratio = 0, angle = 1, ratio = 2 };
 
-// The thresholds of the conditions: an edge passes Angle when its theta is above this one, Ratio likewise.
+// The thresholds of the conditions: an edge passes Angle when its theta is above this one, Ratio
+// likewise.
 struct Thresholds {
   double theta = std::numbers::pi / 8;  // radians, 0 to pi/2
   double rho = 8;                       // at least 0

@@ -9,9 +9,9 @@
 
 namespace medial {
 
-// What is measured at a sample p with the outward unit normal n_p. The ball that is tangent at p
-// and touches q has the diameter |pq|^2 / (n_p . (p - q)); the least over the selected facets (p,
-// q) is what fits there.
+// The mode chooses the length that is measured at a sample p with the outward unit normal n_p. The
+// ball that is tangent at p and touches q has the diameter |pq|^2 / (n_p . (p - q)); the smallest
+// one over the selected facets (p, q) fits there.
 //   wall  of the balls whose two normals differ by 120 degrees or more, as those of walls that face
 //         each other do. Elsewhere, as next to an edge, where the ball shrinks to nothing, that of
 //         the nearest wall along the surface, or where none is near that of the largest ball, but
@@ -24,7 +24,7 @@ enum class ThicknessMode : int32_t { wall = 0, ball = 1, scan = 2 };
 
 inline constexpr double kScanTheta = 5 * std::numbers::pi / 18;  // 50 degrees, above a right edge's
 
-// What is known of the samples beside their places.
+// The properties of the samples besides their places.
 struct ThicknessInput {
   // Outward, one per point, of any length; what has none, or a zero one, is not measured but
   // filled. Not for scan.
@@ -34,7 +34,7 @@ struct ThicknessInput {
   std::optional<std::span<const uint8_t>> at_edge = {};
 };
 
-// What is measured, on which side.
+// The mode of the measurement, and the side.
 struct ThicknessOptions {
   ThicknessMode mode = ThicknessMode::wall;
   Side side = Side::inner;     // outer: the gap between walls

@@ -49,8 +49,9 @@ struct Sites {
   std::vector<Vec3> near, far;
 };
 
-// Those of facets, thinned to hardly more than one per cell of the grid: vertices that share a grid
-// cell lie close together along the surface, so mostly in one chunk, which remembers them.
+// The Voronoi vertices of the marked facets, thinned to hardly more than one per cell of the grid.
+// Vertices that share a grid cell lie close together along the surface, so mostly in one chunk,
+// which remembers them.
 Sites sites(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
             std::span<const uint8_t> marked, const Run& run) {
   constexpr int64_t kChunk = 1 << 15;

@@ -13,7 +13,7 @@ struct Poles {
   Array<uint8_t> unbounded;  // the pole is at infinity
 };
 
-// Of one sample, whose cells are `cells`. `room` to work in.
+// The pole of one sample, whose cells are `cells`; `room` is a scratch buffer.
 Vec3 pole(const Vec3& p, std::span<const int32_t> cells, const Triangulation& triangulation,
           const Voronoi& voronoi, std::vector<int32_t>& room);
 

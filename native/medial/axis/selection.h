@@ -11,8 +11,8 @@
 
 namespace medial {
 
-// What a selection reads: the Delaunay edges with their dual Voronoi facets, and what is known of
-// them.
+// The input of a selection: the Delaunay edges with their dual Voronoi facets, and the properties
+// of these.
 struct Facets {
   std::span<const Vec3> points;
   const Triangulation& triangulation;
@@ -22,7 +22,7 @@ struct Facets {
   const CellSides& sides;  // empty: not known
 };
 
-// What is said of a selected facet.
+// The attributes of a selected facet.
 struct FacetAttributes {
   double theta = 0, rho = 0;  // as the rule takes them
   Side side = Side::both;
@@ -41,7 +41,7 @@ class Selection {
   virtual bool wants(int32_t edge, std::vector<int32_t>& ring) const;
   const Facets& facets() const { return facets_; }
   const Extraction& wanted() const { return wanted_; }
-  // Of an edge that is wanted, with its ring.
+  // The attributes of the facet of a selected edge, whose ring is given.
   FacetAttributes attributes(int32_t edge, std::span<const int32_t> ring) const;
 
  private:

@@ -12,7 +12,7 @@ constexpr int64_t kBalls = 256;  // of one piece of work
 // A ball comes near to the farthest place where it leaves at most this share of the distance.
 constexpr double kNear = 0.25;
 
-// What a ball would cover, at most: what it covered when it was last asked.
+// An upper bound of the places that a ball would cover: the number when it was last counted.
 struct Gain {
   int64_t places;
   int32_t ball;
@@ -44,7 +44,7 @@ std::vector<int32_t> ids_in_solid(std::span<const Ball> balls) {
   return ids;
 }
 
-// What has been chosen so far, and what that leaves.
+// The balls that are chosen so far, and the places that they leave.
 class Chosen {
  public:
   Chosen(std::span<const Ball> balls, int64_t count, SolidLattice& left, const Run& run)

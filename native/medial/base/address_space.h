@@ -9,7 +9,7 @@ namespace medial {
 
 class AddressSpace {
  public:
-  // Of no bytes where the system has not so many addresses in a row.
+  // The range has no bytes where the system lacks so many consecutive addresses.
   explicit AddressSpace(size_t bytes);
   ~AddressSpace();
   AddressSpace(const AddressSpace&) = delete;
@@ -21,7 +21,7 @@ class AddressSpace {
   // Makes the first bytes fit to be written; false where there is too little memory. Not for
   // several threads at once.
   bool commit(size_t bytes);
-  // Has bytes made memory before they are touched; false where the system cannot do that.
+  // Maps bytes to memory before they are touched; false where the system cannot do that.
   bool populate(size_t from, size_t bytes) const;
   // Returns the memory of whole pages, which come back empty when they are touched; false where the
   // system cannot do that.

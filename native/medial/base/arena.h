@@ -51,8 +51,9 @@ class Arena {
   size_t touched_ = 0, elsewhere_ = 0;  // of the block; beside it
 };
 
-// Has the first bytes of an arena touched by a thread of its own, where the system can do so beside
-// those who use them, until all are or the variable ends.
+// Touches the first bytes of an arena from a thread of its own, so that later stages find mapped
+// pages. It stops when all are touched or the variable is destroyed. It does nothing where the
+// system cannot map pages while others use them.
 class ArenaToucher {
  public:
   ArenaToucher(Arena& arena, size_t bytes);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the C library keeps of the memory that was given back to it.
+// Memory that was freed, and that the C library still keeps.
 #pragma once
 
 namespace medial {
 
-// Has it return to the system what it has free, where it can.
+// Makes the C library return its free memory to the system, where it can.
 void release_heap();
 
 }  // namespace medial

@@ -69,8 +69,8 @@ double Nearest::distance(const Vec3& query) const {
 }
 
 void Nearest::find(const Vec3& query, size_t count, std::vector<Neighbour>& found) const {
-  // Of equally near sites the tree gives any: more are asked for until one is clearly farther than
-  // the last that is wanted, beyond the rounding of the tree's own distances.
+  // The tree returns any of equally near sites. So more are requested until one is clearly farther
+  // than the last wanted one, beyond the rounding of the tree's own distances.
   constexpr double kClearly = 1 + 16 * DBL_EPSILON;
   for (size_t asked = count + 1;; asked *= 2) {
     found.clear();

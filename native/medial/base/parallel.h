@@ -74,8 +74,8 @@ void parallel_for(int64_t count, const Run& run, const Body& body, int64_t grain
       grain);
 }
 
-// What body(id, out, worker) appends to `out` for every id in [0, count), in order: part i is of
-// the ids from i * grain on.
+// The items that body(id, out, worker) appends to `out` for every id in [0, count), in order; part
+// i belongs to the ids from i * grain on.
 template <typename T, typename Body>
 std::vector<Array<T>> parallel_parts(int64_t count, const Run& run, const Body& body,
                                      int64_t grain = kGrain) {

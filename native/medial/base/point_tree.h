@@ -24,7 +24,7 @@ class PointTree {
   int32_t size() const { return static_cast<int32_t>(points_.size()); }
   size_t bytes() const;
 
-  // Of equally near points the lowest one. There is one.
+  // The nearest point, and the lowest of equally near ones. The tree is not empty.
   Neighbour nearest(const Vec3& query) const;
   // The same, faster where a point is known to be no farther away than that.
   Neighbour nearest(const Vec3& query, double within) const;

@@ -13,7 +13,7 @@
 namespace medial {
 namespace {
 
-// Of a polygon, seen from the lower end.
+// A side of a polygon, seen from its lower end.
 struct PolygonSide {
   int32_t high;    // the other end
   int32_t corner;  // that it begins at

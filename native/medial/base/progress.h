@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the stages tell a Progress, where there is one.
+// Reports of the stages to a Progress, where there is one.
 #pragma once
 
 #include <medial/progress.h>

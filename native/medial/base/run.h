@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a stage is given beside its data, and the arrays it returns.
+// The parameters of a stage besides its data, and the arrays that it returns.
 #pragma once
 
 #include "base/arena.h"
@@ -7,7 +7,7 @@
 
 namespace medial {
 
-// What every stage needs beside its data.
+// The parameters of every stage besides its data.
 struct Run {
   int threads = 1;
   Progress* progress = nullptr;

@@ -183,7 +183,7 @@ class Labelling {
       const auto [known, turned] = queue_.top();
       queue_.pop();
       const int32_t node = -turned;
-      // What was learnt since then stands in the queue once more.
+      // A node whose priority has changed since then is in the queue a second time.
       if (label_[node] != Label::none || known != priority(node)) continue;
       label_[node] = sure_[node].inner > sure_[node].outer ? Label::inner : Label::outer;
       pass_on(node);
@@ -198,7 +198,7 @@ class Labelling {
 
   float priority(int32_t node) const {
     const auto [inner, outer] = sure_[node];
-    // What both sides claim comes last.
+    // A node that both sides claim comes last.
     return inner > 0 && outer > 0 ? std::abs(inner - outer) - 1 : std::max(inner, outer);
   }
 

@@ -14,7 +14,7 @@ Facing turned(Facing facing) {
                                   : Facing::none;
 }
 
-// What one thread needs to mark the cells at one sample after another.
+// The state of a thread that marks the cells at one sample after another.
 class Marker {
  public:
   Marker(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
@@ -99,7 +99,8 @@ struct Agreement {
   int32_t p, q;
 };
 
-// Of samples that share a candidate triangle, best first. Two good samples are left to the surface.
+// The agreements of samples that share a candidate triangle, the best first. Pairs of good samples
+// are left to the surface.
 std::vector<Agreement> agreements(const Triangulation& t, const Cocone& cocone,
                                   std::span<const uint8_t> good, double least, const Run& run) {
   auto found = parallel_append<Agreement>(t.finite_cells, run, [&](int64_t c, auto& out, int) {

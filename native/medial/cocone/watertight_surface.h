@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What Tight Cocone found, in terms of the input rows.
+// The surface that Tight Cocone found, in terms of the input rows.
 #pragma once
 
 #include <medial/watertight_surface.h>

@@ -31,8 +31,8 @@ struct UnitNormal {
 // (b - a) x (c - a), normalized; zero for collinear points.
 UnitNormal unit_normal(const Vec3& a, const Vec3& b, const Vec3& c);
 
-// Of a triangle. Not to be mixed in one comparison: a radius squared is rounded differently from
-// the squared radius, which takes no roots and is for where many are compared.
+// The circumradius of a triangle. Do not compare its square with the squared radius below, which
+// takes no roots and is rounded differently.
 inline double circumradius(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
   const double twice_area = length(cross(u, v));

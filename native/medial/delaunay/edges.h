@@ -48,7 +48,8 @@ bool walk_ring(const Triangulation& t, const Edge& ends, int32_t cell, const Vis
   return true;
 }
 
-// Those cells: the Voronoi facet's vertices. Appends to `ring` after clearing it.
+// Writes the cells around an edge, which are the vertices of its Voronoi facet, to `ring`, which is
+// cleared first.
 void ring_of_cells(const Triangulation& triangulation, const Edge& ends, int32_t cell,
                    std::vector<int32_t>& ring);
 

@@ -25,9 +25,9 @@ class OpenSurface {
 
     Vec3 middle() const { return (1 - share) * inside + share * outside; }
   };
-  // Of the lines of a lattice along the axes, `step` apart: the pieces of one step on which the
-  // level set lies. It is followed from cube to cube of the lattice, beginning at the boundary
-  // edges, for it ends nowhere but there and on the triangles.
+  // The pieces, one step long, of the lines of a lattice along the axes, `step` apart, that cross
+  // the level set. The search follows the level set from cube to cube of the lattice, beginning at
+  // the boundary edges, because it ends only there and on the triangles.
   std::vector<Fall> falls(double step, const Run& run) const;
 
   // The place on a piece where the winding number is 1/2, within a millionth or two. Nothing where

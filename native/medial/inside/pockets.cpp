@@ -10,7 +10,7 @@ namespace {
 // Cells that hang together, in the order in which they were come upon.
 using Part = std::vector<int32_t>;
 
-// What of the inner cells is so small that the samples cannot tell its shape.
+// The parts of the inner cells that are too small for the samples to determine their shape.
 class SmallParts {
  public:
   SmallParts(std::span<const Vec3> points, std::span<const double> spacing, const Triangulation& t,

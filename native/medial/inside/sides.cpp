@@ -92,7 +92,7 @@ class Flood {
         const WindingNumber& winding, double widest)
       : points_(points), t_(t), voronoi_(voronoi), winding_(winding), widest_(widest) {}
 
-  // Of the cells begin .. end - 1.
+  // The answers for the cells begin .. end - 1.
   std::span<const int> operator()(int32_t begin, int32_t end) {
     begin_ = begin;
     closed_.assign(static_cast<size_t>(end - begin), kUnknown);

@@ -44,8 +44,8 @@ class SolidAngle {
     Vec3 centroid, area_vector;   // area_vector: integral of n dA
     std::array<Vec3, 3> moment;   // moment[k] = integral of (x - centroid)_k n dA
   };
-  // What a node adds to the sum and the bound of its error, times 4 pi; an infinite bound where it
-  // cannot be expanded.
+  // The contribution of a node to the sum and the bound of its error, times 4 pi; the bound is
+  // infinite where the node cannot be expanded.
   struct Term {
     double error, value;
     int32_t node;

@@ -22,7 +22,7 @@ class SolidLattice {
   int64_t count() const { return count_; }  // of places in the solid when it was made
   double step() const { return step_; }
 
-  // Those that are left in a closed ball.
+  // The number of places that are left in a closed ball.
   int64_t count(const Vec3& centre, double radius) const;
   void remove(const Vec3& centre, double radius);
   // All that are left, row after row.

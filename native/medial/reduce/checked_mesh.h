@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What callers give, checked and made fit to compute with.
+// The input of callers, checked and prepared for the computation.
 #pragma once
 
 #include <medial/sphere_mesh.h>

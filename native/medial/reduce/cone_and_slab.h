@@ -21,7 +21,8 @@ struct NearestOfEnvelope {
   std::array<double, 3> shares{};
 };
 
-// Of 1 to 3 spheres. The distance to a ball is convex in its shares, so that there is one least.
+// The nearest ball of the envelope of 1 to 3 spheres. The distance to a ball is convex in its
+// shares, so there is one minimum.
 NearestOfEnvelope nearest_ball(std::span<const Sphere> spheres, const Vec3& query);
 
 // The outward normals of the two planes that are tangent to three spheres; none where one of the

@@ -35,7 +35,7 @@ class Envelope {
   bool covers(const Vec3& query, double depth) const;
 
   std::span<const Part> parts() const { return parts_; }
-  // Of the nearest of the balls of one part.
+  // The nearest of the balls of one part.
   NearestOfEnvelope nearest_in(int32_t part, const Vec3& query) const;
   // After the spheres have moved.
   void refit();

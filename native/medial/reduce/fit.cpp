@@ -19,8 +19,8 @@ constexpr double kExact = 1e-9;  // of the extent: nearer than this nothing need
 
 using Step = std::vector<std::array<double, 4>>;  // per sphere: of the centre, and of the radius
 
-// What the places nearest to one part ask of its spheres: the matrix and the right-hand side of a
-// linear system.
+// The demand of the places nearest to one part on its spheres: the matrix and the right-hand side
+// of a linear system.
 struct Demand {
   std::array<std::array<double, 12>, 12> matrix{};
   std::array<double, 12> right{};
@@ -100,7 +100,7 @@ class Fitter {
     return result;
   }
 
-  // Of the demands of all parts together, damped where they ask little.
+  // The step that meets the demands of all parts together, damped where these are weak.
   Step solve(const std::vector<Demand>& demands) const {
     const auto parts = envelope_.parts();
     const size_t n = mesh_.vertices.size();

@@ -48,7 +48,7 @@ void check(std::span<const Vec3> centres, std::span<const double> radii,
   }
 }
 
-// Of equal balls the one of the lowest row has the cell.
+// Inserts all balls. Among equal balls the one of the lowest row has the cell.
 void insert_all(Regular& regular, std::span<const Vec3> centres, std::span<const double> radii,
                 Progress* progress) {
   constexpr size_t kStep = 512;

@@ -16,8 +16,8 @@ struct PowerShape {
   Column<int32_t> balls;       // rows, ascending, of those that have a cell
 };
 
-// Of the balls that are wanted, among all: the simplices of the regular triangulation. `radii` and
-// `wanted` are one per centre. Throws InvalidInputError, Cancelled.
+// The simplices of the regular triangulation of all balls whose corners are wanted. `radii` and
+// `wanted` have one entry per centre. Throws InvalidInputError, Cancelled.
 PowerShape power_shape(std::span<const Vec3> centres, std::span<const double> radii,
                        std::span<const uint8_t> wanted, Progress* progress = nullptr);
 

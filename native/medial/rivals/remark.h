@@ -7,7 +7,7 @@
 
 namespace medial {
 
-// What the edges at a sample are measured against: the normals and the circumradii of its umbrella,
+// The yardstick of the edges at a sample: the normals and the circumradii of its umbrella,
 // as in MEDIAL; the pole vector in place of the normals; the reach of the tangent polygon in place
 // of the circumradii; or both.
 enum class Against : int32_t { umbrella = 0, pole = 1, polygon = 2, pole_and_polygon = 3 };

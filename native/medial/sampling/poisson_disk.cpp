@@ -72,7 +72,7 @@ class DartReader {
     }
     return place_in(piece(), corners_, dart - darts_.first[slot_], shift_);
   }
-  // Of the dart that was read last.
+  // The piece of the dart that was read last.
   const Piece& piece() const { return darts_.pieces[darts_.of[slot_]]; }
   Vec3 point(const Place& place) const { return patch_->point(place.barycentric()); }
 

@@ -184,9 +184,9 @@ class Division {
            const Spacing& spacing)
       : line_(measured(model, chain, spacing)),
         closed_(!begins_at_corner(model, chain, keep_vertices)) {
-    constexpr double kRounding = 1e-9;  // a length that is a multiple of the spacing
+    constexpr double kNearlyWhole = 1e-9;  // a length that is a multiple of the spacing
     const double least = closed_ ? 3 : 1, total = line_.knots.back().passed;
-    parts_ = std::max(least, std::ceil(total * (1 - kRounding)));
+    parts_ = std::max(least, std::ceil(total * (1 - kNearlyWhole)));
     if (!(parts_ < kMostSamples)) parts_ = 0;  // the caller has counted them
   }
 
@@ -399,7 +399,7 @@ Turn sample_count(const Model& model, const SamplingOptions& options, const Run&
   constexpr int kTurns = 8;
   const auto wanted = static_cast<double>(*options.count);
   const auto error = [&](const Turn& t) { return std::abs(t.count() - wanted); };
-  // Of spikes, all length and no area, the creases alone would take any number of samples.
+  // On spikes, which have length and no area, the creases alone would take any number of samples.
   const double longest = crease_length(model) / (kMostOnCreases * wanted);
   Spacing spacing{std::max(std::sqrt(kHexagonal * model.area / wanted), longest)};
   Turn best = sample_once(model, options, spacing, run), last = best;

@@ -20,11 +20,11 @@ struct Alive {
   Array<uint8_t> facet, edge, vertex;
 };
 
-// Of what is left of the complex, none of whose 3-cells is there.
+// The Betti numbers of the cells that are left of the complex, none of which is a 3-cell.
 Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Alive& alive,
                const Run& run);
 
-// Of the complex itself.
+// The Betti numbers of the complex itself.
 Betti betti_of(const InnerComplex& complex, std::span<const int32_t> outside, const Run& run);
 
 }  // namespace medial

@@ -19,8 +19,8 @@ struct Canal {
   double trust = 0;
 };
 
-// Of the radius. The steeper the canal, the farther from its centre is what its ball touches; what
-// is as steep as this is not fitted.
+// The steepest slope of the radius that is fitted. The steeper a canal, the farther from its centre
+// its ball touches the surface.
 inline constexpr double kSteepest = 0.9;
 
 // One step from a canal that is nearly right. Uses samples that touch balls up to `half_width`

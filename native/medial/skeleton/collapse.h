@@ -25,7 +25,7 @@ class Incident {
  public:
   int32_t count() const { return static_cast<int32_t>(bits_ & kCount); }
   int32_t last() const { return static_cast<int32_t>(bits_ >> kShift); }  // of one
-  // Of two, one of which is known.
+  // The other one of two, one of which is known.
   int32_t other_than(int32_t id) const {
     return static_cast<int32_t>((bits_ - with(id)) >> kShift);
   }
@@ -44,7 +44,7 @@ class Incident {
   uint64_t bits_ = 0;  // the sum wraps round, which does not matter
 };
 
-// What has gone, and with which face.
+// The cells that have gone, and the face with which each went.
 struct Collapse {
   // Per edge, beside the arena: the facet that it went with, with_vertex(v) for the vertex, or
   // kAlone.

@@ -16,7 +16,7 @@ constexpr double kHalfWidth = 2;      // of the piece that is fitted, in spacing
 constexpr size_t kNeighbours = 12;    // that tell the spacing
 constexpr int64_t kFewVertices = 16;  // to a thread at a time
 
-// Of evenly spread samples: the square root of the area that one has.
+// The spacing of evenly spread samples: the square root of the area of one sample.
 double spacing_at(const PointTree& samples, const Vec3& place) {
   const Vec3& sample = samples[samples.nearest(place).id];
   return samples.reach(sample, kNeighbours + 1) * std::sqrt(std::numbers::pi / kNeighbours);

@@ -51,7 +51,7 @@ Vec3 centroid(const InnerComplex& complex, int32_t facet) {
   return start + (1 / static_cast<double>(ring.size())) * mean;
 }
 
-// What the fire reads of a facet, in one line of the cache, and of an edge.
+// The data of a facet that the fire reads, in one line of the cache, and those of an edge.
 struct alignas(64) HotFacet {
   Vec3 centroid;
   double radius;                   // of the ball there
@@ -133,8 +133,8 @@ class Fire {
     for (const int32_t f : lit) queue_.push(facet_[f].thickness(), f);
   }
 
-  // Has the memory of the next facets come while the present one burns: of each what is known by
-  // what has come before.
+  // Prefetches the next facets while this one burns. Each distance fetches what the previous
+  // prefetch has made reachable.
   void fetch_ahead() const {
     if (const int32_t f = queue_.soon(24); f >= 0) fetch(&facet_[f]);
     if (const int32_t f = queue_.soon(16); f >= 0 && !facet_[f].gone) {
@@ -207,7 +207,7 @@ class Fire {
     }
   }
 
-  // Of the free edges of a facet the one that burns first.
+  // The free edge of a facet that burns first.
   int32_t first_free() const {
     const auto key = [&](const Side& free) {
       const Times& t = edge_[free.edge].times;

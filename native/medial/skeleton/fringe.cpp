@@ -179,7 +179,7 @@ class WirePeeler {
     const int32_t edge = left_[vertex].last();
     return collapse_.is_wire(edge) && (collapse_.selected.empty() || !collapse_.selected[edge]);
   }
-  // Of two loose ends of one wire the lower stays.
+  // The lower of two loose ends of one wire stays.
   bool goes(int32_t vertex) const {
     const int32_t other = other_end(complex_, left_[vertex].last(), vertex);
     return left_[other].count() != 1 || other < vertex;

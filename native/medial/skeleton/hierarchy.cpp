@@ -23,7 +23,7 @@ Array<float> in_units(std::span<const double> thickness, const Run& run, const U
   return result;
 }
 
-// Of facets, from what they are in three respects.
+// Joins the three measures of each facet.
 Array<Thickness> joined(std::span<const float> sheet, std::span<const float> spacings,
                         std::span<const float> erosion, const Run& run) {
   Array<Thickness> all(erosion.size());

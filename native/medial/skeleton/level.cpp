@@ -96,7 +96,7 @@ class Drawer {
     return count;
   }
 
-  // Those that can be drawn, in the order of their generators.
+  // The facets that can be drawn, in the order of their generators.
   Array<int32_t> facets_in_order() const {
     const auto found =
         parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t id, auto& out, int) {
@@ -196,7 +196,7 @@ class Drawer {
     }
     if (!twins.empty()) leave_out(twins, facets);
   }
-  // Of facets some, ascending.
+  // Removes some facets, whose places in the list ascend.
   void leave_out(std::span<const int64_t> some, Array<int32_t>& facets) {
     const auto count = static_cast<int64_t>(facets.size());
     int64_t left = 0;

@@ -11,7 +11,7 @@
 
 namespace medial {
 
-// What the levels are made from.
+// The results from which the levels are made.
 struct Hierarchy::Parts {
   Frame frame;  // in which all places and lengths below are, those of levels, too
   InnerComplex complex;
@@ -26,7 +26,7 @@ struct Hierarchy::Parts {
   int threads = 1;
   Timings timings;
 
-  // That of what it went with.
+  // The limb of the vertex or facet that the edge went with.
   float limb_of_edge(int32_t edge) const {
     if (partner[edge] == kAlone) return HUGE_VALF;
     return partner[edge] >= 0 ? 0 : limb[with_vertex(partner[edge])];

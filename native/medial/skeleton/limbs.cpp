@@ -39,9 +39,9 @@ double out_of(const InnerComplex& complex, int32_t x, int32_t w) {
   return distance(complex.position[x], complex.position[w]) + complex.radius[x] - complex.radius[w];
 }
 
-// Of branches by elongation, per vertex: how far that ball of the branch sticks out of the one at
-// its end which does so most; 0 before the last one that does so alike, for in the end of a limb
-// all balls do, and 0 where that is not more than the radius of the ball there.
+// For branches by elongation, per vertex: the largest distance by which a ball of the branch sticks
+// out of the ball at its end. It is 0 before the last ball that sticks out as far, because in the
+// end of a limb all balls do, and 0 where it is at most the radius of the ball there.
 Array<double> farthest_out(const InnerComplex& complex, const Collapse& collapse,
                            const Wires& wires, const Branches& branches, const Run& run) {
   const size_t count = wires.order.size();

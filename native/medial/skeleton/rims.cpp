@@ -124,7 +124,7 @@ class Relaxer {
     }
   }
 
-  // Of some of the touched facets those that lie the wrong way round.
+  // The facets among some touched ones that are turned over.
   template <typename Which>
   std::vector<int32_t> folded_of(int64_t count, const Which& which) const {
     return parallel_append<int32_t>(count, run_, [&](int64_t k, auto& out, int) {

@@ -11,7 +11,7 @@
 
 namespace medial {
 
-// Of polygons: where their vertices are, facet i with the corners [offsets[i], offsets[i + 1]).
+// The corners of polygons: facet i has the corners [offsets[i], offsets[i + 1]).
 struct Polygons {
   std::span<const int32_t> offsets, corners;
 };

@@ -97,7 +97,7 @@ class Dropper {
     if (groups_[sheet].peak < HUGE_VALF) queue_.emplace(groups_[sheet].peak, sheet);
   }
 
-  // What is left of the facets that met, if it is two, hangs together.
+  // The facets that are left of those that met are connected, if they are two.
   void join_at(std::span<const int32_t> meeting) {
     std::vector<int32_t> left;
     for (const int32_t sheet : meeting) {

@@ -99,7 +99,8 @@ class Shrinker {
     } while (collapse_points(flat));
   }
 
-  // Of what is left in one place, facets go with an edge that they alone have. Whether any did.
+  // Removes facets that have shrunk to a point together with an edge that they alone have. Returns
+  // whether there was one.
   bool collapse_points(std::vector<int32_t>& flat) {
     std::vector<int32_t> points;
     for (const int32_t f : flat) {

@@ -12,8 +12,8 @@ struct Thickness {
   float sheet = 0, spacings = 0, erosion = 0;
 };
 
-// What goes together has one value: that of an edge is the one of the facet or vertex it went with.
-// Infinite for what stays.
+// Cells that go together have one value: an edge has that of the facet or vertex it went with.
+// Cells that stay have an infinite one.
 struct Values {
   Array<Thickness> facet, vertex;
 
@@ -23,8 +23,8 @@ struct Values {
 // The values of facets, and of vertices the largest of the facets at them.
 Values with_vertices(const InnerComplex& complex, Array<Thickness> facets, const Run& run);
 
-// Those of vertices become the largest of all that had to go before, which are the wires that led
-// to them, too.
+// The values of vertices become the largest of all cells that had to go before, including the wires
+// that led to them.
 void go_along(const Wires& wires, const InnerComplex& complex, const Collapse& collapse,
               Values& values, const Run& run);
 

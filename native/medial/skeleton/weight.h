@@ -13,7 +13,7 @@ class FacetWeights {
   FacetWeights(const Facets& facets, const Thresholds& thresholds)
       : facets_(facets), t_(thresholds), selection_({thresholds}, facets) {}
 
-  // Of a Delaunay edge.
+  // Whether a Delaunay edge is selected.
   bool selected(int32_t edge) const {
     std::vector<int32_t> none;  // side `both` needs no ring
     return selection_.wants(edge, none);

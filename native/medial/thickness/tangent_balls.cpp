@@ -8,7 +8,7 @@
 namespace medial {
 namespace {
 
-// Of the ball that is tangent at one sample and touches the other one.
+// The width of the ball that is tangent at one sample and touches the other one.
 struct Width {
   double diameter = HUGE_VAL;
   double between = HUGE_VAL;  // the same where they are walls, with the other one's plane

@@ -11,12 +11,13 @@ namespace medial {
 // The sides of a wall are samples whose normals differ by 120 degrees or more; this is the cosine.
 inline constexpr double kWallCosine = -0.5;
 
-// What the surface is known to be at each sample.
+// The surface at each sample, as far as it is known.
 struct Tangents {
   std::vector<Vec3> normals;  // outward unit vectors; zero: not known
   // On a sharp edge, where the normal is a mean that no ball is tangent to.
   std::vector<uint8_t> edge;
-  // Of these: the edge stands into the side of the balls, so that they can touch it.
+  // The samples among these whose edge stands into the side of the balls, so that they can touch
+  // it.
   std::vector<uint8_t> reflex;
 };
 

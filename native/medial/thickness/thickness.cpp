@@ -33,8 +33,8 @@ Tangents tangents_of(const ThicknessInput& input, const Samples& samples) {
   return tangents;
 }
 
-// Of samples on sharp edges whether their neighbours on the surface lie towards the side of the
-// balls no more than away from it: then the edge stands into that side.
+// Marks the samples on sharp edges whose neighbours on the surface lie towards the side of the
+// balls no more than away from it: there the edge stands into that side.
 std::vector<uint8_t> reflex_edges(const Tangents& tangents, const Facets& facets, Side side) {
   std::vector<double> height(tangents.edge.size(), 0);
   const auto add = [&](int32_t at, int32_t neighbour, double reach) {
