@@ -7,6 +7,4 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "tests"), str(ROOT / "tests" / "python")]
 
-pytest_plugins = [
-    "support.package"
-]  # fixtures and hooks; loaded once, however many folders name it
+from support.package import *  # noqa: E402, F403 - fixtures and hooks

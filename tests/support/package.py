@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes blender_addon/ importable as the package `medial_axis`, and gives tests its compiled module.
 
-The conftest.py of a folder of tests names this module as a plugin: it has fixtures, and hooks of pytest.
+The conftest.py of a folder of tests imports everything here: fixtures, and hooks of pytest.
 """
 
 import importlib.util
@@ -14,7 +14,7 @@ import pytest
 from . import study as study_module
 from .data import DATA
 from .sampled import Sampled
-from .tiers import (  # noqa: F401 - hooks, which pytest finds in a plugin that imports them
+from .tiers import (  # noqa: F401 - hooks, which pytest finds in a conftest that imports them
     pytest_addoption,
     pytest_collection_modifyitems,
     pytest_configure,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which tests run, by rules: three hooks of pytest.
+"""Which tests run, by rules; a conftest imports these three hooks of pytest.
 
 - slow: tests that take minutes; left out unless --slow is given.
 - oracle: tests that compare results with independent ones over many cases. With --share I/N the case number k of each
