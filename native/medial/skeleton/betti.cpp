@@ -29,7 +29,7 @@ int64_t count_pieces(const InnerComplex& complex, const Alive& alive, const Run&
   return pieces;
 }
 
-// A facet that has shrunk is there with what it has shrunk to.
+// Counts the cavities. A shrunk facet is alive if the edge or vertex that it shrank to is.
 int64_t count_cavities(const InnerComplex& complex, std::span<const int32_t> outside,
                        const Alive& alive, const Run& run) {
   SharedUnionFind sets(outside.size(), run);

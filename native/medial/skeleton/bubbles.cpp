@@ -33,7 +33,7 @@ class Opener {
   }
 
  private:
-  // How many 3-cells it is a wall of.
+  // Returns how many closed 3-cells have this facet as a wall.
   int inside(int32_t facet) const {
     const auto& [p, q] = complex_.generators[facet];
     return static_cast<int>(closed_.count(p) + closed_.count(q));
@@ -61,7 +61,7 @@ class Opener {
   const FacetWeights& weight_;
   Collapse& collapse_;
   Run run_;
-  std::map<int32_t, std::vector<int32_t>> closed_;  // 3-cells and their walls
+  std::map<int32_t, std::vector<int32_t>> closed_;  // closed 3-cells and their walls
   std::priority_queue<Wall, std::vector<Wall>, std::greater<>> queue_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stage 0 of the collapse: samples inside the solid have a 3-cell each, and every 3-cell is opened
+// Stage 0 of the collapse: each sample inside the solid has a 3-cell, and every 3-cell is opened
 // through a facet.
 #pragma once
 
@@ -8,9 +8,9 @@
 
 namespace medial {
 
-// Takes one facet per 3-cell away, from outside inwards, always the facet of least weight (equal
-// ones: the lower id): of the walls about any 3-cell the weakest way out is opened, as in Prim's
-// spanning tree.
+// Removes one facet per 3-cell, from outside inwards. It always removes the facet of least weight
+// (the lower id if weights are equal), so the weakest wall around any 3-cell is opened, as in
+// Prim's spanning tree.
 void open_bubbles(const InnerComplex& complex, const FacetWeights& weight, Collapse& collapse,
                   const Run& run);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A queue of ids in ascending order of their keys, equal ones by id. Keys lie in buckets, of which
-// only those in use are sorted: that costs less than one large heap.
+// This queue returns ids in ascending order of their keys, and equal keys in the order of the ids.
+// Keys are kept in buckets, of which only those in use are sorted; this costs less than one large
+// heap.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +14,14 @@ namespace medial {
 
 class BucketQueue {
  public:
-  // The first `buckets` have that width, the next as many twice of it, and so on: most keys are
-  // small. The largest share the last bucket.
+  // The first `buckets` buckets have this width, the next as many have twice this width, and so on,
+  // because most keys are small. The largest keys share the last bucket.
   BucketQueue(double width, size_t buckets)
       : per_range_(1 / (width * static_cast<double>(buckets))),
         in_range_(static_cast<double>(buckets)),
         buckets_(kRanges * buckets) {}
 
-  // The key may be lower than the last that was popped. An id may be pushed again.
+  // Adds an id. Its key may be lower than the last that was popped, and an id may be pushed again.
   void push(double key, int32_t id) {
     const size_t bucket = bucket_of(key);
     if (bucket < open_) {
@@ -30,7 +31,7 @@ class BucketQueue {
     }
   }
 
-  // The next id; -1 when none is left.
+  // Removes and returns the next id, or -1 if none is left.
   int32_t pop() {
     while (sorted_.size() - next_ <= kAhead && open_ < buckets_.size()) open();
     if (next_ == sorted_.size() && late_.empty()) return -1;
@@ -42,8 +43,8 @@ class BucketQueue {
     return id;
   }
 
-  // An id that will be popped soon, if nothing comes between; -1: there is none, or it is not
-  // known, which it is for all below kAhead.
+  // Returns the id that is popped after `ahead` others if nothing is pushed between them, or -1 if
+  // it is unknown or there is none. It is known for all `ahead` below kAhead.
   static constexpr size_t kAhead = 32;
   int32_t soon(size_t ahead) const {
     return next_ + ahead < sorted_.size() ? sorted_[next_ + ahead].second : -1;
@@ -54,7 +55,7 @@ class BucketQueue {
   static constexpr size_t kRanges = 12;
   static constexpr uint64_t kFraction = (uint64_t{1} << 52) - 1, kOne = uint64_t{1023} << 52;
 
-  // Keys are not negative, so 1 + key / range has the number of its range in its exponent.
+  // Keys are not negative, so the exponent of 1 + key / range is the number of the key's range.
   size_t bucket_of(double key) const {
     const auto bits = std::bit_cast<uint64_t>(1 + key * per_range_);
     const size_t range = static_cast<size_t>(bits >> 52) - 1023, last = buckets_.size() - 1;
@@ -75,7 +76,7 @@ class BucketQueue {
 
   double per_range_, in_range_;
   std::vector<std::vector<Keyed>> buckets_;
-  size_t open_ = 0, next_ = 0;  // buckets below `open_` have been opened
+  size_t open_ = 0, next_ = 0;  // all buckets below `open_` have been opened
   std::vector<Keyed> sorted_;
   std::priority_queue<Keyed, std::vector<Keyed>, std::greater<>> late_;
 };

@@ -7,28 +7,30 @@
 namespace medial {
 namespace {
 
-// Instead of std::hypot, for which a module would need a newer C library than it may.
+// This replaces std::hypot, which would require a newer C library than the module may need.
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-constexpr double kBand = 0.1;  // of the radius: samples nearer to it or farther are other walls
-constexpr double kFarthest = 0.05;  // of the radius: more it does not move at once
-constexpr double kTooFar = 0.15;    // of the radius: who wants to move so far sees something else
-constexpr double kSteep = 0.7;      // slope from which on trust falls, up to kSteepest
-constexpr int kFewest = 12;         // samples
-constexpr int kNewtonSteps = 1;     // of Newton's method
-constexpr double kKept = 0.25;      // part of its curvature on a cone that a distance keeps
-constexpr double kPivot = 1e-9;     // of a column: below, the samples do not tell all unknowns
+constexpr double kBand = 0.1;       // share of the radius; farther samples are on other walls
+constexpr double kFarthest = 0.05;  // share of the radius; one step moves the centre no farther
+// share of the radius; a fit that would move so far fits something else
+constexpr double kTooFar = 0.15;
+constexpr double kSteep = 0.7;   // slope from which trust falls; it is 0 at kSteepest
+constexpr int kFewest = 12;      // samples that a fit needs
+constexpr int kNewtonSteps = 1;  // steps of Newton's method
+constexpr double kKept = 0.25;  // share of its curvature on a cone that the distance keeps at least
+// share of a column; smaller pivots mean that the samples do not determine all unknowns
+constexpr double kPivot = 1e-9;
 
-// For every sample: distance from the ball that it is nearest to = r . q + u . (x . q), where
-// q = (1, t, t^2), t is the place of the ball's centre along the axis, and u what the direction
-// from there has across the tangent. Where the ball lies a little farther on makes no difference of
-// first order, as no ball is nearer. So the unknowns are three of the radius and thrice two of the
-// axis: its shift, tilt and curvature.
+// The distance of a sample from the nearest ball of the canal is r . q + u . (x . q), where q = (1,
+// t, t^2), t is the place of the ball's centre along the axis, and u is the part across the tangent
+// of the direction from there to the sample. A ball a little farther along makes no difference of
+// first order, as no ball is nearer. So the unknowns are three for the radius, and three (shift,
+// tilt and curvature) for each of the two coordinates of the axis.
 constexpr int kPowers = 3, kUnknowns = 3 * kPowers;
 using Row = std::array<double, kUnknowns>;
 
-// The normal equations. A row of the samples' is (1, u, v) times (1, s, s^2), so that few sums give
-// the whole matrix: of the products of the former two times the powers of s.
+// Holds the normal equations. The row of a sample is (1, u, v) times (1, s, s^2), so few sums give
+// the whole matrix: the products of two of the former, times the powers of s.
 class Normals {
  public:
   void add(double s, double u, double v, double value, double weight) {
@@ -43,10 +45,11 @@ class Normals {
     }
   }
 
-  // Means of u and v, and of their products, weighted.
+  // Returns the weighted mean of u, v, or one of their products.
   double mean(int product) const { return sums_[product][0] / sums_[0][0]; }
 
-  // By Cholesky's method; nothing where a column is all but a combination of those before.
+  // Solves by Cholesky's method; returns nothing if a column is nearly a combination of earlier
+  // ones.
   std::optional<Row> solve() const {
     auto m = matrix();
     Row x = right_;
@@ -159,8 +162,9 @@ class Fit {
     ++met_;
   }
 
-  // In half widths, of the ball that a sample is nearest to: there distance - radius is least. On
-  // the cone that is the canal's tangent, and, from there by Newton's method, on the canal.
+  // Both functions return the place, in half widths, of the ball that is nearest to a sample, where
+  // distance - radius is least: the first on the cone that is tangent to the canal, the second on
+  // the canal itself, by Newton's method from there.
   double place_on_cone(const Vec3& to) const {
     const double s = dot(to, from_.tangent), d = length(to - s * from_.tangent),
                  slope = from_.slope;
@@ -180,8 +184,9 @@ class Fit {
     return t;
   }
 
-  // Whether samples lie all round, by the directions u: 0 where they lie on two opposite walls, by
-  // the lesser principal moment (1/2 on a circle), or all on one side, by their mean.
+  // Returns how evenly the samples surround the axis, from 0 to 1, by their directions u. It is 0
+  // if they lie on two opposite walls (the lesser principal moment, 1/2 on a circle, is small) or
+  // all on one side (their mean is large).
   double all_round() const {
     const double xx = normals_.mean(3), xy = normals_.mean(4), yy = normals_.mean(5), all = xx + yy,
                  least = (0.5 * all - length(0.5 * (xx - yy), xy)) / all,
@@ -191,8 +196,8 @@ class Fit {
 
   Canal from_;
   std::array<Vec3, 2> basis_;
-  double half_width_, slope_, flare_;         // the latter two in half widths
-  double along_ = 0, reach_ = 0, inner_ = 0;  // of samples that may count, from the centre
+  double half_width_, slope_, flare_;         // slope_ and flare_ are changes over one half width
+  double along_ = 0, reach_ = 0, inner_ = 0;  // bounds on the distances of samples that may count
   bool is_cone_;
   Normals normals_;
   int met_ = 0;

@@ -58,7 +58,7 @@ class Walker {
 
   std::span<const Edge> wires_;
   std::span<const uint8_t> fixed_;
-  Csr<int32_t> at_;  // per vertex: wires
+  Csr<int32_t> at_;  // per vertex: its wires
   std::vector<uint8_t> seen_;
   std::vector<Chain> chains_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chains: wires one after the other, between the vertices where they end, branch or join facets.
+// A chain is a sequence of wires between vertices where wires end, branch or join facets.
 #pragma once
 
 #include <medial/types.h>
@@ -11,17 +11,17 @@
 namespace medial {
 
 struct Chain {
-  std::vector<int32_t> vertices;  // along it; of a closed one the last is the first again
-  std::vector<int32_t> wires;     // between them
-  bool closed = false;            // without an end: nothing holds its first vertex
-  std::array<bool, 2> loose{};    // whether it begins, and ends, with a vertex of its own
+  std::vector<int32_t> vertices;  // along the chain; a closed one repeats its first vertex
+  std::vector<int32_t> wires;     // between these vertices
+  bool closed = false;            // whether the chain is a cycle without an end
+  std::array<bool, 2> loose{};    // whether the first, and the last, vertex is a loose end
 
   size_t size() const { return wires.size(); }
 };
 
-// All wires, each in one chain. Inside a chain are vertices with two wires that are not fixed; its
+// Returns all wires, each in one chain. A vertex inside a chain is not fixed and has two wires; an
 // end is loose if it is not fixed and has one wire. Chains are in the order of their lowest ends,
-// closed ones after them.
+// and closed ones follow after them.
 std::vector<Chain> chains_of(std::span<const Edge> wires, std::span<const uint8_t> fixed);
 
 }  // namespace medial

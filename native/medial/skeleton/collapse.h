@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ordered collapse of the inner complex. An elementary collapse takes away a cell together with
-// one of its faces, if no other cell has that face: it changes no homotopy type. So whatever is
-// left over at any time has the topology of the solid. Stages, of which each ends when it can do no
-// more:
-//   0 bubbles  3-cells through a facet      samples inside the solid
-//   1 fringe   facets that MEDIAL does not select through an edge; then edges through their loose
-//              ends. What stays is MEDIAL's output with the bridges that it lacks: the complex K1.
-//   2 fire     facets through an edge, in the order in which a fire that starts at the rims comes
-//              to them
-//   3 wires    edges through their loose ends, likewise
+// This is the ordered collapse of the inner complex. An elementary collapse removes a cell together
+// with one of its faces, if no other cell has that face; it does not change the homotopy type. So
+// the cells that are left at any time have the topology of the solid. Each stage ends when it can
+// remove nothing more:
+//   0 bubbles  removes 3-cells (of samples inside the solid) through a facet
+//   1 fringe   removes facets that MEDIAL does not select through an edge, then edges through their
+//              loose ends. The rest, the complex K1, is MEDIAL's output with the missing bridges.
+//   2 fire     removes facets through an edge, in the order in which a fire that starts at the
+//              rims reaches them
+//   3 wires    removes edges through their loose ends, in the same way
 #pragma once
 
 #include "base/atomic.h"
@@ -16,16 +16,16 @@
 
 namespace medial {
 
-inline constexpr int32_t kAlone = INT32_MIN;  // an edge that has not gone with anything
+inline constexpr int32_t kAlone = INT32_MIN;  // marks an edge that was not removed with a cell
 inline constexpr int32_t with_vertex(int32_t vertex) { return ~vertex; }
 
-// The cells left at another one: how many, and the sum of their ids, of which the last one is
-// known. Both in one number, which several threads can change at once.
+// Holds the number of cells that are left at another cell, and the sum of their ids, which
+// identifies the last one. Both are in one number, which several threads can change at once.
 class Incident {
  public:
   int32_t count() const { return static_cast<int32_t>(bits_ & kCount); }
-  int32_t last() const { return static_cast<int32_t>(bits_ >> kShift); }  // of one
-  // The other one of two, one of which is known.
+  int32_t last() const { return static_cast<int32_t>(bits_ >> kShift); }  // valid if one is left
+  // Returns the other one of the two cells that are left.
   int32_t other_than(int32_t id) const {
     return static_cast<int32_t>((bits_ - with(id)) >> kShift);
   }
@@ -41,29 +41,30 @@ class Incident {
 
   static uint64_t with(int32_t id) { return (static_cast<uint64_t>(id) << kShift) + 1; }
 
-  uint64_t bits_ = 0;  // the sum wraps round, which does not matter
+  uint64_t bits_ = 0;  // the sum wraps round, which does no harm
 };
 
-// The cells that have gone, and the face with which each went.
+// Records the cells that were removed, and the face with which each was removed.
 struct Collapse {
-  // Per edge, beside the arena: the facet that it went with, with_vertex(v) for the vertex, or
-  // kAlone.
+  // For each edge, the facet that it was removed with, with_vertex(v) for the vertex, or kAlone.
+  // This array is not in the arena.
   Array<int32_t> partner;
-  // Per vertex: the edge that it went with; -1: none.
+  // For each vertex, the edge that it was removed with, or -1.
   Array<int32_t> edge_of_vertex;
-  Array<uint8_t> facet_gone;  // per facet: 1 once it has gone, or is about to
-  Array<Incident> facets_at;  // per edge: those that are left
-  Array<uint8_t> selected;    // per edge: it is a facet that MEDIAL selects; empty: none is
+  Array<uint8_t> facet_gone;  // per facet: 1 if it is removed, or about to be
+  Array<Incident> facets_at;  // per edge: the facets that are left at it
+  // per edge: 1 if a selected facet shrank to it; empty if no facet shrank
+  Array<uint8_t> selected;
 
   bool edge_gone(int32_t edge) const { return partner[edge] != kAlone; }
   bool is_wire(int32_t edge) const { return facets_at[edge].count() == 0; }
   bool vertex_gone(int32_t vertex) const { return edge_of_vertex[vertex] >= 0; }
 };
 
-// Nothing has gone yet.
+// Returns a collapse in which nothing is removed yet.
 Collapse whole(const InnerComplex& complex, const FacetWeights& weight, const Run& run);
 
-// Per vertex: the edges that are left at it.
+// Returns for each vertex the edges that are left at it.
 Array<Incident> edges_left(const InnerComplex& complex, const Collapse& collapse, const Run& run);
 
 inline int32_t other_end(const InnerComplex& complex, int32_t edge, int32_t vertex) {

@@ -11,7 +11,7 @@ namespace {
 
 bool is_inner(const CellSides& sides, int32_t cell) { return sides[cell] == Side::inner; }
 
-// Numbers the inner cells; -1 for all others.
+// Numbers the inner cells; all others get -1.
 Array<int32_t> number_cells(InnerComplex& complex, const Triangulation& t, const CellSides& sides,
                             const Run& run) {
   parallel_append_to(complex.cell, t.finite_cells, run, [&](int64_t c, auto& out, int) {
@@ -23,7 +23,7 @@ Array<int32_t> number_cells(InnerComplex& complex, const Triangulation& t, const
   return number;
 }
 
-// Returns the lowest vertex in the place of each.
+// Places the vertices. Returns for each one the lowest vertex in the same place.
 Array<int32_t> place_vertices(InnerComplex& complex, const Samples& samples, const Triangulation& t,
                               const Voronoi& voronoi, std::span<const int32_t> number,
                               const Run& run) {
@@ -35,16 +35,16 @@ Array<int32_t> place_vertices(InnerComplex& complex, const Samples& samples, con
     const int32_t cell = complex.cell[v], lowest = voronoi.vertex[cell];
     complex.position[v] = voronoi.centre[cell];
     complex.radius[v] = distance(voronoi.centre[cell], samples.points[t.cells[cell][0]]);
-    // The lowest cell in this place may be an outer one: then each inner one keeps to itself.
+    // The lowest cell in this place may be an outer one; then each inner cell is by itself.
     place[v] = number[lowest] < 0 ? static_cast<int32_t>(v) : number[lowest];
   });
   return place;
 }
 
-// The edges at each vertex, at the slots of the opposite corners of its cell; -1: none.
+// Holds the edges at each vertex, in the slots of its cell's neighbours; -1 means no edge.
 using EdgesAtVertex = Array<Cell>;
 
-// An edge is numbered at its lower vertex.
+// Numbers the edges in the order of their lower vertices.
 EdgesAtVertex number_edges(InnerComplex& complex, const Triangulation& t,
                            std::span<const int32_t> number, const Run& run) {
   const auto above = [&](int64_t v, int slot) {
@@ -71,7 +71,7 @@ EdgesAtVertex number_edges(InnerComplex& complex, const Triangulation& t,
   return edges_at;
 }
 
-// The facets of some Delaunay edges.
+// Holds the facets of some Delaunay edges.
 struct Rings {
   Array<Corner> corners;
   Array<int32_t> sizes, duals;
@@ -84,7 +84,7 @@ class RingWalker {
              std::span<const int32_t> number)
       : t_(t), edges_(edges), edges_at_(edges_at), number_(number) {}
 
-  // Appends the facet of an edge if it is inner.
+  // Appends the facet of a Delaunay edge if all its cells are inner.
   void append(int32_t edge, Rings& out) {
     const size_t before = out.corners.size();
     const bool inner =
@@ -163,7 +163,7 @@ void join_rings(InnerComplex& complex, std::vector<Rings> parts, const Edges& ed
   parallel_for(static_cast<int64_t>(parts.size()), run, copy, 1);
 }
 
-// The samples that no cell touches but inner ones.
+// Finds the samples that only inner cells touch.
 void find_bubbles(InnerComplex& complex, int32_t samples, const Triangulation& t,
                   std::span<const int32_t> number, const Run& run) {
   auto touched = array<uint8_t>(static_cast<size_t>(samples), 0, run);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The inner Voronoi complex D: what of the Voronoi diagram lies inside, with all that it consists
-// of. Its dual are the simplices in the interior of the solid, so it has the solid's topology.
+// The inner Voronoi complex D is the part of the Voronoi diagram inside the solid, with all its
+// faces. It is dual to the simplices in the interior of the solid, so it has the topology of the
+// solid.
 //   vertices  the inner finite cells              edges    the triangles between two of them
 //   facets    the Delaunay edges all of whose     3-cells  the samples all of whose cells
 //             cells are inner                              are inner
-// Of cospherical samples, the cells without extent are shrunk to what they are.
+// Cells without extent, which cospherical samples cause, are shrunk to points or edges.
 #pragma once
 
 #include "delaunay/edges.h"
@@ -13,34 +14,34 @@
 
 namespace medial {
 
-// A vertex of a facet, and the edge that leads from it to the next one.
+// A corner is a vertex of a facet, and the edge that leads from it to the next vertex.
 struct Corner {
   int32_t vertex, edge;
 };
 
-// A facet without area and the edge that it is, or -1 and the vertex.
+// A shrunk facet has no area; it became the edge, or the vertex if `edge` is -1.
 struct ShrunkFacet {
   Edge generators;
   int32_t dual, edge, vertex;
 };
 
 struct InnerComplex {
-  // Vertices in the order of their cells, of several in one place the lowest cell.
+  // Vertices are in the order of their cells; for several cells in one place it is the lowest one.
   Array<int32_t> cell;
   Array<Vec3> position;
   Array<double> radius;
 
-  Array<Edge> ends;  // of the edges: vertices, the lower one first
+  Array<Edge> ends;  // per edge: its vertices, the lower one first
 
-  // Facets in the order of their Delaunay edges.
-  Array<Edge> generators;  // samples; the one with the lower row first
-  Array<int32_t> dual;     // position of the Delaunay edge in the analysis; empty after it
+  // Facets are in the order of their Delaunay edges.
+  Array<Edge> generators;  // samples, the one with the lower row first
+  Array<int32_t> dual;     // index of the Delaunay edge in the analysis; empty afterwards
   Array<int32_t> offsets;  // (facets + 1) into the corners
   Array<Corner> corners;   // counter-clockwise about the direction between the generators
 
   Array<ShrunkFacet> shrunk;
   Array<int32_t> bubbles;  // the samples that are 3-cells, ascending
-  double diagonal = 0;     // of the box of the samples
+  double diagonal = 0;     // of the bounding box of the samples
 
   int32_t vertices() const { return static_cast<int32_t>(cell.size()); }
   int32_t edges() const { return static_cast<int32_t>(ends.size()); }
@@ -51,7 +52,7 @@ struct InnerComplex {
   }
 };
 
-// `sides` are known. The complex lies in memory of its own, beside the arena of `run`.
+// Builds the complex; all `sides` must be decided. The complex is not in the arena of `run`.
 InnerComplex inner_complex(const Samples& samples, const Triangulation& triangulation,
                            const Voronoi& voronoi, const Edges& edges, const CellSides& sides,
                            const Run& run);

@@ -9,20 +9,22 @@ namespace medial {
 namespace {
 
 constexpr int kSmoothings = 20, kFits = 3;
-constexpr double kSettled = 0.002;    // of the radius: another fit would change the square of it
-constexpr double kStraight = 2e-5;    // of the radius
-constexpr double kStep = 0.25;        // of the spacing
+// share of the radius; after a smaller move another fit changes about its square
+constexpr double kSettled = 0.002;
+// share of the radius; smaller errors of a straight axis need no other fit
+constexpr double kStraight = 2e-5;
+constexpr double kStep = 0.25;        // between new vertices, in spacings
 constexpr double kHalfWidth = 2;      // of the piece that is fitted, in spacings
-constexpr size_t kNeighbours = 12;    // that tell the spacing
-constexpr int64_t kFewVertices = 16;  // to a thread at a time
+constexpr size_t kNeighbours = 12;    // samples that determine the spacing
+constexpr int64_t kFewVertices = 16;  // given to a thread at a time
 
-// The spacing of evenly spread samples: the square root of the area of one sample.
+// Returns the spacing of the samples near a place, the square root of the area of one sample.
 double spacing_at(const PointTree& samples, const Vec3& place) {
   const Vec3& sample = samples[samples.nearest(place).id];
   return samples.reach(sample, kNeighbours + 1) * std::sqrt(std::numbers::pi / kNeighbours);
 }
 
-// The places along a chain, each moved half way to the middle of its neighbours, many times.
+// Returns the places along a chain after many moves half way to the middle of their neighbours.
 std::vector<Vec3> smoothed(const Chain& chain, std::span<const Vec3> places) {
   std::vector<Vec3> now, before;
   for (const int32_t v : chain.vertices) now.push_back(places[v]);
@@ -39,7 +41,7 @@ std::vector<Vec3> smoothed(const Chain& chain, std::span<const Vec3> places) {
   return now;
 }
 
-// Spacings at the vertices of a line: asked for every half spacing, and between by arc length.
+// Returns spacings at the vertices of a line, queried every half spacing, and interpolated between.
 std::vector<double> spacings_along(std::span<const Vec3> line, const PointTree& samples) {
   std::vector<double> spacing(line.size()), arc(line.size(), 0);
   for (size_t k = 1; k < line.size(); ++k) arc[k] = arc[k - 1] + distance(line[k - 1], line[k]);
@@ -57,7 +59,8 @@ std::vector<double> spacings_along(std::span<const Vec3> line, const PointTree& 
   return spacing;
 }
 
-// Steps along a line up to each vertex; by vertices if it has no length, or no spacing somewhere.
+// Returns the number of steps along a line up to each vertex; each edge is one step if the line has
+// no length, or a spacing is 0.
 std::vector<double> steps_along(std::span<const Vec3> line, std::span<const double> spacing) {
   std::vector<double> steps(line.size(), 0);
   for (size_t k = 1; k < line.size(); ++k) {
@@ -70,10 +73,11 @@ std::vector<double> steps_along(std::span<const Vec3> line, std::span<const doub
   return steps;
 }
 
-// Where samples nearly coincide, their spacing says nothing about a line far away from them.
-constexpr double kMostPerEdge = 64;  // steps, on average
+// The spacing of samples that nearly coincide does not suit a line far away from them.
+constexpr double kMostPerEdge = 64;  // number of steps, on average
 
-// Fewer would fall on other wires, or on facets, with the same ends.
+// Returns the fewest steps of a chain. With fewer it would lie on other wires, or on facets, that
+// have the same ends.
 size_t fewest_steps(const Chain& chain) {
   if (chain.vertices.front() == chain.vertices.back()) return 3;
   return std::min<size_t>(2, chain.size());
@@ -102,8 +106,8 @@ Curve divided(const Chain& chain, std::span<const Vec3> places, const PointTree&
   return curve;
 }
 
-// A place `way` along the curve from one of its vertices, or at its end, of a closed curve up to a
-// quarter away.
+// Holds a place and its distance `way` along the curve from a vertex. The way ends at the end of
+// the curve, and after a quarter of a closed curve.
 struct Place {
   Vec3 centre;
   double radius, way;
@@ -127,7 +131,8 @@ Place walk(const Curve& curve, bool closed, size_t vertex, int direction, double
   return now;
 }
 
-// Where the fits begin: the cone that touches the empty balls half a width to either side.
+// Returns the canal of the first fit: a cone that touches the empty balls half a width to either
+// side.
 Canal cone_round(const Curve& curve, bool closed, size_t vertex, double half_width) {
   const Place before = walk(curve, closed, vertex, -1, half_width),
               behind = walk(curve, closed, vertex, 1, half_width);
@@ -139,9 +144,10 @@ Canal cone_round(const Curve& curve, bool closed, size_t vertex, double half_wid
   return cone;
 }
 
-// The canal at a vertex with the bend of the curve there: how far the middle of two places, half a
-// width to either side, is from it. A fit could tell it, too, but under noise so badly that inside
-// the bend the canal would touch no ball. Near an end, as much of that as there is.
+// Returns the canal at a vertex with the bend of the curve there: the offset of the midpoint of two
+// places, half a width to either side, from the vertex. A fit could determine the bend, too, but
+// with noise so badly that inside the bend the canal would touch no ball. Near an end both places
+// are only as far away as the end.
 Canal bent(const Curve& curve, bool closed, size_t vertex, double half_width) {
   double way = half_width;
   for (const int direction : {-1, 1}) way = walk(curve, closed, vertex, direction, way).way;
@@ -152,9 +158,9 @@ Canal bent(const Curve& curve, bool closed, size_t vertex, double half_width) {
   return canal;
 }
 
-// Whether another fit would change next to nothing: the last one did not move the canal much, and
-// that it took the axis for straight tells little, across it and where the ball touches that the
-// samples across it belong to, R R' farther on.
+// Returns whether another fit would change next to nothing: the last one hardly moved the canal,
+// and the error of a straight axis is small, both across it and at the ball that the samples across
+// it belong to, which is R R' farther along.
 bool is_settled(const Canal& canal, double moved, double half_width) {
   const double on = canal.radius * canal.slope / half_width, bend = length(canal.bend);
   return canal.trust == 0 || (moved < kSettled * canal.radius &&
@@ -165,7 +171,7 @@ struct OnCurve {
   size_t curve, vertex;
 };
 
-// All but the ends that are not loose: joints with other wires or with facets stay.
+// Returns all vertices but the ends that are not loose: joints with other wires or facets stay.
 std::vector<OnCurve> to_fit(const std::vector<Chain>& chains, const std::vector<Curve>& curves) {
   std::vector<OnCurve> all;
   for (size_t c = 0; c < curves.size(); ++c) {
@@ -179,7 +185,7 @@ std::vector<OnCurve> to_fit(const std::vector<Chain>& chains, const std::vector<
   return all;
 }
 
-// Fits canals at vertices of curves, all of them once and again where that helps.
+// Fits canals at the vertices of curves: at all of them once, and again where that helps.
 class Fitting {
  public:
   Fitting(const std::vector<Chain>& chains, std::vector<Curve>& curves, const PointTree& samples)
@@ -198,7 +204,7 @@ class Fitting {
   }
 
  private:
-  // New canals are seen only when all of them are there.
+  // New canals replace the old ones only when all of them are computed.
   template <class Function>
   void for_all(const Run& run, const Function& function) {
     parallel_for(static_cast<int64_t>(vertices_.size()), run, function, kFewVertices);
@@ -225,7 +231,7 @@ class Fitting {
     return canal;
   }
 
-  // Where the samples do not tell the radius, it is that of the empty ball.
+  // The radius is that of the empty ball where the samples do not determine it.
   Canal finished(int64_t i) const {
     Canal canal = found_[i];
     const double empty = samples_.nearest(canal.centre).distance;
@@ -242,7 +248,7 @@ class Fitting {
   const PointTree& samples_;
   std::vector<OnCurve> vertices_;
   std::vector<Canal> found_;
-  std::vector<double> moved_;  // by the last fit
+  std::vector<double> moved_;  // how far the last fit moved each canal
 };
 
 }  // namespace

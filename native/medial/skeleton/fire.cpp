@@ -10,12 +10,12 @@ namespace {
 void fetch([[maybe_unused]] const void* at) {
 #ifdef __GNUC__
   __builtin_prefetch(at);
-  asm volatile("");  // without it GCC takes this for a function without effect, and leaves it out
+  asm volatile("");  // without it GCC finds no effect in this function, and omits it
 #endif
 }
 
-// When the fire comes to x from the edge ab, which burns at its ends at the times `t` and between
-// them at times that change evenly: the least of t(y) + |x - y| over the points y of ab.
+// Returns when the fire comes to x from the edge ab. It burns at its ends at the times `t`, and
+// between them the time is linear, so this is the least t(y) + |x - y| over the points y of ab.
 double arrival(const Vec3& a, const Vec3& b, const Times& t, const Vec3& x) {
   const Vec3 ab = b - a, ax = x - a;
   const double size = length(ab);
@@ -51,27 +51,28 @@ Vec3 centroid(const InnerComplex& complex, int32_t facet) {
   return start + (1 / static_cast<double>(ring.size())) * mean;
 }
 
-// The data of a facet that the fire reads, in one line of the cache, and those of an edge.
+// Holds the data of a facet that the fire reads, in one cache line. HotEdge does so for an edge.
 struct alignas(64) HotFacet {
   Vec3 centroid;
-  double radius;                   // of the ball there
-  double time = HUGE_VAL;          // when the fire comes there
-  float erosion = HUGE_VALF;       // infinite until it has gone
-  int32_t first = 0, corners = 0;  // in the complex
+  double radius;                   // of the ball at the centroid
+  double time = HUGE_VAL;          // when the fire comes to the centroid
+  float erosion = HUGE_VALF;       // infinite until the facet is removed
+  int32_t first = 0, corners = 0;  // its corners in the complex
   bool gone = false;
 
   double thickness() const { return std::max(0.0, time - radius); }
 };
 struct alignas(32) HotEdge {
-  Times times;  // once it is free
+  Times times;  // valid once the edge is free
   Incident facets;
-  float erosion = 0;  // of the facets here that have gone
+  float erosion = 0;  // the largest of the facets removed here
 };
 
 constexpr double kNotKnown = -1;  // no time is below 0
 constexpr size_t kFacetsPerBucket = 512, kMostBuckets = 1 << 12;
-constexpr double kFirstRange = 1.0 / 1024;  // of the buckets, as share of the diagonal
-constexpr int kLookEvery = 1 << 13;         // facets between two looks at whether to stop
+// width of the first range of buckets, as a share of the diagonal
+constexpr double kFirstRange = 1.0 / 1024;
+constexpr int kLookEvery = 1 << 13;  // facets between two checks for cancellation
 
 class Fire {
  public:
@@ -158,7 +159,7 @@ class Fire {
     return {complex_.corners.data() + facet.first, static_cast<size_t>(facet.corners)};
   }
 
-  // An edge of a facet; of its ends the lower one comes first.
+  // A side is an edge of a facet; the lower one of its ends comes first.
   struct Side {
     int32_t edge;
     Edge ends;
@@ -176,7 +177,7 @@ class Fire {
                    edge_[from.edge].times, x);
   }
 
-  // The fire comes to a facet through an edge. Returns whether it becomes less thick by that.
+  // Lets the fire come to a facet through an edge. Returns whether that makes the facet less thick.
   bool heat(HotFacet& facet, const Side& from) const {
     const Times& t = edge_[from.edge].times;
     if (std::min(t[0], t[1]) >= facet.time) return false;
@@ -207,7 +208,7 @@ class Fire {
     }
   }
 
-  // The free edge of a facet that burns first.
+  // Returns the free edge of the facet that burns first.
   int32_t first_free() const {
     const auto key = [&](const Side& free) {
       const Times& t = edge_[free.edge].times;
@@ -218,7 +219,8 @@ class Fire {
         ->edge;
   }
 
-  // From the facet in hand, over its edge that has become free, to the last facet there.
+  // Passes the fire from the current facet, over its edge that has become free, to the last facet
+  // there.
   void pass_on(std::span<const Corner> ring, size_t i) {
     HotEdge& edge = edge_[ring[i].edge];
     const size_t j = next(ring, i);
@@ -228,7 +230,7 @@ class Fire {
     if (heat(facet_[last], side(ring, i))) queue_.push(facet_[last].thickness(), last);
   }
 
-  // When the fire comes to a corner of the facet in hand.
+  // Returns when the fire comes to a corner of the current facet.
   double first_at(std::span<const Corner> ring, size_t corner) {
     double& first = at_corner_[corner];
     if (first != kNotKnown) return first;
@@ -245,11 +247,11 @@ class Fire {
     return first;
   }
 
-  // Gives memory back as soon as it can.
+  // Returns the results, and frees memory as early as possible.
   Burning result() {
     const size_t facets = complex_.dual.size(), edges = complex_.ends.size();
     if (run_.arena) run_.arena->release();
-    release_heap();  // what the queue has had
+    release_heap();  // frees the memory of the queue
     Burning burning{array<Times>(0, run_), array<uint8_t>(0, run_), array<double>(facets, run_),
                     array<float>(facets, run_)};
     parallel_for(complex_.facets(), run_, [&](int64_t f) {
@@ -277,8 +279,8 @@ class Fire {
   BucketQueue queue_;
   Array<HotFacet> facet_;
   Array<HotEdge> edge_;
-  std::vector<Side> free_;         // edges of the facet in hand
-  std::vector<double> at_corner_;  // when the fire comes to its corners
+  std::vector<Side> free_;         // free edges of the current facet
+  std::vector<double> at_corner_;  // when the fire comes to its corners; kNotKnown before
 };
 
 }  // namespace

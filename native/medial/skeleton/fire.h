@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stage 2 of the collapse: a fire that starts at the rims of K1, each point of which burns first
-// after a time that is the radius of its ball, and spreads with unit speed. Where three sheets meet
-// it waits for the second (Yan, Sykes, Chambers, Letscher & Ju 2016). The erosion thickness of a
-// facet is how much later than the radius of the ball at its centroid the fire comes there.
+// Stage 2 of the collapse is a fire that starts at the rims of K1 and spreads with unit speed. A
+// point on a rim catches fire after a time that is the radius of its ball. Where three sheets meet,
+// the fire waits for the second sheet (Yan, Sykes, Chambers, Letscher & Ju 2016). The erosion
+// thickness of a facet is how much later than the radius of the ball at its centroid the fire comes
+// there.
 #pragma once
 
 #include "skeleton/collapse.h"
 
 namespace medial {
 
-// Times at the ends of an edge, in the order of its ends.
+// Holds the times at the ends of an edge, in the order of its ends.
 using Times = std::array<double, 2>;
 
 struct Burning {
-  // Per edge: when it became free, as the fire has it; for those that never had a facet in K1 the
-  // radii. Without meaning for edges that are not free at the end.
+  // For each edge, when it became free; for an edge that never had a facet in K1, the radii. The
+  // times mean nothing for edges that are not free at the end.
   Array<Times> times;
-  Array<uint8_t> is_wire;  // per edge: it has no facet any more
-  // Per facet: erosion thickness; infinite for those that did not burn, 0 for those not in K1.
+  Array<uint8_t> is_wire;  // per edge: 1 if it has no facet left
+  // For each facet, its erosion thickness: infinite if it did not burn, 0 if it is not in K1.
   Array<double> thickness;
-  // The same, never less than that of any facet that had to go before.
-  Array<float> erosion;  // shares of the diagonal
+  // The same value, but never less than that of a facet that had to be removed before.
+  Array<float> erosion;  // as shares of the diagonal
 };
 
-// Takes all facets away that fire can reach. What it does not are closed sheets. Of the collapse,
-// `facets_at` is gone afterwards.
+// Removes all facets that the fire can reach; the rest are closed sheets. Empties
+// `collapse.facets_at`.
 Burning burn(const InnerComplex& complex, std::span<const Vec3> points, Collapse& collapse,
              const Run& run);
 

@@ -9,7 +9,7 @@ namespace {
 constexpr int kLevels = 16;
 constexpr uint8_t kSelected = 255;
 
-// One list, filled by several threads; their order does not matter.
+// Gathers one list from several threads; its order does not matter.
 class Gathered {
  public:
   explicit Gathered(const Run& run) : parts_(run.threads) {}
@@ -35,7 +35,7 @@ void for_all(std::span<const int32_t> ids, const Run& run, const Body& body) {
                   });
 }
 
-// Whether this call is the first to claim something.
+// Returns whether this call is the first to claim something.
 template <typename T>
 bool claim(T& state, T free, T taken) {
   return shared_exchange(state, free, taken);
@@ -75,7 +75,7 @@ class FacetPeeler {
 
   bool is_free(int32_t edge) const { return collapse_.facets_at[edge].count() == 1; }
 
-  // The facets that have a free edge from the start.
+  // Finds the facets that have a free edge from the start.
   void start() {
     parallel_chunks(complex_.facets(), run_, [&](int64_t begin, int64_t end, int worker) {
       for (auto f = static_cast<int32_t>(begin); f < end; ++f) {
@@ -89,7 +89,7 @@ class FacetPeeler {
     sort_in(0);
   }
 
-  // Puts what was found with its level, or with the present one if that is higher.
+  // Puts the found facets into the list of their level, or of the present level if that is higher.
   void sort_in(int now) {
     going_.clear();
     found_.pour_into(going_);
@@ -145,7 +145,7 @@ class FacetPeeler {
   Progress* progress_;
   Array<uint8_t> level_;
   Gathered found_;
-  std::vector<std::vector<int32_t>> waiting_;  // per level
+  std::vector<std::vector<int32_t>> waiting_;  // per level: facets
   std::vector<int32_t> going_;
 };
 
@@ -179,7 +179,7 @@ class WirePeeler {
     const int32_t edge = left_[vertex].last();
     return collapse_.is_wire(edge) && (collapse_.selected.empty() || !collapse_.selected[edge]);
   }
-  // The lower of two loose ends of one wire stays.
+  // Returns whether a loose end is removed. If both ends of a wire are loose, the lower one stays.
   bool goes(int32_t vertex) const {
     const int32_t other = other_end(complex_, left_[vertex].last(), vertex);
     return left_[other].count() != 1 || other < vertex;
@@ -212,7 +212,7 @@ class WirePeeler {
   Collapse& collapse_;
   Run run_;
   Progress* progress_;
-  Array<Incident> left_;  // per vertex: edges
+  Array<Incident> left_;  // per vertex: the edges that are left at it
   Gathered found_;
 };
 

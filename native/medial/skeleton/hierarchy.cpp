@@ -12,7 +12,7 @@
 namespace medial {
 namespace {
 
-// Per facet: thickness in units that may differ from facet to facet.
+// Returns the thickness per facet in units that may differ from facet to facet.
 template <typename Unit>
 Array<float> in_units(std::span<const double> thickness, const Run& run, const Unit& unit) {
   auto result = array<float>(thickness.size(), run);
@@ -33,7 +33,7 @@ Array<Thickness> joined(std::span<const float> sheet, std::span<const float> spa
   return all;
 }
 
-// In memory of its own, beside the arena.
+// Copies values to memory outside the arena.
 template <typename T>
 Array<T> kept(const Array<T>& values) {
   return {values.begin(), values.end()};
@@ -43,14 +43,14 @@ void release(Arena* arena) {
   if (arena) arena->release();
 }
 
-// Works of which none needs what another makes, on as many threads as there are.
+// Runs works that do not need each other's results, on all threads.
 void side_by_side(std::span<const std::function<void()>> works, const Run& run) {
   parallel_for(
       static_cast<int64_t>(works.size()), {run.threads, nullptr, run.arena},
       [&](int64_t i) { works[i](); }, 1);
 }
 
-// Stages 0 and 1: what stays is K1.
+// Runs the stages 0 and 1, which leave K1.
 Collapse peel(const InnerComplex& complex, const FacetWeights& weight, const Run& run) {
   begin_stage(run.progress, "Fringe", 0.2, 0.4);
   Collapse collapse = whole(complex, weight, {run.threads, nullptr, run.arena});
@@ -60,7 +60,7 @@ Collapse peel(const InnerComplex& complex, const FacetWeights& weight, const Run
   return collapse;
 }
 
-// By which facets go, and so far the vertices at them.
+// Returns the values by which facets are removed, and preliminary values of the vertices at them.
 Values values_of_facets(const InnerComplex& complex, const Collapse& collapse, const Sheets& sheets,
                         const Burning& burning, std::span<const double> spacing, const Run& run) {
   Array<float> by_share, by_spacing;
@@ -78,9 +78,9 @@ Values values_of_facets(const InnerComplex& complex, const Collapse& collapse, c
   return with_vertices(complex, joined(by_share, by_spacing, burning.erosion, run), run);
 }
 
-// Where a stage keeps one thread busy only, the next best work is done beside it. What the arena
-// has free goes back to the system before the stages that take most: its gaps are too small for
-// them.
+// Runs the stages of the collapse. Where one keeps only one thread busy, other work runs in
+// parallel. The arena gives its free memory back to the system before the stages that take most,
+// because its gaps are too small for them.
 void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeights& weight,
                   const std::function<void()>& beside_fire,
                   const std::function<void()>& beside_limbs, Stopwatch& watch, const Run& run) {
@@ -121,7 +121,7 @@ void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeigh
   made.partner = std::move(collapse.partner);
 }
 
-// How strongly the facets satisfy the conditions.
+// Keeps how strongly the facets satisfy the conditions.
 void keep_significance(Hierarchy::Parts& made, const Significance& significance, Rule rule,
                        const Run& run) {
   const auto& dual = made.complex.dual;
@@ -169,7 +169,7 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   collapse_all(made, facets, weight, beside_fire, beside_limbs, watch, run);
   release(run.arena);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
-  made.complex.dual = {};  // it means nothing without the analysis
+  made.complex.dual = {};  // these indices mean nothing without the analysis
   watch.lap("values");
   advance(run.progress, 1);
   return Hierarchy(std::move(parts));

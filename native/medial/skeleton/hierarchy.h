@@ -10,8 +10,9 @@
 
 namespace medial {
 
-// `facets` know their sides; they and the samples are seen in `frame`, which the hierarchy keeps.
-// Throws InvalidInputError for thresholds out of range.
+// Makes the hierarchy. The sides of `facets` must be decided; they and the samples are in the
+// coordinates of `frame`, which the hierarchy keeps. Throws InvalidInputError for thresholds out of
+// range.
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
                          const Frame& frame, const Run& run);
 

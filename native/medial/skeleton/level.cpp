@@ -37,7 +37,7 @@ Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run)
   return alive;
 }
 
-// Puts what is there into a mesh.
+// Makes a mesh of the cells that are left.
 class Drawer {
  public:
   Drawer(const Hierarchy::Parts& h, const Alive& alive, const Run& run)
@@ -48,7 +48,8 @@ class Drawer {
         used_(array<uint8_t>(h.complex.ends.size(), 0, run)),
         touched_(array<uint8_t>(h.complex.cell.size(), 0, run)),
         number_(array<int32_t>(h.complex.cell.size(), -1, run)) {
-    // There are none but of cospherical samples, and to look at the ends of edges takes long.
+    // Only cospherical samples cause loops, and checking the ends of edges is slow, so it is
+    // checked once whether there are any.
     parallel_for(complex_.edges(), run_, [&](int64_t e) {
       if (is_loop(static_cast<int32_t>(e))) shared_store(has_loops_, uint8_t{1});
     });
@@ -63,7 +64,7 @@ class Drawer {
     return std::move(level_);
   }
 
-  // Edges with exactly one facet, after it.
+  // Returns the edges with exactly one facet; call it after draw().
   std::vector<Edge> rims() const {
     return parallel_append<Edge>(complex_.edges(), run_, [&](int64_t e, auto& out, int) {
       const auto& [a, b] = complex_.ends[e];
@@ -82,7 +83,8 @@ class Drawer {
     return number_[vertex];
   }
 
-  // A facet is drawn by its edges that are no loops, if there are three of them.
+  // Calls found(vertex, edge) for the edges of a facet that are not loops. A facet is drawn if it
+  // has three of them.
   template <typename Found>
   void for_drawn_edges(int32_t facet, const Found& found) const {
     for (const auto& [vertex, edge] : complex_.ring(facet)) {
@@ -96,7 +98,7 @@ class Drawer {
     return count;
   }
 
-  // The facets that can be drawn, in the order of their generators.
+  // Returns the facets that can be drawn, in the order of their generators.
   Array<int32_t> facets_in_order() const {
     const auto found =
         parallel_append<int32_t>(complex_.facets(), run_, [&](int64_t id, auto& out, int) {
@@ -142,7 +144,7 @@ class Drawer {
             static_cast<size_t>(level_.face_offsets[facet + 1] - level_.face_offsets[facet])};
   }
 
-  // Vertices of the complex.
+  // Sets the corners to vertices of the complex.
   void set_corners(std::span<const int32_t> facets) {
     const auto count = static_cast<int64_t>(facets.size());
     level_.face_offsets.resize(facets.size() + 1);
@@ -157,7 +159,7 @@ class Drawer {
     });
   }
 
-  // Numbers vertices in the order in which the corners use them first.
+  // Numbers the vertices in the order in which the corners first use them.
   void number_corners() {
     const auto count = static_cast<int64_t>(level_.face_vertices.size());
     Column<int32_t>& corner = level_.face_vertices;
@@ -171,10 +173,10 @@ class Drawer {
     parallel_for(count, run_, [&](int64_t i) { corner[i] = number_[corner[i]]; });
   }
 
-  // Leaves facets out that have the same corners as an earlier one, in any order: two facets
-  // between parallel edges are one to the eye.
+  // Removes facets that have the same corners as an earlier one, in any order: two facets between
+  // parallel edges look like one.
   void leave_twins_out(Array<int32_t>& facets) {
-    // Per vertex the newest facet that starts there, per facet the one before it; or -1.
+    // Per vertex, this is the newest facet that starts there; per facet, the one before it; or -1.
     auto newest = array<int32_t>(level_.vertex_of.size(), -1, run_);
     auto before = array<int32_t>(facets.size(), -1, run_);
     const auto is_twin = [&](int64_t i) {
@@ -196,7 +198,7 @@ class Drawer {
     }
     if (!twins.empty()) leave_out(twins, facets);
   }
-  // Removes some facets, whose places in the list ascend.
+  // Removes some facets, given by their ascending places in the list.
   void leave_out(std::span<const int64_t> some, Array<int32_t>& facets) {
     const auto count = static_cast<int64_t>(facets.size());
     int64_t left = 0;
@@ -277,9 +279,9 @@ class Drawer {
   const Alive& alive_;
   Run run_;
   uint8_t has_loops_ = 0;
-  Array<uint8_t> used_;     // per edge: by no facet, one, or more
-  Array<uint8_t> touched_;  // per vertex: by an edge
-  Array<int32_t> number_;   // per vertex: in the level
+  Array<uint8_t> used_;     // per edge: facets at it; 2 means two or more
+  Array<uint8_t> touched_;  // per vertex: 1 if an edge is there
+  Array<int32_t> number_;   // per vertex: its number in the level
   Level level_;
 };
 

@@ -4,18 +4,20 @@
 namespace medial {
 namespace {
 
-constexpr double kAlike = 0.05;  // of its radius: a ball that sticks out so much less does likewise
-constexpr double kLost = 4;      // times what its tip says: then the tip is not that of the limb
+// share of the radius; a ball that sticks out by so much less counts as equal
+constexpr double kAlike = 0.05;
+// if a branch sticks out so many times farther than its tip, that is not the limb's tip
+constexpr double kLost = 4;
 
-// Branches by elongation: where they meet, that with the larger one goes on.
+// These are branches by elongation: where branches meet, the one with the largest value goes on.
 struct Branches {
-  Array<double> length;  // per vertex: of its branch
-  Array<int32_t> elder;  // per vertex: from where the branch that goes on has come; or -1
+  Array<double> length;  // per vertex: the length of its branch
+  Array<int32_t> elder;  // per vertex: the vertex before it on the branch that goes on; or -1
 };
 
 Branches by_length(const InnerComplex& complex, const Collapse& collapse, const Wires& wires,
                    const Run& run) {
-  auto longest = array<double>(complex.cell.size(), 0, run);  // of what has arrived
+  auto longest = array<double>(complex.cell.size(), 0, run);  // the largest that has arrived
   Branches b{array<double>(complex.cell.size(), 0, run),
              array<int32_t>(complex.cell.size(), -1, run)};
   const size_t count = wires.order.size();
@@ -34,14 +36,15 @@ Branches by_length(const InnerComplex& complex, const Collapse& collapse, const 
   return b;
 }
 
-// How far the ball at x sticks out of that at w.
+// Returns how far the ball at x sticks out of the ball at w.
 double out_of(const InnerComplex& complex, int32_t x, int32_t w) {
   return distance(complex.position[x], complex.position[w]) + complex.radius[x] - complex.radius[w];
 }
 
-// For branches by elongation, per vertex: the largest distance by which a ball of the branch sticks
-// out of the ball at its end. It is 0 before the last ball that sticks out as far, because in the
-// end of a limb all balls do, and 0 where it is at most the radius of the ball there.
+// Returns for each vertex the largest distance by which a ball of its branch by elongation sticks
+// out of the ball at the end of the branch. It is 0 on the tip's side of the last ball that sticks
+// out about as far, because near the tip of a limb all balls do; and 0 where it is at most the
+// radius of the ball at the end.
 Array<double> farthest_out(const InnerComplex& complex, const Collapse& collapse,
                            const Wires& wires, const Branches& branches, const Run& run) {
   const size_t count = wires.order.size();
@@ -71,8 +74,8 @@ Array<double> farthest_out(const InnerComplex& complex, const Collapse& collapse
   return result;
 }
 
-// By protrusion: a branch is known by its tip, and at a vertex by how far the tip's ball sticks
-// out.
+// Computes the branches by protrusion. A branch is identified by its tip; where branches meet, the
+// one whose tip's ball sticks out most goes on.
 class Protrusion {
  public:
   Protrusion(const InnerComplex& complex, const Run& run)
@@ -81,7 +84,7 @@ class Protrusion {
         ended_(array<double>(complex.cell.size(), 0, run)),
         of_tip_(array<double>(complex.cell.size(), 0, run)) {}
 
-  // The branch of the best tip at v, or of v itself, comes to the next vertex. Returns the tip.
+  // Moves the branch of the best tip at v, or of v itself, to the next vertex. Returns the tip.
   int32_t go_on(int32_t v, int32_t next) {
     const int32_t tip = best_[v].tip < 0 ? v : best_[v].tip;
     of_tip_[tip] = std::max(of_tip_[tip], ended_[v]);
@@ -94,7 +97,7 @@ class Protrusion {
     }
     return tip;
   }
-  // Nothing goes on from here.
+  // Ends the branch at a vertex that stays.
   void stop_at(int32_t v) {
     if (best_[v].tip >= 0) end(best_[v]);
   }
@@ -108,8 +111,8 @@ class Protrusion {
   void end(const Arrived& a) { of_tip_[a.tip] = std::max(of_tip_[a.tip], a.height); }
 
   const InnerComplex& complex_;
-  Array<Arrived> best_;  // per vertex: of what has arrived
-  Array<double> ended_;  // per vertex: of what has ended there
+  Array<Arrived> best_;  // per vertex: the best branch that has arrived
+  Array<double> ended_;  // per vertex: the largest value of branches that have ended there
   Array<double> of_tip_;
 };
 
@@ -133,7 +136,7 @@ Array<float> limb_values(const InnerComplex& complex, const Collapse& collapse, 
   parallel_for(complex.vertices(), run, [&](int64_t v) {
     value[v] = collapse.vertex_gone(static_cast<int32_t>(v)) ? 0 : HUGE_VALF;
   });
-  // In order, for a vertex may not go before those that it waits for.
+  // The loop follows the order, because a vertex may not be removed before those that it waits for.
   for (size_t i = 0; i < wires.order.size(); ++i) {
     const int32_t v = wires.order[i];
     const double of_tip = protrusion.of_tip(tip[v]);

@@ -7,7 +7,7 @@
 namespace medial {
 namespace {
 
-// Balls of moved vertices end at the samples, as those of all others do.
+// Smooths the rims. The balls of moved vertices touch the nearest samples, as all other balls do.
 void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samples,
                  const Run& run) {
   const auto moved =
@@ -19,14 +19,14 @@ void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samp
   });
 }
 
-// Wires end at facets, and at vertices with other than two of them.
+// Returns the chains of a level; they end at facets and at vertices with other than two wires.
 std::vector<Chain> chains_of(const Level& level) {
   std::vector<uint8_t> on_facet(level.vertices.size(), 0);
   for (const int32_t v : level.face_vertices) on_facet[v] = 1;
   return medial::chains_of(level.wires, on_facet);
 }
 
-// Puts curves in the place of chains.
+// Replaces chains by curves.
 class Rewirer {
  public:
   Rewirer(Level& level, const Hierarchy::Parts& hierarchy, const std::vector<Chain>& chains,
@@ -44,7 +44,7 @@ class Rewirer {
   }
 
  private:
-  // Vertices inside chains go; those of facets, which are the first ones, keep their numbers.
+  // Removes the vertices inside chains. Vertices of facets come first, so they keep their numbers.
   void take_out() {
     number_.assign(level_.vertices.size(), 0);
     for (const Chain& chain : chains_) {
@@ -115,7 +115,7 @@ class Rewirer {
   const Hierarchy::Parts& h_;
   const std::vector<Chain>& chains_;
   const std::vector<Curve>& curves_;
-  std::vector<int32_t> number_;  // per old vertex: new one, -1: gone
+  std::vector<int32_t> number_;  // per old vertex: its new number, or -1 if it is removed
   Column<Vec3> old_exact_;
   Column<int32_t> old_vertex_of_, old_edge_of_;
 };

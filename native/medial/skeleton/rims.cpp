@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kSteps = 5;
 constexpr double kFactor = 0.5;
-constexpr int kHalvings = 6;  // of a step that folds a facet; after these it is not taken
+constexpr int kHalvings = 6;  // of a step that folds a facet; after these the vertex stays
 
 class Relaxer {
  public:
@@ -53,7 +53,7 @@ class Relaxer {
     }
   }
 
-  // The facets with a vertex that moves, and how they lie.
+  // Finds the facets with a vertex that moves, and their orientation.
   void find_touched() {
     const auto facets = static_cast<int64_t>(polygons_.offsets.size()) - 1;
     touched_ = parallel_append<int32_t>(facets, run_, [&](int64_t f, auto& out, int) {
@@ -91,7 +91,7 @@ class Relaxer {
         static_cast<size_t>(polygons_.offsets[f + 1] - polygons_.offsets[f]));
   }
 
-  // Twice the area vector.
+  // Returns twice the area vector of a facet.
   Vec3 area(int32_t facet) const {
     const auto ring = corners(facet);
     Vec3 sum;
@@ -102,7 +102,8 @@ class Relaxer {
     return sum;
   }
 
-  // Half way to the middle of the neighbours; where facets fold, by half of that, and so on.
+  // Moves vertices half way to the middle of their neighbours; where facets fold, half of that, and
+  // so on.
   void take_step() {
     std::vector<Vec3> from, move;
     for (size_t i = 0; i < moving_.size(); ++i) {
@@ -124,7 +125,7 @@ class Relaxer {
     }
   }
 
-  // The facets among some touched ones that are turned over.
+  // Returns those of the given touched facets that are turned over.
   template <typename Which>
   std::vector<int32_t> folded_of(int64_t count, const Which& which) const {
     return parallel_append<int32_t>(count, run_, [&](int64_t k, auto& out, int) {
@@ -133,7 +134,8 @@ class Relaxer {
     });
   }
 
-  // The vertices of folded facets that can still take smaller steps, ascending.
+  // Halves the steps of the vertices of folded facets, if they can still be halved; returns these
+  // vertices, ascending.
   std::vector<int32_t> halve(std::span<const int32_t> folded, std::vector<int>& halvings) const {
     std::vector<int32_t> rows;
     for (const int32_t t : folded) {
@@ -164,12 +166,12 @@ class Relaxer {
   Polygons polygons_;
   std::span<Vec3> places_;
   Run run_;
-  Array<int32_t> row_;  // per vertex: in moving_; -1: it stays
+  Array<int32_t> row_;  // per vertex: its place in moving_, or -1 if it stays
   std::vector<int32_t> moving_;
   std::vector<Edge> neighbours_;
   std::vector<int32_t> touched_;
-  std::vector<Vec3> upright_;  // twice their area vectors at first
-  Csr<int32_t> touched_at_;    // per vertex that moves: positions in touched_
+  std::vector<Vec3> upright_;  // twice their area vectors before the first step
+  Csr<int32_t> touched_at_;    // per moving vertex: places in touched_
 };
 
 }  // namespace

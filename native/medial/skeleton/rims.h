@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rims without saws: vertices on the rim of a sheet move towards the middle of their neighbours on
-// it. Facets stay what they are, and none folds.
+// Smooths jagged rims: vertices on the rim of a sheet move towards the middle of their neighbours
+// on it. Facets keep their corners, and none folds.
 #pragma once
 
 #include <span>
@@ -11,12 +11,12 @@
 
 namespace medial {
 
-// The corners of polygons: facet i has the corners [offsets[i], offsets[i + 1]).
+// Holds the corners of polygons: facet i has the corners [offsets[i], offsets[i + 1]).
 struct Polygons {
   std::span<const int32_t> offsets, corners;
 };
 
-// Moves the vertices with exactly two of the rim edges; returns them, ascending.
+// Moves the vertices with exactly two of the rim edges; returns these vertices, ascending.
 std::vector<int32_t> relax_rims(const Polygons& polygons, std::span<const Edge> rims,
                                 std::span<Vec3> places, const Run& run);
 

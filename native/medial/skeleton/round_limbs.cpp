@@ -7,15 +7,15 @@
 namespace medial {
 namespace {
 
-constexpr double kRound = 0.5;  // share of the length
+constexpr double kRound = 0.5;  // share of the length of a chain
 
-// Wires with a vertex each that went with them, and the vertex that they led to. All of them end
-// somewhere without facets: they are a forest, whose roots are vertices that stay.
+// Holds wires that were each removed with a vertex, and the vertices that they lead to. All of them
+// end somewhere without facets, so they are a forest, whose roots are vertices that stay.
 struct Forest {
-  std::vector<int32_t> edges;     // of the complex, ascending
-  std::vector<int32_t> vertices;  // likewise
-  std::vector<Edge> wires;        // rows of these: from the one that went to the next
-  std::vector<uint8_t> is_root;   // per vertex
+  std::vector<int32_t> edges;     // ids in the complex, ascending
+  std::vector<int32_t> vertices;  // the same
+  std::vector<Edge> wires;        // rows of `vertices`: from the removed vertex to the next
+  std::vector<uint8_t> is_root;   // per row of `vertices`
 };
 
 int32_t row_of(const std::vector<int32_t>& ids, int32_t id) {
@@ -59,13 +59,13 @@ double round_share(const Curve& curve) {
   return all > 0 ? round / all : 0;
 }
 
-// Takes chains away from the loose ends of a forest.
+// Removes chains from the loose ends of a forest.
 class Shedder {
  public:
   Shedder(const Forest& forest, const std::vector<Chain>& chains, const std::vector<Curve>& curves)
       : forest_(forest), chains_(chains), curves_(curves), carried_(forest.vertices.size(), 0) {}
 
-  // The chains that go.
+  // Returns the chains that are removed.
   std::vector<int32_t> shed() && {
     std::vector<int32_t> chain_from(carried_.size(), -1), loose, gone;
     for (size_t c = 0; c < chains_.size(); ++c) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Round limbs: of the wires that only their length keeps, those along which the samples lie all
-// round. What else such wires run along are ridges, as terraces and noise have them by the hundred.
+// Finds round limbs: those of the wires kept only by their length along which samples lie all
+// round. The other ones follow ridges, which terraces and noise have in hundreds.
 #pragma once
 
 #include "skeleton/betti.h"
@@ -8,8 +8,8 @@
 
 namespace medial {
 
-// Takes the other ones away, from their loose ends. A chain of wires stays if it is round along
-// half of its length, or carries one that stays.
+// Removes the wires that are not round, from their loose ends. A chain of wires stays if it is
+// round along half of its length, or carries a chain that stays.
 void shed_flat_limbs(const Hierarchy::Parts& hierarchy, const LevelOptions& options, Alive& alive,
                      const Run& run);
 

@@ -10,7 +10,7 @@
 namespace medial {
 namespace {
 
-// The thickness of the thickest facet of each sheet, at its lowest facet.
+// Returns the thickness of the thickest facet of each sheet, at the sheet's lowest facet.
 Array<float> peaks(const Sheets& sheets, std::span<const float> thickness, const Run& run) {
   auto peak = array<float>(thickness.size(), 0, run);
   parallel_chunks(static_cast<int64_t>(thickness.size()), run,
@@ -31,8 +31,8 @@ Array<float> peaks(const Sheets& sheets, std::span<const float> thickness, const
   return peak;
 }
 
-// Drops sheets, the thinnest first. Sheets are known by their lowest facets; several that have
-// become one by any of these.
+// Drops sheets, the thinnest first. A sheet is identified by its lowest facet; a group of united
+// sheets is identified by any of its sheets.
 class Dropper {
  public:
   Dropper(const Sheets& sheets, std::span<const float> peak) {
@@ -55,7 +55,7 @@ class Dropper {
     }
   }
 
-  // The value of each sheet, by its lowest facet.
+  // Returns the lowest facet and the value of each sheet.
   std::vector<std::pair<int32_t, float>> drop_all() {
     for (size_t s = 0; s < groups_.size(); ++s) push(static_cast<int32_t>(s));
     while (!queue_.empty()) {
@@ -73,9 +73,9 @@ class Dropper {
  private:
   struct Group {
     float peak = 0;
-    int32_t into = -1;  // has become part of another
+    int32_t into = -1;  // the group that it has become part of, or -1
     bool dropped = false;
-    std::vector<int32_t> members;  // numbers of sheets
+    std::vector<int32_t> members;  // numbers of the sheets in it
     std::vector<size_t> meetings;
   };
 
@@ -97,7 +97,7 @@ class Dropper {
     if (groups_[sheet].peak < HUGE_VALF) queue_.emplace(groups_[sheet].peak, sheet);
   }
 
-  // The facets that are left of those that met are connected, if they are two.
+  // Unites the groups at a junction if exactly two of its facets are left.
   void join_at(std::span<const int32_t> meeting) {
     std::vector<int32_t> left;
     for (const int32_t sheet : meeting) {
@@ -119,12 +119,12 @@ class Dropper {
   std::vector<Group> groups_;
   std::map<int32_t, int32_t> number_;
   std::vector<std::pair<int32_t, float>> values_;
-  std::vector<std::vector<int32_t>> meetings_;  // sheets, one for each facet of a junction
+  std::vector<std::vector<int32_t>> meetings_;  // per junction: the sheet of each of its facets
   using Peak = std::pair<float, int32_t>;
   std::priority_queue<Peak, std::vector<Peak>, std::greater<>> queue_;
 };
 
-// Raises the values of facets that had to wait for others. Within a sheet values are equal at
+// Raises the values of facets that had to wait for others. All values in a sheet are equal at
 // first, so waiting matters from the junctions on.
 void wait_at_junctions(const InnerComplex& complex, const Collapse& collapse, const Sheets& sheets,
                        Array<float>& value) {

@@ -11,7 +11,8 @@ bool without_length(const InnerComplex& complex, std::span<const int32_t> place,
   return place[a] == place[b];
 }
 
-// An edge as a facet passes along it: `turned` against the direction of its lowest edge.
+// A step of a facet along an edge; `turned` is true if it is against the direction of its lowest
+// edge.
 struct Step {
   int32_t edge;
   bool turned;
@@ -19,7 +20,7 @@ struct Step {
 
 class Shrinker {
  public:
-  // `points`: the edges without length.
+  // Shrinks the complex; `points` are the edges without length.
   Shrinker(const InnerComplex& complex, std::span<const int32_t> place,
            std::span<const int32_t> points, const Run& run)
       : complex_(complex),
@@ -91,7 +92,7 @@ class Shrinker {
         out.push_back(static_cast<int32_t>(f));
       }
     });
-    // One that shrinks may leave another with fewer edges.
+    // A facet that shrinks may leave another one with fewer edges, so the search is repeated.
     do {
       while (std::erase_if(flat, [&](int32_t f) { return shrinks(f); }) > 0) {
         throw_if_cancelled(run_.progress);
@@ -99,8 +100,8 @@ class Shrinker {
     } while (collapse_points(flat));
   }
 
-  // Removes facets that have shrunk to a point together with an edge that they alone have. Returns
-  // whether there was one.
+  // Removes facets that have shrunk to a point, together with an edge that no other facet has.
+  // Returns whether there was one.
   bool collapse_points(std::vector<int32_t>& flat) {
     std::vector<int32_t> points;
     for (const int32_t f : flat) {
@@ -142,7 +143,7 @@ class Shrinker {
     if (left_.size() == 1) {
       gone_[left_[0].edge] = 1;
     } else if (left_.size() == 2 && left_[0].edge != left_[1].edge) {
-      // One way there, the other one back.
+      // The facet follows one edge there and the other one back.
       edges_.unite(left_[0].edge, left_[1].edge, left_[0].turned == left_[1].turned);
     } else {
       return false;
@@ -151,7 +152,7 @@ class Shrinker {
     return true;
   }
 
-  // The steps round a facet, less those that are taken back at once.
+  // Finds the steps round a facet, without those that are taken back at once.
   void walk_round(int32_t facet) {
     left_.clear();
     for (const Corner& c : complex_.ring(facet)) {
@@ -173,7 +174,7 @@ class Shrinker {
     return a.edge == b.edge && a.turned != b.turned;
   }
 
-  // Numbers what is left; -1 for all others.
+  // Numbers the ids that are left; all others get -1.
   template <typename IsLeft>
   Array<int32_t> number(int32_t count, const IsLeft& is_left) {
     auto numbers = array<int32_t>(static_cast<size_t>(count), -1, run_);
@@ -189,9 +190,9 @@ class Shrinker {
   Run run_;
   UnionFind vertices_;
   OrientedUnionFind edges_;
-  Array<uint8_t> gone_;  // per lowest edge: shrunk to a point
+  Array<uint8_t> gone_;  // per lowest edge: 1 if it shrank to a point
   std::vector<int32_t> shrunk_;
-  std::vector<Step> left_;  // round the facet in hand
+  std::vector<Step> left_;  // round the current facet
 };
 
 }  // namespace

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells without extent, as of cospherical samples, shrunk to what they are, by steps that each keep
-// the topology: an edge without length shrinks to a point, unless it closes a loop; a facet that is
-// left with one edge shrinks to a point with it; a facet that is left with two edges shrinks to one
-// edge, unless both are the same already; what a facet passes to and fro does not count; a facet in
-// one place goes with an edge that no other one has. So the cells about the axis of a tube, whose
-// facets are segments, become a curve.
+// Shrinks cells without extent, which cospherical samples cause, by steps that each keep the
+// topology. An edge without length shrinks to a point, unless it closes a loop. A facet that is
+// left with one edge shrinks to a point with it. A facet that is left with two edges shrinks to one
+// edge, unless both are the same already. Steps that a facet takes to and fro do not count. A facet
+// in one place is removed with an edge that no other facet has. So the cells around the axis of a
+// tube, whose facets are segments, become a curve.
 #pragma once
 
 #include "skeleton/complex.h"
 
 namespace medial {
 
-// `place`: per vertex the lowest one in the same place.
+// Returns the shrunk complex; `place` gives for each vertex the lowest vertex in the same place.
 InnerComplex shrink(InnerComplex complex, std::span<const int32_t> place, const Run& run);
 
 }  // namespace medial

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a facet is from being selected by MEDIAL: the order of the first two stages.
+// Measures how close a facet is to being selected by MEDIAL: the order of the first two stages.
 #pragma once
 
 #include "axis/selection.h"
@@ -9,16 +9,16 @@ namespace medial {
 
 class FacetWeights {
  public:
-  // Keeps references.
+  // The arguments must outlive this object.
   FacetWeights(const Facets& facets, const Thresholds& thresholds)
       : facets_(facets), t_(thresholds), selection_({thresholds}, facets) {}
 
-  // Whether a Delaunay edge is selected.
+  // Returns whether a Delaunay edge is selected.
   bool selected(int32_t edge) const {
-    std::vector<int32_t> none;  // side `both` needs no ring
+    std::vector<int32_t> none;  // the side `both` needs no ring
     return selection_.wants(edge, none);
   }
-  // The larger of theta / theta0 and rho / rho0; as the criteria have it, one of them.
+  // Returns the larger one of theta / theta0 and rho / rho0, or only the one that the criteria use.
   double operator()(int32_t edge) const {
     const double theta =
         part(theta_of(facets_.significance.sines(t_.rule)[edge]), t_.theta, Criteria::ratio);

@@ -6,12 +6,12 @@
 namespace medial {
 namespace {
 
-// Below this share of the diagonal the order matters for nothing but for which vertex of a small
-// tree stays: what is loose stays loose, and the elongation comes from what lies behind.
+// Below this share of the diagonal, the order only affects which vertex of a small tree stays: a
+// loose end stays loose, and the cells behind it determine the elongation.
 constexpr double kAtOnce = 1.0 / 1024;
 constexpr size_t kBuckets = 512;
 
-// A fire front on a wire: lengths are measured from an anchor, not summed over edges, for the
+// A fire front on a wire measures lengths from an anchor instead of adding up edges, because
 // Voronoi edges zigzag.
 struct Front {
   double time = -HUGE_VAL, anchor_time = -HUGE_VAL;
@@ -48,7 +48,7 @@ class WireFire {
     return left_[vertex].count() == 1 && burning_.is_wire[left_[vertex].last()];
   }
 
-  // Takes loose ends away, one after the other, as far as they do not have to wait.
+  // Removes loose ends, one after the other, as long as they do not have to wait.
   void follow(int32_t vertex) {
     while (is_loose(vertex)) {
       light(vertex);
@@ -61,7 +61,7 @@ class WireFire {
     }
   }
 
-  // The time at a loose end, and the elongation of its edge.
+  // Computes the time at a loose end, and the elongation of its edge.
   void light(int32_t vertex) {
     const int32_t edge = left_[vertex].last();
     const Times& t = burning_.times[edge];
@@ -78,7 +78,7 @@ class WireFire {
     return std::max(front.time, front.anchor_time + distance(x, complex_.position[front.anchor]));
   }
 
-  // Returns the other end.
+  // Removes a loose end and its edge; returns the other end of the edge.
   int32_t take_away(int32_t vertex) {
     const int32_t edge = left_[vertex].last(), other = other_end(complex_, edge, vertex);
     shared_store(collapse_.partner[edge], with_vertex(vertex));
@@ -92,7 +92,7 @@ class WireFire {
     return other;
   }
 
-  // Where several fronts meet the last one counts.
+  // Lets a front come to a vertex. Where several fronts meet, the last one counts.
   void arrive(Front front, int32_t vertex) {
     const Vec3& at = complex_.position[vertex];
     front.time = later(front, at);
@@ -108,7 +108,7 @@ class WireFire {
   Collapse& collapse_;
   Progress* progress_;
   BucketQueue queue_;
-  Array<Incident> left_;  // per vertex: edges
+  Array<Incident> left_;  // per vertex: the edges that are left at it
   Array<Front> front_;
   Wires wires_;
 };

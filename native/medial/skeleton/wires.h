@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stage 3 of the collapse: the fire on the edges that have no facet any more.
+// Stage 3 of the collapse is the fire on the edges that have no facet left.
 #pragma once
 
 #include "skeleton/fire.h"
@@ -7,17 +7,17 @@
 namespace medial {
 
 struct Wires {
-  // Vertices in the order in which they went, each with the edge that it went with.
+  // Vertices are in the order in which they were removed, each with an edge.
   Array<int32_t> order;
-  Array<int32_t> next;  // of each of these, the other end of that edge
-  // Per vertex that went here: how much later than sideways the fire comes along the wire to the
-  // middle of the edge; without meaning for others.
+  Array<int32_t> next;  // for each of these, the other end of the edge
+  // For each vertex removed here, how much later the fire comes to the middle of the edge along the
+  // wire than sideways; it means nothing for other vertices.
   Array<double> elongation;
 };
 
-// Takes all wires away that fire can reach. What is left has no loose end: closed curves, closed
-// sheets and what joins them; of a tree one vertex. Others may read partners at the same time, by
-// shared_load: edges that have gone with a facet keep theirs.
+// Removes all wires that the fire can reach. The rest has no loose end: closed curves, closed
+// sheets and the cells that join them; one vertex stays of a tree. Other threads may read partners
+// at the same time by shared_load: edges that were removed with a facet keep theirs.
 Wires burn_wires(const InnerComplex& complex, const Burning& burning, Collapse& collapse,
                  const Run& run);
 
