@@ -6,12 +6,12 @@
 namespace medial {
 namespace {
 
-// The zones above and below are convex: a Voronoi edge misses the cocone exactly when both its ends
-// are above, or both below.
+// Holds the zone of each Voronoi vertex. The zones above and below are convex, so a Voronoi edge
+// misses the cocone exactly when both its ends are above, or both below.
 using Zones = std::vector<std::array<Zone, 4>>;  // per cell and corner
 
-// Per cell and face (opposite to each of its corners): bit i says that the dual Voronoi edge meets
-// the cocone of corner i.
+// Holds bits per cell and face (opposite to each of its corners): bit i is set if the dual Voronoi
+// edge meets the cocone of corner i.
 using Meetings = std::vector<std::array<uint8_t, 4>>;
 
 struct CoconeInput {
@@ -60,7 +60,7 @@ Meetings meetings(const CoconeInput& s, const Zones& zones, const Run& run) {
   return result;
 }
 
-// The triangles at p whose dual Voronoi edges meet the cocone of p, each seen from one cell.
+// Finds the triangles at p whose dual Voronoi edges meet the cocone of p, each from one cell.
 void meetings_at(int32_t p, const CoconeInput& s, const Meetings& meetings,
                  std::vector<CellFace>& out) {
   out.clear();
@@ -73,22 +73,22 @@ void meetings_at(int32_t p, const CoconeInput& s, const Meetings& meetings,
   }
 }
 
-// Distance from p, squared, at which the dual Voronoi edge of two cells crosses the tangent plane;
-// 0 when it does not.
+// Returns the squared distance from p at which the dual Voronoi edge of two cells crosses the
+// tangent plane, or 0 if it does not cross it.
 double crossing(int32_t p, int32_t cell, int32_t across, const CoconeInput& s) {
   const Vec3 a = s.towards(p, cell), b = s.towards(p, across);
   const double ha = dot(a, s.normal[p]), hb = dot(b, s.normal[p]);
   if ((ha >= 0) == (hb >= 0)) return 0;
   if (s.t.is_infinite(cell) || (s.t.is_infinite(across) && hb == 0)) return HUGE_VAL;
   if (s.t.is_infinite(across)) return squared_length(a - (ha / hb) * b);
-  // Computed from the nearer end of the edge, where less is lost to rounding.
+  // The computation starts at the nearer end of the edge, where rounding loses less.
   const bool a_is_nearer = squared_length(a) <= squared_length(b);
   return squared_length(a_is_nearer ? a + (ha / (ha - hb)) * (b - a)
                                     : b + (hb / (hb - ha)) * (a - b));
 }
 
-// Whether Voronoi vertices of p lie at least this far, squared, on both sides of the tangent plane;
-// so the poles do.
+// Returns whether Voronoi vertices of p are at least this far (squared) away on both sides of the
+// tangent plane; then the poles are, too.
 bool reaches(int32_t p, double distance, const CoconeInput& s) {
   bool above = false, below = false;
   for (const int32_t cell : s.incident[p]) {
@@ -109,7 +109,7 @@ bool is_thin(int32_t p, const CoconeInput& s, std::span<const CellFace> faces) {
   return width < HUGE_VAL && reaches(p, ratio * ratio * width, s);
 }
 
-// Calls found(neighbour) for the samples of triangles at p, some several times.
+// Calls found(neighbour) for the samples of triangles at p, for some of them several times.
 template <typename Found>
 void for_neighbours(int32_t p, const CoconeInput& s, std::span<const CellFace> faces,
                     const Found& found) {
@@ -126,7 +126,7 @@ struct Growth {
 };
 
 // Decides which samples are thin, and which are flat at once; returns the ways in which the other
-// thin ones may grow.
+// thin samples may grow flat.
 std::vector<Growth> agreement(const CoconeInput& s, const Meetings& meetings, Cocone& result,
                               const Run& run) {
   const double least = std::cos(s.options.flatness_angle);

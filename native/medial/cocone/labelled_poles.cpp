@@ -6,15 +6,15 @@
 namespace medial {
 namespace {
 
-constexpr double kDeep = 0.5;  // the least cosine of two balls that lie on one side
+constexpr double kDeep = 0.5;  // the least cosine of two balls on the same side
 constexpr int32_t kNone = -1;
 constexpr int32_t kAtInfinity = 0;  // the node of all poles at infinity
 
 enum class Label : uint8_t { none, inner, outer };
 
-// The two poles of a sample, each as a cell with that Voronoi vertex; `first` is the pole of
+// Holds the two poles of a sample, each as a cell with that Voronoi vertex; `first` is the pole of
 // Definition 1, `second` the farthest vertex on the other side of the sample. A cell with a point
-// that is no sample stands for infinity.
+// that is not a sample represents infinity.
 struct TwoPoles {
   int32_t first = kNone, second = kNone;
 };
@@ -37,8 +37,8 @@ struct PolesInput {
   }
 };
 
-// The farthest Voronoi vertex among those that `wanted` takes; of equally far ones that of the
-// lowest cell. Infinite ones are farther than all.
+// Returns the farthest Voronoi vertex for which `wanted` is true; among equally far ones it is that
+// of the lowest cell. Infinite vertices are the farthest.
 template <typename Wanted>
 int32_t farthest(const PolesInput& s, int32_t p, const Wanted& wanted) {
   int32_t found = kNone;
@@ -57,7 +57,7 @@ TwoPoles poles_of(const PolesInput& s, int32_t p) {
           farthest(s, p, [&](const Vec3& v) { return dot(v, vector) < 0; })};
 }
 
-// Poles that are the same Voronoi vertex are one node.
+// Makes one node of all poles that are the same Voronoi vertex.
 class Nodes {
  public:
   Nodes(const PolesInput& s, std::span<const TwoPoles> poles) : node_(s.t.cells.size(), kNone) {
@@ -78,7 +78,7 @@ class Nodes {
     }
   }
 
-  // kNone for a cell whose Voronoi vertex is no pole.
+  // Returns the node of a cell, or kNone if its Voronoi vertex is not a pole.
   int32_t operator[](int32_t cell) const { return cell < 0 ? kNone : node_[cell]; }
   int32_t count() const { return count_; }
 
@@ -87,7 +87,8 @@ class Nodes {
   int32_t count_ = 1;
 };
 
-// Two nodes and how surely they lie on one side; below zero: on two sides.
+// Links two nodes; the weight says how certainly they are on the same side, or on two sides if it
+// is negative.
 struct Link {
   std::array<int32_t, 2> nodes;
   float weight;
@@ -96,7 +97,7 @@ struct Link {
   auto end() const { return nodes.end(); }
 };
 
-// The cosine of the angle between two balls where their spheres meet.
+// Returns the cosine of the angle between two balls where their spheres meet.
 double cosine(const PolesInput& s, int32_t p, int32_t of_p, int32_t q, int32_t of_q) {
   const double a = squared_length(s.towards(p, of_p)), b = squared_length(s.towards(q, of_q));
   const double d = squared_length(s.voronoi.centre[of_q] - s.voronoi.centre[of_p]);
@@ -155,7 +156,7 @@ class Links {
       const int32_t behind = s_.t.neighbors[cell][i];
       if (nodes_[behind] <= kAtInfinity) continue;
       const Cell& ids = s_.t.cells[behind];
-      const int32_t p = ids[slot_of(s_.t.neighbors[behind], cell) == 0 ? 1 : 0];  // of both cells
+      const int32_t p = ids[slot_of(s_.t.neighbors[behind], cell) == 0 ? 1 : 0];  // in both cells
       const double deep = cosine_at(s_, p, cell, behind);
       if (deep > kDeep) link(kAtInfinity, nodes_[behind], deep, out);
     }
@@ -167,7 +168,7 @@ class Links {
   std::vector<Link> found_;
 };
 
-// Labels nodes in the order of how surely they are known, as Power Crust does.
+// Labels the nodes in the order of certainty, as Power Crust does.
 class Labelling {
  public:
   Labelling(std::span<const Link> links, Csr<int32_t> at)
@@ -183,7 +184,7 @@ class Labelling {
       const auto [known, turned] = queue_.top();
       queue_.pop();
       const int32_t node = -turned;
-      // A node whose priority has changed since then is in the queue a second time.
+      // A node whose priority has changed since then is in the queue again.
       if (label_[node] != Label::none || known != priority(node)) continue;
       label_[node] = sure_[node].inner > sure_[node].outer ? Label::inner : Label::outer;
       pass_on(node);
@@ -216,10 +217,10 @@ class Labelling {
   }
 
   std::span<const Link> links_;
-  Csr<int32_t> at_;  // links at each node
+  Csr<int32_t> at_;  // per node: its links
   std::vector<Label> label_;
   std::vector<Sure> sure_;
-  std::priority_queue<std::pair<float, int32_t>> queue_;  // of equally sure ones the lowest node
+  std::priority_queue<std::pair<float, int32_t>> queue_;  // equal priorities: lowest node first
 };
 
 std::vector<Label> labels(std::span<const Link> links, int32_t nodes, const Run& run) {
@@ -234,7 +235,7 @@ LabelledPoles labelled_poles(std::span<const Vec3> points, const Triangulation& 
                              const Run& run) {
   begin_stage(run.progress, "Labels of poles", 0.9, 0.99);
   const PolesInput s{points, t, voronoi, incident, poles};
-  const Run quiet{run.threads, nullptr};  // what it makes goes again
+  const Run quiet{run.threads, nullptr};  // for arrays that are temporary
   const auto samples = static_cast<size_t>(incident.size());
   std::vector<TwoPoles> two(samples);
   parallel_for(incident.size(), quiet,

@@ -8,9 +8,9 @@ struct ManifoldInput {
   std::span<const Vec3> points;
   const Triangulation& t;
   const Csr<int32_t>& incident;
-  double least_cosine;  // of the oriented normals of triangles that continue each other
+  double least_cosine;  // between oriented normals of triangles that continue each other
 
-  // Whether the triangles (p, q, x) and (q, p, y) continue each other across the edge pq.
+  // Returns whether the triangles (p, q, x) and (q, p, y) continue each other across the edge pq.
   bool continue_each_other(int32_t p, int32_t q, int32_t x, int32_t y) const {
     const Vec3 edge = points[q] - points[p];
     const Vec3 n = cross(edge, points[x] - points[p]), m = cross(points[y] - points[p], edge);
@@ -18,13 +18,13 @@ struct ManifoldInput {
   }
 };
 
-// The corners (p, q, x) of a face from its corner x on.
+// Returns the corners of a face as (p, q, x), where x is the given corner.
 std::array<int32_t, 3> seen_from(const Triangulation& t, const CellFace& f, int corner) {
   const auto ids = corners(t, f);
   return {ids[(corner + 1) % 3], ids[(corner + 2) % 3], ids[corner]};
 }
 
-// Whether triangles at p are a disc and all continue one another.
+// Returns whether the triangles at p form a disc and all continue one another.
 bool is_umbrella(const ManifoldInput& s, int32_t p, std::vector<Edge>& links) {
   if (!put_in_cycle(links)) return false;
   for (size_t i = 0; i < links.size(); ++i) {
@@ -34,10 +34,10 @@ bool is_umbrella(const ManifoldInput& s, int32_t p, std::vector<Edge>& links) {
   return true;
 }
 
-// Triangles that are part of umbrellas, from both sides.
+// Holds the triangles that are part of umbrellas, from both sides.
 struct UmbrellaTriangles {
   FaceSet triangles;
-  std::vector<uint8_t> simple;  // per sample: all its triangles are one umbrella
+  std::vector<uint8_t> simple;  // per sample: 1 if all its triangles form one umbrella
 };
 
 class UmbrellaSearch {
@@ -45,7 +45,7 @@ class UmbrellaSearch {
   UmbrellaSearch(const ManifoldInput& s, const FaceSet& set, UmbrellaTriangles& result)
       : s_(s), set_(set), result_(result) {}
 
-  // All triangles at p, if they are one umbrella.
+  // Inserts all triangles at p, if they form one umbrella.
   void find_simple(int32_t p) {
     start(p);
     links_.clear();
@@ -56,7 +56,7 @@ class UmbrellaSearch {
     if (!result_.simple[p]) return;
     for (const CellFace& f : faces_) result_.triangles.insert_shared(f);
   }
-  // The triangles at p that are part of some umbrella.
+  // Inserts the triangles at p that are part of an umbrella.
   void find_all(int32_t p) {
     start(p);
     walked_.clear();
@@ -69,7 +69,7 @@ class UmbrellaSearch {
       if (!is_umbrella(s_, p, links_)) continue;
       insert_walk();
       result_.simple[p] = 2 * steps_.size() == faces_.size();
-      if (result_.simple[p]) return;  // the rest is the back of it
+      if (result_.simple[p]) return;  // the rest is its back
     }
   }
 
@@ -92,7 +92,7 @@ class UmbrellaSearch {
   std::vector<Edge> links_;
 };
 
-// Calls search(search, p) for all samples.
+// Calls at(search, p) for all samples that are not simple yet.
 template <typename Search>
 void search_umbrellas(const ManifoldInput& s, const FaceSet& set, UmbrellaTriangles& result,
                       const Run& run, const Search& at) {
@@ -104,7 +104,7 @@ void search_umbrellas(const ManifoldInput& s, const FaceSet& set, UmbrellaTriang
   });
 }
 
-// An edge is sharp when none of its triangles continues another.
+// Returns whether an edge is sharp: no triangle at it continues another one.
 bool is_sharp(const ManifoldInput& s, const FaceSet& set, const CellFace& f, int32_t p, int32_t q) {
   const auto next = [&](const CellFace& g) {
     return mirror(s.t, next_about_edge(s.t, set, g, p, q));
@@ -119,7 +119,8 @@ bool is_sharp(const ManifoldInput& s, const FaceSet& set, const CellFace& f, int
   return true;
 }
 
-// At an edge between samples that are not flat one triangle is enough: the surface may end there.
+// Returns whether a triangle has a sharp edge. Edges between samples that are not flat do not
+// count, because the surface may end there.
 bool has_sharp_edge(const ManifoldInput& s, const FaceSet& set, const CellFace& f,
                     std::span<const uint8_t> flat) {
   for (int i = 0; i < 3; ++i) {
@@ -136,7 +137,7 @@ void append_others_at_edge(const ManifoldInput& s, const FaceSet& set, const Cel
   for (; !(g == f); g = mirror(s.t, next_about_edge(s.t, set, g, p, q))) out.push_back(g);
 }
 
-// Deletes triangles at sharp edges, and those whose edges become sharp by it, until none is left.
+// Deletes triangles at sharp edges, and those whose edges become sharp by that, until none is left.
 // Locked triangles stay.
 void prune(const ManifoldInput& s, FaceSet& set, const FaceSet& locked,
            std::span<const uint8_t> flat, const Run& run) {
@@ -160,8 +161,8 @@ void prune(const ManifoldInput& s, FaceSet& set, const FaceSet& locked,
   }
 }
 
-// The walk over the surface: grows it from triangle to triangle, always on the front side. A
-// candidate that conflicts with what is there is dropped.
+// Walks over the surface and extends it from triangle to triangle, always on the front side. A
+// candidate that conflicts with the surface is dropped.
 class Walk {
  public:
   Walk(const ManifoldInput& input, UmbrellaTriangles umbrellas, const Progress* progress)
@@ -172,7 +173,7 @@ class Walk {
         surface_(input.t),
         front_(input.t) {}
 
-  // From all candidates that are wanted, in order of their cells.
+  // Walks from all candidates that are wanted, in the order of their cells.
   template <typename Wanted>
   void start(const Wanted& wanted) {
     for (int32_t cell = 0; cell < s_.t.cell_count(); ++cell) {
@@ -197,7 +198,7 @@ class Walk {
     }
     queue_.clear();
   }
-  // To the first candidate on the front side that continues f across an edge.
+  // Walks across an edge to the first candidate on the front side that continues f.
   void cross_edge(const CellFace& f, int edge) {
     const auto [p, q, x] = seen_from(s_.t, f, edge);
     CellFace from = f;
@@ -214,7 +215,8 @@ class Walk {
         queue_.push_back({g, edge_of(g, p, q)});
         return;
       }
-      if (candidates_.has(g)) from = mirror(s_.t, g);  // too sharp: look behind it
+      // too sharp, so the search continues behind it
+      if (candidates_.has(g)) from = mirror(s_.t, g);
     }
   }
 
@@ -223,7 +225,7 @@ class Walk {
     return ids[0] != p && ids[0] != q ? 0 : ids[1] != p && ids[1] != q ? 1 : 2;
   }
 
-  // Adds a triangle to the surface, unless one of its edges would have a third triangle then.
+  // Adds a triangle to the surface, unless this would give one of its edges a third triangle.
   bool take(const CellFace& f) {
     if (!candidates_.has(f) || surface_.has(f)) return false;
     insert_both(s_.t, surface_, f);
@@ -241,7 +243,7 @@ class Walk {
     front_.erase(f);
   }
 
-  // The edge has two candidates, which continue each other.
+  // Returns whether the edge has just two candidates, which continue each other.
   bool is_simple(int32_t p, int32_t q) const { return simple_[p] || simple_[q]; }
   bool fits(const CellFace& f, int edge) const {
     const auto [p, q, x] = seen_from(s_.t, f, edge);
@@ -257,7 +259,7 @@ class Walk {
   FaceSet candidates_;  // from both sides
   std::vector<uint8_t> simple_;
   FaceSet surface_;  // from both sides
-  FaceSet front_;    // from one
+  FaceSet front_;    // from one side
   struct Reached {
     CellFace face;
     int entry;  // the edge by which it was reached; -1 for a seed
@@ -275,13 +277,13 @@ FaceSet manifold(std::span<const Vec3> points, const Triangulation& t, const Csr
   UmbrellaTriangles umbrellas{FaceSet(t), std::vector<uint8_t>(cocone.flat.size())};
   search_umbrellas(s, candidates, umbrellas, run,
                    [](UmbrellaSearch& search, int32_t p) { search.find_simple(p); });
-  // Where all is clear already, no triangle is lost to the pruning of its neighbours.
+  // Where the surface is already clear, pruning of neighbours must not delete a triangle.
   prune(s, candidates, umbrellas.triangles, cocone.flat, run);
   search_umbrellas(s, candidates, umbrellas, run,
                    [](UmbrellaSearch& search, int32_t p) { search.find_all(p); });
   Walk walk(s, std::move(umbrellas), run.progress);
-  // The walk starts outside, which the hull tells, for where triangles lie in a stack the surface
-  // seen from the front is another than that from the back.
+  // The walk starts outside, at the hull, because in a stack of triangles the surface seen from the
+  // front differs from that seen from the back.
   const auto samples = static_cast<int32_t>(incident.size());
   walk.start([&](const CellFace& f) {
     const int32_t beyond = t.cells[f.cell][f.slot];

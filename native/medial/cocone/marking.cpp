@@ -14,7 +14,7 @@ Facing turned(Facing facing) {
                                   : Facing::none;
 }
 
-// The state of a thread that marks the cells at one sample after another.
+// Holds the state of a thread that marks the cells at one sample after another.
 class Marker {
  public:
   Marker(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
@@ -35,8 +35,8 @@ class Marker {
     return is_one_disc(t_, faces_, p, links_);
   }
 
-  // Floods the cells at the good sample p, of which is_good was asked last, from the front of its
-  // umbrella; the others lie behind it.
+  // Floods the cells at the good sample p from the front of its umbrella; the others are behind it.
+  // The last call of is_good must have been for p.
   void split_by_umbrella(int32_t p) {
     stack_.clear();
     const auto reach = [&](int32_t cell) {
@@ -59,11 +59,12 @@ class Marker {
     }
   }
 
-  // The front is where the pole lies; cells in the cocone are left out.
+  // Marks cells on the pole's side of the tangent plane as front, and those on the other side as
+  // back; cells in the cocone stay unmarked.
   void split_by_plane(int32_t p, const Vec3& normal) {
     for (const int32_t cell : incident_[p]) at(cell, p) = above_plane(cell, p, normal);
   }
-  // Whether the pole lies in front of the umbrella.
+  // Returns whether the pole is in front of the umbrella.
   bool faces_pole(int32_t p, const Vec3& normal) {
     int votes = 0;
     for (const int32_t cell : incident_[p]) {
@@ -88,19 +89,19 @@ class Marker {
   const FaceSet& surface_;
   double sine_;
   Marks& marks_;
-  std::vector<CellFace> faces_;  // at a sample, seen from the front
+  std::vector<CellFace> faces_;  // at the current sample, seen from the front
   std::vector<Edge> links_;
   std::vector<int32_t> stack_;
 };
 
-// Two flat samples whose normal lines agree.
+// Holds two flat samples whose normal lines agree.
 struct Agreement {
-  double cosine;  // of their pole vectors
+  double cosine;  // between their pole vectors
   int32_t p, q;
 };
 
-// The agreements of samples that share a candidate triangle, the best first. Pairs of good samples
-// are left to the surface.
+// Returns the agreements of samples that share a candidate triangle, the best first. Pairs of good
+// samples are omitted, because the surface connects them.
 std::vector<Agreement> agreements(const Triangulation& t, const Cocone& cocone,
                                   std::span<const uint8_t> good, double least, const Run& run) {
   auto found = parallel_append<Agreement>(t.finite_cells, run, [&](int64_t c, auto& out, int) {
@@ -149,7 +150,7 @@ void mark_cells(const MarkingInput& s, const Marker& marker, Marks& marks, const
   });
 }
 
-// Per sample: its pole lies in front of it.
+// Returns for each sample whether its pole is in front of it.
 std::vector<uint8_t> facing_poles(const MarkingInput& s, const Marker& marker,
                                   std::span<const Agreement> agreements, const Marks& marks,
                                   const Run& run) {
@@ -171,7 +172,7 @@ void unite_on_surface(const MarkingInput& s, std::span<const uint8_t> good,
   });
 }
 
-// Turns what is turned relative to the lowest sample of its patch.
+// Turns the marks of samples that are turned relative to the lowest sample of their patch.
 void number_patches(const MarkingInput& s, OrientedUnionFind& patches, Marks& marks,
                     const Run& run) {
   std::vector<uint8_t> turn(marks.good.size());

@@ -9,8 +9,8 @@
 namespace medial {
 namespace {
 
-// The faces of least circumradius, a bit each: more than one where single precision, in which most
-// points are stored, cannot tell them apart.
+// Returns the faces with the least circumradius, a bit each. There may be several, because most
+// points are stored in single precision, which cannot distinguish all radii.
 uint8_t smallest_faces(std::span<const Vec3> points, const Triangulation& t, int32_t cell) {
   constexpr double kTie = 1 + 0x1p-20;
   std::array<double, 4> size;
@@ -24,7 +24,8 @@ uint8_t smallest_faces(std::span<const Vec3> points, const Triangulation& t, int
   return smallest;
 }
 
-// Per cell: its smallest faces where none of its corners can tell on which side it lies, else none.
+// Returns for each cell its smallest faces if none of its corners knows on which side it is, else
+// 0.
 std::vector<uint8_t> opaque_faces(std::span<const Vec3> points, const Triangulation& t,
                                   const Marks& marks, const Run& run) {
   std::vector<uint8_t> result(t.cells.size(), 0);
@@ -36,9 +37,9 @@ std::vector<uint8_t> opaque_faces(std::span<const Vec3> points, const Triangulat
   return result;
 }
 
-// Takes cells away from the hull inwards, until what is left is bounded by the surface. Where the
-// surface says nothing it goes through the largest openings first: what lies behind them tells
-// where outside is before a small gap between noisy samples can mislead.
+// Removes cells from the hull inwards, until the surface bounds the rest. Where the surface gives
+// no answer, the largest openings are passed first: the cells behind them determine where outside
+// is before a small gap between noisy samples can mislead.
 class Peeling {
  public:
   Peeling(std::span<const Vec3> points, const Triangulation& t, const Marks& marks, const Run& run)
@@ -80,7 +81,7 @@ class Peeling {
   }
 
  private:
-  // A face, seen from outside, into a cell of which the surface says nothing.
+  // An opening is a face, seen from outside, into a cell about which the surface gives no answer.
   struct Opening {
     double size;
     CellFace face;
@@ -91,7 +92,7 @@ class Peeling {
     }
   };
 
-  // Moves a cell outside. Its corners that see it on one of their sides learn which side is out.
+  // Moves a cell outside. It shows its corners that mark it which of their sides is out.
   void take(int32_t cell) {
     outside_[cell] = 1;
     taken_.push_back(cell);
@@ -122,8 +123,8 @@ class Peeling {
     if (!outside_[next] && vote_of(next) >= 0) take(next);
   }
 
-  // The vote of the corners that know which of their sides is out: 1 when most see the cell there,
-  // -1 otherwise, 0 when no corner knows.
+  // Lets the corners that know which of their sides is out vote on a cell: 1 if most see it
+  // outside, -1 otherwise, 0 if no corner knows.
   int vote_of(int32_t cell) const {
     int votes = 0, voters = 0;
     for (int i = 0; i < 4; ++i) {
@@ -136,7 +137,7 @@ class Peeling {
     }
     return voters == 0 ? 0 : votes > 0 ? 1 : -1;
   }
-  // A cell on whose side no corner has a say is transparent but for its smallest faces.
+  // Returns whether a face blocks the flood: only the smallest faces of a cell without votes do.
   bool is_opaque(const CellFace& f) const { return opaque_[f.cell] >> f.slot & 1; }
   double size_of(const CellFace& f) const {
     const auto [p, q, r] = corners(t_, f);
@@ -148,8 +149,8 @@ class Peeling {
   const Marks& marks_;
   std::vector<uint8_t> opaque_;
   std::vector<uint8_t> outside_;
-  std::vector<Facing> outer_facing_;  // per patch, by its lowest sample
-  std::vector<int32_t> taken_;        // cells that are still to be left
+  std::vector<Facing> outer_facing_;  // per patch, at its lowest sample
+  std::vector<int32_t> taken_;        // cells whose neighbours are still to be visited
   std::priority_queue<Opening> openings_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tight Cocone: inside and outside of the samples of a closed surface, and the watertight surface
-// between them (Dey & Goswami 2003).
+// Tight Cocone separates inside from outside for samples of a closed surface, and finds the
+// watertight surface between them (Dey & Goswami 2003).
 #pragma once
 
 #include "cocone/marking.h"
@@ -11,7 +11,7 @@ namespace medial {
 struct TightCocone {
   std::vector<uint8_t> flat, good;  // per sample
   CellSides sides;
-  int64_t cavities = 0;  // closed sheets of good samples that flooding from infinity never reached
+  int64_t cavities = 0;  // closed sheets of good samples not reached from infinity
 };
 
 TightCocone tight_cocone(std::span<const Vec3> points, const Triangulation& triangulation,

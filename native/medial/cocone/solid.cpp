@@ -4,7 +4,7 @@
 namespace medial {
 namespace {
 
-// The boundary, seen from outside.
+// Returns the faces of the boundary, seen from outside.
 FaceSet outer_faces(const Triangulation& t, const CellSides& sides, const Run& run) {
   FaceSet result(t);
   parallel_for(t.cell_count(), run, [&](int64_t c) {
@@ -22,7 +22,7 @@ std::vector<Triangle> triangles_of(const Triangulation& t, const FaceSet& outer)
   return triangles;
 }
 
-// Per sample: the triangles round it are not one disc.
+// Returns for each sample whether the triangles around it are not one disc.
 std::vector<uint8_t> nonmanifold(const Triangulation& t, const Csr<int32_t>& incident,
                                  const FaceSet& outer, const Run& run) {
   std::vector<uint8_t> result(static_cast<size_t>(incident.size()));
@@ -38,7 +38,8 @@ std::vector<uint8_t> nonmanifold(const Triangulation& t, const Csr<int32_t>& inc
   return result;
 }
 
-// Counts among the edges whose two ends are not manifold: the ends of such an edge never are.
+// Counts edges with more than two triangles. Only edges between two non-manifold samples are
+// checked, because both ends of such an edge are always non-manifold.
 int64_t count_nonmanifold_edges(std::span<const Triangle> triangles,
                                 std::span<const uint8_t> nonmanifold) {
   std::vector<Edge> edges;

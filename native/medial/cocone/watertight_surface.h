@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surface that Tight Cocone found, in terms of the input rows.
+// Converts the surface that Tight Cocone found to input rows.
 #pragma once
 
 #include <medial/watertight_surface.h>
@@ -10,11 +10,11 @@
 
 namespace medial {
 
-// Triangles of samples as triangles of rows: lowest row first, in lexicographic order.
+// Converts triangles of samples to triangles of rows: lowest row first, in lexicographic order.
 std::vector<Triangle> in_rows(std::vector<Triangle> triangles, const Samples& samples,
                               const Run& run);
 
-// In terms of the rows.
+// Returns the result for the caller, in terms of the input rows.
 WatertightSurface describe(TightCocone found, SolidBoundary boundary, const Samples& samples,
                            const Run& run);
 
