@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How CGAL is set up; to be included before any of its headers, and by all units that include them,
-// so that they agree on what CGAL's templates are.
+// This header sets CGAL up. All units that use CGAL must include it before any of CGAL's headers,
+// so that CGAL's templates are the same in all of them.
 #pragma once
 
-// CGAL's containers, too, take their memory from the arena of the run.
+// CGAL's containers also allocate from the arena of the run.
 #define CGAL_ALLOCATOR(T) medial::RunAllocator<T>
 #include "base/arena.h"
 
@@ -28,14 +28,14 @@ struct RunAllocator : ArenaAllocator<T> {
   };
 };
 
-// A module that is loaded late finds its thread-local variables by a call, and the compiler makes
-// one at each use: in CGAL's innermost loop these calls took a tenth of its time. Here the address
-// is found once.
+// In a module that is loaded late, thread-local variables are found by a call, and the compiler
+// makes one at each use: in CGAL's innermost loop these calls took a tenth of its time. This
+// function makes the compiler find the address only once.
 template <typename T>
 T& found_once(T& variable) {
   T* address = &variable;
 #ifdef __GNUC__
-  asm("" : "+r"(address));  // the compiler no longer knows whose it is
+  asm("" : "+r"(address));  // hides from the compiler whose address it is
 #endif
   return *address;
 }

@@ -27,7 +27,7 @@ ExactVec3 cross(const ExactVec3& a, const ExactVec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// Exponent e of the last mantissa bit: x is an integer multiple of 2^e.
+// Returns the exponent e of the last mantissa bit: x is an integer multiple of 2^e.
 int last_bit(double x) { return x == 0 ? INT_MAX : std::ilogb(x) - (DBL_MANT_DIG - 1); }
 
 int common_last_bit(const Vec3& p) {
@@ -46,7 +46,8 @@ ExactVec3 exact(const Vec3& p, int last) {
           times_power_of_two(p.z, last)};
 }
 
-// value = mantissa * 2^exponent with |mantissa| < 2^62: an integer of any size, rounded to 62 bits.
+// Represents an integer of any size, rounded to 62 bits: value = mantissa * 2^exponent with
+// |mantissa| < 2^62.
 struct Scaled {
   double mantissa = 0;
   int exponent = 0;
@@ -67,7 +68,7 @@ double quotient(const Integer& numerator, const Integer& denominator, int expone
                          : std::ldexp(n.mantissa / d.mantissa, n.exponent - d.exponent + exponent);
 }
 
-// Centre relative to d.
+// Returns the centre relative to d.
 Vec3 exact_circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const int last =
       std::min({common_last_bit(a), common_last_bit(b), common_last_bit(c), common_last_bit(d)});
@@ -97,8 +98,8 @@ Vec3 exact_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return normalized(Vec3{part(parts[0]), part(parts[1]), part(parts[2])});
 }
 
-// Rounding of the formulas below, in units of DBL_EPSILON: three differences, two products of three
-// factors, sums of up to nine terms; 16 covers them with room to spare.
+// This bounds the rounding of the formulas below, in units of DBL_EPSILON: three differences, two
+// products of three factors, and sums of up to nine terms make less than 16.
 constexpr double kOperations = 16;
 
 }  // namespace
@@ -110,7 +111,8 @@ Circumcentre circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
   const double determinant = dot(u, vw);
   const Vec3 relative = (0.5 / determinant) * (uu * vw + vv * cross(w, u) + ww * cross(u, v));
-  // |error of the centre| <= 4 * kOperations * epsilon * |u||v||w| / |determinant| * radius.
+  // The error of the centre is at most 4 * kOperations * epsilon * |u||v||w| / |determinant| *
+  // radius.
   const double share =
       4 * kOperations * DBL_EPSILON * std::sqrt(uu * vv * ww) / std::abs(determinant);
   if (share <= coarsest) {

@@ -9,19 +9,19 @@
 namespace medial {
 namespace {
 
-// An edge to another sample, in a cell.
+// Leads along an edge to another sample; `cell` is a cell at the edge.
 struct Way {
   int32_t to, cell;
 };
 
-// Finds the edges from a sample to those of higher rows.
+// Finds the edges from a sample to samples of higher rows.
 class Ways {
  public:
   Ways(const Triangulation& triangulation, const Csr<int32_t>& incident,
        std::span<const int32_t> row)
       : t_(triangulation), incident_(incident), row_(row), seen_(row.size(), 0) {}
 
-  // Appends them in ascending order of their rows; returns their number.
+  // Appends these edges in ascending order of the rows; returns their number.
   int32_t append(int32_t p, std::vector<Way>& out) {
     const size_t count = find(p);
     order_.clear();
@@ -34,14 +34,15 @@ class Ways {
   }
 
  private:
-  // Fills the front of `ways_`; returns how many there are. Every corner is written there, and then
-  // counted only if it is new and of a higher row: the processor would often guess a branch wrong.
+  // Fills the front of `ways_`; returns the number of entries. Every corner is written there, but
+  // counted only if it is new and has a higher row; a branch instead would often be mispredicted.
   size_t find(int32_t p) {
     const auto cells = incident_[p];
     if (ways_.size() < 4 * cells.size()) ways_.resize(4 * cells.size());
     ++call_;
     size_t count = 0;
-    // Backwards: infinite cells come last, so that an unbounded facet is known by its cell.
+    // The loop runs backwards, so infinite cells come first and an unbounded facet gets an infinite
+    // cell.
     for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
       for (const int32_t q : t_.cells[*cell]) {
         if (static_cast<uint32_t>(q) >= seen_.size()) continue;
@@ -57,7 +58,7 @@ class Ways {
   const Csr<int32_t>& incident_;
   std::span<const int32_t> row_;
   uint32_t call_ = 0;
-  std::vector<uint32_t> seen_;  // per sample: the last call that met it
+  std::vector<uint32_t> seen_;  // per sample: the last call that visited it
   std::vector<Way> ways_;
   std::vector<uint64_t> order_;
 };

@@ -7,8 +7,9 @@
 
 namespace medial {
 
-// In which order points go into a triangulation: biased and randomized (Amenta, Choi, Rote 2003).
-// Each round is an eighth of the next, and keeps the spatial order of the ids.
+// Returns the order in which points are inserted into a triangulation: biased and randomized
+// (Amenta, Choi, Rote 2003). Each round has an eighth of the points of the next one, and keeps the
+// spatial order of the ids.
 std::vector<int32_t> insertion_order(int32_t count);
 
 }  // namespace medial

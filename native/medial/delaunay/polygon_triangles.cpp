@@ -34,7 +34,7 @@ using Plane = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
-using Ring = std::vector<int32_t>;  // places of corners in their polygon
+using Ring = std::vector<int32_t>;  // places of corners in the polygon
 
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -49,14 +49,14 @@ void require_finite_corners(std::span<const Vec3> points, std::span<const int32_
   }
 }
 
-// Whether the differences of corners are finite, too; no polygon with others has a region.
+// Returns whether the differences of corners are finite, too; otherwise the polygon has no region.
 bool has_an_extent(std::span<const Vec3> corners) {
   return std::all_of(corners.begin(), corners.end(),
                      [&](const Vec3& p) { return is_finite(p - corners[0]); });
 }
 
-// A polygon whose corners lie round the origin, in a unit by which none is farther than 2 from it
-// along an axis. The unit is a power of two, so that nothing but the shift rounds.
+// Returns the corners relative to the first one, in a unit in which no coordinate exceeds 2. The
+// unit is a power of two, so only the shift rounds.
 std::vector<Vec3> around_origin(std::span<const Vec3> corners, int& exponent) {
   double extent = 0;
   for (const Vec3& p : corners) extent = std::max(extent, max_abs(p - corners[0]));
@@ -71,8 +71,8 @@ std::vector<Vec3> around_origin(std::span<const Vec3> corners, int& exponent) {
   return result;
 }
 
-// The corners seen along the axis nearest to the normal, with their own coordinates, which are
-// exact. The sense of turning is kept.
+// Projects the corners along the axis nearest to the normal; their coordinates stay exact. The
+// sense of rotation is kept.
 std::vector<Point2> flattened(std::span<const Vec3> corners) {
   int exponent = 0;
   const auto around = around_origin(corners, exponent);
@@ -95,7 +95,7 @@ std::vector<Point2> flattened(std::span<const Vec3> corners) {
   return result;
 }
 
-// The corners of a polygon that lie at one point of the plane are one place.
+// Makes one place of all corners of a polygon that coincide in the plane.
 struct Places {
   explicit Places(std::span<const Point2> points) : of_corner(points.size()) {
     Ring order(points.size());
@@ -113,8 +113,8 @@ struct Places {
   Ring corners;  // the first corner at each place
 };
 
-// Cuts off, one after the other, corners at the place of their neighbour and tips of spikes whose
-// neighbours are at one place: what is left can bound a region. The triangles have no area.
+// Cuts off, one after the other, corners at the place of their neighbour, and tips of spikes whose
+// neighbours are at one place. The rest can bound a region. The cut triangles have no area.
 Ring without_spikes(const Places& places, std::vector<Triangle>& cut) {
   Ring ring;
   const auto same = [&](int32_t a, int32_t b) {
@@ -130,7 +130,7 @@ Ring without_spikes(const Places& places, std::vector<Triangle>& cut) {
     }
     ring.push_back(corner);
   }
-  // The same where the ring closes.
+  // The loop does the same where the ring closes.
   size_t first = 0;
   while (ring.size() - first > 3) {
     if (same(ring.back(), ring[first]) || same(ring[ring.size() - 2], ring[first])) {
@@ -146,7 +146,7 @@ Ring without_spikes(const Places& places, std::vector<Triangle>& cut) {
   return ring;
 }
 
-// How often a polygon runs along each of its edges, less how often it runs back.
+// Counts how often a polygon runs along each of its edges, minus how often it runs back.
 class Runs {
  public:
   Runs(const Ring& ring, const Places& places) {
@@ -169,7 +169,7 @@ class Runs {
 
   size_t edges() const { return all_.size(); }
 
-  // From one place to the other; nothing where that is no edge.
+  // Returns the count from one place to the other, or nothing if that is not an edge.
   std::optional<int> along(int32_t from, int32_t to) const {
     const Edge edge{std::min(from, to), std::max(from, to)};
     const auto found =
@@ -183,9 +183,9 @@ class Runs {
   std::vector<std::pair<Edge, int>> all_;
 };
 
-// Corners in an order in which they are inserted quickly: three that are not on one line, for among
-// points of one line CGAL searches one by one, then all along a curve that fills the plane. Empty
-// where all are on one line.
+// Returns the corners in an order in which insertion is fast: three that are not collinear, because
+// CGAL searches collinear points one by one, then all along a space-filling curve. Returns nothing
+// if all are on one line.
 std::vector<size_t> insertion_order(std::span<const Point2> points, const Ring& ring) {
   using Traits =
       CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::Pointer_property_map<Point2>::const_type>;
@@ -201,8 +201,8 @@ std::vector<size_t> insertion_order(std::span<const Point2> points, const Ring& 
   return order;
 }
 
-// The triangulation of all places with the edges of the polygon in it; empty where all are on one
-// line. Throws what CGAL throws where edges cross.
+// Returns the triangulation of all places, constrained to the edges of the polygon; its dimension
+// is below 2 if all places are on one line. Throws CGAL's exception if edges cross.
 Plane triangulated(std::span<const Point2> points, const Ring& ring, const Places& places) {
   Plane plane;
   std::vector<Plane::Vertex_handle> vertices(places.corners.size());
@@ -222,8 +222,8 @@ Plane triangulated(std::span<const Point2> points, const Ring& ring, const Place
   return plane;
 }
 
-// How often the polygon winds round each face, as their info; false where one of the constrained
-// edges is none of the polygon's, but a part of one that another corner lies on.
+// Stores in each face how often the polygon winds around it. Returns false if a constrained edge is
+// only a part of an edge of the polygon, because another corner is on that edge.
 bool wind(Plane& plane, const Runs& runs) {
   for (const auto face : plane.all_face_handles()) face->info() = INT_MAX;
   std::vector<Plane::Face_handle> reached{plane.infinite_face()};
@@ -250,7 +250,7 @@ bool wind(Plane& plane, const Runs& runs) {
   return constrained == 2 * runs.edges();
 }
 
-// The corner of a ring at each place; nothing where some at one place are apart in space.
+// Returns a corner of the ring for each place, or nothing if corners at one place differ in space.
 std::optional<Ring> corner_at_place(std::span<const Vec3> corners, const Ring& ring,
                                     const Places& places) {
   Ring result(places.corners.size(), -1);
@@ -262,8 +262,8 @@ std::optional<Ring> corner_at_place(std::span<const Vec3> corners, const Ring& r
   return result;
 }
 
-// The triangles of what a polygon bounds; nothing where it crosses itself, touches itself so that
-// its edges are broken, or winds round some of it more than once.
+// Returns the triangles of the region that a polygon bounds, or nothing if it crosses itself,
+// touches itself so that its edges are split, or winds around a part more than once.
 std::optional<std::vector<Triangle>> region(std::span<const Vec3> corners,
                                             std::span<const Point2> points, const Ring& ring,
                                             const Places& places) {
@@ -308,7 +308,7 @@ bool is_convex_at_first_diagonal(std::span<const Vec3> corners) {
   return dot(cross(p[1], p[2]), cross(p[3], p[2])) < 0;
 }
 
-// As places of the corners.
+// Returns triangles of places in the polygon.
 std::vector<Triangle> triangles_of(std::span<const Vec3> corners) {
   if (corners.size() == 3) return {{0, 1, 2}};
   if (corners.size() == 4) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polygons as triangles, without new vertices.
+// Divides polygons into triangles, without new vertices.
 #pragma once
 
 #include <span>
@@ -10,17 +10,17 @@
 
 namespace medial {
 
-// Polygon i has the corners [face_offsets[i], face_offsets[i + 1]), rows of `points`, three at
-// least. It becomes as many triangles as it has corners, less two, which have its boundary and turn
-// as it does: triangles of polygon i begin at face_offsets[i] - 2 i.
+// Divides polygon i, which has the corners [face_offsets[i], face_offsets[i + 1]), rows of
+// `points`, at least three. It gives two triangles fewer than it has corners; they have its
+// boundary and its orientation. The triangles of polygon i begin at face_offsets[i] - 2 i.
 //
-// A triangle stays. A quad is cut from its first corner to its third, as Blender does, or where it
-// is not convex there, from its second to its fourth. Larger polygons get their constrained
-// Delaunay triangulation, seen along the axis nearest to their normal; they may touch themselves,
-// as where a hole is joined to its rim by a bridge. One that crosses itself bounds no region: every
-// other of its corners is cut off, again and again.
+// A triangle stays. A quad is cut from its first corner to its third, as in Blender, or, if it is
+// not convex there, from its second to its fourth. A larger polygon gets its constrained Delaunay
+// triangulation in the projection along the axis nearest to its normal; it may touch itself, as
+// where a bridge joins a hole to its rim. A polygon that crosses itself bounds no region: every
+// other corner of it is cut off, repeatedly.
 //
-// Throws InvalidInputError, as for corners whose coordinates are not finite.
+// Throws InvalidInputError for invalid polygons, and for corners whose coordinates are not finite.
 std::vector<Triangle> polygon_triangles(std::span<const Vec3> points,
                                         std::span<const int32_t> face_offsets,
                                         std::span<const int32_t> face_vertices, const Run& run);

@@ -41,7 +41,8 @@ void add_bounding_sphere(Samples& samples) {
   const Vec3 centre = box_of(samples.points).centre();
   double radius = 0;
   for (const Vec3& p : samples.points) radius = std::max(radius, distance(p, centre));
-  // A Fibonacci lattice: equal steps in height, golden-angle steps round the axis.
+  // These points form a Fibonacci lattice: equal steps in height, golden-angle steps around the
+  // axis.
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < kPoints; ++i) {
     const double z = 1 - (2 * i + 1.0) / kPoints, r = std::sqrt(1 - z * z);

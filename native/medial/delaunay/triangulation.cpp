@@ -41,22 +41,23 @@ void insert_all(Delaunay& delaunay, std::span<const Vec3> points, Progress* prog
   }
 }
 
-// A cell in canonical order, and how it got there: slots[j] is where its corner j went.
+// Holds a cell in canonical order, and the permutation: slots[j] is the new place of corner j.
 struct CanonicalCell {
-  Cell ids;  // sorted but for the last two, which keep the orientation positive
+  Cell ids;  // sorted except for the last two, which keep the orientation positive
   std::array<int8_t, 4> slots;
 
-  // The lowest finite id, infinite cells after the finite ones.
+  // Returns the lowest finite id; infinite cells come after the finite ones.
   int32_t bucket(int32_t points) const { return ids[0] == kInfinite ? points + ids[1] : ids[0]; }
-  // Cells of one bucket, which share their lowest id, are ordered by the others, ascending.
+  // Returns the key that sorts the cells of one bucket, which share their lowest id, by the other
+  // ids.
   std::pair<uint64_t, int32_t> key() const {
     const auto [low, high] = std::minmax(ids[2], ids[3]);
     return {static_cast<uint64_t>(ids[1]) << 32 | static_cast<uint32_t>(low), high};
   }
 };
 
-// Each id goes to the slot of its rank, which is counted from comparisons. A sort would branch by
-// them, and as cells come in any order the processor would guess wrong half of the time.
+// Moves each id to the slot of its rank, which is counted by comparisons. A sort would branch, and
+// the cells come in any order, so half of its branches would be mispredicted.
 CanonicalCell canonical(const Cell& x) {
   const int a = x[0] > x[1], b = x[0] > x[2], c = x[0] > x[3];
   const int d = x[1] > x[2], e = x[1] > x[3], f = x[2] > x[3];
@@ -113,7 +114,7 @@ Triangulation as_arrays(const Delaunay& delaunay, int32_t points, const Run& run
 
 Kernel::Point_3 point(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-// 0: one place, 1: one line, 2: one plane, 3: a volume.
+// Returns 0 for one place, 1 for one line, 2 for one plane, and 3 for a volume.
 int affine_dimension(std::span<const Vec3> points) {
   const auto first = points.begin(), end = points.end();
   const auto second = std::find_if(first, end, [&](const Vec3& p) { return p != *first; });

@@ -23,8 +23,8 @@ Centres centres(std::span<const Vec3> points, const Triangulation& t, const Run&
   parallel_for(t.cell_count(), run, [&](int64_t c) {
     const auto& [i, j, k, l] = t.cells[c];
     if (i == kInfinite) {
-      // Positive orientation with the infinite vertex outside: the outward normal turns the other
-      // way.
+      // The infinite vertex is outside and the orientation positive, so the outward normal turns
+      // the other way.
       const UnitNormal n = unit_normal(points[j], points[l], points[k]);
       result.centre[c] = n.direction;
       result.error[c] = rounded_up(n.error);
@@ -65,7 +65,7 @@ Circumcentre fine_centre(std::span<const Vec3> points, const Cell& cell) {
   return circumcentre(points[i], points[j], points[k], points[l], kFinestError);
 }
 
-// Which of the close pairs finer centres tell apart.
+// Returns which of the close pairs are distinguished by finer centres.
 Array<uint8_t> told_apart(std::span<const Vec3> points, const Triangulation& t,
                           std::span<const CellPair> pairs, const Run& run) {
   auto apart = array<uint8_t>(pairs.size(), 0, run);
@@ -77,8 +77,8 @@ Array<uint8_t> told_apart(std::span<const Vec3> points, const Triangulation& t,
   return apart;
 }
 
-// Finer centres for all cells that close pairs join to one that is told apart, so that it is told
-// from all of them.
+// Computes finer centres for all cells that close pairs connect to a distinguished one, so that it
+// is distinguished from all of them.
 void refine(std::span<const Vec3> points, const Triangulation& t, std::span<const CellPair> pairs,
             std::span<const uint8_t> apart, Centres& centres, const Run& run) {
   UnionFind close(t.cells.size(), run);
@@ -92,8 +92,8 @@ void refine(std::span<const Vec3> points, const Triangulation& t, std::span<cons
   }
 }
 
-// Neighbours with one Voronoi vertex. What the first bounds do not tell apart, finer ones may: a
-// facet that is narrower than a coarse bound is a facet.
+// Returns the neighbours with one Voronoi vertex. Finer bounds may distinguish those that the first
+// bounds do not: a facet that is narrower than a coarse bound is still a facet.
 Array<CellPair> same_vertex_pairs(std::span<const Vec3> points, const Triangulation& t,
                                   Centres& centres, const Run& run) {
   Array<CellPair> pairs = close_pairs(t, centres, run);
@@ -108,7 +108,8 @@ Array<CellPair> same_vertex_pairs(std::span<const Vec3> points, const Triangulat
   return pairs;
 }
 
-// Cocircular hull triangles have one Voronoi ray: same origin, same direction.
+// Returns the pairs of cocircular hull triangles; they share a Voronoi ray, with the same origin
+// and direction.
 std::vector<CellPair> same_ray_pairs(const Triangulation& t, const Centres& centres,
                                      UnionFind& vertices) {
   std::vector<CellPair> pairs;
