@@ -11,8 +11,8 @@ std::vector<Edge> boundary_edges(std::span<const Triangle> triangles, const Csr<
   return parallel_append<Edge>(fans.size(), run,
                                [&](int64_t p, std::vector<Edge>& out, int worker) {
                                  const auto id = static_cast<int32_t>(p);
-                                 // (other end, direction) of the edges of which `id` is the lower
-                                 // end.
+                                 // Holds (other end, direction) of the edges whose lower end is
+                                 // `id`.
                                  auto& uses = uses_of[worker];
                                  uses.clear();
                                  for (const int32_t t : fans[p]) {

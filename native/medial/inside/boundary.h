@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a triangle soup is not closed.
+// Finds where a triangle soup is not closed.
 #pragma once
 
 #include <span>
@@ -10,9 +10,9 @@
 
 namespace medial {
 
-// The directed edges that the triangles use more often than their opposites, once per surplus use:
-// the boundary of the triangles. Empty: closed, and the winding number is an integer off
-// the surface. `fans` lists the triangles at each vertex.
+// Returns the boundary of the triangles: the directed edges that they use more often than their
+// opposites, once per surplus use. If it is empty, the triangles are closed, and the winding number
+// is an integer off the surface. `fans` lists the triangles at each vertex.
 std::vector<Edge> boundary_edges(std::span<const Triangle> triangles, const Csr<int32_t>& fans,
                                  const Run& run);
 

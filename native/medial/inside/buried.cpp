@@ -23,8 +23,8 @@ void check(std::span<const Vec3> points, std::span<const Vec3> normals, double o
   }
 }
 
-// Tells inside from outside at one place after the other; little surface lies between places that
-// follow each other.
+// Separates inside from outside at one place after the other; this is fast if little surface is
+// between successive places.
 class WindingFollower {
  public:
   explicit WindingFollower(const WindingNumber& winding) : winding_(winding) {}

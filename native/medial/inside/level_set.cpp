@@ -11,10 +11,10 @@
 namespace medial {
 namespace {
 
-constexpr double kRough = 0.1;  // how exactly a fall of the winding number is told, as its share
-constexpr double kFine = 1e-6;  // and where a sample is to lie
-constexpr int kMostSteps = 8;   // of the secant method; two or three are usual
-constexpr int kBits = 21;       // of a lattice coordinate
+constexpr double kRough = 0.1;  // accepted error of a fall of the winding number, as a share of it
+constexpr double kFine = 1e-6;  // accepted error at a sample
+constexpr int kMostSteps = 8;   // steps of the secant method; two or three are usual
+constexpr int kBits = 21;       // bits of a lattice coordinate
 constexpr int64_t kCells = int64_t{1} << kBits;
 
 using LatticePoint = std::array<int64_t, 3>;
@@ -34,14 +34,14 @@ LatticePoint corner_of(const LatticePoint& cube, int i) {
 
 }  // namespace
 
-// Follows the level set in waves: all cubes that the last wave came upon are looked at at once.
+// Follows the level set in waves: all cubes that the last wave found are examined at once.
 class Follower {
  public:
   Follower(const OpenSurface& surface, double step, const Run& run) : surface_(surface), run_(run) {
     const Box box = box_of(surface.vertices_);
     const Vec3 extent = box.extent();
-    // The lattice reaches beyond the box by its extent. Parts of a step that have nothing to do
-    // with the numbers in which models are made keep it off their edges.
+    // The lattice reaches beyond the box by its extent. Its offset is unlike the round numbers in
+    // models, so their vertices and edges are not on the edges of the lattice.
     step_ = std::max(step, 4 * max_abs(extent) / static_cast<double>(kCells));
     origin_ = box.low - extent - step_ * Vec3{1.3819, 1.6367, 1.4562};
   }
@@ -67,7 +67,7 @@ class Follower {
  private:
   struct Corner {
     Vec3 at;
-    int32_t from;  // a corner beside it that is known already; -1: none
+    int32_t from;  // a neighbouring corner with a known number, or -1
     int closed = 0;
     bool inside = false;
   };
@@ -113,7 +113,7 @@ class Follower {
       const Corner& near = corners_[static_cast<size_t>(corner.from)];
       corner.closed = winding.closed_from(near.at, near.closed, corner.at);
     }
-    // Which side it is on is told much sooner than the number itself.
+    // The side is determined much faster than the number itself.
     corner.inside = winding.is_inside(corner.at, corner.closed);
   }
 
@@ -131,7 +131,7 @@ class Follower {
     }
   }
 
-  // The edges of the cubes with one end inside and one outside that no wave had before.
+  // Returns the edges of the cubes with one end inside and one outside that no earlier wave had.
   std::vector<LatticeEdge> new_edges(std::span<const LatticePoint> wave) {
     std::vector<LatticeEdge> edges;
     for (const LatticePoint& cube : wave) {
@@ -150,7 +150,7 @@ class Follower {
     return edges;
   }
 
-  // Whether no triangle lies between the ends.
+  // Returns whether no triangle is between the ends.
   bool is_clear(const LatticeEdge& edge) const {
     const Vec3 &p = corners_[edge.ends[0]].at, &q = corners_[edge.ends[1]].at;
     const double reach = distance(p, q);
@@ -173,7 +173,7 @@ class Follower {
     return {in->at, out->at, above > below ? above / (above - below) : 0.5, above};
   }
 
-  // The four cubes at the edge.
+  // Visits the four cubes at the edge.
   void visit_round(const LatticeEdge& edge) {
     const int other = (edge.axis + 1) % 3, third = (edge.axis + 2) % 3;
     for (int i = 0; i < 4; ++i) {
@@ -189,10 +189,10 @@ class Follower {
   double step_;
   Vec3 origin_;
   std::unordered_set<uint64_t> seen_;  // cubes
-  std::vector<LatticePoint> next_;     // in the order in which they were come upon
+  std::vector<LatticePoint> next_;     // in the order in which they were found
   std::unordered_map<uint64_t, int32_t> number_;
   std::vector<Corner> corners_;
-  std::array<std::unordered_set<uint64_t>, 3> had_;  // edges by lower end, per axis
+  std::array<std::unordered_set<uint64_t>, 3> had_;  // edges by their lower end, per axis
   std::vector<OpenSurface::Fall> found_;
 };
 
@@ -216,7 +216,7 @@ std::vector<OpenSurface::Fall> OpenSurface::falls(double step, const Run& run) c
   return follow();
 }
 
-// The secant method, from the two ends; the winding number is smooth in between.
+// This is the secant method from the two ends; the winding number is smooth between them.
 std::optional<Vec3> OpenSurface::place(const Fall& fall) const {
   const Vec3 way = fall.outside - fall.inside;
   const int closed = winding_.closed(fall.inside);

@@ -7,17 +7,17 @@
 namespace medial {
 namespace {
 
-// Cells that hang together, in the order in which they were come upon.
+// Lists connected cells in the order in which they were found.
 using Part = std::vector<int32_t>;
 
-// The parts of the inner cells that are too small for the samples to determine their shape.
+// Finds the parts of the inner cells that are too small for the samples to determine their shape.
 class SmallParts {
  public:
   SmallParts(std::span<const Vec3> points, std::span<const double> spacing, const Triangulation& t,
              const Voronoi& voronoi, const CellSides& sides, const Run& run)
       : points_(points), spacing_(spacing), t_(t), voronoi_(voronoi), sides_(sides), run_(run) {}
 
-  // The smallest part first, of equal ones that with the lowest cell.
+  // Returns the parts, the smallest first; equal ones are in the order of their lowest cells.
   std::vector<Part> operator()() {
     const auto small =
         parallel_append<int32_t>(t_.finite_cells, run_, [&](int64_t c, auto& out, int) {
@@ -47,7 +47,8 @@ class SmallParts {
     return distance(voronoi_.centre[cell], points_[corners[0]]) <= hole;
   }
 
-  // The small cells that hang together with one; false if a larger one is among them.
+  // Collects the small cells that are connected with one; returns false if a larger cell touches
+  // them.
   bool fill(int32_t first, Part& part) {
     bool alone = true;
     part.assign(1, first);
@@ -72,12 +73,12 @@ class SmallParts {
   const Voronoi& voronoi_;
   const CellSides& sides_;
   Run run_;
-  std::vector<uint8_t> seen_;  // per cell: in a part already
+  std::vector<uint8_t> seen_;  // per cell: 1 if it is in a part already
 };
 
 using CellsAtSample = std::unordered_map<int32_t, std::vector<int32_t>>;
 
-// The inner cells at the samples of some parts.
+// Returns the inner cells at the samples of some parts.
 CellsAtSample inner_cells_at(std::span<const Part> parts, const Triangulation& t,
                              const CellSides& sides) {
   CellsAtSample found;
@@ -96,7 +97,7 @@ CellsAtSample inner_cells_at(std::span<const Part> parts, const Triangulation& t
   return found;
 }
 
-// A straight way from a part to a cell of a larger one.
+// This is a straight way from a part to a cell of a larger one.
 struct Way {
   double length;
   int32_t from, to;
@@ -104,10 +105,11 @@ struct Way {
   auto operator<=>(const Way&) const = default;
 };
 
-constexpr double kWidth = 0.01;  // half of that of a way at its end, as a share of its length
+constexpr double kWidth = 0.01;  // half the width of a way at its end, as a share of its length
 
-// Bodies that touch in an edge or in a corner leave no width between them. A way begins without
-// any, for Voronoi vertices of pockets may lie close beneath the surface.
+// Returns whether a way is wide enough: there is no width between bodies that touch in an edge or
+// in a corner. At its beginning a way has no width, because Voronoi vertices of pockets may be
+// close beneath the surface.
 bool is_wide_way(const Vec3& from, const Vec3& to, const WindingNumber& winding) {
   const Vec3 way = to - from;
   const double width = kWidth * length(way);
@@ -142,7 +144,7 @@ std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const doubl
         }
       }
     }
-    std::sort(ways.begin(), ways.end());  // the shortest are the likeliest
+    std::sort(ways.begin(), ways.end());  // the shortest ways are the likeliest
     return std::any_of(ways.begin(), ways.end(), [&](const Way& way) {
       return is_wide_way(voronoi.centre[way.from], voronoi.centre[way.to], winding.get());
     });

@@ -12,8 +12,8 @@ constexpr int32_t kTrianglesOfLeaf = 4;
 
 Vec3 inverse(const Vec3& v) { return {1 / v.x, 1 / v.y, 1 / v.z}; }
 
-// Slabs; the far end is stretched by more than the rounding of both (Ize 2013), so that no hit is
-// lost.
+// Returns whether a ray meets a box, by slabs. The far end is stretched by more than the rounding
+// of both ends (Ize 2013), so no hit is lost.
 bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, double reach) {
   double near = 0, far = reach;
   const auto clip = [&](double low, double high, double o, double i) {
@@ -27,13 +27,13 @@ bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, do
   return near <= far * (1 + 8 * DBL_EPSILON);
 }
 
-// +1: the ray leaves through the triangle, -1: it enters, 0: it misses; nothing: too close to an
-// edge to tell.
+// Returns +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses, and nothing
+// if it is too close to an edge to decide.
 std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& direction,
                             double reach) {
   const Vec3 a = t.a - origin, b = t.b - origin, c = t.c - origin;
-  // Volumes of the ray with each edge; rounding errors stay below 16 epsilon |b||c| for a unit
-  // direction.
+  // These are the volumes of the ray with each edge; their rounding errors are below 16 epsilon
+  // |b||c| for a unit direction.
   const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)),
                w = dot(direction, cross(a, b));
   const double la = length(a), lb = length(b), lc = length(c), tiny = 16 * DBL_EPSILON;
@@ -43,7 +43,7 @@ std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& di
   // The line meets the plane at volume / flux.
   const double volume = dot(a, cross(b, c)), flux = u + v + w, error = tiny * la * lb * lc;
   const bool in_plane = std::abs(volume) <= error;
-  // A ray from a point of the triangle, or of its edge, starts beyond it.
+  // A ray that starts on the triangle or on its edge does not count it.
   const double farthest = std::max({la, lb, lc});
   const bool at_once = in_plane && error <= kCoarsestError * std::abs(flux) * farthest;
   if (at_once && reach == HUGE_VAL) return 0;
@@ -83,7 +83,7 @@ int32_t RayCrossings::build(int32_t begin, int32_t end, const Progress* progress
   return id;
 }
 
-// Visits the triangles whose boxes the ray meets, until one says false.
+// Visits the triangles whose boxes the ray meets, until a visit returns false.
 template <typename Visit>
 void RayCrossings::visit(const Vec3& origin, const Vec3& direction, double reach,
                          const Visit& visit) const {
@@ -128,7 +128,7 @@ void RayCrossings::hits(const Vec3& origin, const Vec3& direction, double reach,
     if (leaves == enters) return true;
     const Vec3 normal = cross(t.b - t.a, t.c - t.a);
     const double at = dot(a, normal) / flux, size = length(normal);
-    // A face that is entered where the ray starts is the one on which it starts.
+    // A face that is entered where the ray starts is the face on which it starts.
     const double start = enters ? 0x1p-20 * reach : 0;
     if (at > start && at <= reach && size > 0) found.push_back({at, flux / size});
     return true;

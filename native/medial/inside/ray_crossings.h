@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How often a ray, or a segment, leaves a triangle soup minus how often it enters. For a closed
-// soup that is the winding number at the origin of the ray, or the drop of the winding number along
-// the segment.
+// Counts how often a ray, or a segment, leaves a triangle soup minus how often it enters. For a
+// closed soup this is the winding number at the origin of the ray, or the drop of the winding
+// number along the segment.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@ class RayCrossings {
  public:
   RayCrossings(std::vector<Corners> triangles, const Progress* progress);
 
-  // `direction` is a unit vector. Nothing when an edge, or the end of the segment, is so close that
-  // doubles cannot tell.
+  // Returns the count; `direction` is a unit vector. Returns nothing if an edge, or the end of the
+  // segment, is so close that doubles cannot decide.
   std::optional<int> operator()(const Vec3& origin, const Vec3& direction,
                                 double reach = HUGE_VAL) const;
-  // Where a triangle is met, and the cosine between its normal and the ray: negative where it
-  // enters.
+  // Holds where the ray meets a triangle, and the cosine between the triangle's normal and the ray,
+  // which is negative where the ray enters.
   struct Hit {
     double at, cosine;
   };
-  // All triangles that the ray meets up to `reach`, in no order. The one on which it starts,
-  // against its normal, is not among them.
+  // Finds all triangles that the ray meets up to `reach`, in no order. The triangle on which the
+  // ray starts, against its normal, is omitted.
   void hits(const Vec3& origin, const Vec3& direction, double reach, std::vector<Hit>& found) const;
   std::span<const Corners> triangles() const { return corners_; }
 

@@ -24,9 +24,9 @@ bool is_beyond(std::span<const Vec3> points, const Triangulation& t, const CellF
   return dot(cross(points[j] - points[i], points[k] - points[i]), x - points[i]) < 0;
 }
 
-// The cell that contains a point, or an infinite one; found by walking towards it. In exact
-// arithmetic the walk ends; rounding may turn it in a circle about flat cells, until it meets a
-// cell again that it remembers.
+// Returns the cell that contains a point, or an infinite one, by walking towards the point. In
+// exact arithmetic the walk ends; rounding may lead it in a circle around flat cells, until it
+// returns to a remembered cell.
 int32_t cell_of(std::span<const Vec3> points, const Vec3& x, int32_t from, const Triangulation& t) {
   int32_t cell = from, last = from, remembered = -1;
   for (int64_t steps = 0; cell != remembered && !t.is_infinite(cell); ++steps) {
@@ -40,8 +40,8 @@ int32_t cell_of(std::span<const Vec3> points, const Vec3& x, int32_t from, const
   return cell;
 }
 
-// How far, squared, a point of a triangle may lie from the nearest corner: the circumradius, but no
-// more than a third of the longest edge squared, also of needles.
+// Returns the square of the largest distance of a point of a triangle from the nearest corner: the
+// squared circumradius, but at most a third of the longest edge squared, which also bounds needles.
 double squared_reach(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double longest =
       std::max({squared_length(b - a), squared_length(c - b), squared_length(a - c)});
@@ -63,8 +63,9 @@ double largest_squared_reach(std::span<const Vec3> points, std::span<const Trian
   return *std::max_element(largest.begin(), largest.end());
 }
 
-// The least distance, squared, of the Voronoi edge dual to a Delaunay triangle to the samples. A
-// triangle of samples that crosses the edge reaches at least as far from its corners.
+// Returns the square of the least distance between the samples and the Voronoi edge dual to a
+// Delaunay triangle. A triangle of samples that crosses the edge reaches at least as far from its
+// corners.
 double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
                            const Voronoi& voronoi, const CellFace& f) {
   const auto [i, j, k] = corners(t, f);
@@ -77,22 +78,22 @@ double distance_to_samples(std::span<const Vec3> points, const Triangulation& t,
   return squared_circumradius(points[i], points[j], points[k]);
 }
 
-// Whether nothing that reaches no farther than `widest` lies between the Voronoi vertices of a cell
-// and of its neighbour.
+// Returns whether no triangle whose reach is at most `widest` is between the Voronoi vertices of a
+// cell and its neighbour.
 bool is_clear(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
               const CellFace& f, double widest) {
   const double ball = squared_length(voronoi.centre[f.cell] - points[t.cells[f.cell][0]]);
   return ball > widest && distance_to_samples(points, t, voronoi, f) > widest;
 }
 
-// The winding numbers of a closed soup at Voronoi vertices, told one from another.
+// Computes the winding numbers of a closed soup at Voronoi vertices, one from another.
 class Flood {
  public:
   Flood(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
         const WindingNumber& winding, double widest)
       : points_(points), t_(t), voronoi_(voronoi), winding_(winding), widest_(widest) {}
 
-  // The answers for the cells begin .. end - 1.
+  // Returns the winding numbers for the cells begin .. end - 1.
   std::span<const int> operator()(int32_t begin, int32_t end) {
     begin_ = begin;
     closed_.assign(static_cast<size_t>(end - begin), kUnknown);
@@ -112,8 +113,8 @@ class Flood {
     return cell >= begin_ && cell < begin_ + static_cast<int32_t>(closed_.size());
   }
 
-  // The winding number is told from the neighbour whose Voronoi vertex is nearest, for then the
-  // least lies in between; or by itself where no neighbour is known.
+  // Computes the winding number from the neighbour whose Voronoi vertex is nearest, because the
+  // fewest triangles are in between; or by itself if no neighbour is known.
   int told(int32_t cell) {
     int32_t nearest = -1;
     double least = HUGE_VAL;
@@ -127,7 +128,7 @@ class Flood {
     return winding_.closed_from(voronoi_.centre[nearest], at(nearest), here);
   }
 
-  // To all cells that nothing parts from this one.
+  // Spreads the winding number to all cells that nothing separates from this one.
   void spread(int32_t cell) {
     ahead_.assign(1, cell);
     while (!ahead_.empty()) {
@@ -153,10 +154,10 @@ class Flood {
   std::vector<int32_t> ahead_;
 };
 
-// Beyond the rounding of Voronoi vertices.
+// Returns a bound that includes the rounding of Voronoi vertices.
 double widened(double squared) { return (1 + 16 * kCoarsestError) * squared; }
 
-// The samples that are lowest and highest along each axis.
+// Returns the samples that are lowest and highest along each axis.
 std::array<std::array<size_t, 2>, 3> extremes(std::span<const Vec3> points) {
   std::array<std::array<size_t, 2>, 3> found{};
   for (size_t p = 0; p < points.size(); ++p) {
@@ -211,8 +212,8 @@ CellSides sides_from_normals(std::span<const Vec3> points, std::span<const Vec3>
                          normals[z[1]].z - normals[z[0]].z;
   const Side beyond = outward < 0 ? Side::inner : Side::outer;
   parallel_for(t.finite_cells, run, [&](int64_t c) {
-    // Far vertices may see the samples from behind, through an opening. So all that lies beyond the
-    // box of the samples is on one side.
+    // Far Voronoi vertices may see the samples from behind, through an opening. So all places
+    // beyond the box of the samples are on one side.
     if (!is_between(voronoi.centre[c], low, high)) {
       sides[c] = beyond;
       return;
@@ -233,8 +234,8 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
   const double widest = widened(largest_squared_reach(points, boundary, run));
   CellSides sides(solid);
   parallel_chunks(t.finite_cells, run, [&](int64_t begin, int64_t end, int) {
-    // A neighbour whose side is decided, with no boundary between its Voronoi vertex and that of
-    // the cell; -1 where there is none.
+    // Returns a neighbour whose side is decided, with no boundary between its Voronoi vertex and
+    // that of the cell; or -1 if there is none.
     const auto like_neighbour = [&](int32_t c) {
       for (int i = 0; i < 4; ++i) {
         const int32_t n = t.neighbors[c][i];
@@ -243,7 +244,7 @@ CellSides sides_in_solid(std::span<const Vec3> points, const CellSides& solid,
       }
       return -1;
     };
-    int32_t last = -1;  // where the last walk ended: near, for cells are in spatial order
+    int32_t last = -1;  // the end of the last walk, which is near, as cells are in spatial order
     for (auto c = static_cast<int32_t>(begin); c < end; ++c) {
       if (solid[c] != Side::inner) continue;
       const int32_t like = like_neighbour(c);

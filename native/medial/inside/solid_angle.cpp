@@ -10,7 +10,7 @@ namespace {
 constexpr double kFull = 4 * std::numbers::pi;
 constexpr int32_t kLeafTriangles = 8;  // as many as close a small opening
 
-// Signed solid angle of a triangle seen from the origin (van Oosterom & Strackee 1983).
+// Returns the signed solid angle of a triangle seen from the origin (van Oosterom & Strackee 1983).
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double la = length(a), lb = length(b), lc = length(c);
   const double numerator = dot(a, cross(b, c));
@@ -66,8 +66,9 @@ int32_t SolidAngle::build(int32_t begin, int32_t end) {
   return id;
 }
 
-// Between triangles whose last corners differ, as near to the middle as there is such a place: the
-// triangles of a cap share theirs, and a cap of a small opening is a small cluster only as a whole.
+// Splits a range between triangles with different last corners, as near to the middle as possible:
+// the triangles of a cap share their last corner, and only the whole cap of a small opening is a
+// small cluster.
 int32_t SolidAngle::split(int32_t begin, int32_t end) {
   const auto first = corners_.begin() + begin, last = corners_.begin() + end;
   Box box;
@@ -136,7 +137,7 @@ SolidAngle::Term SolidAngle::term(int32_t id, const Vec3& query) const {
   const Node& node = nodes_[id];
   const Vec3 y = node.centroid - query;
   const double yy = dot(y, y), r = std::sqrt(yy), gap = r - node.radius;
-  // The third derivatives of 1/r are at most 6/r^4: Taylor's remainder after the linear term.
+  // Taylor's remainder after the linear term: the third derivatives of 1/r are at most 6/r^4.
   const double error = 3 * node.spread / (gap * gap * gap * gap);
   if (gap <= 0 || error > kFull) return {HUGE_VAL, 0, id};
   const double trace = node.moment[0].x + node.moment[1].y + node.moment[2].z;
@@ -145,8 +146,8 @@ SolidAngle::Term SolidAngle::term(int32_t id, const Vec3& query) const {
   return {error, value, id};
 }
 
-// Replaces the cluster with the largest bound by its children, or by its triangles, until the
-// value and the bound of its error are enough, both times 4 pi.
+// Replaces the cluster with the largest bound by its children, or by its triangles, until the value
+// and its error bound are good enough; both are times 4 pi.
 template <typename Enough>
 double SolidAngle::opened(const Vec3& query, const Enough& enough) const {
   const auto smaller = [](const Term& s, const Term& t) { return s.error < t.error; };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Solid angle of a triangle soup seen from a point, in full turns (over 4 pi): summed exactly, or
-// hierarchically with Taylor's remainder as a rigorous bound for the expansion of distant clusters
-// (Barill et al. 2018).
+// Computes the solid angle of a triangle soup seen from a point, in full turns (over 4 pi): exactly
+// by summation, or hierarchically with Taylor's remainder as a rigorous bound for the expansion of
+// distant clusters (Barill et al. 2018).
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ struct Corners {
   Vec3 a, b, c;
 };
 
-// Sum over all triangles, in full turns.
+// Returns the sum over all triangles, in full turns.
 double solid_angle_sum(std::span<const Corners> triangles, const Vec3& query);
 
-// Reorders a range along the longest axis of its box, so that the lower half lies before the upper
-// one; its middle.
+// Reorders a range along the longest axis of its box, such that the lower half comes before the
+// upper one; returns the middle.
 int32_t split_in_half(std::vector<Corners>& corners, int32_t begin, int32_t end);
 
 class SolidAngle {
@@ -29,23 +29,24 @@ class SolidAngle {
   explicit SolidAngle(std::vector<Corners> triangles);
 
   double exact(const Vec3& query) const { return solid_angle_sum(corners_, query); }
-  // Whether the exact value is below `bound`; clusters are opened only as far as it takes to tell.
+  // Returns whether the exact value is below `bound`; opens clusters only until this is decided.
   bool is_below(double bound, const Vec3& query) const;
-  // The value with an error of at most `tolerance`, likewise.
+  // Returns the value with an error of at most `tolerance`; opens clusters only until this is
+  // reached.
   double within(double tolerance, const Vec3& query) const;
 
  private:
-  // A contiguous range of triangles, expanded about its area-weighted centroid.
+  // A node is a contiguous range of triangles, expanded about its area-weighted centroid.
   struct Node {
     int32_t begin = 0, end = 0;
-    int32_t right = -1;           // the left child follows its parent; -1: a leaf
+    int32_t right = -1;           // the left child follows its parent; -1 marks a leaf
     double area = 0, spread = 0;  // integral of dA, and of |x - centroid|^2 dA
-    double radius = 0;            // of a ball about the centroid that holds the triangles
+    double radius = 0;            // of a ball about the centroid that contains the triangles
     Vec3 centroid, area_vector;   // area_vector: integral of n dA
     std::array<Vec3, 3> moment;   // moment[k] = integral of (x - centroid)_k n dA
   };
-  // The contribution of a node to the sum and the bound of its error, times 4 pi; the bound is
-  // infinite where the node cannot be expanded.
+  // Holds the contribution of a node to the sum, and the bound of its error, both times 4 pi. The
+  // bound is infinite if the node cannot be expanded.
   struct Term {
     double error, value;
     int32_t node;

@@ -6,7 +6,7 @@
 namespace medial {
 namespace {
 
-// Whether the triangles at a vertex are one fan: their links are one closed path.
+// Returns whether the triangles at a vertex are one fan: their links form one closed path.
 bool is_fan(std::span<const Triangle> triangles, std::span<const int32_t> at, int32_t vertex) {
   const int32_t first = link_of(triangles[at[0]], vertex)[0];
   int32_t here = first;
@@ -15,7 +15,7 @@ bool is_fan(std::span<const Triangle> triangles, std::span<const int32_t> at, in
     for (const int32_t t : at) {
       const Edge link = link_of(triangles[t], vertex);
       if (link[0] != here) continue;
-      if (next >= 0) return false;  // an edge of more than two triangles
+      if (next >= 0) return false;  // this edge has more than two triangles
       next = link[1];
     }
     if (next < 0) return false;
@@ -45,7 +45,7 @@ std::optional<std::array<int64_t, 3>> solid_betti(const Surface& surface,
     shells.unite(a, c);
   }
   const Array<int32_t> shell = std::move(shells).representatives();
-  std::vector<double> volume(points.size());  // six times that of each shell
+  std::vector<double> volume(points.size());  // six times the volume of each shell
   for (const auto& [a, b, c] : triangles) {
     const Vec3& o = points[shell[a]];
     volume[shell[a]] += dot(points[a] - o, cross(points[b] - o, points[c] - o));

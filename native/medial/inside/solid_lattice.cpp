@@ -8,15 +8,15 @@
 namespace medial {
 namespace {
 
-constexpr int64_t kFirst = 32;  // places along the longest side of the box, to begin with
-constexpr int64_t kRows = 64;   // of one piece of work
-constexpr double kEmpty = 1e6;  // a lattice with more places, none of them inside, is believed
+constexpr int64_t kFirst = 32;  // places along the longest side of the box at the beginning
+constexpr int64_t kRows = 64;   // rows of one piece of work
+constexpr double kEmpty = 1e6;  // a lattice with more places, none of them inside, counts as empty
 constexpr double kLeast = 1.05, kLargest = 8;
-// Where in its cell of the lattice a place lies: nowhere in a plane of symmetry, where models have
-// edges.
+// This is the offset of a place in its cell of the lattice. It is not in a plane of symmetry, where
+// models have edges.
 constexpr Vec3 kShift{0.4142, 0.5303, 0.4641};
 
-// Along one side of a box. A box without extent has one place, too.
+// Returns the number of places along one side of a box. A box without extent has one place, too.
 int64_t steps_along(double extent, double step) {
   return static_cast<int64_t>(std::floor(extent / step)) + 1;
 }
@@ -26,8 +26,8 @@ double lattice_size(const Box& box, double step) {
   return (e.x / step + 1) * (e.y / step + 1) * (e.z / step + 1);
 }
 
-// A step that is finer by the ratio, but by a factor of kLeast to kLargest, and as coarse as `most`
-// places take; the same where that is none.
+// Returns a step that is finer by the ratio, limited to kLeast to kLargest, such that the lattice
+// has at most `most` places; or the same step if there is none.
 double finer(const Box& box, double step, double ratio, int64_t most) {
   for (double factor = std::clamp(ratio, kLeast, kLargest); factor >= kLeast; factor *= 0.9) {
     if (lattice_size(box, step / factor) <= static_cast<double>(most)) return step / factor;
@@ -99,7 +99,7 @@ int64_t SolidLattice::whole_count() const {
 // Calls visit(word, mask) for the words that have places in the ball.
 template <typename Visit>
 void SolidLattice::visit_words(const Vec3& centre, double radius, const Visit& visit) const {
-  // First and last of the places along an axis that are within `reach` of the centre.
+  // Returns the first and the last place along an axis within `reach` of the centre.
   const auto range = [&](int axis, double reach) {
     const double at = coordinate(centre, axis) - coordinate(origin_, axis);
     const auto last = static_cast<double>(size_[axis] - 1);

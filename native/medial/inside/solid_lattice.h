@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The places of a cubic lattice that lie in a solid, a bit for each: volumes as numbers of places.
+// Stores which places of a cubic lattice are in a solid, a bit for each, to measure volumes as
+// numbers of places.
 #pragma once
 
 #include <array>
@@ -13,19 +14,19 @@ namespace medial {
 
 class SolidLattice {
  public:
-  // `box` holds the solid, which is where the winding number exceeds 1/2. The step is such that
-  // about `places` of them lie in the solid, unless it fills so little of its box that the lattice
-  // would have more than `most` places.
+  // Fills the lattice; `box` contains the solid, which is where the winding number exceeds 1/2. The
+  // step is chosen such that about `places` places are in the solid, unless the solid fills so
+  // little of its box that the lattice would have more than `most` places.
   SolidLattice(const WindingNumber& winding, const Box& box, int64_t places, int64_t most,
                const Run& run);
 
-  int64_t count() const { return count_; }  // of places in the solid when it was made
+  int64_t count() const { return count_; }  // the initial number of places in the solid
   double step() const { return step_; }
 
-  // The number of places that are left in a closed ball.
+  // Returns the number of places that are left in a closed ball.
   int64_t count(const Vec3& centre, double radius) const;
   void remove(const Vec3& centre, double radius);
-  // All that are left, row after row.
+  // Returns all places that are left, row after row.
   std::vector<Vec3> places() const;
 
  private:
@@ -40,8 +41,8 @@ class SolidLattice {
   double step_ = 0;
   int64_t count_ = 0;
   std::array<int64_t, 3> size_ = {};
-  int64_t words_ = 0;           // of a row, which runs along x
-  std::vector<uint64_t> bits_;  // row after row, those along y first
+  int64_t words_ = 0;           // per row, which runs along x
+  std::vector<uint64_t> bits_;  // row after row, first along y, then along z
 };
 
 }  // namespace medial

@@ -38,8 +38,8 @@ int64_t open_edges(std::span<const Vec3> rows, std::span<const Triangle> triangl
   require_finite(rows, "point");
   std::vector<int32_t> apart(rows.size());
   std::iota(apart.begin(), apart.end(), 0);
-  // A surface that is closed by its rows stays closed when some rows become one, because as many
-  // edges lead there and back as before.
+  // A surface that is closed by its rows stays closed when some rows become one vertex, because as
+  // many edges lead there and back as before.
   if (make_surface(triangles, apart, static_cast<int32_t>(rows.size()), run).closed()) return 0;
   const DistinctRows distinct = distinct_rows(rows, "point", run);
   return make_surface(triangles, distinct.point_of_row, distinct.count(), run).open_edges();

@@ -20,8 +20,8 @@ std::vector<Corners> soup(std::span<const Vec3> vertices, std::span<const Triang
 
 namespace {
 
-// Every connected part of the boundary is closed in itself: each gets an apex of its own, the mean
-// of its edges.
+// Returns the caps. Every connected part of the boundary is closed, so each gets an apex of its
+// own, the mean of its edges.
 std::vector<Corners> caps(std::span<const Vec3> vertices, std::span<const Edge> boundary) {
   if (boundary.empty()) return {};
   struct Apex {
@@ -49,7 +49,8 @@ std::vector<Corners> joined(std::vector<Corners> a, const std::vector<Corners>& 
   return a;
 }
 
-// In general position with respect to axes and diagonals, where the edges of many models lie.
+// The directions are in general position with respect to axes and diagonals, where many models have
+// edges.
 constexpr Vec3 kDirections[] = {{0.4267, 0.3181, 0.8466},   {-0.5721, 0.7411, 0.3513},
                                 {0.8123, -0.4877, -0.3199}, {-0.2591, -0.6737, 0.6921},
                                 {0.1373, 0.9137, -0.3825},  {-0.9311, 0.0719, -0.3577}};
@@ -80,8 +81,8 @@ int WindingNumber::closed_from(const Vec3& known, int closed_there, const Vec3& 
   return drop ? closed_there - *drop : closed(query);
 }
 
-// One ray for all of them. Where it meets edges, it may count triangles twice or not at all; then
-// it does not end with the number at the last place, and each is asked for by itself.
+// One ray serves all places. Where it meets edges, it may count triangles twice or not at all; then
+// the count is wrong at the last place, and each place is computed by itself.
 void WindingNumber::closed_along(const Vec3& first, double step, std::span<int> result) const {
   if (result.empty()) return;
   const auto place = [&](size_t i) { return first + Vec3{step * static_cast<double>(i), 0, 0}; };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Generalized winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung 2013): the solid
-// angle of all triangles, in full turns.
+// Computes the generalized winding number of a triangle soup (Jacobson, Kavan, Sorkine-Hornung
+// 2013): the solid angle of all triangles, in full turns.
 //
-// Caps, triangles from the edges of each boundary loop to its middle, close the soup. The winding
-// number of the closed soup is an integer, told by the crossings of any ray; that of the few caps
-// is summed. Their difference is the answer.
+// Caps close the soup: triangles from the edges of each boundary loop to its middle. The winding
+// number of the closed soup is an integer, which the crossings of any ray determine; that of the
+// few caps is summed. The result is their difference.
 #pragma once
 
 #include <span>
@@ -14,30 +14,32 @@
 
 namespace medial {
 
-// The corners of the triangles, but for those with a repeated one.
+// Returns the corners of the triangles, except for triangles with a repeated corner.
 std::vector<Corners> soup(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
 class WindingNumber {
  public:
-  // `boundary` as from boundary_edges.
+  // The argument `boundary` is the result of boundary_edges.
   WindingNumber(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                 std::span<const Edge> boundary, const Progress* progress);
 
   double operator()(const Vec3& query) const;
 
-  // Winding number of the soup with its caps.
+  // Returns the winding number of the soup with its caps.
   int closed(const Vec3& query) const;
-  // The same, told by what lies between `query` and a point where it is known.
+  // Returns the same, computed from the triangles between `query` and a point where it is known.
   int closed_from(const Vec3& known, int closed_there, const Vec3& query) const;
-  // The same at places in a row, each `step` behind the one before in the direction of x.
+  // Computes the same at places in a row, each a `step` farther than the last in the direction of
+  // x.
   void closed_along(const Vec3& first, double step, std::span<int> result) const;
-  // Whether the winding number of the soup itself exceeds 1/2; the caps are summed only as far as
-  // it takes to tell.
+  // Returns whether the winding number of the soup itself exceeds 1/2; sums the caps only until
+  // this is decided.
   bool is_inside(const Vec3& query, int closed_here) const;
-  // Whether that exceeds 1/2 all along a segment: it is looked at between each two triangles that
-  // the segment meets and, because that of an open soup varies there, at eight places at least.
+  // Returns whether the winding number exceeds 1/2 all along a segment. It is computed between
+  // every two triangles that the segment meets, and in at least eight places, because for an open
+  // soup it varies.
   bool is_inside_along(const Vec3& from, const Vec3& to) const;
-  // The winding number of the soup itself, with an error of at most `tolerance`.
+  // Returns the winding number of the soup itself, with an error of at most `tolerance`.
   double within(double tolerance, const Vec3& query, int closed_here) const {
     return closed_here - caps_.within(tolerance, query);
   }
