@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The input of callers, checked and prepared for the computation.
+// Checks the input of callers, and prepares it for the computation.
 #pragma once
 
 #include <medial/sphere_mesh.h>
 
 namespace medial {
 
-// Throws InvalidInputError for rows out of range, numbers that are not finite, negative radii.
+// Throws InvalidInputError for rows out of range, numbers that are not finite, and negative radii.
 void require_sphere_mesh(const SphereMesh& mesh);
 
-// Triangles each once, in their order; wires that are on none of them, i < j, ascending, each once.
-// Edges from a vertex to itself, and triangles without three corners, are left out.
+// Returns the mesh with each triangle once, in their order, and the wires that are on none of them,
+// i < j, ascending, each once. Edges from a vertex to itself, and triangles without three distinct
+// corners, are omitted.
 SphereMesh without_doubles(SphereMesh mesh);
 
-// Where coordinates are multiples of a power of two near the extent, round the middle.
+// Defines coordinates about the middle of a mesh, in a unit that is a power of two near its extent.
 struct Unit {
   Vec3 origin;
   int exponent = 0;

@@ -9,16 +9,15 @@
 namespace medial {
 namespace {
 
-constexpr double kLength =
-    1e-6;  // what a length costs besides, so that of equal edges short ones go
-constexpr double kSame = 1e-12;  // costs that differ by less, as shares of the largest, are equal
+constexpr double kLength = 1e-6;  // extra cost of length, which prefers short edges
+constexpr double kSame = 1e-12;   // costs that differ by a smaller share of the largest are equal
 
 struct Candidate {
   double cost = 0;
   Edge ends = {};
   std::array<uint32_t, 2> version = {};
 
-  // The next is the cheapest, of equal ones that of the lowest rows.
+  // The next candidate is the cheapest, and of equal ones that of the lowest rows.
   bool operator<(const Candidate& other) const {
     return std::tie(other.cost, other.ends) < std::tie(cost, ends);
   }
@@ -47,7 +46,8 @@ class Collapser {
     }
   }
 
-  // Slabs may turn over only where nothing else is left to do.
+  // Collapses edges until the wanted number of vertices is left. Slabs may turn over only when
+  // nothing else can collapse.
   void run(int64_t wanted, const Run& run) {
     const auto total = static_cast<int64_t>(spheres_.size());
     left_ = total;
@@ -119,7 +119,7 @@ class Collapser {
     double cost = HUGE_VAL;
   };
 
-  // The best sphere for both, or one of the two where that is no worse.
+  // Returns the best sphere for both, or one of the two if that is as good.
   Target target_of(int32_t a, int32_t b) const {
     Quadric sum = quadrics_[a];
     sum += quadrics_[b];
@@ -137,7 +137,7 @@ class Collapser {
     return best;
   }
 
-  // Whether an edge has collapsed.
+  // Tries the next edge; returns whether it has collapsed.
   bool step() {
     const Candidate next = queue_.top();
     queue_.pop();
@@ -162,15 +162,17 @@ class Collapser {
     return true;
   }
 
-  // Once: an edge waits at both its ends, and comes back from either. What waited as often as it
-  // came back would double with every turn.
+  // Adds an edge to the waiting edges of a vertex, unless it is there. An edge waits at both its
+  // ends, and comes back from either; without this check the number of copies would double with
+  // every turn.
   void wait(int32_t v, int32_t other) {
     auto& others = waiting_[v];
     const auto at = std::lower_bound(others.begin(), others.end(), other);
     if (at == others.end() || *at != other) others.insert(at, other);
   }
 
-  // The edges of a vertex cost something else now; those of its neighbours may be free to go.
+  // Queues edges again: the cost of those at the vertex has changed, and those at its neighbours
+  // may be able to collapse now.
   void push_again(int32_t a) {
     waiting_[a].clear();
     for (const int32_t v : complex_.neighbours(a)) push(a, v);
@@ -182,7 +184,7 @@ class Collapser {
     }
   }
 
-  // Whether a triangle of `a`, and not of `b`, would turn over or lose its area.
+  // Returns whether a triangle of `a`, but not of `b`, would turn over or lose its area.
   bool turns(int32_t a, int32_t b, const Sphere& target) const {
     for (const int32_t t : complex_.triangles_of(a)) {
       const auto& corners = complex_.triangle(t);
@@ -204,8 +206,8 @@ class Collapser {
   std::vector<int32_t> row_;
   std::vector<Quadric> quadrics_;
   std::vector<uint32_t> version_;
-  std::vector<std::vector<int32_t>>
-      waiting_;  // other ends of edges that could not collapse, ascending
+  // per vertex: other ends of edges that could not collapse, ascending
+  std::vector<std::vector<int32_t>> waiting_;
   std::priority_queue<Candidate> queue_;
   int64_t left_ = 0;
   bool may_turn_ = false;

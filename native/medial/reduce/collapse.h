@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Edges collapse, cheapest first, until few vertices are left.
+// Collapses edges, the cheapest first, until few vertices are left.
 #pragma once
 
 #include <medial/sphere_mesh.h>
@@ -11,8 +11,8 @@
 
 namespace medial {
 
-// A mesh that is checked, in a unit near its extent. `places` are those of its surface. With it go
-// the rows of the vertices that have not moved; -1: moved.
+// Holds the mesh after the collapse, and for each vertex its row if it has not moved, or -1. The
+// given mesh must be checked, and in a unit near its extent; `places` are on its surface.
 struct Collapsed {
   SphereMesh mesh;
   std::vector<int32_t> row;

@@ -4,7 +4,7 @@
 namespace medial {
 namespace {
 
-// The gradient of the radius in the plane of a triangle, and the normal of that.
+// Holds the gradient of the radius in the plane of a triangle, and the normal of the plane.
 struct Slope {
   bool exists = false;
   Vec3 normal, gradient;
@@ -14,7 +14,7 @@ Slope slope_of(const Sphere& a, const Sphere& b, const Sphere& c) {
   const Vec3 u = b.centre - a.centre, v = c.centre - a.centre, n = cross(u, v);
   const double area = squared_length(n);
   if (!(area > 0)) return {};
-  // The vector of the plane with u . g = rise along u, v . g = rise along v.
+  // The gradient g is the vector of the plane with u . g = rise along u, and v . g = rise along v.
   const Vec3 gradient =
       (1 / area) * ((b.radius - a.radius) * cross(v, n) + (c.radius - a.radius) * cross(n, u));
   return {squared_length(gradient) < 1, (1 / std::sqrt(area)) * n, gradient};
@@ -24,11 +24,11 @@ NearestOfEnvelope nearest_of_ball(const Sphere& a, const Vec3& query) {
   return {distance(query, a.centre) - a.radius, {1, 0, 0}};
 }
 
-// On a cone the nearest ball lies where the generator through the query leaves the axis.
+// Returns the nearest ball of a cone: it is where the generator through the query leaves the axis.
 NearestOfEnvelope nearest_of_cone(const Sphere& a, const Sphere& b, const Vec3& query) {
   const Vec3 along = b.centre - a.centre;
   const double whole = length(along), rise = b.radius - a.radius;
-  double share = rise > 0 ? 1 : 0;  // one ball holds the other
+  double share = rise > 0 ? 1 : 0;  // if one ball contains the other
   if (std::abs(rise) < whole) {
     const Vec3 axis = (1 / whole) * along, away = query - a.centre;
     const double at = dot(away, axis), height = length(away - at * axis), k = rise / whole;

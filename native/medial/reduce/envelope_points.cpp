@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points on the surface of the solid: on every slab, cone and ball, where no other one covers them.
+// Spreads points over the surface of the solid: over every slab, cone and ball, except where
+// another one covers them.
 #include <numbers>
 
 #include "base/parallel.h"
@@ -11,7 +12,7 @@
 namespace medial {
 namespace {
 
-constexpr double kCovered = 1e-6;  // deeper than this share of the spacing
+constexpr double kCovered = 1e-6;  // share of the spacing; deeper points are covered
 
 class Painter {
  public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gauss-Newton: the distance of a place to the nearest ball of a slab is linear, to first order, in
-// the spheres of the slab. Places that are far off count more, for the largest distance shall fall.
+// Fits spheres by the Gauss-Newton method: the distance of a place to the nearest ball of a slab is
+// linear, to first order, in the spheres of the slab. Distant places get more weight, because the
+// largest distance shall decrease.
 #include "reduce/fit.h"
 
 #include <cmath>
@@ -15,12 +16,13 @@ constexpr int kSteps = 12;
 constexpr int kHalvings = 3;
 constexpr int kSolverSteps = 100;
 constexpr double kDamping = 1e-3;
-constexpr double kExact = 1e-9;  // of the extent: nearer than this nothing needs to come
+constexpr double kExact = 1e-9;  // share of the extent; smaller distances need no fit
 
-using Step = std::vector<std::array<double, 4>>;  // per sphere: of the centre, and of the radius
+// per sphere: steps of the centre and of the radius
+using Step = std::vector<std::array<double, 4>>;
 
-// The demand of the places nearest to one part on its spheres: the matrix and the right-hand side
-// of a linear system.
+// Holds a linear system, its matrix and right-hand side: the demand of the places that are nearest
+// to one part on the spheres of this part.
 struct Demand {
   std::array<std::array<double, 12>, 12> matrix{};
   std::array<double, 12> right{};
@@ -58,7 +60,7 @@ class Fitter {
   }
 
  private:
-  // The sum of weighted fourth powers of distances.
+  // Returns the sum of weighted fourth powers of distances.
   double measure() {
     envelope_.refit();
     parallel_for(
@@ -87,7 +89,8 @@ class Fitter {
         if (of[k] >= 0) centre = centre + nearest.shares[k] * mesh_.vertices[of[k]];
       }
       const Vec3 away = normalized(places_[i].point - centre);
-      const std::array<double, 4> slope{away.x, away.y, away.z, 1};  // of minus the distance
+      // gradient of minus the distance
+      const std::array<double, 4> slope{away.x, away.y, away.z, 1};
       const double d = nearest.distance, weight = places_[i].area * (mean / 4 + d * d);
       std::array<double, 12> row;
       for (int k = 0; k < 12; ++k) row[k] = nearest.shares[k / 4] * slope[k % 4];
@@ -100,7 +103,7 @@ class Fitter {
     return result;
   }
 
-  // The step that meets the demands of all parts together, damped where these are weak.
+  // Returns the step that meets the demands of all parts together, damped where they are weak.
   Step solve(const std::vector<Demand>& demands) const {
     const auto parts = envelope_.parts();
     const size_t n = mesh_.vertices.size();
@@ -168,8 +171,8 @@ class Fitter {
     return cross(mesh_.vertices[t[1]] - a, mesh_.vertices[t[2]] - a);
   }
 
-  // Corners of triangles that would have turned over stay where they were. Each round stops some
-  // more, so it ends.
+  // Moves the corners of triangles that would have turned over back to where they were. Each round
+  // stops more of them, so it ends.
   void stop_turning(const auto& vertices, const auto& radius) {
     for (bool again = true; again;) {
       again = false;
@@ -185,7 +188,7 @@ class Fitter {
     }
   }
 
-  // Goes the whole step, or a half or a quarter of it, and returns what is measured there.
+  // Takes the whole step, or a half or a quarter of it, and returns the new measure.
   double improve(const Step& step, double now) {
     const auto vertices = mesh_.vertices;
     const auto radius = mesh_.radius;
@@ -210,7 +213,7 @@ class Fitter {
   Run run_;
   Envelope envelope_;
   std::vector<Envelope::Found> found_;
-  std::vector<Vec3> normals_;  // of the triangles before anything moved
+  std::vector<Vec3> normals_;  // normals of the triangles before anything moved
   double largest_ = 0, square_ = 0, weight_ = 0;
 };
 

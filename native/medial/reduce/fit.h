@@ -11,8 +11,8 @@
 
 namespace medial {
 
-// In a unit near the extent. Returns false, and leaves all spheres as they are, where nothing comes
-// nearer.
+// Moves the spheres of a mesh, in a unit near its extent. Returns false, and leaves all spheres as
+// they are, if no step brings them nearer.
 bool fit_spheres(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run);
 
 }  // namespace medial

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums of squared distances of a sphere (x, y, z, r) to planes that it shall be tangent to: the
-// spherical quadrics of Thiery, Guy & Boubekeur (2013), the slab quadrics of Li et al. (2015).
+// Computes sums of squared distances of a sphere (x, y, z, r) to planes that it shall be tangent
+// to: the spherical quadrics of Thiery, Guy & Boubekeur (2013), and the slab quadrics of Li et al.
+// (2015).
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@ namespace medial {
 
 class Quadric {
  public:
-  // The plane through `point` with the outward unit normal `n`.
+  // Adds the plane through `point` with the outward unit normal `n`.
   void add_plane(const Vec3& n, const Vec3& point, double weight) {
     const std::array<double, 5> row{n.x, n.y, n.z, 1, -dot(n, point)};
     for (int i = 0, at = 0; i < 5; ++i) {
@@ -28,7 +29,7 @@ class Quadric {
 
   double weight() const { return weight_; }
 
-  // The sum of weighted squares; never negative but for rounding.
+  // Returns the sum of weighted squares, which only rounding can make negative.
   double operator()(const Sphere& s) const {
     const std::array<double, 5> m{s.centre.x, s.centre.y, s.centre.z, s.radius, 1};
     double sum = 0;
@@ -38,8 +39,8 @@ class Quadric {
     return sum;
   }
 
-  // The sphere with the least sum; where many have nearly that, the one nearest to `near`. None
-  // where rounding hides it.
+  // Returns the sphere with the least sum; if many have nearly the least, the one nearest to
+  // `near`. Returns nothing if rounding hides it.
   std::optional<Sphere> best(const Sphere& near) const {
     constexpr double kPull = 1e-6;
     const double pull = kPull * weight_;

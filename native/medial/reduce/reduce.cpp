@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reduces a sphere mesh: places on its surface, the collapse of edges, the fit to those places.
+// Reduces a sphere mesh: finds places on its surface, collapses edges, and fits the spheres to the
+// places.
 #include "base/parallel.h"
 #include "base/rows.h"
 #include "reduce/checked_mesh.h"
@@ -10,7 +11,8 @@
 namespace medial {
 namespace {
 
-constexpr double kShareCovered = 0x1p-10;  // of the extent: what lies deeper is not on the surface
+// share of the extent; deeper places are not on the surface
+constexpr double kShareCovered = 0x1p-10;
 constexpr size_t kFitted = 1 << 16, kFittedPerSphere = 128;
 
 SphereMesh inward(const SphereMesh& mesh, const Unit& unit) {
@@ -31,7 +33,7 @@ std::vector<TangentPlace> uncovered(const SphereMesh& mesh, const std::vector<Ta
       256);
 }
 
-// Every so many, for as many as the fit of some spheres needs.
+// Thins the places evenly to as many as the fit of some spheres needs.
 std::vector<TangentPlace> thinned(const std::vector<TangentPlace>& places, size_t spheres) {
   const size_t step = std::max<size_t>(1, places.size() / (kFitted + kFittedPerSphere * spheres));
   std::vector<TangentPlace> result;

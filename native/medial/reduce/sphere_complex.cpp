@@ -24,7 +24,7 @@ bool has_corner(const Triangle& triangle, int32_t vertex) {
   return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
 }
 
-// The corners of a triangle besides one.
+// Returns the corners of a triangle other than the given one.
 Edge others(const Triangle& triangle, int32_t vertex) {
   const auto& [a, b, c] = triangle;
   return a == vertex ? Edge{b, c} : b == vertex ? Edge{c, a} : Edge{a, b};

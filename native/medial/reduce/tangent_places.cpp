@@ -9,10 +9,10 @@
 namespace medial {
 namespace {
 
-constexpr int kRound = 12;       // directions all round a wire
-constexpr int kDirections = 64;  // of a ball
+constexpr int kRound = 12;       // directions all around a wire
+constexpr int kDirections = 64;  // directions of a ball
 
-// Spread evenly over the sphere: on a spiral by the golden angle.
+// Returns directions spread evenly over the sphere, on a spiral by the golden angle.
 std::array<Vec3, kDirections> directions() {
   std::array<Vec3, kDirections> result;
   for (int i = 0; i < kDirections; ++i) {
@@ -37,7 +37,7 @@ class Places {
     for (const Vec3& n : tangents.normals) out.push_back({centre + radius * n, n, area, t});
   }
 
-  // Round a wire, or round a rim from one side of its slab to the other.
+  // Adds places around a wire, or around a rim from one side of its slab to the other.
   void add_cone(int32_t a, int32_t b, std::vector<TangentPlace>& out) const {
     const Vec3 along = at(b) - at(a);
     const double whole = length(along), rise = mesh_.radius[b] - mesh_.radius[a];
@@ -75,8 +75,8 @@ class Places {
   const Vec3& at(int32_t v) const { return mesh_.vertices[v]; }
   Sphere sphere(int32_t v) const { return {at(v), mesh_.radius[v]}; }
 
-  // A direction across an edge, and how far to both sides of it the cone is seen: nothing where two
-  // slabs or more meet.
+  // Returns a direction across an edge, and the angle to both sides of it within which the cone is
+  // visible. There must be at most one slab at the edge.
   std::pair<Vec3, double> sector(int32_t a, int32_t b, const Vec3& axis, double flat) const {
     int32_t third = -1;
     for (const int32_t t : complex_.triangles_of(a)) {
