@@ -12,7 +12,7 @@
 namespace medial {
 namespace {
 
-// Steps of the lattice in one radius: at least six candidates for every disc that has room.
+// Lattice steps in one radius; this gives at least six candidates for every disc that has room.
 constexpr double kSteps = 2;
 
 double median_radius(std::span<const Disk> disks) {
@@ -53,7 +53,8 @@ std::vector<Disk> candidates_of(const OpenSurface& open, std::span<const OpenSur
   return candidates;
 }
 
-// Throws candidates in random order among the discs that are there; those that stay, in that order.
+// Tries candidates in random order among the discs that are kept; returns those that stay, in that
+// order.
 class Thinning {
  public:
   Thinning(std::span<const Disk> kept, std::span<const Disk> candidates)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Samples that close the openings of a surface: blue noise on the level set 1/2 of its winding
-// number, off the triangles.
+// Makes samples that close the openings of a surface: blue noise on the level set 1/2 of its
+// winding number, away from the triangles.
 #pragma once
 
 #include "sampling/poisson_disk.h"
@@ -13,9 +13,9 @@ struct ClosingSamples {
   std::vector<double> radius;
 };
 
-// Among the discs that are kept of the surface itself, with the same distances as in poisson_disks.
-// A disc is as large as the nearest one of those, and larger by a share of its distance. None where
-// the triangles are closed, or nothing is kept.
+// Returns samples among the discs `kept` of the surface itself, with the same distances as in
+// poisson_disks. A disc has the radius of the nearest kept disc plus a share of its distance. There
+// are no samples if the triangles are closed, or nothing is kept.
 ClosingSamples closing_samples(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                                std::span<const Disk> kept, uint64_t seed, const Run& run);
 

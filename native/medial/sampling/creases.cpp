@@ -11,10 +11,10 @@
 namespace medial {
 namespace {
 
-// Coordinates come from float32: heights and angles below its rounding say nothing.
+// Coordinates come from float32, so heights and angles below its rounding are meaningless.
 constexpr double kRounding = 0x1p-22, kAngleRounding = 1e-5;
 
-// Input row -> point, -1 for unused rows; fills points and row.
+// Returns the point of each input row, or -1 for unused rows; fills points and row.
 std::vector<int32_t> weld(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                           TriangleMesh& mesh) {
   std::vector<uint8_t> used(vertices.size(), 0);
@@ -31,7 +31,7 @@ std::vector<int32_t> weld(std::span<const Vec3> vertices, std::span<const Triang
   };
   std::sort(order.begin(), order.end(),
             [&](int32_t a, int32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
-  std::vector<int32_t> point(vertices.size(), -1);  // first the lowest equal row
+  std::vector<int32_t> point(vertices.size(), -1);  // at first the lowest equal row
   for (size_t i = 0; i < order.size(); ++i) {
     const bool same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
     point[order[i]] = same ? point[order[i - 1]] : order[i];
@@ -48,8 +48,8 @@ std::vector<int32_t> weld(std::span<const Vec3> vertices, std::span<const Triang
   return point;
 }
 
-// Triangles with a repeated corner have no area; of triangles with the same corners the first
-// stays.
+// Adds the triangles. Those with a repeated corner have no area and are omitted; of triangles with
+// the same corners the first one stays.
 void add_triangles(std::span<const Triangle> triangles, std::span<const int32_t> point,
                    TriangleMesh& mesh, const Run& run) {
   std::vector<Triangle> sorted;
@@ -82,7 +82,7 @@ void add_triangles(std::span<const Triangle> triangles, std::span<const int32_t>
   mesh.source.resize(kept);
 }
 
-// Corner opposite the longest edge.
+// Returns the corner opposite the longest edge.
 int tip(const TriangleMesh& mesh, const Triangle& t) {
   std::array<double, 3> opposite;
   for (int i = 0; i < 3; ++i) {
@@ -91,7 +91,7 @@ int tip(const TriangleMesh& mesh, const Triangle& t) {
   return static_cast<int>(std::max_element(opposite.begin(), opposite.end()) - opposite.begin());
 }
 
-// The lowest other triangle at the edge, which passes it the other way; -1: none.
+// Returns the lowest other triangle that has the edge in the opposite direction, or -1.
 int32_t across(const TriangleMesh& mesh, int32_t triangle, int32_t p, int32_t q) {
   for (const int32_t other : mesh.fans[p]) {
     if (other == triangle) continue;
@@ -100,8 +100,8 @@ int32_t across(const TriangleMesh& mesh, int32_t triangle, int32_t p, int32_t q)
   return -1;
 }
 
-// A sliver thinner than rounding continues the triangle across its longest edge, so that its other
-// two edges are as sharp as they would be without it.
+// Gives slivers thinner than rounding the normal of the triangle across their longest edge, so that
+// their other two edges are as sharp as they would be without the sliver.
 void borrow_normals(TriangleMesh& mesh, std::vector<int32_t> slivers) {
   if (slivers.empty()) return;
   const std::vector<Vec3> own = mesh.normal;
@@ -196,7 +196,8 @@ bool straight(const TriangleMesh& mesh, int32_t before, int32_t at, int32_t afte
   return std::atan2(length(cross(in, out)), dot(in, out)) <= angle + kAngleRounding;
 }
 
-// No crease ends here, and yet some triangle is steeper than the angle against the mean.
+// Returns whether no crease ends here, but some triangle is steeper than the angle against the mean
+// normal.
 bool is_tip(const TriangleMesh& mesh, int32_t p, double angle) {
   const Vec3 mean = mesh.normal_sum(p);
   const double least = std::cos(std::min(angle, std::numbers::pi / 2)) * length(mean);
@@ -227,7 +228,7 @@ void find_corners(const TriangleMesh& mesh, double angle, const Csr<int32_t>& at
   });
 }
 
-// Follows the creases from `start` until a stop, or back to the start.
+// Follows the creases from `start` up to a stop, or back to the start.
 void walk(const Creases& creases, const Csr<int32_t>& at, std::span<const int32_t> ids,
           std::span<const uint8_t> stop, int32_t start, int32_t crease,
           std::vector<uint8_t>& walked, Csr<ChainLink>& chains) {

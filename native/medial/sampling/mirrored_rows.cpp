@@ -4,9 +4,11 @@
 namespace medial {
 namespace {
 
-constexpr int kMostTriangles = 1 << 12;  // round a vertex, rounding could go on for ever
+// limit around a vertex, where rounding could continue the walk for ever
+constexpr int kMostTriangles = 1 << 12;
 
-// A triangle laid into the plane: the edge walked from along the x axis, the third corner above.
+// Holds a triangle in the plane: the edge where the walk enters is on the x axis, and the third
+// corner above it.
 struct Flat {
   int32_t third;
   double width;
@@ -32,7 +34,7 @@ Barycentric barycentric(const Triangle& t, const Edge& base, double at_end, doub
     const double at = corner == base[0]   ? 1 - at_end - at_third
                       : corner == base[1] ? at_end
                                           : at_third;
-    return std::max(0.0, at);  // beside an edge rounding could lead out
+    return std::max(0.0, at);  // near an edge, rounding could lead outside
   };
   return {share(t[0]), share(t[1]), share(t[2])};
 }
@@ -77,11 +79,11 @@ std::optional<SurfacePlace> walk_from_edge(const TriangleMesh& mesh, const Creas
                                            double distance) {
   Edge base = edge.ends;
   double start = share * medial::distance(mesh.points[base[0]], mesh.points[base[1]]);
-  double along = 0, into = 1;  // the direction
+  double along = 0, into = 1;  // the direction of the walk
   for (int i = 0; i < kMostTriangles; ++i) {
     const Flat flat = lay_down(mesh, triangle, base);
     if (!(flat.y > 0)) return {};
-    // It leaves through the edge from `out` to the third corner.
+    // The walk leaves through the edge from `out` to the third corner.
     const int out = along * flat.y - into * (flat.x - start) >= 0;
     const double from = out ? flat.width : 0, slope = flat.x - from;
     const double way = (from - start) * flat.y / (along * flat.y - into * slope);

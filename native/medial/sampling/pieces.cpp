@@ -8,15 +8,15 @@
 namespace medial {
 namespace {
 
-constexpr int kMostDepth = 15;        // as many as a path holds
-constexpr double kLittleArea = 0.25;  // in squared spacings: a sample or less
-constexpr double kOneSpacing = 2;     // spacings that differ by less are one
+constexpr int kMostDepth = 15;        // as many cuts as a path can hold
+constexpr double kLittleArea = 0.25;  // in squared spacings; it gets one sample or none
+constexpr double kOneSpacing = 2;     // a ratio; spacings that differ by less are equal
 
 Barycentric middle(const Barycentric& p, const Barycentric& q) {
   return {0.5 * (p.a + q.a), 0.5 * (p.b + q.b), 0.5 * (p.c + q.c)};
 }
 
-// Three quarters at the corners, and the one between them.
+// Returns one of the three quarters at the corners, or the one between them.
 std::array<Barycentric, 3> quarter(const std::array<Barycentric, 3>& c, uint32_t which) {
   if (which == 3) return {middle(c[1], c[2]), middle(c[2], c[0]), middle(c[0], c[1])};
   const Barycentric& kept = c[which];
@@ -28,7 +28,7 @@ Barycentric centre(const std::array<Barycentric, 3>& c) {
           (c[0].c + c[1].c + c[2].c) / 3};
 }
 
-// The area of a piece; of a curved one that of the flat triangle of its corners.
+// Returns the area of a piece; for a curved one it is the area of the flat triangle of its corners.
 double area_of(const std::array<Vec3, 3>& p) {
   return 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
 }
@@ -68,8 +68,9 @@ class Cutter {
     return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])}) > width;
   }
 
-  // Quarters of a needle are needles, so it would take the square of its length in spacings to cut
-  // it into short pieces: where the spacing is the same all along, a long one does.
+  // Returns whether the spacing is even along a piece. Quarters of a needle are needles, so cutting
+  // it into short pieces takes the square of its length in spacings; where the spacing is even, one
+  // long piece is enough.
   bool even(const std::array<Vec3, 3>& p, double spacing) const {
     for (int i = 0; i < 3; ++i) {
       for (const Vec3& place : {p[i], 0.5 * p[i] + 0.5 * p[(i + 1) % 3]}) {
@@ -85,7 +86,7 @@ class Cutter {
   const Spacing& spacing_;
   std::vector<Piece>& out_;
   int32_t triangle_;
-  size_t most_;  // in `out_`
+  size_t most_;  // limit of the pieces in `out_`
 };
 
 }  // namespace
@@ -117,11 +118,11 @@ std::vector<Piece> cut_into_pieces(const CurvedSurface& surface, int cuts, const
 
 Place place_in(const Piece& piece, const std::array<Barycentric, 3>& corners, int64_t k,
                const std::array<double, 2>& shift) {
-  // The R2 sequence (M. Roberts 2018): steps of the powers of the plastic number.
+  // This is the R2 sequence (M. Roberts 2018), with steps of the powers of the plastic number.
   const double x = shift[0] + 0.7548776662466927 * static_cast<double>(k);
   const double y = shift[1] + 0.5698402909980532 * static_cast<double>(k);
   double u = x - std::floor(x), v = y - std::floor(y);
-  // Square to triangle with little distortion (E. Heitz 2019).
+  // This maps the square to the triangle with little distortion (E. Heitz 2019).
   if (v > u) {
     u *= 0.5;
     v -= u;

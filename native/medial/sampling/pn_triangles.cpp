@@ -8,14 +8,15 @@
 namespace medial {
 namespace {
 
-// Sides closer than about 6 degrees do not say in which direction their edge runs.
+// Sides closer than about 6 degrees do not determine the direction of their edge.
 constexpr double kParallel = 0.1;
 
 int corner_of(const Triangle& t, int32_t vertex) {
   return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
 }
 
-// A third of the chord, made tangent to both sides; their lengths are not kept, as with one side.
+// Returns a third of the chord, made tangent to both sides. Its length is not kept; neither is it
+// with one side.
 Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
   const Vec3 third = (1.0 / 3) * chord, along = cross(left, right);
   if (length(along) > kParallel) {
@@ -28,7 +29,7 @@ Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
 
 }  // namespace
 
-// The control point in the middle: a quarter of the handles less a sixth of the corners.
+// The control point in the middle is a quarter of the handles minus a sixth of the corners.
 Patch::Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles)
     : corners_{p, q, r}, flat_(false), handles_(handles), centre_((-1.0 / 6) * (p + q + r)) {
   for (const Vec3& handle : handles) centre_ = centre_ + 0.25 * handle;
@@ -89,9 +90,9 @@ void CurvedSurface::add_normals(const Creases& creases) {
   split_steep_fans(creases.sharp_angle);
 }
 
-// At the tip of a cone the mean normal is far from those of the sides, and patches bent towards it
-// would leave the cone. So there each triangle keeps its own normal, and edges leave the tip
-// straight.
+// Splits the fans at the tips of cones. There the mean normal is far from those of the sides, and
+// patches bent towards it would leave the cone. So each triangle keeps its own normal there, and
+// edges leave the tip straight.
 void CurvedSurface::split_steep_fans(double sharp_angle) {
   const double least = std::cos(std::min(sharp_angle, std::numbers::pi / 2));
   std::vector<uint8_t> steep(fan_normals_.size(), 0);
@@ -113,7 +114,7 @@ const Vec3& CurvedSurface::fan_normal(int32_t triangle, int32_t vertex) const {
   return fan_normals_[fan_of_[triangle][corner_of(mesh_.triangles[triangle], vertex)]];
 }
 
-// Where it is not clear which sides an edge joins, it stays straight.
+// Returns the handles of an edge. It stays straight if it is unclear which sides it joins.
 CurvedSurface::Handles CurvedSurface::handles_of(const MeshEdge& edge) const {
   Handles handles;
   const bool open = edge.crease == Crease::boundary;
@@ -129,7 +130,7 @@ CurvedSurface::Handles CurvedSurface::handles_of(const MeshEdge& edge) const {
   return handles;
 }
 
-// Control point of the edge between two corners that is next to `from`.
+// Returns the control point that is next to `from` on the edge between two corners.
 const Vec3& CurvedSurface::handle(int32_t triangle, int from, int to) const {
   const Triangle& t = mesh_.triangles[triangle];
   const int32_t edge = edge_of_[triangle][to == (from + 1) % 3 ? from : to];

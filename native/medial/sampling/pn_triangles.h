@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surface that is sampled: the flat triangles, or PN triangles (Vlachos, Peters, Boyd &
-// Mitchell 2001), which are cubic patches with the vertices and their normals.
+// Represents the surface that is sampled: flat triangles, or PN triangles (Vlachos, Peters, Boyd &
+// Mitchell 2001), which are cubic patches through the vertices with their normals.
 #pragma once
 
 #include "sampling/creases.h"
@@ -11,11 +11,12 @@ struct Barycentric {
   double a, b, c;
 };
 
-// A triangle, flat or cubic.
+// A patch is a flat or cubic triangle.
 class Patch {
  public:
   Patch(const Vec3& p, const Vec3& q, const Vec3& r) : corners_{p, q, r} {}
-  // The inner control points of the edges: pq, qp, qr, rq, rp, pr, named by the nearer corner.
+  // The handles are the inner control points of the edges: pq, qp, qr, rq, rp, pr, named by the
+  // nearer corner first.
   Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles);
 
   Vec3 point(const Barycentric& at) const;
@@ -29,18 +30,18 @@ class Patch {
 
 class CurvedSurface {
  public:
-  // Both outlive the surface. Normals are averages over smooth fans, weighted by angle.
+  // The mesh must outlive the surface. Normals are averages over smooth fans, weighted by angle.
   CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth, const Run& run);
 
   bool smooth() const { return !handles_.empty(); }
   const TriangleMesh& mesh() const { return mesh_; }
   Patch patch(int32_t triangle) const;
   Vec3 point(int32_t triangle, const Barycentric& at) const { return patch(triangle).point(at); }
-  // Unit, or zero where there is none.
+  // Returns the unit normal, or zero if there is none.
   Vec3 normal(int32_t triangle, const Barycentric& at) const;
 
  private:
-  // Inner control points of an edge, next to p and next to q.
+  // Holds the inner control points of an edge, next to p and next to q.
   using Handles = std::array<Vec3, 2>;
 
   void add_normals(const Creases& creases);
@@ -50,10 +51,11 @@ class CurvedSurface {
   const Vec3& handle(int32_t triangle, int from, int to) const;
 
   const TriangleMesh& mesh_;
-  std::vector<Vec3> fan_normals_;                // per fan
-  std::vector<std::array<int32_t, 3>> fan_of_;   // per triangle: fan of each corner
-  std::vector<std::array<int32_t, 3>> edge_of_;  // per triangle: edge from each corner to the next
-  std::vector<Handles> handles_;                 // per edge
+  std::vector<Vec3> fan_normals_;               // per fan
+  std::vector<std::array<int32_t, 3>> fan_of_;  // per triangle: the fan of each corner
+  // per triangle: the edge from each corner to the next
+  std::vector<std::array<int32_t, 3>> edge_of_;
+  std::vector<Handles> handles_;  // per edge
 };
 
 }  // namespace medial

@@ -9,15 +9,15 @@ namespace medial {
 namespace {
 
 constexpr int kSide = 4;           // cells along a block
-constexpr int kLocal = kSide + 2;  // and with a margin
+constexpr int kLocal = kSide + 2;  // the same with a margin
 constexpr int kColours = 8;        // blocks of one colour are farther apart than any disc reaches
 
 using BlockKey = uint64_t;  // 21 bits per axis
 
-// Space in cells twice as wide as the largest disc, and blocks of them.
+// Divides space into cells twice as wide as the largest disc, and into blocks of cells.
 struct Grid {
   Vec3 origin;
-  double per_length;  // cells
+  double per_length;  // cells per unit of length
 
   std::array<double, 3> cells(const Vec3& p) const {
     return {(p.x - origin.x) * per_length, (p.y - origin.y) * per_length,
@@ -42,12 +42,12 @@ int colour(BlockKey key) {
   return static_cast<int>((x & 1) | (y & 1) << 1 | (z & 1) << 2);
 }
 
-// The darts of pieces of about one radius: numbered piece after piece.
+// Holds the darts of pieces of about the same radius, numbered piece after piece.
 struct Darts {
   const CurvedSurface& surface;
   std::span<const Piece> pieces;
-  std::vector<int32_t> of;     // the pieces
-  std::vector<int64_t> first;  // number of the first dart of each, and their count
+  std::vector<int32_t> of;     // ids of the pieces
+  std::vector<int64_t> first;  // number of each piece's first dart, and the number of all
   uint64_t seed;
 
   int64_t count() const { return first.back(); }
@@ -57,7 +57,7 @@ struct Darts {
   }
 };
 
-// Walks over darts in ascending order.
+// Reads darts in ascending order.
 class DartReader {
  public:
   DartReader(const Darts& darts, int64_t start) : darts_(darts), slot_(darts.slot_of(start)) {
@@ -72,7 +72,7 @@ class DartReader {
     }
     return place_in(piece(), corners_, dart - darts_.first[slot_], shift_);
   }
-  // The piece of the dart that was read last.
+  // Returns the piece of the dart that was read last.
   const Piece& piece() const { return darts_.pieces[darts_.of[slot_]]; }
   Vec3 point(const Place& place) const { return patch_->point(place.barycentric()); }
 
@@ -92,7 +92,7 @@ class DartReader {
   std::array<double, 2> shift_;
 };
 
-// Darts and fixed discs by block.
+// Holds the darts and the fixed discs by block.
 struct Blocks {
   std::vector<BlockKey> keys;  // ascending
   Csr<uint32_t> darts, fixed;
@@ -142,7 +142,7 @@ std::vector<BlockKey> distinct(std::span<const BlockKey> keys, const Run& run) {
   return found;
 }
 
-// Lists, for every block, the ids whose key it is, ascending.
+// Lists for every block the ids with its key, ascending.
 Csr<uint32_t> by_block(std::span<const BlockKey> keys, const Blocks& blocks, const Run& run) {
   std::vector<int32_t> block(keys.size());
   parallel_chunks(static_cast<int64_t>(keys.size()), run, [&](int64_t begin, int64_t end, int) {
@@ -180,7 +180,7 @@ Blocks make_blocks(const Darts& darts, std::span<const Disk> fixed, const Grid& 
   return blocks;
 }
 
-// The discs in and about one block, by cell.
+// Holds the discs in and around one block, by cell.
 class Neighbourhood {
  public:
   void begin(const Grid& grid, BlockKey key) {
@@ -191,7 +191,7 @@ class Neighbourhood {
     disks_.clear();
   }
 
-  // Discs beyond the margin are passed over.
+  // Adds a disc, unless it is beyond the margin.
   void add(const Disk& disk) {
     const auto x = local(disk.centre);
     for (const double xi : x) {
@@ -203,7 +203,7 @@ class Neighbourhood {
     head = static_cast<int32_t>(disks_.size()) - 1;
   }
 
-  // `normal` is asked for only when it decides.
+  // Returns whether a new disc has room; `normal` is called only if it decides.
   template <typename Normal>
   bool free(const Vec3& centre, double radius, const Normal& normal) const {
     const auto x = local(centre);
@@ -281,7 +281,7 @@ void read_darts(const Darts& darts, std::span<const uint32_t> ids, double scale,
   }
 }
 
-// Throws the darts of a block in an order that depends on block and seed alone.
+// Throws the darts of a block, in an order that depends only on the block and the seed.
 void throw_darts(const Darts& darts, const Grid& grid, double scale, std::span<const Disk> fixed,
                  int32_t block, Blocks& blocks, Scratch& scratch) {
   const auto ids = blocks.darts[block];
@@ -306,7 +306,7 @@ void throw_darts(const Darts& darts, const Grid& grid, double scale, std::span<c
   }
 }
 
-// Discs of about one size, among those that are there.
+// Places discs of about the same size among those that are there.
 std::vector<PlacedDisk> one_size(const Darts& darts, const Grid& grid, double scale,
                                  std::span<const Disk> fixed, const Run& run) {
   Blocks blocks = make_blocks(darts, fixed, grid, run);
@@ -330,7 +330,7 @@ std::vector<PlacedDisk> one_size(const Darts& darts, const Grid& grid, double sc
   return all;
 }
 
-// Pieces by halving of their spacing, from the largest.
+// Groups the pieces by halvings of their spacing, from the largest.
 std::vector<std::vector<int32_t>> by_size(std::span<const Piece> pieces, double largest) {
   std::vector<std::vector<int32_t>> sizes;
   for (size_t i = 0; i < pieces.size(); ++i) {
@@ -341,8 +341,8 @@ std::vector<std::vector<int32_t>> by_size(std::span<const Piece> pieces, double 
   return sizes;
 }
 
-// The number of each piece's first dart. A piece gets as many darts as its area asks for, rounded
-// down; what is lost by this is carried over to the next piece.
+// Returns the number of each piece's first dart. A piece gets as many darts as its area needs,
+// rounded down; the rest is carried over to the next piece.
 std::vector<int64_t> numbered(std::span<const Piece> pieces, std::span<const int32_t> of,
                               double per_disk_area, uint64_t seed) {
   std::vector<int64_t> first(of.size() + 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Blue noise: discs on a surface, none with its centre inside another, and no room for one more.
+// Makes blue noise: discs on a surface, none with its centre inside another one, and without room
+// for one more.
 #pragma once
 
 #include "sampling/pieces.h"
@@ -9,7 +10,7 @@ namespace medial {
 struct Disk {
   Vec3 centre;
   double radius;
-  Vec3 normal;  // zero: it repels from all sides
+  Vec3 normal;  // zero means that it repels from all sides
 };
 
 struct PlacedDisk {
@@ -17,13 +18,14 @@ struct PlacedDisk {
   Place place;
 };
 
-// Samples per area of squared radius, when the darts below have been thrown.
+// This is the number of samples per area of squared radius after the darts below have been thrown.
 inline constexpr double kPacking = 0.61;
 
-// Throws about `darts` times as many darts as will stay, spread evenly, in random order. One stays
-// unless it is nearer to another disc, the `fixed` ones included, than the smaller of the radii and
-// their normals are less than a right angle apart: opposite walls of a sheet do not repel each
-// other. A disc's radius is `scale` times the spacing of its piece. Large discs are placed first.
+// Throws about `darts` times as many darts as will stay, spread evenly, in random order. A dart
+// stays unless it is nearer to another disc (including the `fixed` ones) than the smaller of the
+// two radii, and their normals are less than a right angle apart: opposite walls of a sheet do not
+// repel each other. The radius of a disc is `scale` times the spacing of its piece. Large discs are
+// placed first.
 std::vector<PlacedDisk> poisson_disks(const CurvedSurface& surface, std::span<const Piece> pieces,
                                       double scale, std::span<const Disk> fixed, int darts,
                                       uint64_t seed, const Run& run);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A spacing for every place, from spacings at some sites.
+// Computes a spacing for every place from spacings at some sites.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@
 
 namespace medial {
 
-// The spacing of the nearest site, after sites have been lowered so that the spacing grows by less
-// than kGrading times the distance from one to the next.
+// Returns the spacing of the nearest site. The spacings of sites are lowered first, such that from
+// one site to the next the spacing grows by less than kGrading times the distance.
 class SizingField {
  public:
   static constexpr double kGrading = 0.3;
@@ -26,9 +26,9 @@ class SizingField {
   std::vector<double> spacing_;
 };
 
-// The wanted distance of neighbouring samples at every place: the same everywhere, or by a field.
+// Gives the wanted distance of neighbouring samples at every place: constant, or from a field.
 struct Spacing {
-  double scale = 1;  // times the field, or the spacing itself
+  double scale = 1;  // factor of the field, or the constant spacing
   const SizingField* field = nullptr;
 
   double operator()(const Vec3& place) const { return field ? scale * (*field)(place) : scale; }

@@ -13,13 +13,15 @@ namespace medial {
 namespace {
 
 constexpr int kDarts = 14;
-constexpr int64_t kMostSamples = INT_MAX / 8;           // as many as an analysis takes
-constexpr double kHexagonal = 2 / std::numbers::sqrt3;  // squared spacing of one sample per area
-// A disc's radius for a spacing: as many discs as the hexagonal lattice has points.
+constexpr int64_t kMostSamples = INT_MAX / 8;  // as many as an analysis accepts
+// squared spacing if each sample has the area 1
+constexpr double kHexagonal = 2 / std::numbers::sqrt3;
+// The radius of a disc for a spacing is such that there are as many discs as points of the
+// hexagonal lattice.
 const double kDisk = std::sqrt(kPacking / kHexagonal);
-constexpr int kMostCuts = 3;  // of a curved triangle
+constexpr int kMostCuts = 3;  // cuts of a curved triangle
 constexpr size_t kManyPieces = 1 << 20;
-constexpr int kCurveSteps = 8;  // of a curved edge
+constexpr int kCurveSteps = 8;  // steps along a curved edge
 constexpr int kMostRows = 100;
 
 struct FixedSample {
@@ -30,11 +32,11 @@ struct FixedSample {
   double radius;
 };
 
-// The surface and what does not depend on the spacing.
+// Holds the surface and all data that do not depend on the spacing.
 struct Model {
   Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
         const SamplingOptions& options, const Run& run);
-  // The curved surface refers to the mesh beside it.
+  // The curved surface refers to the mesh in the same object.
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
@@ -44,7 +46,7 @@ struct Model {
   double area = 0;
 };
 
-// Ids of points of the marked edges; ends that no triangle uses drop out.
+// Returns the marked edges as ids of points, without those that no triangle uses.
 std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const Edge> rows,
                                const TriangleMesh& mesh, std::span<const Triangle> triangles) {
   std::vector<Edge> marked;
@@ -87,14 +89,14 @@ Model::Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles
   }
 }
 
-// Barycentric coordinates along the edge between two corners of a triangle.
+// Returns the barycentric coordinates of a place on the edge between two corners of a triangle.
 Barycentric along(const Triangle& t, int32_t from, int32_t to, double share) {
   std::array<double, 3> at{};
   for (int i = 0; i < 3; ++i) at[i] = t[i] == from ? 1 - share : t[i] == to ? share : 0;
   return {at[0], at[1], at[2]};
 }
 
-// Mean of the normals of the triangles at an edge.
+// Returns the mean normal of the triangles at an edge.
 Vec3 edge_normal(const Model& model, const MeshEdge& edge, double share) {
   Vec3 sum;
   for (const int32_t t : model.mesh.fans[edge.ends[0]]) {
@@ -129,7 +131,7 @@ FixedSample on_edge(const Model& model, const MeshEdge& edge, double share,
   return {kind, t, at, point, edge_normal(model, edge, share), kDisk * spacing(point)};
 }
 
-// A chain as a polyline, with its length in spacings up to each of its points.
+// Holds a chain as a polyline, with its length in spacings up to each point.
 struct Polyline {
   struct Knot {
     int32_t edge;
@@ -174,23 +176,24 @@ bool begins_at_corner(const Model& model, std::span<const ChainLink> chain, bool
 
 struct PlaceOnEdge {
   int32_t edge;
-  double share;  // from its first end
+  double share;  // from the edge's first end
 };
 
-// A chain cut into equal parts of at most one spacing.
+// Divides a chain into equal parts of at most one spacing.
 class Division {
  public:
   Division(const Model& model, std::span<const ChainLink> chain, bool keep_vertices,
            const Spacing& spacing)
       : line_(measured(model, chain, spacing)),
         closed_(!begins_at_corner(model, chain, keep_vertices)) {
-    constexpr double kNearlyWhole = 1e-9;  // a length that is a multiple of the spacing
+    // tolerance for a length that is a multiple of the spacing
+    constexpr double kNearlyWhole = 1e-9;
     const double least = closed_ ? 3 : 1, total = line_.knots.back().passed;
     parts_ = std::max(least, std::ceil(total * (1 - kNearlyWhole)));
-    if (!(parts_ < kMostSamples)) parts_ = 0;  // the caller has counted them
+    if (!(parts_ < kMostSamples)) parts_ = 0;  // the caller has counted the samples
   }
 
-  // The ends only where they are no corners.
+  // Returns the ends of the parts, without the ends of the chain if these are corners.
   std::vector<PlaceOnEdge> ends_of_parts() const { return places(closed_ ? 0 : 1); }
   std::vector<PlaceOnEdge> middles_of_parts() const { return places(0.5); }
 
@@ -220,7 +223,7 @@ struct Pair {
   FixedSample left, right;
 };
 
-// Two places, one on either side of an edge, at the same distance from it.
+// Returns two places on either side of an edge, at the same distance from it.
 std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, double spacings,
                                 const Spacing& spacing) {
   const MeshEdge& edge = model.creases.edges[place.edge];
@@ -244,7 +247,7 @@ std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, do
   return Pair{*left, *right};
 }
 
-// One of each chain; samples on edges and all rows beside them go by the same.
+// There is one division of each chain, for the samples on edges and for all rows next to them.
 using Divisions = std::vector<std::optional<Division>>;
 
 Divisions divisions_of(const Model& model, bool keep_vertices, const Spacing& spacing,
@@ -263,7 +266,7 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
   auto samples = parallel_append<FixedSample>(
       static_cast<int64_t>(model.mesh.points.size()), run,
       [&](int64_t p, std::vector<FixedSample>& out, int) {
-        if (model.mesh.fans[p].empty()) return;  // only of triangles that are none
+        if (model.mesh.fans[p].empty()) return;  // all triangles there were omitted
         if (keep_vertices || model.creases.corner[p]) {
           out.push_back(at_vertex(model, static_cast<int32_t>(p), spacing));
         }
@@ -282,7 +285,7 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
   return samples;
 }
 
-// One row of a hexagonal lattice along each edge; every other row is staggered.
+// Returns one row of a hexagonal lattice along each edge; every other row is staggered.
 std::vector<Pair> mirrored_row(const Model& model, int row, const Divisions& divisions,
                                const Spacing& spacing, const Run& run) {
   constexpr double kFirstRow = 0.75, kNextRow = 0.85;
@@ -309,7 +312,7 @@ std::vector<Disk> disks_of(std::span<const FixedSample> samples) {
   return disks;
 }
 
-// Appends the rows beside the sharp edges, as far as there is room, the nearest first.
+// Appends the rows next to the sharp edges where there is room, the nearest first.
 void add_mirrored_rows(const Model& model, int rows, const Divisions& divisions,
                        const Spacing& spacing, std::vector<FixedSample>& samples, const Run& run) {
   for (int row = 0; row < rows; ++row) {
@@ -323,14 +326,14 @@ void add_mirrored_rows(const Model& model, int rows, const Divisions& divisions,
   }
 }
 
-struct Turn {
+struct Attempt {
   std::vector<FixedSample> fixed;
   std::vector<PlacedDisk> placed;
 
   double count() const { return static_cast<double>(fixed.size() + placed.size()); }
 };
 
-// Pieces of curved triangles no smaller than what a few darts stand for.
+// Returns how often curved triangles are cut: a piece should get at least a few darts.
 int cuts_for(const Model& model, double expected) {
   if (!model.surface->smooth()) return 0;
   const double per_triangle = kDarts * expected / static_cast<double>(model.mesh.triangles.size());
@@ -346,7 +349,8 @@ double crease_length(const Model& model) {
   return sum;
 }
 
-// Samples that a spacing will lead to, roughly; and the pieces that tell it, where it varies.
+// Holds a rough forecast of the number of samples, and the pieces that give it if the spacing
+// varies.
 struct Expected {
   double count = 0;
   std::vector<Piece> pieces;
@@ -369,41 +373,41 @@ void require_countable(double expected) {
                           "; take a larger one.");
 }
 
-Turn sample_once(const Model& model, const SamplingOptions& options, const Spacing& spacing,
-                 Expected expected, const Run& run) {
+Attempt sample_once(const Model& model, const SamplingOptions& options, const Spacing& spacing,
+                    Expected expected, const Run& run) {
   const double creases = spacing.field ? 0 : crease_length(model) / spacing.scale;
   require_countable(std::max(expected.count, creases));
-  Turn turn;
+  Attempt attempt;
   const auto divisions = divisions_of(model, options.keep_vertices, spacing, run);
-  turn.fixed = fixed_samples(model, options.keep_vertices, divisions, spacing, run);
-  add_mirrored_rows(model, options.mirrored_rows, divisions, spacing, turn.fixed, run);
+  attempt.fixed = fixed_samples(model, options.keep_vertices, divisions, spacing, run);
+  add_mirrored_rows(model, options.mirrored_rows, divisions, spacing, attempt.fixed, run);
   const int cuts = cuts_for(model, expected.count);
   if (cuts > 0 || !spacing.field) {
     expected.pieces = cut_into_pieces(*model.surface, cuts, spacing, run);
   }
-  turn.placed = poisson_disks(*model.surface, expected.pieces, kDisk, disks_of(turn.fixed), kDarts,
-                              options.seed, run);
-  return turn;
+  attempt.placed = poisson_disks(*model.surface, expected.pieces, kDisk, disks_of(attempt.fixed),
+                                 kDarts, options.seed, run);
+  return attempt;
 }
 
-Turn sample_once(const Model& model, const SamplingOptions& options, const Spacing& spacing,
-                 const Run& run) {
+Attempt sample_once(const Model& model, const SamplingOptions& options, const Spacing& spacing,
+                    const Run& run) {
   return sample_once(model, options, spacing, expected_of(model, spacing, run), run);
 }
 
-// Times the count: as many samples may lie on creases in the first turn.
+// This bounds the samples on creases in the first attempt, as a multiple of the count.
 constexpr double kMostOnCreases = 256;
 
-// Changes the spacing until the count is met within a hundredth; the nearest turn counts.
-Turn sample_count(const Model& model, const SamplingOptions& options, const Run& run) {
-  constexpr int kTurns = 8;
+// Changes the spacing until the count is met within a hundredth; returns the nearest attempt.
+Attempt sample_count(const Model& model, const SamplingOptions& options, const Run& run) {
+  constexpr int kAttempts = 8;
   const auto wanted = static_cast<double>(*options.count);
-  const auto error = [&](const Turn& t) { return std::abs(t.count() - wanted); };
-  // On spikes, which have length and no area, the creases alone would take any number of samples.
+  const auto error = [&](const Attempt& t) { return std::abs(t.count() - wanted); };
+  // Spikes have length but no area, so their creases alone could take any number of samples.
   const double longest = crease_length(model) / (kMostOnCreases * wanted);
   Spacing spacing{std::max(std::sqrt(kHexagonal * model.area / wanted), longest)};
-  Turn best = sample_once(model, options, spacing, run), last = best;
-  for (int i = 1; i < kTurns && error(best) > 0.01 * wanted; ++i) {
+  Attempt best = sample_once(model, options, spacing, run), last = best;
+  for (int i = 1; i < kAttempts && error(best) > 0.01 * wanted; ++i) {
     spacing.scale *= std::sqrt(last.count() / wanted);
     last = sample_once(model, options, spacing, run);
     if (error(last) < error(best)) best = last;
@@ -411,23 +415,23 @@ Turn sample_count(const Model& model, const SamplingOptions& options, const Run&
   return best;
 }
 
-// Spacings far too small for a count are made larger before there are so many pieces that to cut
-// them takes longer than all else.
+// Increases spacings that are far too small for a count before there are so many pieces that
+// cutting them dominates the time.
 Expected bounded(const Model& model, int64_t count, Spacing& spacing, const Run& run) {
   constexpr int64_t kPerSample = 64;
   const auto triangles = static_cast<int64_t>(model.mesh.triangles.size());
   const int64_t most = static_cast<int64_t>(kManyPieces) + kPerSample * (count + triangles);
   Expected expected = expected_of(model, spacing, run, most);
   while (static_cast<int64_t>(expected.pieces.size()) > most) {
-    // The pieces that there are tell how many samples it would be at least.
+    // The pieces so far give a lower bound of the number of samples.
     spacing.scale *= std::max(2.0, std::sqrt(expected.count / (4 * static_cast<double>(count))));
     expected = expected_of(model, spacing, run, most);
   }
   return expected;
 }
 
-// Where a count bounds the samples, spacings below this share of the longest edge are this share:
-// pieces are not cut so finely.
+// If a count bounds the samples, no spacing is below this share of the longest edge, so that pieces
+// are not cut too finely.
 constexpr double kFinestSpacing = 0x1p-24;
 
 double longest_edge(const TriangleMesh& mesh) {
@@ -440,10 +444,10 @@ double longest_edge(const TriangleMesh& mesh) {
   return longest;
 }
 
-// Samples by the spacings of the sites, all of which are made larger by one factor until no more
+// Samples by the spacings of the sites. All of them are increased by one factor until no more
 // samples than allowed are needed.
-Turn sample_sized(const Model& model, const SamplingOptions& options, const Run& run) {
-  constexpr int kTurns = 8;
+Attempt sample_sized(const Model& model, const SamplingOptions& options, const Run& run) {
+  constexpr int kAttempts = 8;
   std::vector<double> spacings(options.site_spacings.begin(), options.site_spacings.end());
   if (options.count) {
     const double on_creases = kMostOnCreases * static_cast<double>(*options.count);
@@ -460,12 +464,12 @@ Turn sample_sized(const Model& model, const SamplingOptions& options, const Run&
     spacing.scale *= std::sqrt(expected.count / most);
     expected = expected_of(model, spacing, run);
   }
-  Turn turn = sample_once(model, options, spacing, std::move(expected), run);
-  for (int i = 1; i < kTurns && turn.count() > most; ++i) {
-    spacing.scale *= 1.002 * std::sqrt(turn.count() / most);
-    turn = sample_once(model, options, spacing, run);
+  Attempt attempt = sample_once(model, options, spacing, std::move(expected), run);
+  for (int i = 1; i < kAttempts && attempt.count() > most; ++i) {
+    spacing.scale *= 1.002 * std::sqrt(attempt.count() / most);
+    attempt = sample_once(model, options, spacing, run);
   }
-  return turn;
+  return attempt;
 }
 
 void require_valid_sites(const SamplingOptions& options) {
@@ -515,7 +519,7 @@ void require_valid(const SamplingOptions& options, size_t vertices) {
   }
 }
 
-void append(const Model& model, const Turn& turn, SurfaceSamples& samples) {
+void append(const Model& model, const Attempt& attempt, SurfaceSamples& samples) {
   const auto add = [&](const Vec3& point, const Vec3& normal, int32_t triangle,
                        const Barycentric& at, SampleKind kind, double radius) {
     samples.points.push_back(point);
@@ -525,10 +529,10 @@ void append(const Model& model, const Turn& turn, SurfaceSamples& samples) {
     samples.kind.push_back(kind);
     samples.radius.push_back(radius);
   };
-  for (const FixedSample& s : turn.fixed) {
+  for (const FixedSample& s : attempt.fixed) {
     add(s.point, s.normal, s.triangle, s.at, s.kind, s.radius);
   }
-  for (const auto& [disk, place] : turn.placed) {
+  for (const auto& [disk, place] : attempt.placed) {
     add(disk.centre, disk.normal, place.triangle, place.barycentric(), SampleKind::surface,
         disk.radius);
   }
@@ -543,11 +547,11 @@ SurfaceSamples sample_surface(std::span<const Vec3> vertices, std::span<const Tr
   begin_stage(run.progress, "Sharp edges", 0, 0.2);
   const Model model(vertices, triangles, options, run);
   begin_stage(run.progress, "Sampling", 0.2, 1);
-  const Turn turn = options.sites   ? sample_sized(model, options, run)
-                    : options.count ? sample_count(model, options, run)
-                                    : sample_once(model, options, {*options.spacing}, run);
+  const Attempt attempt = options.sites   ? sample_sized(model, options, run)
+                          : options.count ? sample_count(model, options, run)
+                                          : sample_once(model, options, {*options.spacing}, run);
   SurfaceSamples samples;
-  append(model, turn, samples);
+  append(model, attempt, samples);
   for (const MeshEdge& edge : model.creases.edges) {
     if (edge.crease != Crease::sharp) continue;
     samples.sharp_edges.push_back({model.mesh.row[edge.ends[0]], model.mesh.row[edge.ends[1]]});

@@ -113,16 +113,16 @@ std::vector<Rings> walk_rings(const Triangulation& t, const Edges& edges,
                               const EdgesAtVertex& edges_at, std::span<const int32_t> number,
                               const Run& run) {
   std::vector<Rings> parts(static_cast<size_t>((edges.count() + kGrain - 1) / kGrain));
-  std::vector<Rings> rooms(run.threads);
+  std::vector<Rings> scratch(run.threads);
   parallel_chunks(edges.count(), run, [&](int64_t begin, int64_t end, int worker) {
     RingWalker walker(t, edges, edges_at, number);
-    Rings& room = rooms[worker];
-    room.corners.clear();
-    room.sizes.clear();
-    room.duals.clear();
-    for (int64_t e = begin; e < end; ++e) walker.append(static_cast<int32_t>(e), room);
-    parts[static_cast<size_t>(begin / kGrain)] = {pack(room.corners, run), pack(room.sizes, run),
-                                                  pack(room.duals, run)};
+    Rings& own = scratch[worker];
+    own.corners.clear();
+    own.sizes.clear();
+    own.duals.clear();
+    for (int64_t e = begin; e < end; ++e) walker.append(static_cast<int32_t>(e), own);
+    parts[static_cast<size_t>(begin / kGrain)] = {pack(own.corners, run), pack(own.sizes, run),
+                                                  pack(own.duals, run)};
   });
   return parts;
 }
