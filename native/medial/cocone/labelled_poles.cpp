@@ -156,7 +156,8 @@ class Links {
       const int32_t behind = s_.t.neighbors[cell][i];
       if (nodes_[behind] <= kAtInfinity) continue;
       const Cell& ids = s_.t.cells[behind];
-      const int32_t p = ids[slot_of(s_.t.neighbors[behind], cell) == 0 ? 1 : 0];  // in both cells
+      const int32_t p =
+          ids[slot_of(s_.t.neighbors[behind], cell) == 0 ? 1 : 0];  // a corner of both cells
       const double deep = cosine_at(s_, p, cell, behind);
       if (deep > kDeep) link(kAtInfinity, nodes_[behind], deep, out);
     }
@@ -235,7 +236,7 @@ LabelledPoles labelled_poles(std::span<const Vec3> points, const Triangulation& 
                              const Run& run) {
   begin_stage(run.progress, "Labels of poles", 0.9, 0.99);
   const PolesInput s{points, t, voronoi, incident, poles};
-  const Run quiet{run.threads, nullptr};  // for arrays that are temporary
+  const Run quiet{run.threads, nullptr};  // temporary arrays are not in the arena
   const auto samples = static_cast<size_t>(incident.size());
   std::vector<TwoPoles> two(samples);
   parallel_for(incident.size(), quiet,

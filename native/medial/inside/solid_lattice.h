@@ -41,7 +41,7 @@ class SolidLattice {
   double step_ = 0;
   int64_t count_ = 0;
   std::array<int64_t, 3> size_ = {};
-  int64_t words_ = 0;           // per row, which runs along x
+  int64_t words_ = 0;           // words per row; a row runs along x
   std::vector<uint64_t> bits_;  // row after row, first along y, then along z
 };
 

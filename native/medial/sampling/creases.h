@@ -44,7 +44,7 @@ struct Creases {
   std::vector<MeshEdge> edges;      // in lexicographic order
   std::vector<int64_t> first_edge;  // (v + 1) edges by their lower end
   std::vector<Crease> at;           // (v) the sharpest of the edges there
-  std::vector<uint8_t> corner;      // (v) whether a chain ends there
+  std::vector<uint8_t> corner;      // (v) whether the point is a corner
   Csr<ChainLink> chains;            // between corners; a chain without corners is closed
 
   int32_t find(int32_t p, int32_t q) const;
