@@ -24,7 +24,7 @@ void prefer_huge_pages(void*, size_t) {}
 
 namespace {
 
-constexpr size_t kStep = 8 << 20;  // that is committed at once
+constexpr size_t kStep = 8 << 20;  // bytes committed at once
 
 }  // namespace
 
@@ -75,7 +75,7 @@ AddressSpace::~AddressSpace() {
   if (begin_ != nullptr) munmap(begin_, size_);
 }
 
-// Here addresses become memory by themselves, when they are touched.
+// On this system addresses become memory by themselves when they are touched.
 bool AddressSpace::commit(size_t bytes) {
   committed_ = std::max(committed_, bytes);
   return true;

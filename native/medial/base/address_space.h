@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A range of addresses, reserved at once, that becomes memory as it is used. The only unit that
-// knows how the system hands out memory.
+// This class reserves a range of addresses at once, which becomes memory as it is used. It is the
+// only unit that knows how the system hands out memory.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace medial {
 
 class AddressSpace {
  public:
-  // The range has no bytes where the system lacks so many consecutive addresses.
+  // The range is empty if the system lacks so many consecutive addresses.
   explicit AddressSpace(size_t bytes);
   ~AddressSpace();
   AddressSpace(const AddressSpace&) = delete;
@@ -18,13 +18,13 @@ class AddressSpace {
   std::byte* begin() const { return begin_; }
   size_t size() const { return size_; }
 
-  // Makes the first bytes fit to be written; false where there is too little memory. Not for
-  // several threads at once.
+  // Makes the first bytes writable; returns false if there is too little memory. Only one thread
+  // may call this at a time.
   bool commit(size_t bytes);
-  // Maps bytes to memory before they are touched; false where the system cannot do that.
+  // Maps bytes to memory before they are touched; returns false if the system cannot do that.
   bool populate(size_t from, size_t bytes) const;
-  // Returns the memory of whole pages, which come back empty when they are touched; false where the
-  // system cannot do that.
+  // Gives the memory of whole pages back to the system; they come back empty when they are touched
+  // again. Returns false if the system cannot do that.
   bool release(size_t from, size_t bytes) const;
 
  private:

@@ -65,13 +65,13 @@ void* Arena::take(size_t bytes) {
     void* const found = bytes < kSmall ? nullptr : take_from_block(bytes);
     if (found != nullptr) return found;
   }
-  void* const memory = take_elsewhere(bytes);  // may throw: only what there is counts
+  void* const memory = take_elsewhere(bytes);  // may throw, so it comes before the count
   const std::lock_guard lock(mutex_);
   elsewhere_ += bytes;
   return memory;
 }
 
-// Where it fits first; null where it does not.
+// Takes the first free range that fits; returns null if there is none.
 void* Arena::take_from_block(size_t bytes) {
   const size_t size = rounded_up(bytes, kLine);
   const auto room = std::find_if(free_.begin(), free_.end(),
@@ -97,7 +97,7 @@ void Arena::give_back(void* memory, size_t bytes) {
   }
 }
 
-// Joins it to what is free before and behind it.
+// Merges the range with the free ranges before and behind it.
 void Arena::give_back_to_block(size_t offset, size_t bytes) {
   auto here = free_.emplace(offset, bytes).first;
   const auto next = std::next(here);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The memory of an analysis: what one stage frees serves the next. The system takes long to hand
-// out fresh memory, longer than some stages take.
+// An arena holds the memory of an analysis, so that later stages reuse what earlier ones free.
+// Getting fresh memory from the system takes longer than some stages do.
 #pragma once
 
 #include <atomic>
@@ -16,25 +16,27 @@
 
 namespace medial {
 
-// A block of address space that becomes memory as it is used; requests that find no room in it are
-// met elsewhere. Safe to use from several threads.
+// An arena is a block of address space that becomes memory as it is used. Requests that do not fit
+// into it are served by operator new. It is safe to use from several threads.
 class Arena {
  public:
   explicit Arena(size_t capacity);
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  // Whether arenas have a block. Not in builds with a sanitizer, for which one block is one
-  // allocation, whatever happens in it; nor without MEDIAL_ARENA: all requests are met elsewhere.
+  // Tells whether arenas have a block. They have none in builds with a sanitizer, which would see
+  // the block as a single allocation, nor without MEDIAL_ARENA: operator new then serves all
+  // requests.
   static bool in_use();
 
   void* take(size_t bytes);
   void give_back(void* memory, size_t bytes);
-  // Returns what is free to the system, as far as that takes it. It comes again where it is used,
-  // which takes its time.
+  // Gives free pages back to the system, if it accepts them. Touching them again is slow (page
+  // faults).
   void release();
   size_t capacity() const { return block_.size(); }
-  // Memory that the system has given, up to the last byte that is used or was not released.
+  // Counts the bytes from the system, up to the last byte of the block that is used or was not
+  // released.
   size_t held() const;
 
  private:
@@ -47,8 +49,8 @@ class Arena {
 
   mutable std::mutex mutex_;
   AddressSpace block_;
-  std::map<size_t, size_t> free_;       // offset: bytes; no two touch
-  size_t touched_ = 0, elsewhere_ = 0;  // of the block; beside it
+  std::map<size_t, size_t> free_;       // maps offsets to bytes; no two ranges touch
+  size_t touched_ = 0, elsewhere_ = 0;  // bytes of the block, and outside it
 };
 
 // Touches the first bytes of an arena from a thread of its own, so that later stages find mapped
@@ -63,10 +65,10 @@ class ArenaToucher {
 
  private:
   std::atomic<bool> stop_{false};
-  Thread thread_;  // ends before the flag that it reads
+  Thread thread_;  // is destroyed before the flag that it reads
 };
 
-// From an arena, or from anywhere for none.
+// Takes memory from an arena, or from operator new if there is none.
 void* take_memory(Arena* arena, size_t bytes);
 void give_memory_back(Arena* arena, void* memory, size_t bytes);
 
@@ -82,7 +84,8 @@ struct ArenaAllocator {
 
   T* allocate(size_t count) { return static_cast<T*>(take_memory(arena, count * sizeof(T))); }
   void deallocate(T* memory, size_t count) { give_memory_back(arena, memory, count * sizeof(T)); }
-  // An element without a value stays as it is: all arrays are written before they are read.
+  // Constructing an element without a value does nothing: all arrays are written before they are
+  // read.
   template <typename U>
   void construct(U*) noexcept {}
   template <typename U, typename... Values>
@@ -97,7 +100,7 @@ struct ArenaAllocator {
   Arena* arena;
 };
 
-// Elements have no value until they are given one.
+// Elements of an array are uninitialised until they are written.
 template <typename T>
 using Array = std::vector<T, ArenaAllocator<T>>;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Changes of plain memory that several threads make at the same time, without an order among them.
-// As by std::atomic_ref, which libc++ before 19 lacks.
+// These functions let several threads change plain memory at the same time, with relaxed order.
+// They stand in for std::atomic_ref, which libc++ before 19 lacks.
 #pragma once
 
 #ifndef __GNUC__
@@ -9,7 +9,7 @@
 
 namespace medial {
 
-// Returns the value before.
+// Returns the previous value.
 template <typename T>
 T shared_add(T& memory, T value) {
 #ifdef __GNUC__
@@ -39,8 +39,8 @@ T shared_load(const T& memory) {
 #endif
 }
 
-// Puts `wanted` in the place of `expected`; whether that was there. If not, `expected` becomes what
-// is.
+// Writes `wanted` and returns true if the memory holds `expected`. Otherwise `expected` becomes the
+// value found.
 template <typename T>
 bool shared_exchange(T& memory, T& expected, T wanted) {
 #ifdef __GNUC__

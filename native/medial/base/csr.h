@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lists of different lengths in one array: list i is items[offsets[i] .. offsets[i + 1]).
+// A Csr keeps lists of different lengths in one array: list i is items[offsets[i] .. offsets[i +
+// 1]).
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,7 @@ void counts_to_offsets(Counts&& counts) {
 }
 
 // Inverts a table: list k holds, ascending, the rows that contain k. Ids outside [0, lists) are
-// passed over. Each thread reads the whole table for some of the lists.
+// skipped. Each thread reads the whole table for some of the lists.
 template <typename Row>
 Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists, const Run& run = {}) {
   const auto parts = std::min<int64_t>(run.threads, lists);
@@ -57,7 +58,8 @@ Csr<int32_t> rows_containing(std::span<const Row> table, int32_t lists, const Ru
   };
   Csr<int32_t> result;
   result.offsets = array<int64_t>(static_cast<size_t>(lists) + 2, 0, run);
-  // Shifted by one: ends as the offsets themselves.
+  // The starts are shifted by one: filling a list moves its start to its end, which leaves the
+  // offsets.
   int64_t* const start = result.offsets.data() + 1;
   for_all([&](int32_t, int32_t k) { ++start[k]; });
   counts_to_offsets(std::span(result.offsets).subspan(1));

@@ -6,18 +6,18 @@
 namespace medial {
 namespace {
 
-constexpr int kPlainBits = 64;   // extents from 2^-64 to 2^64 are analysed as they are
-constexpr int kOffsetBits = 20;  // offsets of up to 2^20 extents, too
+constexpr int kPlainBits = 64;   // extents from 2^-64 to 2^64 are not scaled
+constexpr int kOffsetBits = 20;  // offsets of up to 2^20 extents are kept
 
-// Where the origin goes along one axis. Where low and high are within a factor of two, differences
-// to either are exact (Sterbenz).
+// Returns the origin along one axis. If low and high are within a factor of two, differences to
+// either are exact (Sterbenz).
 double origin_of(double low, double high, double extent) {
   const double offset = std::min(std::abs(low), std::abs(high));
   return (low > 0) == (high > 0) && offset > std::ldexp(extent, kOffsetBits) ? low : 0;
 }
 
 double rounded(double x, double finest) {
-  // Larger ones are multiples of it already.
+  // Larger numbers are multiples of it already.
   return std::abs(x) < std::ldexp(finest, 53) ? finest * std::nearbyint(x / finest) : x;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frame in which samples are analysed: moved and scaled so that no power of a length leaves the
-// range of a double, and no place is rounded to the last bits of an offset.
+// Samples are analysed in a frame, moved and scaled so that no power of a length overflows or
+// underflows a double, and a large offset costs no precision.
 #pragma once
 
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace medial {
 
-// Inside a frame nothing is smaller than this share of the extent: coordinates are its multiples.
-// Rows that differ by less are one. 1 / 2^160 is about 7e-49.
+// Coordinates inside a frame are multiples of this power of two of the extent, 1 / 2^160 or about
+// 7e-49. Rows that differ by less are merged.
 inline constexpr int kFinestBits = 160;
 
 struct Frame {
-  Vec3 origin;        // 0 along an axis on which the differences to it are not all exact
-  int exponent = 0;   // 2^exponent is the unit
-  double finest = 0;  // of which coordinates inside are multiples; 0: they need not be rounded
+  Vec3 origin;        // is 0 along an axis unless all differences to it are exact
+  int exponent = 0;   // the unit is 2^exponent
+  double finest = 0;  // coordinates inside are multiples of it; 0 means no rounding
 
   bool is_plain() const { return origin == Vec3{} && exponent == 0 && finest == 0; }
 
@@ -27,10 +27,10 @@ struct Frame {
   std::vector<Vec3> inward(std::span<const Vec3> rows) const;
 };
 
-// The plain frame for all but extreme coordinates, which leaves every bit as it is. Otherwise: the
-// unit is a power of two, for an extent beyond 2^-64 or 2^64; the origin is moved where the offset
-// is 2^20 times the extent or more, for then all differences are exact; and coordinates are rounded
-// to the finest step where some lie below it. Rows are finite.
+// Returns the plain frame, which keeps every bit, unless coordinates are extreme. Otherwise the
+// unit is a power of two if the extent is beyond 2^-64 or 2^64, the origin moves where the offset
+// exceeds 2^20 times the extent (all differences are then exact), and coordinates are rounded to
+// the finest step if some are finer. The rows must be finite.
 Frame frame_of(std::span<const Vec3> rows, std::span<const Vec3> more_rows);
 
 }  // namespace medial

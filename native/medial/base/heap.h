@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory that was freed, and that the C library still keeps.
+// The C library may keep memory that the program has freed.
 #pragma once
 
 namespace medial {
 
-// Makes the C library return its free memory to the system, where it can.
+// Makes the C library return its free memory to the system, if it can.
 void release_heap();
 
 }  // namespace medial

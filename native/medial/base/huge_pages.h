@@ -5,8 +5,8 @@
 
 namespace medial {
 
-// Asks the system for few large pages in the place of many small ones, where it has such: memory
-// then comes faster, and the processor finds it faster. Only advice; in address_space.cpp.
+// Advises the system to use few large pages instead of many small ones, if it has such: it then
+// hands out memory faster, and the processor finds it faster. It is defined in address_space.cpp.
 void prefer_huge_pages(void* memory, size_t bytes);
 
 }  // namespace medial

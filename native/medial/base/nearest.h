@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The nearest of many fixed points. The only unit that knows Boost.Geometry.
+// This class finds the nearest of many fixed points. It is the only unit that knows Boost.Geometry.
 #pragma once
 
 #include <compare>
@@ -19,16 +19,16 @@ struct Neighbour {
   friend auto operator<=>(const Neighbour&, const Neighbour&) = default;
 };
 
-// Safe to use from several threads.
+// It is safe to use from several threads.
 class Nearest {
  public:
   explicit Nearest(std::span<const Vec3> sites);
   ~Nearest();
 
-  // Infinite when there are no sites.
+  // Returns infinity if there are no sites.
   double distance(const Vec3& query) const;
-  // The `count` nearest sites, nearest first, of equally near ones those of lowest ids; fewer when
-  // there are fewer.
+  // Finds the `count` nearest sites, nearest first and ties by lowest id, or all if there are
+  // fewer.
   void find(const Vec3& query, size_t count, std::vector<Neighbour>& found) const;
 
  private:

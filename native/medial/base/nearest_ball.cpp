@@ -62,7 +62,7 @@ void NearestBall::search(int32_t id, const Vec3& query, Best& best) const {
   search(far, query, best);
 }
 
-// No ball of the node comes nearer, but for rounding.
+// Returns a lower bound, up to rounding, of the distance to the balls of a node.
 double NearestBall::bound(const Node& node, const Vec3& query) {
   return std::sqrt(squared_distance(node.box, query)) - node.largest;
 }

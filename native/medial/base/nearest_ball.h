@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The nearest of many fixed balls, by the distance to their surfaces.
+// This class finds the nearest of many fixed balls, by the distance to their surfaces.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +15,19 @@ struct Ball {
   double radius = 0;
 };
 
-// A tree of boxes round the centres, each with the largest radius in it. Safe to use from several
-// threads.
+// It keeps a tree of boxes around the centres, each with the largest radius in it. It is safe to
+// use from several threads.
 class NearestBall {
  public:
   explicit NearestBall(std::span<const Ball> balls);
 
-  // The ball with the least |query - centre| - radius, of equal ones that of the lowest id; -1 when
-  // there are no balls.
+  // Returns the ball with the least |query - centre| - radius, ties by lowest id, or -1 if there
+  // are no balls.
   int32_t find(const Vec3& query) const;
 
  private:
   struct Node {
-    Box box = {};  // of the centres
+    Box box = {};  // bounds the centres
     double largest = 0;
     int32_t begin = 0, end = 0;
     int32_t right = -1;  // the left child follows its parent; -1: a leaf

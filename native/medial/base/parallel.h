@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops over ids on all cores. A loop body writes only slots of its own ids, so results never
-// depend on the threads.
+// These loops run over ids on all cores. A loop body writes only slots of its own ids, so results
+// never depend on the threads.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,8 @@ inline int thread_count(int wanted) {
 inline constexpr int64_t kGrain = 2048;
 
 // Calls body(begin, end, worker) for chunks of at most `grain` ids that cover [0, count); worker <
-// run.threads. Chunks start at multiples of `grain`, whatever the number of threads, and do not
-// depend on how many of these the system has to give. The first exception is rethrown.
+// run.threads. Chunks start at multiples of `grain`, whatever the number of threads that are wanted
+// or available. The first exception is rethrown.
 inline void parallel_chunks(int64_t count, const Run& run,
                             const std::function<void(int64_t, int64_t, int)>& body,
                             int64_t grain = kGrain) {
@@ -74,8 +74,8 @@ void parallel_for(int64_t count, const Run& run, const Body& body, int64_t grain
       grain);
 }
 
-// The items that body(id, out, worker) appends to `out` for every id in [0, count), in order; part
-// i belongs to the ids from i * grain on.
+// Collects the items that body(id, out, worker) appends to `out` for every id in [0, count), in
+// order; part i belongs to the ids from i * grain on.
 template <typename T, typename Body>
 std::vector<Array<T>> parallel_parts(int64_t count, const Run& run, const Body& body,
                                      int64_t grain = kGrain) {
@@ -93,7 +93,7 @@ std::vector<Array<T>> parallel_parts(int64_t count, const Run& run, const Body& 
   return parts;
 }
 
-// The same as one list, at the end of `all`.
+// Does the same, and appends the items as one list to `all`.
 template <typename All, typename Body>
 void parallel_append_to(All& all, int64_t count, const Run& run, const Body& body,
                         int64_t grain = kGrain) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Connected parts of a surface.
+// A patch is a connected part of a surface.
 #pragma once
 
 #include <span>
@@ -9,8 +9,9 @@
 
 namespace medial {
 
-// Per triangle the number of its patch: `wanted` ones that share a corner are in one. Patches are
-// numbered in the order of their first triangles; -1: not wanted. The corners are in [0, vertices).
+// Returns the number of the patch of each triangle: `wanted` triangles that share a corner are in
+// the same one. Patches are numbered in the order of their first triangles; triangles that are not
+// wanted get -1. The corners are in [0, vertices).
 std::vector<int32_t> patches(std::span<const Triangle> triangles, std::span<const uint8_t> wanted,
                              size_t vertices);
 

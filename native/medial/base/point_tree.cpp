@@ -84,7 +84,7 @@ Neighbour PointTree::nearest(const Vec3& query) const {
 Neighbour PointTree::nearest(const Vec3& query, double within) const {
   NearestOne search{{within * within, size()}};
   descend(levels_.size() - 1, 0, query, search);
-  // The known distance may be off by its last bits.
+  // The known distance may be wrong in its last bits.
   if (search.best.id == size()) return nearest(query);
   return {std::sqrt(search.best.distance), search.best.id};
 }

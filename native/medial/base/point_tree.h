@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Boxes over points that lie along a Hilbert curve: runs of points, runs of boxes, and so on. It
-// takes no sorting to make, and finds whatever can be told from a box.
+// A point tree has boxes over points that lie along a Hilbert curve: over runs of points, over runs
+// of boxes, and so on. Building it needs no sorting. It answers every query that can be decided by
+// boxes.
 #pragma once
 
 #include <array>
@@ -17,22 +18,22 @@ namespace medial {
 class PointTree {
  public:
   PointTree() = default;
-  // Keeps a copy. Points that neighbour in the list should neighbour in space.
+  // Keeps a copy of the points. Points next to each other in the list should be close in space.
   explicit PointTree(std::span<const Vec3> points);
 
   const Vec3& operator[](int32_t id) const { return points_[id]; }
   int32_t size() const { return static_cast<int32_t>(points_.size()); }
   size_t bytes() const;
 
-  // The nearest point, and the lowest of equally near ones. The tree is not empty.
+  // Returns the nearest point, ties by lowest id. The tree must not be empty.
   Neighbour nearest(const Vec3& query) const;
-  // The same, faster where a point is known to be no farther away than that.
+  // Does the same, but faster, if some point is known to lie within this distance.
   Neighbour nearest(const Vec3& query, double within) const;
-  // How far the `count` nearest points are at most, those in the same place included; of fewer
-  // points all.
+  // Returns the distance that holds the `count` nearest points, those at the query included, or all
+  // points if there are fewer.
   double reach(const Vec3& query, size_t count) const;
-  // Calls found(id) for the points, ascending, in all boxes of which wanted(box) says so; in other
-  // boxes, too.
+  // Calls found(id), ascending, for the points of every smallest box that wanted(box) accepts along
+  // with all boxes around it.
   template <typename Wanted, typename Found>
   void visit(const Wanted& wanted, const Found& found) const {
     if (!levels_.empty()) visit(levels_.size() - 1, 0, wanted, found);

@@ -13,10 +13,10 @@
 namespace medial {
 namespace {
 
-// A side of a polygon, seen from its lower end.
+// This is a side of a polygon, seen from its lower end.
 struct PolygonSide {
   int32_t high;    // the other end
-  int32_t corner;  // that it begins at
+  int32_t corner;  // the corner at which it begins
 
   friend auto operator<=>(const PolygonSide&, const PolygonSide&) = default;
 };
@@ -47,9 +47,9 @@ void require_polygons(std::span<const int32_t> face_offsets, std::span<const int
 PolygonEdges polygon_edges(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
                            int32_t vertices, const Run& run) {
   require_polygons(face_offsets, corners, vertices);
-  // A bucket for each vertex: the corners whose edges have it as the lower end, with the other ends
-  // beside them. (bucket_sort knows ids alone; looking up the ends took 1.7 times as long.) After
-  // the counting next[v] is where bucket v begins, after the filling where it ends.
+  // Each vertex has a bucket of the corners whose edges have it as their lower end, stored with the
+  // other ends. (bucket_sort knows only ids; looking up the ends took 1.7 times as long.) After the
+  // counting next[v] is where bucket v begins, after the filling where it ends.
   std::vector<int64_t> next(static_cast<size_t>(vertices) + 1, 0);
   std::vector<PolygonSide> sides(corners.size());
   const auto for_sides = [&](const auto& body) {

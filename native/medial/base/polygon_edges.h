@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The edges of polygons that share vertices.
+// These functions find the edges of polygons that share vertices.
 #pragma once
 
 #include <span>
@@ -12,11 +12,11 @@ namespace medial {
 
 struct PolygonEdges {
   std::vector<Edge> ends;          // lower vertex first, in lexicographic order
-  std::vector<int32_t> of_corner;  // which leads from a corner to the next one of its polygon
+  std::vector<int32_t> of_corner;  // the edge from each corner to the next one of its polygon
 };
 
-// Throws InvalidInputError unless offsets ascend from 0 to the number of corners, and corners are
-// in [0, vertices).
+// Throws InvalidInputError unless the offsets ascend from 0 to the number of corners, and the
+// corners are in [0, vertices).
 void require_polygons(std::span<const int32_t> face_offsets, std::span<const int32_t> corners,
                       int32_t vertices);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A maximum or minimum that several threads find together.
+// Several threads find a maximum or minimum together.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random numbers that depend on nothing but what is put in: the same on every machine.
+// These random numbers depend only on their input: they are the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ inline uint64_t scrambled(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// A scrambled number as one in [0, 1).
+// Maps a scrambled number to [0, 1).
 inline double unit(uint64_t scrambled) { return static_cast<double>(scrambled >> 11) * 0x1p-53; }
 
 }  // namespace medial

@@ -15,7 +15,7 @@ namespace {
 
 bool in_range(double x) { return std::abs(x) <= kLargestCoordinate; }  // false for NaN
 
-// Index along a 3D Hilbert curve of 2^21 steps per axis (J. Skilling, Programming the Hilbert
+// The index along a 3D Hilbert curve has 2^21 steps per axis (J. Skilling, Programming the Hilbert
 // curve, 2004).
 constexpr int kBits = 21;
 

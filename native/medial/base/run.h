@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parameters of a stage besides its data, and the arrays that it returns.
+// A Run has the parameters of a stage except its data; the functions make the arrays that stages
+// return.
 #pragma once
 
 #include "base/arena.h"
@@ -14,7 +15,7 @@ struct Run {
   Arena* arena = nullptr;
 };
 
-// Elements without a value, or with the same one.
+// Makes an array whose elements are uninitialised, or all have the same value.
 template <typename T>
 Array<T> array(size_t count, const Run& run) {
   return Array<T>(count, ArenaAllocator<T>(run.arena));
@@ -24,7 +25,7 @@ Array<T> array(size_t count, const T& value, const Run& run) {
   return Array<T>(count, value, ArenaAllocator<T>(run.arena));
 }
 
-// A copy that is as long as it has to be.
+// Makes a copy without spare capacity.
 template <typename Values>
 Array<typename Values::value_type> pack(const Values& values, const Run& run) {
   return {values.begin(), values.end(), ArenaAllocator<typename Values::value_type>(run.arena)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sorting ids: a counting sort into buckets by all threads, then small sorts within the buckets.
+// Ids are sorted by a counting sort into buckets on all threads, then by small sorts within the
+// buckets.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 
 namespace medial {
 
-// Puts 0, ..., count - 1 into ascending order of bucket_of(id) in [0, buckets), then of
-// key_of(id), then of the ids themselves: calls placed(position, id) for each.
+// Sorts 0, ..., count - 1 by bucket_of(id) in [0, buckets), then by key_of(id), then by the ids
+// themselves, and calls placed(position, id) for each.
 template <typename BucketOf, typename KeyOf, typename Placed>
 void bucket_sort(int64_t count, size_t buckets, const Run& run, const BucketOf& bucket_of,
                  const KeyOf& key_of, const Placed& placed) {
@@ -35,7 +36,7 @@ void bucket_sort(int64_t count, size_t buckets, const Run& run, const BucketOf& 
   });
 }
 
-// The same as a list of the ids.
+// Does the same, and returns a list of the ids.
 template <typename BucketOf, typename KeyOf>
 Array<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
                             const BucketOf& bucket_of, const KeyOf& key_of) {
@@ -45,7 +46,7 @@ Array<int32_t> bucket_order(int64_t count, size_t buckets, const Run& run,
   return order;
 }
 
-// The rows of a table in lexicographic order, equal ones by their ids; first entries lie in [0,
+// Sorts the rows of a table in lexicographic order, ties by id. The first entries must be in [0,
 // ids).
 template <typename Row>
 Array<int32_t> lexicographic_order(std::span<const Row> table, size_t ids, const Run& run) {
@@ -54,7 +55,7 @@ Array<int32_t> lexicographic_order(std::span<const Row> table, size_t ids, const
       [&](int64_t i) { return table[i]; });
 }
 
-// Puts values into an order.
+// Permutes values into an order.
 template <typename T>
 void reorder(std::vector<T>& values, std::span<const int32_t> order, const Run& run) {
   std::vector<T> sorted(values.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes the seconds of the stages of a computation, in order.
+// A stopwatch measures the seconds of the stages of a computation, in order.
 #pragma once
 
 #include <medial/types.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers as error messages write them: six digits at most.
+// These functions write numbers for error messages, with at most six digits.
 #pragma once
 
 #include <string>

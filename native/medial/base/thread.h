@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A thread that is waited for where its variable ends. As std::jthread, which libc++ before 20
-// lacks.
+// This thread is joined in its destructor, like std::jthread, which libc++ before 20 lacks.
 #pragma once
 
 #include <system_error>
@@ -12,7 +11,7 @@ namespace medial {
 class Thread {
  public:
   Thread() = default;
-  // Does nothing where the system has no more threads to give.
+  // Does nothing if the system cannot start another thread.
   template <typename Work>
   explicit Thread(Work work) {
     try {

@@ -55,7 +55,7 @@ double TriangleTree::distance(const Vec3& query) const {
 
 void TriangleTree::search(int32_t id, const Vec3& query, double& squared) const {
   const Node& node = nodes_[id];
-  // No triangle of the node comes nearer than its box, but for rounding.
+  // No triangle of the node is nearer than its box, up to rounding.
   if (medial::squared_distance(node.box, query) > squared) return;
   if (node.right < 0) {
     for (int32_t i = node.begin; i < node.end; ++i) {
@@ -72,7 +72,7 @@ void TriangleTree::search(int32_t id, const Vec3& query, double& squared) const 
   search(far, query, squared);
 }
 
-// To the plane where the query is above the triangle, else to the nearest of its sides.
+// Measures to the plane if the query projects into the triangle, else to the nearest of its sides.
 double TriangleTree::squared_distance(const Corners& triangle, const Vec3& query) {
   const auto& [a, b, c] = triangle;
   const Vec3 normal = cross(b - a, c - a);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distances to triangles, by a tree of boxes.
+// A tree of boxes answers queries of the distance to triangles.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace medial {
 
-// Safe to use from several threads.
+// It is safe to use from several threads.
 class TriangleTree {
  public:
-  // Keeps a copy. Triangles may be without area. There is one at least.
+  // Keeps a copy. Triangles may have no area. There must be at least one.
   TriangleTree(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
-  // From a point to the nearest of the triangles.
+  // Returns the distance from a point to the nearest triangle.
   double distance(const Vec3& query) const;
 
  private:

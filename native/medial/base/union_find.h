@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Disjoint sets of ids 0..n-1 as parent pointers; a set is represented by its lowest id.
+// Disjoint sets of the ids 0..n-1 are kept as parent pointers; the lowest id represents its set.
 #pragma once
 
 #include <numeric>
@@ -40,7 +40,7 @@ class UnionFind {
   std::vector<int32_t> joined_;  // ids that no longer represent their set
 };
 
-// The same for several threads at once; the sets do not depend on who comes first.
+// This does the same for several threads at once; the sets do not depend on their timing.
 class SharedUnionFind {
  public:
   SharedUnionFind(size_t count, const Run& run) : parent_(array<int32_t>(count, run)) {
@@ -79,8 +79,8 @@ class SharedUnionFind {
   Array<int32_t> parent_;
 };
 
-// Disjoint sets of things that can be turned over: within a set it is known which of them are
-// turned relative to its lowest id.
+// These disjoint sets also know, for elements that can be reversed, which ones are reversed
+// relative to the lowest id of their set.
 class OrientedUnionFind {
  public:
   explicit OrientedUnionFind(size_t count) : parent_(count), turned_(count, 0) {
@@ -102,7 +102,8 @@ class OrientedUnionFind {
     }
     return {id, turned};
   }
-  // `turned`: b relative to a. Without effect when they are in one set already.
+  // Joins the sets of a and b; `turned` tells whether b is reversed relative to a. It has no effect
+  // if they are in one set already.
   void unite(int32_t a, int32_t b, bool turned) {
     Found high = find(a), low = find(b);
     if (high.root == low.root) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The arithmetic of points and vectors of R^3, and boxes.
+// This is the arithmetic of points and vectors of R^3, and of boxes.
 #pragma once
 
 #include <medial/types.h>
@@ -30,8 +30,8 @@ inline Vec3 normalized(const Vec3& a) {
   const double l = length(a);
   return l > 0 ? (1 / l) * a : a;
 }
-// Two unit vectors across a unit vector and each other; the first is also across the axis of its
-// smallest coordinate.
+// Returns two unit vectors that are perpendicular to a unit vector and to each other; the first is
+// also perpendicular to the axis of its smallest coordinate.
 inline std::array<Vec3, 2> across(const Vec3& unit) {
   const double x = std::abs(unit.x), y = std::abs(unit.y), z = std::abs(unit.z);
   const Vec3 least = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
@@ -58,7 +58,7 @@ struct Box {
   Vec3 extent() const { return high - low; }
 };
 
-// From a point to the nearest place of a box; 0 inside.
+// Returns the squared distance from a point to a box, which is 0 inside.
 inline double squared_distance(const Box& box, const Vec3& x) {
   const auto beyond = [](double low, double at, double high) {
     return std::max({low - at, 0.0, at - high});
