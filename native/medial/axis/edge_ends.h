@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How strongly an edge satisfies the two conditions at one of its ends, and from both ends the
-// significance of the edge.
+// These functions measure how strongly an edge satisfies the two conditions at one of its ends, and
+// combine both ends to the significance of the edge.
 #pragma once
 
 #include "axis/significance.h"
 
 namespace medial {
 
-// Unit normals of all umbrella triangles, and the largest circumradius in each umbrella.
+// This holds the unit normals of all umbrella triangles, and the largest circumradius in each
+// umbrella.
 struct UmbrellaShapes {
   Array<Vec3> normal;
   Array<double> radius;  // infinite for an empty umbrella
@@ -16,22 +17,24 @@ struct UmbrellaShapes {
 UmbrellaShapes umbrella_shapes(std::span<const Vec3> points, const Umbrellas& umbrellas,
                                const Run& run);
 
-// The end p of an edge pq.
+// This describes the end p of an edge pq.
 struct EdgeEnd {
-  // sin(theta_p): the smallest |n_t . direction| over the umbrella of p; 0 for an empty one.
+  // This is sin(theta_p), the smallest |n_t . direction| over the umbrella of p, or 0 if that is
+  // empty.
   double sine = 0;
   double ratio = 0;       // rho_p
   bool umbrella = false;  // pq is in U_p
 };
 
-// `direction` is the unit vector along pq, `size` its length.
+// Measures one end; `direction` is the unit vector along pq, `size` its length.
 EdgeEnd edge_end(int32_t p, int32_t q, const Vec3& direction, double size,
                  const Umbrellas& umbrellas, const UmbrellaShapes& shapes);
 
-// Untried::... bits.
+// Returns the Untried::... bits.
 uint8_t untried(const EdgeEnd& p, const EdgeEnd& q);
 
-// All of a Significance but the spacing. measure(p, q, direction, size) is the end p of pq.
+// Computes a Significance except for the spacing; measure(p, q, direction, size) returns the end p
+// of pq.
 template <typename Measure>
 Significance significance_of_ends(std::span<const Vec3> points, const Edges& edges,
                                   const Measure& measure, const Run& run) {

@@ -10,14 +10,14 @@
 namespace medial {
 namespace {
 
-// Less than 1 by more than the rounding of radii.
+// This is less than 1 by more than the rounding of radii.
 constexpr double kFar = 0.99;
 
-// A cell of the grid whose width goes with the radius of the balls at the vertices in it.
+// The width of this grid cell grows with the radius of the balls at the vertices in it.
 using GridCell = std::array<double, 4>;
 
-// Vertices in the same cell are no farther apart than kThinning times the smaller of their balls,
-// and no sample lies in these.
+// Vertices in the same cell are at most kThinning times the smaller of their balls apart, and no
+// sample lies in these balls.
 GridCell grid_cell(const Vec3& centre, double radius) {
   const int level = std::ilogb(radius);
   const double scale = std::ldexp(std::sqrt(3.0) / kThinning, -level);
@@ -25,10 +25,10 @@ GridCell grid_cell(const Vec3& centre, double radius) {
           std::floor(scale * centre.z)};
 }
 
-// Remembers the last cell that fell into each of its slots.
+// This keeps the last cell that fell into each of its slots.
 class RecentCells {
  public:
-  // Whether it is new, as far as is remembered.
+  // Returns whether the cell differs from the remembered one.
   bool insert(const GridCell& cell) {
     uint64_t hash = 0;
     for (const double x : cell) hash = (hash ^ std::bit_cast<uint64_t>(x)) * 0x9E3779B97F4A7C15u;
@@ -42,16 +42,16 @@ class RecentCells {
   std::vector<GridCell> slots_{1 << 12, GridCell{HUGE_VAL}};
 };
 
-// Voronoi vertices. The far ones have balls larger than the extent of the samples, so no sample is
-// nearer to them than that. Flat faces may have many, so far away that boxes of a tree in which
-// they lay among the others would hold everything.
+// These are Voronoi vertices. The balls of the far ones are larger than the extent of the samples,
+// so no sample is nearer to them than that. Flat faces may have many of them, so far away that they
+// would inflate the boxes of a tree shared with the others.
 struct Sites {
   std::vector<Vec3> near, far;
 };
 
-// The Voronoi vertices of the marked facets, thinned to hardly more than one per cell of the grid.
-// Vertices that share a grid cell lie close together along the surface, so mostly in one chunk,
-// which remembers them.
+// Collects the Voronoi vertices of the marked cells, thinned to hardly more than one per cell of
+// the grid. Vertices in one grid cell are close together on the surface, so they are mostly in one
+// chunk, which remembers them.
 Sites sites(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
             std::span<const uint8_t> marked, const Run& run) {
   constexpr int64_t kChunk = 1 << 15;
@@ -87,7 +87,8 @@ std::vector<double> feature_size(std::span<const Vec3> points, std::span<const i
   const Sites all = sites(points, t, voronoi, marked, run);
   const Nearest near(all.near), far(all.far);
   const double extent = length(box_of(points).extent());
-  // In the order of the points, which is spatial: neighbours meet the same part of the tree.
+  // The loop follows the spatial order of the points, so neighbours visit the same part of the
+  // tree.
   std::vector<uint8_t> wanted(points.size(), 0);
   for (const int32_t p : at) wanted[p] = 1;
   std::vector<double> size(points.size());

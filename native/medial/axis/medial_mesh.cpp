@@ -8,13 +8,14 @@
 namespace medial {
 namespace {
 
-// Polygons of the edges from one chunk of samples; corners are lowest cells of Voronoi vertices.
+// These polygons are dual to the edges of one chunk of samples; the corners are lowest cells of
+// Voronoi vertices.
 struct Polygons {
   Array<int32_t> corners, sizes, edges;
   Array<FacetAttributes> attributes;
   int64_t unbounded = 0, zero_area = 0, rings = 0;
 
-  // As long as they have to be, in the arena of a run.
+  // Returns a copy without spare capacity, in the arena of a run.
   Polygons packed(const Run& run) const {
     return {pack(corners, run),
             pack(sizes, run),
@@ -31,13 +32,13 @@ struct Polygons {
   }
 };
 
-// The distinct Voronoi vertices of a ring. All edges between equal ones have length zero, also
-// where the equal ones are not consecutive: the polygon is convex, so everything on one side
-// between them coincides too.
+// Finds the distinct Voronoi vertices of a ring. All edges between equal ones have length zero,
+// even if these are not consecutive: the polygon is convex, so everything on one side between them
+// coincides, too.
 void distinct_vertices(const std::vector<int32_t>& ring, const Voronoi& voronoi,
                        std::vector<int32_t>& polygon) {
   polygon = ring;
-  bool own = true;  // of every cell
+  bool own = true;  // every cell has a vertex of its own
   for (const int32_t cell : ring) own &= voronoi.vertex[cell] == cell;
   if (own) return;
   polygon.clear();
@@ -47,7 +48,7 @@ void distinct_vertices(const std::vector<int32_t>& ring, const Voronoi& voronoi,
   }
 }
 
-// Whether points cannot be told from points of one line, with these errors.
+// Returns whether points are indistinguishable from points on one line, given their errors.
 bool are_on_a_line(std::span<const Circumcentre> found) {
   const Circumcentre& start = found[0];
   const auto nearer = [&](const Circumcentre& a, const Circumcentre& b) {
@@ -60,8 +61,8 @@ bool are_on_a_line(std::span<const Circumcentre> found) {
   });
 }
 
-// Whether the vertices of a polygon cannot be told from points of one line, as of samples that lie
-// symmetrically about it: not as they are, and not by finer centres.
+// Returns whether the vertices of a polygon are indistinguishable from points on one line, even by
+// finer centres. This happens for samples that are symmetric about the line.
 bool is_on_a_line(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
                   const Triangulation& t) {
   std::vector<Circumcentre> found;
@@ -76,8 +77,8 @@ bool is_on_a_line(const std::vector<int32_t>& polygon, std::span<const Vec3> poi
   return true;
 }
 
-// Whether three vertices of a polygon tell at once that it is not on a line: were they no farther
-// from one than four of the coarsest errors of the largest ball, the parallelogram of a and b would
+// Returns whether three vertices suffice to show that a polygon is not on a line: if they were
+// within four of the coarsest errors of the largest ball of one, the parallelogram of a and b would
 // be at most that times |a| + |b|.
 bool is_wide(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
              const Triangulation& t, const Voronoi& voronoi) {
@@ -92,14 +93,14 @@ bool is_wide(const std::vector<int32_t>& polygon, std::span<const Vec3> points,
          clear * clear * farthest * (squared_length(a) + squared_length(b));
 }
 
-// Makes facets, one after the other.
+// This makes facets, one after the other.
 class FacetMaker {
  public:
   FacetMaker(const Selection& selection, std::span<const Vec3> points, const Triangulation& t,
              const Voronoi& voronoi, const Edges& edges)
       : selection_(selection), points_(points), t_(t), voronoi_(voronoi), edges_(edges) {}
 
-  // The number of corners; 0 without a facet.
+  // Returns the number of corners, or 0 if there is no facet.
   int32_t append(int32_t edge, Polygons& out) {
     const bool wanted = selection_.wants(edge, ring_);
     if (wanted && ring_.empty()) ring_of_cells(t_, edges_.ends[edge], edges_.cell[edge], ring_);
@@ -171,7 +172,7 @@ void require_few_corners(const Found& found) {
   }
 }
 
-// One chunk into the order of the rows.
+// Copies one chunk into the order of the rows.
 void place(const Polygons& chunk, const Found& found, std::span<const int32_t> row,
            const Edges& edges, MedialMesh& mesh) {
   auto corner = chunk.corners.begin();

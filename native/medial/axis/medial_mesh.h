@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes the polygons of the selected Voronoi facets: output of MEDIAL(P).
+// This makes the polygons of the selected Voronoi facets, the output of MEDIAL(P).
 #pragma once
 
 #include <medial/medial_mesh.h>
@@ -9,7 +9,7 @@
 
 namespace medial {
 
-// The selected facets.
+// Returns the selected facets as a mesh.
 MedialMesh voronoi_facets(const Selection& selection, const Samples& samples,
                           const Triangulation& triangulation, const Voronoi& voronoi,
                           const Edges& edges, const Run& run);

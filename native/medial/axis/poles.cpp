@@ -4,7 +4,7 @@
 namespace medial {
 namespace {
 
-// The vector to the farthest Voronoi vertex; of equally far ones to that of the lowest cell.
+// Returns the vector to the farthest Voronoi vertex, ties by lowest cell.
 Vec3 to_farthest_vertex(const Vec3& p, std::span<const int32_t> finite_cells,
                         const Voronoi& voronoi) {
   Vec3 farthest;
@@ -15,7 +15,7 @@ Vec3 to_farthest_vertex(const Vec3& p, std::span<const int32_t> finite_cells,
   return farthest;
 }
 
-// Each distinct infinite edge counts once, however many cocircular hull triangles share it.
+// Averages the infinite edges; each counts once, however many cocircular hull triangles share it.
 Vec3 mean_direction(std::span<const int32_t> infinite_cells, const Voronoi& voronoi,
                     std::vector<int32_t>& rays) {
   rays.clear();
@@ -27,7 +27,7 @@ Vec3 mean_direction(std::span<const int32_t> infinite_cells, const Voronoi& voro
   return (1 / static_cast<double>(rays.size())) * sum;
 }
 
-// How many cells of a sample are finite; they come first.
+// Returns the number of finite cells of a sample, which come first.
 size_t finite_count(std::span<const int32_t> cells, const Triangulation& t) {
   return static_cast<size_t>(std::lower_bound(cells.begin(), cells.end(), t.finite_cells) -
                              cells.begin());
@@ -40,8 +40,7 @@ Vec3 pole(const Vec3& p, std::span<const int32_t> cells, const Triangulation& t,
   const size_t finite = finite_count(cells, t);
   Vec3 found;
   if (finite < cells.size()) found = mean_direction(cells.subspan(finite), voronoi, room);
-  // Directions that cancel out have no mean; then the farthest vertex is taken, as in a bounded
-  // cell.
+  // If the directions cancel out, the farthest vertex is used, as in a bounded cell.
   if (found == Vec3{}) found = to_farthest_vertex(p, cells.first(finite), voronoi);
   return found;
 }

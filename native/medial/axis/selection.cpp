@@ -19,8 +19,8 @@ void check(const Extraction& x) {
   }
 }
 
-// The value of an edge by a rule, from its values at the two ends, of which only those count that
-// are tried. It is 0, which no condition finds large enough, where the rule lacks an end.
+// Combines the values at the two ends of an edge by a rule; only ends that are tried count. Returns
+// 0, which passes no condition, if the rule lacks an end.
 double tried(double larger, double smaller, bool try_larger, bool try_smaller, Rule rule) {
   if (rule == Rule::both) return try_larger && try_smaller ? smaller : 0;
   return try_larger ? larger : try_smaller ? smaller : 0;
@@ -76,8 +76,8 @@ bool Selection::satisfies_ratio(int32_t edge) const {
   return t.criteria != Criteria::angle && tried_rho(facets_.significance, edge, t.rule) > t.rho;
 }
 
-// Definition 4: |pq| >= eps^(1/4) mu, with mu the smallest ball radius at the facet's vertices and
-// eps = R / mu, where R = |pq| / rho is the umbrella radius that the Ratio condition compared.
+// Definition 4 requires |pq| >= eps^(1/4) mu, with mu the smallest ball radius at the facet's
+// vertices and eps = R / mu, where R = |pq| / rho is the umbrella radius of the Ratio condition.
 bool Selection::in_limit_set(int32_t edge, std::span<const int32_t> ring) const {
   const auto& [p, q] = facets_.edges.ends[edge];
   const Vec3& at = facets_.points[p];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which Delaunay edges MEDIAL selects (Dey & Zhao, sect. 3), and of them those of one side and of
-// the limit set (Definition 4).
+// This decides which Delaunay edges MEDIAL selects (Dey & Zhao, sect. 3), and which of them belong
+// to one side or to the limit set (Definition 4).
 #pragma once
 
 #include <medial/options.h>
@@ -11,37 +11,37 @@
 
 namespace medial {
 
-// The input of a selection: the Delaunay edges with their dual Voronoi facets, and the properties
-// of these.
+// A selection reads the Delaunay edges with their dual Voronoi facets, and their properties.
 struct Facets {
   std::span<const Vec3> points;
   const Triangulation& triangulation;
   const Voronoi& voronoi;
   const Edges& edges;
   const Significance& significance;
-  const CellSides& sides;  // empty: not known
+  const CellSides& sides;  // empty if unknown
 };
 
-// The attributes of a selected facet.
+// These are the attributes of a selected facet.
 struct FacetAttributes {
-  double theta = 0, rho = 0;  // as the rule takes them
+  double theta = 0, rho = 0;  // as combined by the rule
   Side side = Side::both;
 };
 
-// Decides for each edge whether its facet is selected. Keeps references to what it reads.
+// A selection decides for each edge whether its facet is selected. It keeps references to its
+// input.
 class Selection {
  public:
   virtual ~Selection() = default;
-  // A side other than `both` needs sides that are known. Throws InvalidInputError for thresholds
-  // out of range and for side `crossing`.
+  // Sides other than `both` need known cell sides. Throws InvalidInputError for thresholds out of
+  // range and for side `crossing`.
   Selection(const Extraction& wanted, const Facets& facets);
 
-  // Walks the ring of cells only where the edge alone does not tell; then `ring` holds it
-  // afterwards, else nothing.
+  // Walks the ring of cells only if the edge alone does not decide; `ring` then holds it
+  // afterwards, and is empty otherwise.
   virtual bool wants(int32_t edge, std::vector<int32_t>& ring) const;
   const Facets& facets() const { return facets_; }
   const Extraction& wanted() const { return wanted_; }
-  // The attributes of the facet of a selected edge, whose ring is given.
+  // Returns the attributes of the facet of a selected edge, given its ring.
   FacetAttributes attributes(int32_t edge, std::span<const int32_t> ring) const;
 
  private:
@@ -51,10 +51,10 @@ class Selection {
 
   Extraction wanted_;
   Facets facets_;
-  double sine_ = 0;  // the largest that does not satisfy the Angle condition
+  double sine_ = 0;  // the largest sine that fails the Angle condition
 };
 
-// Positions in `edges` of those whose facets are selected, ascending.
+// Returns the positions in `edges` of those whose facets are selected, ascending.
 std::vector<int32_t> selected(const Selection& selection, std::span<const int32_t> edges,
                               const Run& run);
 

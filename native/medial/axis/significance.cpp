@@ -7,7 +7,7 @@
 namespace medial {
 namespace {
 
-// The bits of an end from which the edge is not tried.
+// Returns the bits of an end from which the edge is not tried.
 int untried_bits(bool has_larger_theta, bool has_larger_rho) {
   return (has_larger_theta ? Untried::larger_theta : Untried::smaller_theta) |
          (has_larger_rho ? Untried::larger_rho : Untried::smaller_rho);

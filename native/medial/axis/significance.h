@@ -12,28 +12,30 @@
 
 namespace medial {
 
-// Per edge, the larger value of the two ends (rule EITHER) and the smaller one (rule BOTH).
+// This holds for each edge the larger value of the two ends (rule EITHER) and the smaller one (rule
+// BOTH).
 struct Significance {
-  Array<double> sine, rho;  // of theta: an arcsine takes longer than all else about an edge
+  Array<double> sine, rho;  // sine of theta: an arcsine is dearer than all else about an edge
   Array<double> sine_both, rho_both;
   Array<uint8_t> untried;  // Untried::... bits
-  // Per sample: the largest circumradius in its umbrella, infinite for an empty one.
+  // The spacing of each sample is the largest circumradius in its umbrella, infinite if that is
+  // empty.
   Array<double> spacing;
 
   const Array<double>& sines(Rule rule) const { return rule == Rule::either ? sine : sine_both; }
   const Array<double>& ratios(Rule rule) const { return rule == Rule::either ? rho : rho_both; }
 };
 
-// Step 5 of MEDIAL tries pq from p only when pq is not in U_p. These bits say which values come
-// from an end that is not tried for this reason. It matters below rho0 = 2 and, by rounding, at
-// theta0 = 0; elsewhere such an end fails anyway.
+// Step 5 of MEDIAL tries pq from p only if pq is not in U_p. These bits mark the values from an end
+// that is not tried for this reason. They matter below rho0 = 2 and, by rounding, at theta0 = 0;
+// otherwise such an end fails anyway.
 struct Untried {
   static constexpr uint8_t larger_theta = 1, smaller_theta = 2, larger_rho = 4, smaller_rho = 8;
 };
 
 inline double theta_of(double sine) { return std::asin(sine); }
 
-// The largest sine whose theta is not above a threshold.
+// Returns the largest sine whose theta is not above a threshold.
 double largest_sine(double theta);
 
 Significance significance(std::span<const Vec3> points, const Edges& edges,

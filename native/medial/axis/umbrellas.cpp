@@ -8,9 +8,9 @@ namespace {
 
 enum class Height : uint8_t { below, above, level };
 
-// On which side of the tangent plane the Voronoi vertex of a cell lies, or to which side the ray of
-// an infinite cell leads. A vertex in the plane counts as above: of the Voronoi edges that meet in
-// it those from below then cross the plane, and the umbrella stays a disc.
+// Returns the side of the tangent plane on which the Voronoi vertex of a cell lies, or to which the
+// ray of an infinite cell points. A vertex in the plane counts as above: of the Voronoi edges that
+// meet in it, those from below then cross the plane, and the umbrella stays a disc.
 Height height(const Vec3& p, const Vec3& pole, int32_t cell, const Triangulation& t,
               const Voronoi& voronoi) {
   if (t.is_infinite(cell)) {
@@ -20,20 +20,20 @@ Height height(const Vec3& p, const Vec3& pole, int32_t cell, const Triangulation
   return dot(voronoi.centre[cell] - p, pole) >= 0 ? Height::above : Height::below;
 }
 
-// kOthers[i][j]: the slots of a cell that are neither i nor j.
+// kOthers[i][j] are the slots of a cell that are neither i nor j.
 constexpr int kOthers[4][4][2] = {{{}, {2, 3}, {1, 3}, {1, 2}},
                                   {{2, 3}, {}, {0, 3}, {0, 2}},
                                   {{1, 3}, {0, 3}, {}, {0, 1}},
                                   {{1, 2}, {0, 2}, {0, 1}, {}}};
 
-// Collects umbrellas, one after the other.
+// This collects umbrellas, one after the other.
 class Collector {
  public:
   Collector(std::span<const Vec3> points, const Triangulation& t, const Voronoi& voronoi,
             const Run& run)
       : points_(points), t_(t), voronoi_(voronoi), height_(array<Height>(t.cells.size(), run)) {}
 
-  // Appends U_p. Each Voronoi edge that crosses the plane is met once: from below.
+  // Appends U_p. Each Voronoi edge that crosses the plane is found once, from below.
   void append(int32_t p, std::span<const int32_t> cells, std::vector<std::array<int32_t, 2>>& out) {
     const Vec3 to_pole = pole(points_[p], cells, t_, voronoi_, below_);
     if (below_.size() < cells.size()) below_.resize(cells.size());
@@ -47,8 +47,8 @@ class Collector {
   }
 
  private:
-  // The triangles at p through which a cell below has a neighbour above. They lie opposite to the
-  // other corners of the cell, so that p is a corner of all these neighbours.
+  // Appends the triangles at p through which a cell below has a neighbour above. They are opposite
+  // to the other corners of the cell, so p is a corner of all these neighbours.
   void append_above(int32_t p, int32_t cell, std::vector<std::array<int32_t, 2>>& out) const {
     const Cell& ids = t_.cells[cell];
     const int own = slot_of(ids, p);
@@ -65,7 +65,7 @@ class Collector {
   std::span<const Vec3> points_;
   const Triangulation& t_;
   const Voronoi& voronoi_;
-  Array<Height> height_;  // of the cells at the sample in hand
+  Array<Height> height_;  // heights of the cells at the current sample
   std::vector<int32_t> below_;
 };
 
