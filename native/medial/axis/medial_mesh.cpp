@@ -132,8 +132,8 @@ class FacetMaker {
   std::vector<int32_t> ring_, polygon_;
 };
 
-// Polygons in the order of the samples, which is that of the cells, and where they belong: faces
-// and corners from each row on.
+// This holds the polygons in the order of the samples, which is that of the cells, and the
+// positions of the faces and corners of each row.
 struct Found {
   std::vector<Polygons> chunks;
   Array<int32_t> faces, corners;  // (rows + 1)

@@ -8,11 +8,11 @@
 namespace medial {
 namespace {
 
-constexpr int64_t kBalls = 256;  // of one piece of work
-// A ball comes near to the farthest place where it leaves at most this share of the distance.
+constexpr int64_t kBalls = 256;  // balls in one piece of work
+// A ball is near the farthest place if it leaves at most this share of the distance.
 constexpr double kNear = 0.25;
 
-// An upper bound of the places that a ball would cover: the number when it was last counted.
+// This is an upper bound of the places that a ball would cover: the number at its last count.
 struct Gain {
   int64_t places;
   int32_t ball;
@@ -44,7 +44,7 @@ std::vector<int32_t> ids_in_solid(std::span<const Ball> balls) {
   return ids;
 }
 
-// The balls that are chosen so far, and the places that they leave.
+// This holds the balls chosen so far, and the places that they leave.
 class Chosen {
  public:
   Chosen(std::span<const Ball> balls, int64_t count, SolidLattice& left, const Run& run)
@@ -73,13 +73,13 @@ class Chosen {
   int64_t held_ = 0;
 };
 
-// Places of the solid, and how far each is from the balls so far: below zero within them.
+// This holds places of the solid and their distances to the balls so far, negative inside them.
 class Distances {
  public:
   explicit Distances(std::vector<Vec3> places)
       : places_(std::move(places)), away_(places_.size(), HUGE_VAL) {}
 
-  // The lowest of the farthest ones.
+  // Returns the farthest place, ties by lowest id.
   size_t farthest() const {
     return static_cast<size_t>(std::max_element(away_.begin(), away_.end()) - away_.begin());
   }
@@ -98,7 +98,7 @@ class Distances {
   std::vector<double> away_;
 };
 
-// The balls that come nearest to a place, if they come nearer than `away`.
+// Returns the balls that come nearest to a place, if they come nearer than `away`.
 std::vector<int32_t> balls_near(const Vec3& place, double away, std::span<const int32_t> ids,
                                 std::span<const Ball> balls) {
   std::vector<double> gaps;
@@ -119,8 +119,8 @@ std::vector<int32_t> balls_near(const Vec3& place, double away, std::span<const 
 
 }  // namespace
 
-// Gains only shrink, so one that still is the largest when it is counted again needs no others to
-// be counted (Minoux 1978).
+// Gains only shrink, so if a recounted one is still the largest, no others need a recount (Minoux
+// 1978).
 BallChoice balls_by_volume(std::span<const Ball> balls, int64_t count, SolidLattice& left,
                            const Run& run) {
   std::priority_queue<Gain> gains({}, gains_of(ids_in_solid(balls), balls, left, run));

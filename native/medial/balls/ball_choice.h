@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which of many balls in a solid cover it best. Both orders do not depend on how many are wanted.
+// These functions choose the balls that cover a solid best. Both orders are independent of the
+// wanted number.
 #pragma once
 
 #include <span>
@@ -16,14 +17,15 @@ struct BallChoice {
   std::vector<double> covered;  // (n) share of the places that the first 1, 2, ... n balls hold
 };
 
-// Each ball is the one that holds most of the places that are left, of equal ones the first: any n
-// hold no more than 1 / (1 - 1/e) of what the first n hold. What they hold is taken from the
-// lattice. Ends where all have been taken that any ball holds.
+// Each ball is the one that holds the most remaining places, ties by order: any n hold no more than
+// 1 / (1 - 1/e) of what the first n hold. Their places are removed from the lattice. The choice
+// ends when no ball holds a remaining place.
 BallChoice balls_by_volume(std::span<const Ball> balls, int64_t count, SolidLattice& left,
                            const Run& run);
 
-// After the first ball, which is the same: of those that come near to the place that is farthest
-// from all before, the one that holds most of what is left. Ends where no place can come nearer.
+// The first ball is the same. Each further one is chosen among those near the place that is
+// farthest from all earlier balls: the one that holds the most remaining places. The choice ends
+// when no ball comes nearer to any place.
 BallChoice balls_by_distance(std::span<const Ball> balls, int64_t count, SolidLattice& left,
                              const Run& run);
 

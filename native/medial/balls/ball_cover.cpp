@@ -15,10 +15,11 @@
 namespace medial {
 namespace {
 
-// Places of a lattice in the box of the solid, at most. An open surface asks for each of them.
+// These are the most places of a lattice in the box of the solid. An open surface needs a query for
+// each of them.
 constexpr int64_t kMost = 1 << 24, kMostOpen = 1 << 20;
 constexpr double kPiece = 0.5;         // edges of pieces of the surface, in steps of the lattice
-constexpr int64_t kBallsOfTask = 256;  // of one piece of work
+constexpr int64_t kBallsOfTask = 256;  // balls in one piece of work
 
 void check(const BallCoverInput& input, const BallCoverOptions& options) {
   require_finite(input.centres, "centre");
@@ -41,7 +42,7 @@ void check(const BallCoverInput& input, const BallCoverOptions& options) {
   }
 }
 
-// The solid, in a frame in which squares of lengths stay numbers.
+// The solid is kept in a frame in which squares of lengths do not overflow.
 struct Solid {
   Solid(const BallCoverInput& input, const Run& run)
       : frame(frame_of(input.vertices, input.centres)),
@@ -64,7 +65,7 @@ struct Solid {
   Box box;
 };
 
-// From each centre to the surface; negative outside.
+// Returns the distance from each centre to the surface, negative outside.
 std::vector<double> depths(std::span<const Vec3> centres, const Solid& solid, const Run& run) {
   const TriangleTree tree(solid.vertices.points, solid.surface.triangles);
   std::vector<double> depth(centres.size());
@@ -79,7 +80,7 @@ std::vector<double> depths(std::span<const Vec3> centres, const Solid& solid, co
   return depth;
 }
 
-// The balls as far as they lie in the solid; those round a centre outside have none.
+// Shrinks the balls so that they stay in the solid; those around a centre outside get radius 0.
 std::vector<Ball> inner_balls(const BallCoverInput& input, const Solid& solid,
                               std::span<const double> depth) {
   std::vector<Ball> balls;
@@ -103,8 +104,8 @@ SolidLattice lattice_of(const Solid& solid, int64_t places, const Run& run) {
   return lattice;
 }
 
-// The radii of the chosen balls, grown to hold what is nearest to each if they are to be `around`;
-// and how far off they and the surface then are.
+// Sets the radii of the chosen balls, grown to hold what is nearest to each if `around`, then how
+// far the balls reach out of the solid, and how far the surface is from them.
 void set_reach(BallCover& cover, std::span<const Ball> balls, std::span<const double> depth,
                bool around, const Solid& solid, const SolidLattice& left, const Run& run) {
   std::vector<Ball> kept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Greedy choice of balls that cover most of a solid.
+// This chooses balls greedily to cover most of a solid.
 #pragma once
 
 #include <medial/ball_cover.h>

@@ -8,10 +8,10 @@
 namespace medial {
 namespace {
 
-constexpr int64_t kTriangles = 16;  // of one piece of work
-constexpr double kLong = 64;        // pieces along an edge whose triangle takes a while
+constexpr int64_t kTriangles = 16;  // triangles in one piece of work
+constexpr double kLong = 64;        // pieces along an edge that make a triangle slow
 
-// The largest that each ball needs, of what one thread has seen.
+// This keeps the largest radius that each ball needs, among the places that one thread has seen.
 class Needs {
  public:
   Needs(std::span<const Ball> balls, const NearestBall& nearest, double piece,
@@ -24,7 +24,7 @@ class Needs {
 
   void add(const Vec3& place) { add(nearest_.find(place), place); }
 
-  // Halved across the longest edge until that is short enough.
+  // Halves the triangle across its longest edge until that is short enough.
   void add(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
     const double longest = std::max({ab, bc, ca});

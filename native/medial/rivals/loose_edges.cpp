@@ -10,8 +10,8 @@
 namespace medial {
 namespace {
 
-// The diameter of the smallest ball that holds a triangle. It is on the longest side, unless the
-// triangle is acute.
+// Returns the diameter of the smallest ball that holds a triangle. Its diameter is the longest
+// side, unless the triangle is acute.
 double smallest_diameter(const Vec3& p, const Vec3& q, const Vec3& r) {
   std::array<double, 3> sides = {distance(p, q), distance(q, r), distance(r, p)};
   std::sort(sides.begin(), sides.end());
@@ -19,7 +19,7 @@ double smallest_diameter(const Vec3& p, const Vec3& q, const Vec3& r) {
   return a * a + b * b <= c * c ? c : 2 * circumradius(p, q, r);
 }
 
-// A Voronoi edge: the rows of its samples, ascending, and its ends.
+// This is a Voronoi edge: the rows of its samples, ascending, and its ends.
 struct LooseEdge {
   Triangle rows;
   Edge ends;
@@ -33,7 +33,7 @@ class Finder {
          std::span<const int32_t> row)
       : selection_(selection), s_(selection.facets()), generators_(generators), row_(row) {}
 
-  // The triangles of a cell that are not seen from a lower one.
+  // Appends the triangles of a cell that no lower cell sees.
   void append(int32_t cell, std::vector<LooseEdge>& out, std::vector<int32_t>& ring) const {
     for (int slot = 0; slot < 4; ++slot) {
       const int32_t across = s_.triangulation.neighbors[cell][slot];
@@ -56,7 +56,7 @@ class Finder {
     return smallest_diameter(at[t[0]], at[t[1]], at[t[2]]) >= selection_.least_length();
   }
 
-  // Whether the three facets round the edge are bounded and lie on the side that is wanted.
+  // Returns whether the three facets around the edge are bounded and lie on the wanted side.
   bool is_inside(const Triangle& t, int32_t cell, std::vector<int32_t>& ring) const {
     const Side side = selection_.wanted().side;
     for (int i = 0; i < 3; ++i) {

@@ -6,8 +6,8 @@ namespace {
 
 constexpr int32_t kNone = -1;
 
-// The finite cell, of the lowest id, whose Voronoi vertex is the farthest in the half-space of
-// `direction`.
+// Returns the finite cell, ties by lowest id, whose Voronoi vertex is the farthest in the
+// half-space of `direction`.
 int32_t farthest(const Vec3& p, const Vec3& direction, std::span<const int32_t> cells,
                  const Triangulation& t, const Voronoi& voronoi) {
   int32_t found = kNone;

@@ -48,7 +48,7 @@ void check(std::span<const Vec3> centres, std::span<const double> radii,
   }
 }
 
-// Inserts all balls. Among equal balls the one of the lowest row has the cell.
+// Inserts all balls. Among equal balls the one with the lowest row gets the cell.
 void insert_all(Regular& regular, std::span<const Vec3> centres, std::span<const double> radii,
                 Progress* progress) {
   constexpr size_t kStep = 512;
@@ -73,7 +73,7 @@ void insert_all(Regular& regular, std::span<const Vec3> centres, std::span<const
   }
 }
 
-// The rows of corners, ascending, if all of them are wanted.
+// Returns the rows of the corners, ascending, if all of them are wanted.
 template <size_t Size>
 bool rows_of(const std::array<VertexHandle, Size>& corners, std::span<const uint8_t> wanted,
              std::array<int32_t, Size>& rows) {

@@ -6,8 +6,8 @@
 namespace medial {
 namespace {
 
-// Where the Voronoi edge that is dual to the triangle (p, p + a, p + b) crosses the plane through p
-// normal to the pole vector, seen from p: a corner of the tangent polygon (Definition 2).
+// Returns, relative to p, where the Voronoi edge dual to the triangle (p, p + a, p + b) crosses the
+// plane through p normal to the pole vector: a corner of the tangent polygon (Definition 2).
 Vec3 polygon_corner(const Vec3& normal, const Vec3& a, const Vec3& b, const Vec3& pole) {
   const double aa = squared_length(a), bb = squared_length(b);
   const double twice_area = length(cross(a, b));
@@ -15,7 +15,8 @@ Vec3 polygon_corner(const Vec3& normal, const Vec3& a, const Vec3& b, const Vec3
   return centre - (dot(centre, pole) / dot(normal, pole)) * normal;
 }
 
-// Per sample the distance of the farthest corner of its tangent polygon; infinite without corners.
+// Returns for each sample the distance to the farthest corner of its tangent polygon, infinite
+// without corners.
 Array<double> polygon_reaches(std::span<const Vec3> points, const Umbrellas& umbrellas,
                               const Array<Vec3>& normals, std::span<const Vec3> poles,
                               const Run& run) {

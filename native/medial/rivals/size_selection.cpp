@@ -41,7 +41,7 @@ double SizeSelection::size(int32_t edge) const {
   return distance(facets().points[p], facets().points[q]);
 }
 
-// A ball of radius R sees pq under the angle 2 asin(|pq| / 2R): the least where it is the largest.
+// A ball of radius R sees pq at the angle 2 asin(|pq| / 2R), which is least for the largest ball.
 bool SizeSelection::is_seen_wide(int32_t edge, std::span<const int32_t> ring) const {
   const Facets& f = facets();
   const Vec3& at = f.points[f.edges.ends[edge][0]];

@@ -18,7 +18,7 @@ bool follows_surface(const Edge& ends, std::span<const Vec3> points, const Tange
   return distance(points[p], points[q]) <= widest;
 }
 
-// The edges that follow the surface and have an end whose value is wanted.
+// Collects the edges that follow the surface and have an end whose value is wanted.
 std::vector<Edge> paths(const std::vector<double>& values, std::span<const Vec3> points,
                         const Tangents& tangents, const Edges& edges,
                         const Significance& significance, const Run& run) {
@@ -29,15 +29,15 @@ std::vector<Edge> paths(const std::vector<double>& values, std::span<const Vec3>
   });
 }
 
-// A way from a sample with a value to another one.
+// A way leads from a sample with a value to another one.
 struct Way {
   double length;
   int32_t to;
   double value;
 };
 
-// The next way is the shortest one, or that of the largest value; what else tells them apart is
-// there for the same order on every machine.
+// The next way is the shortest one, or the one with the largest value; the other comparisons break
+// ties, so that the order is the same on every machine.
 struct ByLength {
   bool operator()(const Way& a, const Way& b) const {
     return std::tie(a.length, a.to, a.value) > std::tie(b.length, b.to, b.value);
@@ -49,7 +49,7 @@ struct ByValue {
   }
 };
 
-// The ways along the surface to samples without a value.
+// This follows the ways along the surface to samples without a value.
 class Spreading {
  public:
   Spreading(std::vector<double>& values, std::span<const Vec3> points, std::vector<Edge> ends,
@@ -61,7 +61,7 @@ class Spreading {
                             {run.threads})),
         run_(run) {}
 
-  // From the samples that have a value, the nearest first.
+  // Starts from the samples that have a value, nearest first.
   void spread() {
     std::priority_queue<Way, std::vector<Way>, ByLength> ways;
     std::vector<int32_t> known;
@@ -71,7 +71,7 @@ class Spreading {
     for (const int32_t p : known) go_on({0, p, values_[p]}, ways);
     finish(ways);
   }
-  // From those that have none, with what they have of their own, the largest first.
+  // Starts from the samples that have no value, with their own balls, largest first.
   void spread(std::span<const double> own) {
     std::priority_queue<Way, std::vector<Way>, ByValue> ways;
     for (size_t p = 0; p < values_.size(); ++p) {

@@ -8,13 +8,13 @@
 namespace medial {
 namespace {
 
-// The width of the ball that is tangent at one sample and touches the other one.
+// This is the width of the ball that is tangent at one sample and touches the other one.
 struct Width {
   double diameter = HUGE_VAL;
-  double between = HUGE_VAL;  // the same where they are walls, with the other one's plane
+  double between = HUGE_VAL;  // between walls only, and with the other one's plane
 };
 
-// `inward`: 1 where the balls lie against the normals, -1 where they lie along them.
+// Returns the width; `inward` is 1 if the balls are against the normals, -1 if along them.
 Width width(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& normal_q,
             bool q_at_edge, bool q_reflex, double inward) {
   const Vec3 apart = p - q;
@@ -23,15 +23,15 @@ Width width(const Vec3& p, const Vec3& q, const Vec3& normal_p, const Vec3& norm
   Width found{squared_length(apart) / height};
   const double cosine = dot(normal_p, normal_q);
   if (cosine > kWallCosine || (q_at_edge && !q_reflex)) return found;
-  // The ball touches the other wall beside q: it is tangent to the plane there, too, which leaves
-  // an error smaller by the ratio of the wall's curvature to the ball's; none between planes.
+  // The ball touches the other wall next to q. A ball tangent to the plane at q, too, has an error
+  // smaller by the ratio of the wall's curvature to the ball's, and none between planes.
   found.between = found.diameter;
   const double planes = -2 * inward * dot(normal_q, apart) / (1 - cosine);
   if (!q_at_edge && planes > 0) found.between = std::min(found.between, planes);
   return found;
 }
 
-// The widths at both ends of each facet.
+// Returns the widths at both ends of each facet.
 std::vector<std::array<Width, 2>> widths(std::span<const Vec3> points, const Tangents& tangents,
                                          const Edges& edges, std::span<const int32_t> edge_ids,
                                          double inward, const Run& run) {
@@ -56,7 +56,7 @@ TangentBalls tangent_balls(std::span<const Vec3> points, const Tangents& tangent
   const size_t count = tangents.normals.size();
   TangentBalls balls{std::vector<double>(count, HUGE_VAL), std::vector<double>(count, HUGE_VAL),
                      std::vector<uint8_t>(count, 0)};
-  std::vector<double> nearest(count, HUGE_VAL);  // of the walls' balls, before their planes count
+  std::vector<double> nearest(count, HUGE_VAL);  // the smallest ball between walls, without planes
   const auto found = widths(points, tangents, edges, edge_ids, side == Side::inner ? 1 : -1, run);
   for (size_t i = 0; i < edge_ids.size(); ++i) {
     for (int end = 0; end < 2; ++end) {
@@ -64,7 +64,8 @@ TangentBalls tangent_balls(std::span<const Vec3> points, const Tangents& tangent
       const Width& w = found[i][end];
       balls.touched[p] = 1;
       balls.any[p] = std::min({balls.any[p], w.diameter, w.between});
-      // The plane of the sample next to the contact, and not the one that makes the least of it.
+      // This uses the plane of the sample next to the contact, not the plane with the smallest
+      // result.
       if (w.between < HUGE_VAL && w.diameter < nearest[p]) {
         nearest[p] = w.diameter;
         balls.wall[p] = w.between;

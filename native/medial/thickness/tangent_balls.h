@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The balls of one side that are tangent to the surface at a sample and touch another one.
+// These balls of one side are tangent to the surface at a sample and touch another one.
 #pragma once
 
 #include <medial/options.h>
@@ -8,27 +8,28 @@
 
 namespace medial {
 
-// The sides of a wall are samples whose normals differ by 120 degrees or more; this is the cosine.
+// Two samples are on opposite sides of a wall if their normals differ by 120 degrees or more; this
+// is the cosine.
 inline constexpr double kWallCosine = -0.5;
 
-// The surface at each sample, as far as it is known.
+// This describes the surface at each sample.
 struct Tangents {
-  std::vector<Vec3> normals;  // outward unit vectors; zero: not known
-  // On a sharp edge, where the normal is a mean that no ball is tangent to.
+  std::vector<Vec3> normals;  // outward unit vectors; zero if unknown
+  // This marks samples on a sharp edge, where the normal is a mean that no ball is tangent to.
   std::vector<uint8_t> edge;
-  // The samples among these whose edge stands into the side of the balls, so that they can touch
+  // This marks those of them whose edge juts into the side of the balls, so that balls can touch
   // it.
   std::vector<uint8_t> reflex;
 };
 
-// Per sample the diameter of the smallest such ball: of any, and of those between walls. Infinite
-// where there is none.
+// These are the diameters of the smallest ball at each sample: of any, and of those between walls.
+// They are infinite if there is none.
 struct TangentBalls {
   std::vector<double> any, wall;
-  std::vector<uint8_t> touched;  // it has a facet
+  std::vector<uint8_t> touched;  // the sample has a facet
 };
 
-// By the facets dual to `edge_ids`, all of one side, inner or outer.
+// Computes the balls from the facets dual to `edge_ids`, all of one side, inner or outer.
 TangentBalls tangent_balls(std::span<const Vec3> points, const Tangents& tangents,
                            const Edges& edges, std::span<const int32_t> edge_ids, Side side,
                            const Run& run);

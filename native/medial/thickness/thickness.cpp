@@ -9,7 +9,7 @@
 namespace medial {
 namespace {
 
-// In the order of the samples.
+// The values are in the order of the samples.
 struct Values {
   std::vector<double> lengths;
   std::vector<uint8_t> measured;
@@ -33,8 +33,8 @@ Tangents tangents_of(const ThicknessInput& input, const Samples& samples) {
   return tangents;
 }
 
-// Marks the samples on sharp edges whose neighbours on the surface lie towards the side of the
-// balls no more than away from it: there the edge stands into that side.
+// Marks the samples on sharp edges that jut into the side of the balls: their neighbours on the
+// surface are, on balance, away from that side.
 std::vector<uint8_t> reflex_edges(const Tangents& tangents, const Facets& facets, Side side) {
   std::vector<double> height(tangents.edge.size(), 0);
   const auto add = [&](int32_t at, int32_t neighbour, double reach) {
@@ -64,8 +64,9 @@ std::vector<uint8_t> finite(const std::vector<double>& values) {
   return result;
 }
 
-// The ball at a sample: what is filled is no smaller. A sample without a facet has none that is
-// known; but outside it has nothing in front of it, unless it is on an edge.
+// Returns the ball at a sample, the least value that may be filled in. It is unknown (0) for a
+// sample without a facet; but outside, such a sample has nothing in front of it (infinity), unless
+// it is on an edge.
 double own_ball(const TangentBalls& balls, const Tangents& tangents, int32_t p, Side side) {
   if (balls.any[p] < HUGE_VAL) return balls.any[p];
   const bool open = side == Side::outer && !balls.touched[p] && !tangents.edge[p];
@@ -90,7 +91,7 @@ Values by_tangent_balls(const ThicknessInput& input, const ThicknessOptions& opt
   return found;
 }
 
-// The balls at the finite vertices of some facets.
+// Collects the balls at the finite vertices of some facets.
 std::vector<Ball> balls_of(std::span<const int32_t> edge_ids, const Facets& facets,
                            const Run& run) {
   const auto marked = cells_round(edge_ids, facets.triangulation, facets.edges, run);
@@ -115,7 +116,8 @@ Values by_nearest_balls(const ThicknessOptions& options, const Samples& samples,
     const int32_t id = nearest.find(at);
     if (id < 0) return;
     const auto& [centre, radius] = balls[id];
-    // Outside, what has nothing in front of it is not in a gap because there is one far away.
+    // Outside, a sample with nothing in front of it is not in a gap just because there is one far
+    // away.
     if (options.side == Side::outer && distance(at, centre) > 2 * radius) return;
     found.lengths[p] = 2 * radius;
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thickness and gaps at the samples, by the facets of one side.
+// This computes thickness and gaps at the samples, from the facets of one side.
 #pragma once
 
 #include <medial/thickness.h>
@@ -9,8 +9,8 @@
 
 namespace medial {
 
-// Ascending by row. `normals` and `at_edge` have one row per point. The sides of `facets` are
-// known.
+// The result ascends by row. `normals` and `at_edge` have one row per point. The sides of `facets`
+// must be known.
 WallThickness thickness(const ThicknessInput& input, const ThicknessOptions& options,
                         const Samples& samples, const Facets& facets, const Run& run);
 
