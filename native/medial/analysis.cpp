@@ -84,7 +84,7 @@ Selection selection(const Parts& made, const Extraction& x) {
   return selection;
 }
 
-// Values of the edges in that order.
+// Returns the values of the edges in the order of edges_by_row.
 template <typename T, typename Value>
 std::vector<T> by_row(const Parts& made, const Value& value) {
   const auto order = edges_by_row(made);
@@ -193,7 +193,7 @@ std::vector<Triangle> MedialAnalysis::solid_triangles() const {
   if (parts_->tight_cocone) return parts_->tight_cocone->triangles;
   const Run run{parts_->threads, nullptr};
   CellSides sides(parts_->sides);
-  // The points of a bounding sphere are no samples, and what touches them lies outside.
+  // The points of a bounding sphere are not samples, and cells that touch them are outside.
   parallel_for(parts_->triangulation.cell_count(), run, [&](int64_t c) {
     const Cell& cell = parts_->triangulation.cells[c];
     if (*std::max_element(cell.begin(), cell.end()) >= parts_->samples.count()) {

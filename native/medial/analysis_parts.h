@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of an analysis: the results of the stages, which extractions read.
+// The parts of an analysis are the results of its stages, which extractions read.
 #pragma once
 
 #include <medial/analysis.h>
@@ -12,13 +12,13 @@ namespace medial {
 
 struct MedialAnalysis::Parts {
   Parts() = default;
-  // The arrays lie in the arena, and a move would free that before them.
+  // The arrays are in the arena, and a move would free the arena before them.
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
   int threads = 1;
-  std::unique_ptr<Arena> arena;  // goes after all that lies in it
-  Frame frame;                   // in which all places and lengths below are
+  std::unique_ptr<Arena> arena;  // is destroyed after all that is in it
+  Frame frame;                   // frame of all places and lengths below
   Samples samples;
   Triangulation triangulation;
   Voronoi voronoi;
@@ -33,7 +33,7 @@ struct MedialAnalysis::Parts {
   bool closed = false;
   Timings timings;
 
-  // The run of a stage that reads these parts.
+  // Returns the run of a stage that reads these parts.
   Run run(Progress* progress = nullptr) const { return {threads, progress, arena.get()}; }
 };
 
@@ -44,15 +44,15 @@ std::unique_ptr<const MedialAnalysis::Parts> analysed(const AnalysisInput& input
 
 // Throws InvalidInputError unless there is one finite normal per row, and not all are zero.
 void require_normals(std::span<const Vec3> normals, size_t rows);
-// Throws InvalidInputError where inside and outside are not known, DegenerateInputError where the
-// samples enclose nothing.
+// Throws InvalidInputError if inside and outside are unknown, DegenerateInputError if the samples
+// enclose nothing.
 void require_solid(const MedialAnalysis::Parts& made);
 
-// The facets that a selection reads.
+// Returns the facets that a selection reads.
 Facets facets_of(const MedialAnalysis::Parts& made);
-// All edges in lexicographic order of their input rows.
+// Returns all edges in lexicographic order of their input rows.
 std::vector<int32_t> edges_by_row(const MedialAnalysis::Parts& made);
-// Brings a mesh from the frame of the analysis into that of the input.
+// Converts a mesh from the frame of the analysis to that of the input.
 void bring_outward(MedialMesh& mesh, const Frame& frame);
 
 }  // namespace medial

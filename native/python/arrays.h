@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NumPy arrays in and out: checked views of the caller's memory, read-only arrays that keep their
-// owner alive.
+// NumPy arrays go in as checked views of the caller's memory, and come out as read-only arrays that
+// keep their owner alive.
 #pragma once
 
 #include <medial/errors.h>
@@ -44,7 +44,8 @@ inline py::array checked_rows(const py::handle& object, const char* name, int co
   return view;
 }
 
-// An (n, 3) float array as points: a view when it is C-contiguous float64, else a converted copy.
+// This takes an (n, 3) float array as points: a view if it is C-contiguous float64, else a
+// converted copy.
 class Points {
  public:
   Points(const py::handle& object, const char* name)
@@ -59,7 +60,8 @@ class Points {
   py::array_t<double, py::array::c_style | py::array::forcecast> rows_;
 };
 
-// An (m, 3) integer array as triangles: a view when it is C-contiguous int32, else a checked copy.
+// This takes an (m, 3) integer array as triangles: a view if it is C-contiguous int32, else a
+// checked copy.
 class Triangles {
  public:
   explicit Triangles(const py::handle& object) {
@@ -87,8 +89,8 @@ class Triangles {
   py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
 };
 
-// A view of the caller's column. Others than of this type, contiguous, would need a copy, and have
-// no use. `expected` says it in NumPy's words.
+// Returns a view of the caller's column. Other types, and arrays that are not contiguous, would
+// need a copy and are refused. `expected` describes the type in NumPy's words.
 template <typename T>
 std::span<const T> column_of(const py::object& column, const char* name, const char* expected) {
   using Column = py::array_t<T, py::array::c_style>;
@@ -109,8 +111,8 @@ inline std::span<const uint8_t> flags_of(const py::object& flags, const char* na
   return {reinterpret_cast<const uint8_t*>(view.data()), view.size()};
 }
 
-// Rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis for
-// one).
+// Returns rows of T as a read-only array of Scalar with one column per Scalar in T (no second axis
+// for one).
 template <typename Scalar, typename Rows>
 py::array view_of(const Rows& rows, const py::handle& owner) {
   using T = typename Rows::value_type;
@@ -122,7 +124,7 @@ py::array view_of(const Rows& rows, const py::handle& owner) {
   return array;
 }
 
-// A property that is a view of a vector inside the object.
+// Makes a property that is a view of a vector inside the object.
 template <typename Scalar, typename Owner, typename Rows>
 auto view_property(Rows Owner::*member) {
   return [member](const py::object& self) {
@@ -138,7 +140,7 @@ py::array array_of(Rows rows) {
   return view_of<Scalar>(*kept, owner);
 }
 
-// Values of an enum, each as an int32.
+// Returns the values of an enum, each as an int32.
 template <typename Values>
 py::array numbers_of(const Values& values) {
   std::vector<int32_t> numbers;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress, MedialAnalysis and MedialMesh for Python.
+// This binds Progress, MedialAnalysis and MedialMesh for Python.
 #include <medial/analysis.h>
 #include <pybind11/stl.h>
 

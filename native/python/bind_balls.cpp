@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Few balls for Python: cover_by_balls.
+// This binds cover_by_balls for Python.
 #include <medial/ball_cover.h>
 
 #include "arrays.h"

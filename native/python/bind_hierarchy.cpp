@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hierarchy and Level for Python.
+// This binds Hierarchy and Level for Python.
 #include <medial/analysis.h>
 
 #include "arrays.h"
@@ -12,7 +12,7 @@ namespace {
 
 py::tuple betti_tuple(const Betti& b) { return py::make_tuple(b[0], b[1], b[2]); }
 
-// A property that is a view of an array of the hierarchy.
+// Makes a property that is a view of an array of the hierarchy.
 template <typename Scalar, typename Part>
 auto part_property(const Part& part) {
   return [part](const py::object& self) {
@@ -20,7 +20,8 @@ auto part_property(const Part& part) {
   };
 }
 
-// The same of places or lengths, which are copied where the hierarchy sees them in another frame.
+// Does the same for places or lengths, which are copied if the hierarchy holds them in another
+// frame.
 template <typename Part>
 auto framed_property(const Part& part) {
   return [part](const py::object& self) -> py::array {
@@ -64,7 +65,7 @@ py::array corner_part(const Corners& corners, int32_t Corner::*part) {
   return array_of<Scalar>(std::move(values));
 }
 
-// The values of the edges.
+// Returns the values of the edges.
 template <typename OfEdge>
 py::array edge_values(const Hierarchy& h, const OfEdge& of_edge) {
   const int32_t edges = h.parts().complex.edges();
@@ -74,7 +75,7 @@ py::array edge_values(const Hierarchy& h, const OfEdge& of_edge) {
   return array_of<float>(std::move(values));
 }
 
-// One of the values of each facet or vertex.
+// Returns one of the values of each facet or vertex.
 py::array value_view(const Array<Thickness>& values, float Thickness::*value,
                      const py::object& owner) {
   const float* first = values.empty() ? nullptr : &(values[0].*value);

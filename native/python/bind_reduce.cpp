@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sphere meshes for Python: reduced, measured, and as points on their surface.
+// This binds sphere meshes for Python: reduced, measured, and as points on their surface.
 #include <medial/sphere_mesh.h>
 
 #include "arrays.h"

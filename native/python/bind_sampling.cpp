@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sample_surface for Python.
+// This binds sample_surface for Python.
 #include <medial/sampling.h>
 #include <pybind11/stl.h>
 
@@ -16,7 +16,7 @@ namespace {
 using FloatArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using IntArray = py::array_t<int32_t, py::array::c_style | py::array::forcecast>;
 
-// Sites and their spacings; keeps what the options look at.
+// This holds sites and their spacings, and keeps what the options refer to.
 class Sizing {
  public:
   explicit Sizing(const py::object& object) {

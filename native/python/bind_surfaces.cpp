@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Queries about triangulated surfaces and polygons, without an analysis.
+// This binds queries about triangulated surfaces and polygons that need no analysis.
 #include "arrays.h"
 #include "base/polygon_edges.h"
 #include "base/rows.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Thickness for Python: its modes, what is found, and the patches of what is thin.
+// This binds thickness for Python: its modes, its result, and the patches of thin parts.
 #include <medial/thickness.h>
 
 #include "arrays.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CoconeOptions and TightCocone for Python.
+// This binds CoconeOptions and TightCocone for Python.
 #include "arrays.h"
 #include "bindings.h"
 #include "cocone/watertight_surface.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the module _medial, and all of them together.
+// These functions bind the parts of the module _medial, and all of them together.
 #pragma once
 
 #include <pybind11/pybind11.h>

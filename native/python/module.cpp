@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Python module _medial; _medial.pyi documents it in full.
+// This is the Python module _medial; _medial.pyi documents it in full.
 #include <medial/errors.h>
 
 #include "bindings.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MEDIAL(P): everything that does not depend on the thresholds, computed once; the axis, extracted
-// as often as one likes.
+// MEDIAL(P) computes everything that does not depend on the thresholds once; the axis can then be
+// extracted as often as needed.
 #pragma once
 
 #include <medial/hierarchy.h>
@@ -16,7 +16,7 @@
 
 namespace medial {
 
-// A surface, or points alone; what is left out is not known.
+// The input is a surface, or points alone; what is left out counts as unknown.
 struct AnalysisInput {
   std::span<const Vec3> points;                        // samples of the surface
   std::span<const Triangle> triangles = {};            // its outward faces, as rows of `vertices`
@@ -24,7 +24,7 @@ struct AnalysisInput {
   std::optional<std::span<const Vec3>> vertices = {};  // none: `points`
 };
 
-// How it is analysed.
+// These options choose how the input is analysed.
 struct AnalysisOptions {
   SidesFrom sides = SidesFrom::automatic;
   CoconeOptions cocone = {};
@@ -32,12 +32,12 @@ struct AnalysisOptions {
   int threads = 0;               // 0: all cores
 };
 
-// Bytes at the peak of an analysis of so many samples of a surface, as measured: 1,430 to 1,470 for
-// each. A hierarchy beside it takes 700 to 900 more.
-// Facets that are long and thin take up to four times as many.
+// Estimates the peak memory in bytes of an analysis of so many samples of a surface: 1,430 to 1,470
+// bytes were measured for each. A hierarchy in addition takes 700 to 900 more. Long and thin facets
+// take up to four times as many.
 inline int64_t memory_needed(int64_t points) { return 1450 * points; }
 
-// Keeps nothing of the input. Its const members may be called from several threads.
+// An analysis keeps nothing of its input. Its const members may be called from several threads.
 class MedialAnalysis {
  public:
   // Throws InvalidInputError, DegenerateInputError, Cancelled.
@@ -47,35 +47,37 @@ class MedialAnalysis {
   MedialAnalysis(MedialAnalysis&&) noexcept;
   MedialAnalysis& operator=(MedialAnalysis&&) noexcept;
 
-  // The closure of F. Throws InvalidInputError, DegenerateInputError, Cancelled.
+  // Returns the closure of F. Throws InvalidInputError, DegenerateInputError, Cancelled.
   MedialMesh extract(const Extraction& extraction, Progress* progress = nullptr) const;
-  // Ids of the selected edges: the set F of the paper, facets without area or end included.
+  // Returns the ids of the selected edges: the set F of the paper, including facets without area
+  // and unbounded ones.
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
 
-  // All levels of the inner axis; it does not need the analysis any more. Throws InvalidInputError
-  // for other sides, DegenerateInputError for samples that enclose nothing.
+  // Returns all levels of the inner axis, which no longer need the analysis. Throws
+  // InvalidInputError for other sides, DegenerateInputError for samples that enclose nothing.
   Hierarchy hierarchy(const Thresholds& thresholds = {}, Side side = Side::inner,
                       Progress* progress = nullptr) const;
 
-  // Per sample, ascending by row: the largest circumradius in its umbrella, infinite for an empty
-  // one.
+  // Returns for each sample, ascending by row, the largest circumradius in its umbrella, infinite
+  // for an empty one.
   std::vector<double> spacing() const;
-  // At the samples of `rows`, of all in ascending order when there are none: the distance to the
-  // nearest Voronoi vertex of the facets of either side that the thresholds select, too large by at
-  // most 1/32 of itself.
+  // Returns the distance to the nearest Voronoi vertex of the facets of either side that the
+  // thresholds select, too large by at most 1/32 of itself. It is measured at the samples of
+  // `rows`, or at all in ascending order if there are none.
   std::vector<double> feature_size(const Thresholds& thresholds,
                                    std::optional<std::span<const int32_t>> rows = {},
                                    Progress* progress = nullptr) const;
-  // How thick the solid is at the samples, or how wide the gap. It needs sides. Throws
-  // InvalidInputError, also for normals or edges that are not one per point, DegenerateInputError
+  // Returns the thickness of the solid at the samples, or the width of the gap. It needs sides.
+  // Throws InvalidInputError, also unless normals and edges are one per point, DegenerateInputError
   // for samples that enclose nothing, Cancelled.
   WallThickness thickness(const ThicknessInput& input, const ThicknessOptions& options = {},
                           Progress* progress = nullptr) const;
-  // The boundary between inner cells and others, as rows. Throws InvalidInputError for sides none.
+  // Returns the boundary between inner cells and others, as rows. Throws InvalidInputError for
+  // sides none.
   std::vector<Triangle> solid_triangles() const;
 
-  // All Delaunay edges as input rows p < q in lexicographic order; significance and side in the
-  // same order.
+  // Returns all Delaunay edges as input rows p < q in lexicographic order; significance and side
+  // have the same order.
   std::vector<Edge> edge_rows() const;
   std::vector<double> theta(Rule rule) const;
   std::vector<double> rho(Rule rule) const;
@@ -84,19 +86,19 @@ class MedialAnalysis {
 
   std::vector<int32_t> sample_rows() const;  // ascending
   int64_t duplicates() const;                // rows merged into an earlier one
-  size_t bytes() const;                      // of memory that it holds
+  size_t bytes() const;                      // memory of the analysis
   int64_t finite_cells() const;
   bool closed() const;
   int64_t boundary_edges() const;
   SidesFrom sides_from() const;
-  // The share of the samples whose labelled poles lie on two sides for which Tight Cocone
+  // Returns the share of the samples whose labelled poles lie on two sides for which Tight Cocone
   // disagrees; none unless Automatic had to choose between the two.
   std::optional<double> pole_disagreement() const;
-  // Null unless the sides are from Tight Cocone; its own sides are moved away.
+  // Returns null unless the sides are from Tight Cocone; its own `sides` are moved out.
   const std::shared_ptr<const WatertightSurface>& tight_cocone() const;
   const Timings& timings() const;
 
-  // The results of the stages, for the library itself.
+  // Parts are the results of the stages, for the library itself.
   struct Parts;
   const Parts& parts() const { return *parts_; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A solid as few balls, chosen among those of its medial axis: for collisions, physics, robots.
+// A solid is approximated by few balls, chosen among those of its medial axis: for collisions,
+// physics, robots.
 #pragma once
 
 #include <medial/progress.h>
@@ -14,7 +15,7 @@ namespace medial {
 //           they reach out of it is stated.
 enum class CoverMode : int32_t { inside = 0, around = 1 };
 
-// Candidates, and the solid that they are to cover.
+// The input is the candidates, and the solid that they are to cover.
 struct BallCoverInput {
   std::span<const Vec3> centres;    // of the balls to choose from, such as those of an inner axis
   std::span<const double> radii;    // one for each
@@ -22,33 +23,33 @@ struct BallCoverInput {
   std::span<const Triangle> faces;  // outward, rows of `vertices`
 };
 
-// How many balls, and where they may be.
+// These options choose the number of balls, and where they may be.
 struct BallCoverOptions {
-  int64_t count = 64;  // of balls, at most
+  int64_t count = 64;  // most balls to choose
   CoverMode mode = CoverMode::inside;
   int64_t places = 100'000;  // of the lattice in the solid, at least half as many where it may
 };
 
-// Volumes are numbers of places of a cubic lattice in the solid, which is where the winding number
-// of its faces exceeds 1/2. Inside, each ball is the one that holds most of what those before it
-// left, so the first n hold at least 1 - 1/e of the places that any n of the candidates hold.
-// Around, it is one that comes near to the place farthest from those before it.
+// Volumes are counted in places of a cubic lattice in the solid, where the winding number of its
+// faces exceeds 1/2. With `inside`, each ball is the one that holds most of the places left by
+// those before it, so the first n hold at least 1 - 1/e of the places that any n of the candidates
+// hold. With `around`, each ball comes near to the place farthest from those before it.
 struct BallCover {
-  // In the order in which they were chosen, which does not depend on their number. Fewer than
-  // asked for: more of the candidates would not add anything.
+  // The balls are in the order of choice, which does not depend on their number. There are fewer
+  // than requested if more of the candidates would not add anything.
   std::vector<int32_t> chosen;  // (n) rows of the candidates
   std::vector<double> radii;    // (n) inside: no longer than to the surface; around: grown
-  // (n) share of the places that the first 1, 2, ... n balls hold, before they grow.
+  // This is the (n) share of the places that the first 1, 2, ... n balls hold, before they grow.
   std::vector<double> covered;
   double outside = 0;   // no place in a ball is farther from the solid
   double farthest = 0;  // no place on the surface is farther from the balls
   int64_t places = 0;
-  double step = 0;  // of the lattice
+  double step = 0;  // spacing of the lattice
 };
 
-// `threads` 0: all cores; the result does not depend on it. Throws InvalidInputError,
-// DegenerateInputError where the faces enclose no place or none of the candidates holds one,
-// Cancelled.
+// Chooses the balls. `threads` 0 means all cores; the result does not depend on it. Throws
+// InvalidInputError, DegenerateInputError if the faces enclose no place or none of the candidates
+// holds one, Cancelled.
 BallCover cover_by_balls(const BallCoverInput& input, const BallCoverOptions& options = {},
                          int threads = 0, Progress* progress = nullptr);
 

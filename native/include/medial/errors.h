@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The three ways in which a computation ends without a result. Messages are one sentence: expected,
-// found, what to do.
+// A computation ends without a result in three ways. Messages are one sentence: expected, found,
+// what to do.
 #pragma once
 
 #include <stdexcept>

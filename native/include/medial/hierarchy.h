@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hierarchy of the inner medial axis: one ordered collapse of the inner Voronoi complex, from
-// which every level of simplification, the curve skeleton included, is read. Each has the topology
-// of the solid.
+// The hierarchy of the inner medial axis is one ordered collapse of the inner Voronoi complex. It
+// yields every level of simplification, including the curve skeleton, each with the topology of the
+// solid.
 #pragma once
 
 #include <medial/progress.h>
@@ -13,38 +13,39 @@ namespace medial {
 
 using Betti = std::array<int64_t, 3>;  // components, tunnels, cavities
 
-// Which cells stay, and how they are shown. A cell stays if it exceeds the first three thresholds,
-// or the fourth one; and all stay that the collapse left. Infinity takes all away that can go.
+// These options choose which cells stay, and how they are shown. A cell stays if it exceeds the
+// first three thresholds, or the fourth one; cells that the collapse left always stay. Infinity
+// removes every cell that can be removed.
 struct LevelOptions {
-  double sheet = 0;          // thickness of its sheet, as a share of the diagonal
+  double sheet = 0;          // least thickness of its sheet, as a share of the diagonal
   double spacings = 0;       // the same in local spacings of the samples
-  double erosion = 0;        // of the facet itself, as a share of the diagonal
-  double limb = 0.04;        // of vertices and edges alone: length of its branch, likewise
-  bool round_limbs = false;  // of wires with a loose end only those that run in round limbs
+  double erosion = 0;        // the same of the facet itself, as a share of the diagonal
+  double limb = 0.04;        // least length of its branch, likewise; vertices and edges only
+  bool round_limbs = false;  // keep wires with a loose end only in round limbs
   // Wires are smoothed, divided anew and fitted to the samples round them; rims are smoothed.
   bool relaxed = false;
 };
 
-// A level as a mesh of polygons, edges that stand by themselves, and single vertices.
+// A level is a mesh of polygons, edges without a facet, and single vertices.
 struct Level {
   Column<Vec3> vertices;          // (v) in order of first use
-  Column<double> radius;          // (v) of the ball; of the empty one unless relaxed
-  Column<Vec3> exact;             // (v) the place on the Voronoi diagram that it stands for
+  Column<double> radius;          // (v) radius of the ball, the empty one unless relaxed
+  Column<Vec3> exact;             // (v) the place on the Voronoi diagram that it represents
   Column<double> exact_radius;    // (v) of the empty ball there
-  Column<int32_t> vertex_of;      // (v) of the hierarchy; of new ones the nearest along the wire
+  Column<int32_t> vertex_of;      // (v) id in the hierarchy, or the nearest along the wire
   Column<int32_t> face_offsets;   // (f + 1)
   Column<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
   Column<Edge> generators;        // (f) input rows p < q; the facets are in their order
-  Column<int32_t> facet_of;       // (f) of the hierarchy
+  Column<int32_t> facet_of;       // (f) id in the hierarchy
   Column<double> theta, rho;      // (f) as in MedialMesh, by the rule of the hierarchy
   Column<float> sheet, erosion;   // (f) values of the facet, infinite where it always stays
   Column<Edge> wires;             // (w) edges without a facet: vertices
-  Column<int32_t> edge_of;        // (w) of the hierarchy; of new ones that at the middle
+  Column<int32_t> edge_of;        // (w) id in the hierarchy; for new ones that at the middle
   Column<float> limb;             // (w) value of the edge, infinite where it always stays
   Column<int32_t> points;         // (k) vertices without an edge
   Betti betti = {};               // counted on all this
-  // Edges from a vertex to itself, facets with fewer than three other edges, and facets with the
-  // corners of another one: they count, but cannot be drawn.
+  // This counts edges from a vertex to itself, facets with fewer than three other edges, and facets
+  // with the corners of another one: they count for the topology, but cannot be drawn.
   int64_t hidden = 0;
 };
 
@@ -52,7 +53,7 @@ struct Level {
 class Hierarchy {
  public:
   struct Parts;
-  // For the library itself; see MedialAnalysis::hierarchy.
+  // Only the library constructs one; see MedialAnalysis::hierarchy.
   explicit Hierarchy(std::unique_ptr<const Parts> parts);
   ~Hierarchy();
   Hierarchy(Hierarchy&&) noexcept;
@@ -65,7 +66,7 @@ class Hierarchy {
   Level extract(const LevelOptions& options, Progress* progress = nullptr) const;
   const Timings& timings() const;
 
-  // The results of the collapse, for the library itself.
+  // Returns the results of the collapse, for the library itself.
   const Parts& parts() const { return *parts_; }
 
  private:

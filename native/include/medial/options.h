@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of an analysis, with the defaults of those who published the methods.
+// The options of an analysis have the published defaults of their methods.
 #pragma once
 
 #include <medial/types.h>
@@ -8,19 +8,18 @@
 
 namespace medial {
 
-// The source that decides between inside and outside. Automatic: the surface when it is closed,
-// else normals when there are any, else Tight Cocone, or labels of the poles (Amenta, Choi &
-// Kolluri 2001) where more than 5 % of them disagree with it.
+// The source decides between inside and outside. Automatic takes the surface if it is closed, else
+// normals if there are any, else Tight Cocone, or labels of the poles (Amenta, Choi & Kolluri 2001)
+// if more than 5 % of them disagree with it.
 enum class SidesFrom : int32_t { automatic = 0, surface, normals, tight_cocone, none, poles };
 
-// Which ends of a Delaunay edge must pass a condition (Dey & Zhao, sect. 3).
+// The rule says which ends of a Delaunay edge must pass a condition (Dey & Zhao, sect. 3).
 enum class Rule : int32_t { either = 0, both = 1 };
 
-// Which conditions select (Dey & Zhao, sect. 3.1 and 3.2).
+// The criteria say which conditions select (Dey & Zhao, sect. 3.1 and 3.2).
 enum class Criteria : int32_t { angle_or_ratio = 0, angle = 1, ratio = 2 };
 
-// The thresholds of the conditions: an edge passes Angle when its theta is above this one, Ratio
-// likewise.
+// An edge passes the Angle condition if its theta is above this threshold, and Ratio likewise.
 struct Thresholds {
   double theta = std::numbers::pi / 8;  // radians, 0 to pi/2
   double rho = 8;                       // at least 0
@@ -28,14 +27,14 @@ struct Thresholds {
   Criteria criteria = Criteria::angle_or_ratio;
 };
 
-// Which facets are wanted.
+// An extraction says which facets are wanted.
 struct Extraction {
   Thresholds thresholds = {};
   Side side = Side::both;  // both, inner or outer
   bool limit_set = false;  // Definition 4 for facets selected by the Ratio condition alone
 };
 
-// The constants of Cocone and Tight Cocone. Angles in radians.
+// These are the constants of Cocone and Tight Cocone. Angles are in radians.
 struct CoconeOptions {
   double cocone_angle = std::numbers::pi / 8;     // half-angle about the tangent plane
   double flatness_ratio = 1.2;                    // of a thin cell's width, at most its heights

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress of one job, shared by the thread that computes and the one that watches, and its cancel
-// flag.
+// The progress of one job, and its cancel flag, are shared by the thread that computes and the one
+// that watches.
 #pragma once
 
 #include <medial/errors.h>
@@ -9,24 +9,24 @@
 
 namespace medial {
 
-// How far a job is, what it does, and whether it is to end.
+// Progress holds how far a job is, its stage, and whether it was cancelled.
 class Progress {
  public:
-  // For those who watch; safe to use from any thread at any time. A job that is cancelled throws
-  // Cancelled within 0.3 s.
+  // Watchers may call these from any thread at any time. A cancelled job throws Cancelled within
+  // 0.3 s.
   double fraction() const { return fraction_.load(std::memory_order_relaxed); }
   const char* stage() const { return stage_.load(std::memory_order_relaxed); }
   bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
 
-  // For the job. `name` must outlive it: string literals only.
+  // The job calls these. `name` must outlive the object: pass string literals only.
   void begin_stage(const char* name, double from, double to) {
     stage_.store(name, std::memory_order_relaxed);
     from_ = from;
     to_ = to;
     advance(0);
   }
-  // `share` of the running stage that is done, 0 to 1.
+  // Sets the share of the running stage that is done, 0 to 1.
   void advance(double share) {
     if (cancelled()) throw Cancelled();
     const double now = from_ + share * (to_ - from_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Samples of a triangulated surface: its corners and sharp edges, and blue noise in between.
+// A triangulated surface is sampled at its corners, along sharp edges, and by blue noise in
+// between.
 #pragma once
 
 #include <medial/progress.h>
@@ -10,10 +11,10 @@
 
 namespace medial {
 
-// An opening is where closing_samples lie; sample_surface makes none.
+// Openings are the places of closing_samples; sample_surface makes none.
 enum class SampleKind : int32_t { corner, sharp, boundary, vertex, surface, opening };
 
-// How densely, what counts as sharp, and what else is a sample.
+// These options choose the density, the sharp edges, and further samples.
 struct SamplingOptions {
   std::optional<int64_t> count = {};  // one of count, spacing and sites
   std::optional<double> spacing = {};
@@ -27,7 +28,7 @@ struct SamplingOptions {
   uint64_t seed = 0;
 };
 
-// One row per sample, corners first.
+// There is one row per sample, corners first.
 struct SurfaceSamples {
   std::vector<Vec3> points;
   std::vector<Vec3> normals;      // outward; where sides meet their mean; zero where there is none
@@ -39,8 +40,8 @@ struct SurfaceSamples {
   double area = 0;
 };
 
-// `threads` 0: all cores; the result does not depend on it. Throws InvalidInputError for an option
-// out of its range, and when no triangle has an area; Cancelled.
+// Samples a surface. `threads` 0 means all cores; the result does not depend on it. Throws
+// InvalidInputError for an option out of its range, or if no triangle has an area; Cancelled.
 SurfaceSamples sample_surface(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                               const SamplingOptions& options, int threads = 0,
                               Progress* progress = nullptr);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lengths between walls, at the samples: how thick the solid is there, or how wide the gap.
+// Lengths between walls are measured at the samples: the thickness of the solid there, or the width
+// of the gap.
 #pragma once
 
 #include <medial/options.h>
@@ -24,27 +25,27 @@ enum class ThicknessMode : int32_t { wall = 0, ball = 1, scan = 2 };
 
 inline constexpr double kScanTheta = 5 * std::numbers::pi / 18;  // 50 degrees, above a right edge's
 
-// The properties of the samples besides their places.
+// The input has the properties of the samples except their places.
 struct ThicknessInput {
-  // Outward, one per point, of any length; what has none, or a zero one, is not measured but
-  // filled. Not for scan.
+  // The normals point outward, one per point, of any length. Samples with a zero normal are not
+  // measured but filled. The mode scan does not use them.
   std::span<const Vec3> normals;
-  // Whether a point is on a sharp edge, where the mean of the normals is none of a wall: it is
-  // filled. None: no point is.
+  // This marks points on a sharp edge, where the mean normal belongs to no wall; they are filled.
+  // Without it no point is marked.
   std::optional<std::span<const uint8_t>> at_edge = {};
 };
 
-// The mode of the measurement, and the side.
+// These options choose the mode of the measurement, and the side.
 struct ThicknessOptions {
   ThicknessMode mode = ThicknessMode::wall;
   Side side = Side::inner;     // outer: the gap between walls
   Thresholds thresholds = {};  // of the facets, for wall and ball
 };
 
-// Per sample, ascending by row.
+// The result has one row per sample, ascending by row.
 struct WallThickness {
   std::vector<double> values;     // infinite where there is no wall, or no ball
-  std::vector<uint8_t> measured;  // whether at the sample itself; else filled, or infinite
+  std::vector<uint8_t> measured;  // whether measured at the sample itself; else filled, or infinite
 };
 
 }  // namespace medial

@@ -22,19 +22,19 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-// Rows of the corners, or of the ends.
+// These are rows of the corners, or of the ends.
 using Triangle = std::array<int32_t, 3>;
 using Edge = std::array<int32_t, 2>;
 
-// Which axis a facet belongs to. As an argument `both` selects every facet, as a value it means
-// "not known"; `crossing` is only a value: some of the facet is inside.
+// The side is that of the axis to which a facet belongs. As an argument `both` selects every facet,
+// as a value it means "unknown"; `crossing` is only a value: the facet is partly inside.
 enum class Side : uint8_t { both = 0, inner = 1, outer = 2, crossing = 3 };
 
-// Seconds of the stages of a computation, in order.
+// Timings are the seconds of the stages of a computation, in order.
 using Timings = std::vector<std::pair<std::string, double>>;
 
-// Leaves elements as they are until they are given a value: large results are written once, on all
-// cores.
+// This allocator leaves elements uninitialised until they are written: large results are written
+// once, on all cores.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
   template <typename U>
@@ -54,7 +54,7 @@ struct UnsetAllocator : std::allocator<T> {
   }
 };
 
-// One column of a result: a std::vector whose `resize` gives no values.
+// A column of a result is a std::vector whose `resize` leaves new elements uninitialised.
 template <typename T>
 using Column = std::vector<T, UnsetAllocator<T>>;
 

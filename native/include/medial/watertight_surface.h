@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// TIGHTCOCONE(P): the watertight surface through samples, and what is to be said of it (Dey &
+// TIGHTCOCONE(P) makes the watertight surface through samples, and reports on its quality (Dey &
 // Goswami 2003).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace medial {
 
-// The surface, the side of every cell, and how well the samples lie.
+// This holds the surface, the side of every cell, and how well the samples lie.
 struct WatertightSurface {
   std::vector<Triangle> triangles;              // outward, lowest row first, in lexicographic order
   std::vector<Side> sides;                      // per Delaunay cell: inner or outer
@@ -21,12 +21,12 @@ struct WatertightSurface {
   int64_t duplicates = 0;
   Timings timings;
 
-  // Otherwise the solid is empty, or pinched to pieces, and says nothing about the shape.
+  // If false, the solid is empty or in pieces, and does not describe the shape.
   bool encloses() const { return 2 * left_outside <= static_cast<int64_t>(samples.size()); }
 };
 
-// `threads` 0: all cores; the result does not depend on it. Throws InvalidInputError,
-// DegenerateInputError, Cancelled.
+// Computes the surface. `threads` 0 means all cores; the result does not depend on it. Throws
+// InvalidInputError, DegenerateInputError, Cancelled.
 WatertightSurface watertight_surface(std::span<const Vec3> points,
                                      const CoconeOptions& options = {}, int threads = 0,
                                      Progress* progress = nullptr);

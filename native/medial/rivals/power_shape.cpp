@@ -73,7 +73,7 @@ void insert_all(Regular& regular, std::span<const Vec3> centres, std::span<const
   }
 }
 
-// Returns the rows of the corners, ascending, if all of them are wanted.
+// Finds the rows of the corners, ascending; returns whether all of them are wanted.
 template <size_t Size>
 bool rows_of(const std::array<VertexHandle, Size>& corners, std::span<const uint8_t> wanted,
              std::array<int32_t, Size>& rows) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The methods of others for Python.
+// This binds the methods of others for Python.
 #include "arrays.h"
 #include "rivals/power_shape.h"
 #include "rivals/rival_axes.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stages by themselves: each starts from the points and ends with ids of input rows.
+// This binds the single stages for Python: each starts from the points and ends with ids of input
+// rows.
 #include "arrays.h"
 #include "axis/umbrellas.h"
 #include "cocone/cocone.h"
@@ -17,7 +18,7 @@ std::span<const Vec3> with_volume(std::span<const Vec3> points) {
   return points;
 }
 
-// The pipeline up to the umbrellas.
+// This runs the pipeline up to the umbrellas.
 struct Stages {
   explicit Stages(std::span<const Vec3> rows)
       : samples(make_samples(rows, all_cores())),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Python module _medial_study, which is not shipped: all of _medial, and what only tests and
-// the laboratory call.
+// The Python module _medial_study is not shipped: it has all of _medial, and functions that only
+// tests and the laboratory call.
 #include "bindings.h"
 #include "study/study_bindings.h"
 #include "study_docstrings.h"

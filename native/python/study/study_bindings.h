@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the module _medial_study that are not in _medial.
+// These functions bind the parts of the module _medial_study that are not in _medial.
 #pragma once
 
 #include <pybind11/pybind11.h>
