@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 _GROUPS = Path("/sys/fs/cgroup")
-# These files of a control group, in versions 2 and 1, hold its limit, its use, and the part of the use that can be freed.
+# These files of a control group, in versions 2 and 1, hold its limit, its use, and the part of it that can be freed.
 _FILES = (
     ("", "memory.max", "memory.current", "inactive_file"),
     ("memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),

@@ -123,7 +123,7 @@ LIMITS = options_of(MemoryLimit)
 WHAT_IS_FREE = MemoryLimit()
 
 
-# These are measured bytes per point at the peak of the process (docs/lab/performance.md). Levels have an inner side only.
+# These are measured bytes per point at the peak of the process (docs/lab/performance.md). Levels use the inner side.
 _OF_LEVELS = {  # {faces: {output: bytes}}
     False: {"": 2150, ".ply": 2380, ".ma": 3130, OBJECT: 2840},
     True: {"": 2150, ".ply": 2390, ".ma": 3050, OBJECT: 2870},
