@@ -83,7 +83,7 @@ class Item:
 
 @dataclass(frozen=True, eq=False)
 class Begun:
-    """An item whose shape was read.
+    """Begun is an item whose shape was read.
 
     Parameters
     ----------

@@ -80,7 +80,7 @@ def _filled(part: str, name: str, file: str, frame: int | None) -> str:
 
 
 def _is_file_name(part: str) -> bool:
-    """Return whether every system accepts a name: it must not end in a dot or blank (as . and .. do), nor be a device."""
+    """Return whether every system accepts a name: it must not end in a dot or blank (as .. does), nor be a device."""
     return part == part.rstrip(". ") != "" and not _DEVICE.fullmatch(
         part.partition(".")[0].rstrip()
     )

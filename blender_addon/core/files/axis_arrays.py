@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-# The arrays of every axis, and those that only clean forms and curves have.
+# Every axis has the arrays in NAMES; only clean forms and curves have those in LEVEL_NAMES.
 NAMES = tuple(name for name in MedialAxis.__dataclass_fields__ if name != "level")
 LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti")
 

@@ -24,7 +24,7 @@ def _no_vertices() -> NDArray[np.int32]:
 
 @dataclass(frozen=True, eq=False)
 class ImportedPoints:
-    """The points of a file, with their normals, faces and warnings if there are any.
+    """This is the content of a file: points, and its normals, faces and warnings if there are any.
 
     Parameters
     ----------

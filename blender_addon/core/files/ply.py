@@ -40,8 +40,8 @@ _MOST_ROWS = 10**18  # no file holds as many, and larger counts do not fit into 
 @dataclass
 class _Property:
     name: str
-    type: str  # of NumPy, without byte order
-    count: str = ""  # type of the length of a list; "" for a single number
+    type: str  # it is a type of NumPy without byte order
+    count: str = ""  # it is the type of the length of a list; "" means a single number
 
 
 @dataclass
@@ -57,7 +57,7 @@ class _Element:
 
 @dataclass
 class _Table:
-    """The rows of an element: columns of single numbers, and one list of corners for each row."""
+    """A table has the rows of an element: columns of single numbers, and one list of corners for each row."""
 
     columns: dict[str, NDArray]
     sizes: NDArray

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _WIDTHS = {b"v": 4, b"e": 2, b"f": 3}
-_INNER = 1  # the value of the inner side in `_medial.Side`
+_INNER = 1  # the inner side has this value in `_medial.Side`
 
 
 def read_ma(path: str | os.PathLike) -> MedialAxis:

@@ -37,7 +37,7 @@ def rounding_warning(points: NDArray[np.float64]) -> str | None:
 def _spacing(points: NDArray[np.float64]) -> float:
     """Return the median distance of a few points to the nearest other place; it is infinite if there is none."""
     rows = np.linspace(0, len(points) - 1, min(_SAMPLE, len(points))).astype(np.int64)
-    axes = np.ascontiguousarray(points.T)  # much faster than row by row
+    axes = np.ascontiguousarray(points.T)  # this is much faster than row by row
     nearest = []
     for row in rows:
         distances = np.abs(axes - axes[:, [row]]).max(axis=0)  # squares might overflow

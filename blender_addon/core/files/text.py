@@ -24,14 +24,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _CHUNK = 1 << 17  # so many characters are parsed at once; they are few, to stay in the cache
-_BYTE_ORDER_MARK = "\xef\xbb\xbf"  # the mark of UTF-8, read as Latin-1
+_BYTE_ORDER_MARK = "\xef\xbb\xbf"  # this is the mark of UTF-8, read as Latin-1
 _COMMENT = re.compile(r"(?:#|//).*")
 _BLANK = np.isin(np.arange(256), list(b" \t\n\r\v\f"))  # bytes.split() splits at these
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Lines of numbers.
+    """Rows are lines of numbers.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ class Rows:
         return self.values.reshape(len(self), -1)
 
     def place(self, row: int) -> str:
-        """Where a row is, for messages."""
+        """Return the place of a row in the file, for messages."""
         return f"line {self.lines[row]} of '{self.name}'"
 
 
@@ -115,7 +115,7 @@ class Lines:
         self.line = ""
 
     def place(self) -> str:
-        """Where the line is, for messages."""
+        """Return the place of the line in the file, for messages."""
         return f"line {self.number} of '{self.name}'"
 
     def rows(self, delimiter: str = "", finite: bool = True) -> Rows:
@@ -136,7 +136,7 @@ class Lines:
             first += text.count("\n")
             text = self._whole_lines()
         self.line = ""
-        yield first, ""  # so that there is always one
+        yield first, ""  # this makes sure that there is always one
 
     def _whole_lines(self) -> str:
         text = self._stream.read(_CHUNK) + self._stream.readline()
@@ -172,7 +172,7 @@ class Lines:
         leading = f"(?m)^{blank}*{delimiter}"
         empty = f"{delimiter}{blank}*{delimiter}"
         double = rf"{blank}(?<=[^\s{delimiter}]{blank}){blank}*[^\s{delimiter}]"
-        for pattern in (leading, empty, double):  # one after the other, which is much faster
+        for pattern in (leading, empty, double):  # a single combined pattern is much slower
             if found := re.search(pattern, text):
                 line = first + text.count("\n", 0, found.end() - 1)
                 raise ReadError(

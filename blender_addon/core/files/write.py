@@ -33,7 +33,7 @@ _CHUNK = 1 << 16  # so many rows are formatted at once, which bounds the memory 
 
 @dataclass(frozen=True)
 class Format:
-    """One kind of file.
+    """A format describes one kind of file.
 
     Parameters
     ----------

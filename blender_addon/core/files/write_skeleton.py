@@ -63,7 +63,7 @@ def _write_swc(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:
 
 
 def _tree(skeleton: Skeleton) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the parent of each point, -1 for roots, and all points, parents first; each root is its part's thickest."""
+    """Return the parent of each point, -1 for roots, and all points, parents first; the thickest of a part is root."""
     neighbours: list[list[int]] = [[] for _ in skeleton.points]
     for a, b in skeleton.edges.tolist():
         neighbours[a].append(b)

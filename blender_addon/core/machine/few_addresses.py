@@ -6,7 +6,7 @@ from __future__ import annotations
 import ctypes
 import sys
 
-_ARENA_MAX = -8  # M_ARENA_MAX of glibc
+_ARENA_MAX = -8  # this is M_ARENA_MAX of glibc
 
 
 def share_one_heap() -> None:

@@ -22,7 +22,7 @@ _DIGITS = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Use:
-    """The use of an analysis, on which its peak of memory depends.
+    """A use describes what an analysis is for; its peak of memory depends on that.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Use:
 
 @dataclass(frozen=True)
 class MemoryLimit(Options):
-    """The memory that an analysis may need.
+    """This limits the memory that an analysis may need.
 
     A limit of 0 means the free memory of the machine, including the analyses in the cache, which are dropped to make
     room. `use` is the further use of the analysis, or None if there is none.

@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from .skeleton import Skeleton
 
 ERROR = 0.5  # a bone may deviate from the curve by this share of the local radius
-ROOT = -1  # the branch of a root bone
+ROOT = -1  # a root bone has this branch
 
 
 @dataclass(frozen=True, eq=False)
 class Bones:
-    """A tree of bones for each connected part of a skeleton; parents come before their children.
+    """Bones form a tree for each connected part of a skeleton; parents come before their children.
 
     Parameters
     ----------
@@ -118,8 +118,8 @@ class _Maker:
         self._skeleton, self._degree = skeleton, skeleton.degree
         self._rows: list[
             tuple[_Segment | None, int, int, int]
-        ] = []  # segment, joint, parent, chain
-        self.bone_to: dict[int, int] = {}  # joint: the bone that ends there
+        ] = []  # a row is (segment, joint, parent, chain)
+        self.bone_to: dict[int, int] = {}  # it maps a joint to the bone that ends there
         self._chains = 0
 
     def grow(self, root: int, segments: list[_Segment], at: dict[int, list[int]]) -> None:

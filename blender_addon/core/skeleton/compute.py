@@ -42,7 +42,7 @@ _ANALYSIS = 0.6
 
 @dataclass(frozen=True, eq=False)
 class Skeletonization(OfChosenSamples):
-    """A skeleton and how it came about.
+    """A skeletonization holds a skeleton and how it was computed.
 
     Parameters
     ----------

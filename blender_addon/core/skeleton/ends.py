@@ -22,12 +22,12 @@ _AS_FAR = (
     0.25  # a ball counts as reaching farthest if it falls short by at most this share of its radius
 )
 _LAST = 2.0  # the end of a limb is so many radii long
-_STEP = 0.5  # points that are added to a limb lie so many radii apart
+_STEP = 0.5  # nothing uses this constant
 
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """The largest balls at the samples; they are sorted by the points of the curve that own the samples.
+    """These are the largest balls at the samples, sorted by the points of the curve that own the samples.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ _STAY = 0.05  # the old place has this weight; each limb has weight 1
 
 @dataclass(frozen=True, eq=False)
 class _Root:
-    """The beginning of a branch: `inside` are its points in the ball of its fork, `beyond` is the first one outside."""
+    """A root begins a branch: `inside` are its points in the ball of its fork, `beyond` is the first one outside."""
 
     inside: list[int]
     beyond: int

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Net:
-    """A graph in space whose nodes are tips, forks and single points, and whose branches are chains of points.
+    """A net is a graph in space: its nodes are tips, forks and single points, its branches are chains of points.
 
     Parameters
     ----------

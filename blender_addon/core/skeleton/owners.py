@@ -67,13 +67,15 @@ def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
     radius = hierarchy.radius[corners]
     largest = np.maximum.reduceat(radius, offsets[:-1])
     facet = np.repeat(np.arange(len(largest)), np.diff(offsets))
-    best = np.flatnonzero(radius == largest[facet])[::-1]  # so that the first of several stays
+    best = np.flatnonzero(radius == largest[facet])[
+        ::-1
+    ]  # reversed, the first of several is written last and stays
     of_facet = np.empty(len(largest), np.int64)
     of_facet[facet[best]] = corners[best]
     order = np.argsort(largest, kind="stable")
     ball[hierarchy.generators[order].ravel()] = np.repeat(
         of_facet[order], 2
-    )  # the last of several stays
+    )  # the last of several is written last and stays
     return ball
 
 

@@ -36,7 +36,7 @@ class Places:
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """The branch to which each part of a surface belongs.
+    """Parts assign vertices and faces of a surface to branches.
 
     Parameters
     ----------

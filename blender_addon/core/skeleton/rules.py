@@ -33,7 +33,7 @@ REACH = 1.6  # a limb reaches at least so many radii of the ball at its fork fro
 
 @dataclass(frozen=True)
 class Loops:
-    """The numbers of small loops that were cut, and that were filled."""
+    """These are the numbers of small loops that were cut and filled."""
 
     cut: int
     filled: int
@@ -76,7 +76,7 @@ def prune(net: Net, share: float, balls: Balls) -> None:
         load, name = heapq.heappop(queue)
         if name not in net.branches or len(net.ends_free(name)) != 1:
             continue
-        if net.carried(name) > load:  # it has grown
+        if net.carried(name) > load:  # the leaf has grown since
             heapq.heappush(queue, (net.carried(name), name))
         elif not is_limb(net, name, share, balls):
             before = set(net.branches)
