@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many axes, one after the other: names of files, frames, stamps, and options as words."""
+"""This package computes many results one after the other: file names, frames, stamps, and options as words."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The work of a batch that computes the medial axis of each shape."""
+"""This module computes the medial axis of each shape of a batch."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .option_words import as_words
 
 @dataclass(frozen=True)
 class AxisWork:
-    """Medial axes of some settings, as files.
+    """Computes medial axes with some settings, and writes them as files.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class AxisWork:
     triangles : bool
         Write triangles in text.
     vertices : int
-        Reduced to so many at most; 0: as they are.
+        An axis is reduced to at most so many vertices; 0 keeps all.
     """
 
     settings: Settings
@@ -45,18 +45,18 @@ class AxisWork:
         return self.vertices > 0 and not found.axis.is_empty
 
     def check(self, found: Computation) -> None:
-        """Raise MedialAxisError where there is nothing to write."""
+        """Raise MedialAxisError if there is nothing to write."""
         if found.axis.is_empty:
             raise MedialAxisError(found.warnings[-1])
 
     def write(self, found: Computation, path: Path, frame: np.ndarray) -> tuple[str, ...]:
-        """Returns warnings: what the file does not hold."""
+        """Write the file, and return warnings about the parts that it does not hold."""
         export_axis(found.axis, path, frame, self.triangles)
         left = left_out(found.axis, path, self.triangles)
         return (left,) if left else ()
 
     def words(self) -> dict[str, Any]:
-        """The settings, as one would write them on the command line."""
+        """Return the settings as words of the command line."""
         words = as_words(self.settings)
         return {**words, "vertices": self.vertices} if self.vertices else words
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A batch of solids as few balls."""
+"""This module represents each solid of a batch by few balls."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .option_words import as_words
 
 @dataclass(frozen=True)
 class BallsWork:
-    """Balls of some settings, as files."""
+    """Computes balls with some settings, and writes them as files."""
 
     settings: Settings
     wanted: BallSettings
@@ -29,14 +29,14 @@ class BallsWork:
         return cover_by_balls(shape, self.settings, self.wanted, progress, limit)
 
     def check(self, found: BallCover) -> None:
-        """A solid has at least one ball, or computing it fails."""
+        """Accept every result: a solid has at least one ball, or computing it fails."""
 
     def write(self, found: BallCover, path: Path, frame: np.ndarray) -> tuple[str, ...]:
         export_balls(found.balls, path, frame)
         return ()
 
     def words(self) -> dict[str, Any]:
-        """The settings, as one would write them on the command line."""
+        """Return the settings as words of the command line."""
         return {**as_words(self.settings), **as_words(self.wanted)}
 
     def figures(self, found: BallCover) -> dict[str, Any]:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results as files, one after the other; finished outputs are recognised and kept.
+"""A batch writes results as files, one after the other; finished outputs are recognised and kept.
 
-Next to every output is its report, `<output>.json`: figures, warnings, and a stamp of all that the output
-depends on. An output is finished when its report has the right stamp and the digest of the existing file.
+Each output has a report next to it, `<output>.json`, with figures, warnings, and a stamp of everything that the output
+depends on. An output is finished if its report has the right stamp and the digest of the existing file.
 """
 
 from __future__ import annotations
@@ -33,39 +33,39 @@ from ..samples.shape import Shape
 
 
 class Work(Protocol):
-    """One kind of computation for each shape; its `repr` names all settings that the output depends on.
+    """Work is one kind of computation for each shape; its `repr` has all settings that the output depends on.
 
     The result of `compute` has `chosen`, `warnings` and `seconds`.
     """
 
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Any: ...
     def check(self, found: Any) -> None:
-        """Raise MedialAxisError where there is nothing to write."""
+        """Raise MedialAxisError if there is nothing to write."""
 
     def write(self, found: Any, path: Path, frame: Any) -> tuple[str, ...]:
-        """Returns warnings: what the file does not hold."""
+        """Write the file, and return warnings about the parts that it does not hold."""
 
     def words(self) -> dict[str, Any]:
-        """The settings, for the report."""
+        """Return the settings, for the report."""
 
     def figures(self, found: Any) -> dict[str, Any]:
-        """The figures of a result, for the report."""
+        """Return the figures of a result, for the report."""
 
 
 @dataclass(frozen=True, eq=False)
 class Item:
-    """One output.
+    """An item is one output of a batch.
 
     Parameters
     ----------
     input : str
-        The file, for messages.
+        The input file, for messages.
     object : str or None
-        Its name in that file.
+        The name of the object in that file.
     frame : int or None
     output : Path
     read : callable
-        Returns the shape, and warnings.
+        It returns the shape, and warnings.
     """
 
     input: str
@@ -76,14 +76,14 @@ class Item:
 
     @property
     def name(self) -> str:
-        """The name of this item in messages."""
+        """Return the name of this item in messages."""
         name = Path(self.input).name if self.object is None else self.object
         return name if self.frame is None else f"{name}, frame {self.frame}"
 
 
 @dataclass(frozen=True, eq=False)
 class Begun:
-    """An item whose shape was read.
+    """Begun is an item whose shape was read.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ class Begun:
     shape : Shape
     warnings : tuple of str
     kept : dict or None
-        The report of the output where this exists and is finished; None: it has to be computed.
+        The report of the output if that is finished, or None if it has to be computed.
     """
 
     item: Item
@@ -105,18 +105,18 @@ class Begun:
 
     @property
     def task(self) -> Task:
-        """The computation that is left to do."""
+        """Return the computation that is left to do."""
         limit = self.limit.used(output=self.item.output.suffix.lower())
         return Task(self.item.name, lambda progress: self.work.compute(self.shape, limit, progress))
 
     def stamp(self, thinned: bool) -> str:
-        """A hash of all that the output depends on; where samples were thinned, of the memory limit, too."""
+        """Return a hash of everything that the output depends on; thinned samples depend on the memory limit, too."""
         limit = self.limit if thinned else None
         return stamp_of(self.shape, self.work, self.item.output.suffix.lower(), limit)
 
 
 def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT_IS_FREE) -> Begun:
-    """Read an item and look whether it is finished; with `force` it never is.
+    """Read an item and check whether its output is finished; with `force` it counts as unfinished.
 
     Raises
     ------
@@ -132,12 +132,12 @@ def begin(item: Item, work: Work, force: bool = False, limit: MemoryLimit = WHAT
 
 
 def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
-    """Write the outcome of the task and its report, which is returned.
+    """Write the outcome of the task and its report, and return the report.
 
     Raises
     ------
     MedialAxisError
-        Also where no facet is left; no output was written.
+        The task failed, or there is nothing to write; no output was written.
     """
     CACHE.clear()  # no other output uses this analysis
     if outcome.error is not None:
@@ -162,9 +162,9 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
 
 
 def failure(item: Item, error: BaseException) -> dict[str, Any]:
-    """The report of an item that has no output, whatever the reason."""
+    """Return the report of an item that has no output, whatever the reason."""
     if isinstance(error, MemoryError) and not isinstance(error, OutOfMemoryError):
-        error = out_of_memory()  # of Python or NumPy, while files are read and written
+        error = out_of_memory()  # Python or NumPy may raise it while files are read and written
     return {"status": "failed", **_place(item), "kind": type(error).__name__, "error": _said(error)}
 
 
@@ -183,7 +183,7 @@ def check_name(output: Path) -> None:
 
 
 def _said(error: BaseException) -> str:
-    """The error as one sentence; an unexpected error names its place in the sources."""
+    """Return the error as one sentence; an unexpected error names its place in the sources."""
     if isinstance(error, MedialAxisError):
         return str(error)
     frame = traceback.extract_tb(error.__traceback__)[-1:]
@@ -208,13 +208,13 @@ def _write_report(report: dict[str, Any], output: Path) -> None:
 
 
 def stamp_of(shape: Shape, settings: object, suffix: str, limit: MemoryLimit | None = None) -> str:
-    """A hash of all that an output depends on: the whole shape, every setting, format, version."""
+    """Return a hash of everything that an output depends on: the whole shape, every setting, format, version."""
     parts = (getattr(shape, part.name) for part in fields(shape))
     return key_of(*parts, repr(settings), repr(limit), suffix, __version__)
 
 
 def finished(output: Path, stamps: set[str]) -> dict[str, Any] | None:
-    """The report of an existing output that has one of these stamps."""
+    """Return the report of an existing output if it has one of these stamps, otherwise None."""
     try:
         report = json.loads(report_path(output).read_text("utf-8", "surrogateescape"))
         right = report["stamp"] in stamps and report["digest"] == _digest(output)
@@ -224,7 +224,7 @@ def finished(output: Path, stamps: set[str]) -> dict[str, Any] | None:
 
 
 def report_path(output: Path) -> Path:
-    """The path of the report of an output."""
+    """Return the path of the report of an output."""
     return output.with_name(output.name + ".json")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ranges of frames, and names of files with a number in them."""
+"""This module parses ranges of frames, and makes file names from patterns."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from pathlib import Path
 from ..errors import InvalidInputError
 
 _RANGE = re.compile(r"(-?\d{1,9})(?:-(-?\d{1,9})(?::(\d{1,9}))?)?")
-_MOST = 1_000_000  # frames of one command
-_FORBIDDEN = re.compile(r'[\\/:*?"<>|\x00-\x1f]')  # by some file system
+_MOST = 1_000_000  # a range has at most so many frames
+_FORBIDDEN = re.compile(r'[\\/:*?"<>|\x00-\x1f]')  # some file systems refuse these
 _NUMBER = re.compile(r"#+")
-# Names that mean a device on Windows, whatever extension follows.
+# These names mean a device on Windows, whatever extension follows.
 _DEVICE = re.compile(r"(?:CON|PRN|AUX|NUL|CONIN\$|CONOUT\$|(?:COM|LPT)[0-9¹²³])", re.IGNORECASE)
 
 
 def parse_frames(text: str) -> list[int]:
-    """'1-10', '1-9:2' (every second), '7' and lists of these with commas -> frames, ascending, each once.
+    """Return the frames of '1-10', '1-9:2' (every second), '7' or a list of these with commas, ascending, each once.
 
     Raises
     ------
@@ -43,23 +43,23 @@ def parse_frames(text: str) -> list[int]:
 
 
 def has_number(pattern: str) -> bool:
-    """Whether a pattern has a place for the number of a frame."""
+    """Return whether a pattern has a place for the number of a frame."""
     return _NUMBER.search(pattern) is not None
 
 
 def at_frame(pattern: str, frame: int) -> str:
-    """The pattern with `####` replaced by the frame, as many digits at least."""
+    """Return the pattern with `####` replaced by the frame with at least as many digits."""
     return _NUMBER.sub(lambda marks: f"{frame:0{len(marks[0])}d}", pattern)
 
 
 def output_path(pattern: str, name: str, file: str, frame: int | None) -> Path:
-    """The pattern with `{name}`, `{file}` and `####` replaced; _ replaces characters that a file system may refuse.
+    """Return the pattern with `{name}`, `{file}` and `####` replaced; _ replaces characters that some system refuses.
 
     Raises
     ------
     InvalidInputError
-        A folder or file would get a name that some system does not have, or that leads elsewhere. Folders that
-        are written out in the pattern are not looked at: these are the user's own.
+        A folder or file would get a name that some system does not allow, or that leads elsewhere. Folders that
+        the pattern names literally are not checked: they are the user's choice.
     """
     given = Path(pattern).parts
     parts = [_filled(part, name, file, frame) for part in given]
@@ -80,7 +80,7 @@ def _filled(part: str, name: str, file: str, frame: int | None) -> str:
 
 
 def _is_file_name(part: str) -> bool:
-    """Whether every system takes a name as it is: no dots or blanks at the end, so neither . nor .., and no device."""
+    """Return whether every system accepts a name: it must not end in a dot or blank (as .. does), nor be a device."""
     return part == part.rstrip(". ") != "" and not _DEVICE.fullmatch(
         part.partition(".")[0].rstrip()
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Converts the options of settings into words of a command line, and back."""
+"""This module converts the options of settings into words of a command line, and back."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ T = TypeVar("T")
 
 
 def add_options(parser: argparse._ArgumentGroup, kind: type) -> None:
-    """An argument `--name` for every option of a kind of settings; an option that is not given has its default."""
+    """Add an argument `--name` for every option of a kind of settings; an option that is not given has its default."""
     _add(parser, options_of(kind))
 
 
 def add_thickness(parser: argparse._ArgumentGroup) -> None:
-    """As `add_options`, for ThicknessSettings; `--gap` is a switch."""
+    """Add the options of ThicknessSettings as `add_options` does, but with `--gap` as a switch."""
     _add(parser, {n: option for n, option in THICKNESS_OPTIONS.items() if n != "between"})
     walls, gaps = THICKNESS_OPTIONS["between"].items.values()
     parser.add_argument(
@@ -37,7 +37,7 @@ def add_thickness(parser: argparse._ArgumentGroup) -> None:
 
 
 def add_sampling(parser: argparse._ArgumentGroup) -> None:
-    """As `add_options`, for the options of Settings that lengths, skeletons and balls depend on."""
+    """Add only the options of Settings that thickness, skeletons and balls depend on."""
     _add(parser, {name: OPTIONS[name] for name in _MEASURED})
 
 
@@ -60,23 +60,23 @@ def _add(parser: argparse._ArgumentGroup, options: Mapping[str, Any]) -> None:
 
 
 def settings_from(words: argparse.Namespace, kind: type[T]) -> T:
-    """The settings of a kind, or the MemoryLimit, that a parsed command line means.
+    """Return the settings of a kind, or the MemoryLimit, that a parsed command line means.
 
     Raises
     ------
     InvalidInputError
-        A number out of its range.
+        A number is out of its range.
     """
     return kind(**_given(words, options_of(kind)))
 
 
 def sampling_from(words: argparse.Namespace) -> Settings:
-    """The settings of what `add_sampling` adds."""
+    """Return the settings from the options that `add_sampling` adds."""
     return Settings(**_given(words, {name: OPTIONS[name] for name in _MEASURED}))
 
 
 def as_words(settings: Any) -> dict[str, str | float | bool]:
-    """{option: value} of settings of any kind, as one would write it on the command line."""
+    """Return {option: value} of settings of any kind, with values as on the command line."""
     options = options_of(type(settings))
     return {name: _outward(option, getattr(settings, name)) for name, option in options.items()}
 
@@ -87,7 +87,7 @@ def _given(words: argparse.Namespace, options: Mapping[str, Any]) -> dict[str, A
 
 
 def _help(option: Any, shown: str) -> str:
-    """The help of an option; % is doubled, for argparse replaces what follows a single one."""
+    """Return the help of an option; % is doubled, because argparse formats the text with %."""
     return f"{option.description} (default: {shown})".replace("%", "%%")
 
 

@@ -15,7 +15,7 @@ from .batch import report_path
 
 
 class Files:
-    """The files that a run reads, and those that it writes."""
+    """Records the files that a run reads and writes."""
 
     def __init__(self, inputs: Iterable[str] = ()) -> None:
         self._read = {key: path for path in inputs for key in _identities(Path(path))}
@@ -36,7 +36,7 @@ class Files:
                 )
 
     def claim(self, output: Path) -> None:
-        """Check an output and its report, and keep them for this run.
+        """Check an output and its report, and reserve their paths for this run.
 
         Raises
         ------
@@ -54,7 +54,7 @@ class Files:
 
 
 def _identities(path: Path) -> set[object]:
-    """The path with links resolved and, if the file exists, what the system identifies it by."""
+    """Return the path with links resolved and, if the file exists, its device and inode."""
     found: set[object] = {os.path.normcase(os.path.realpath(path))}
     try:
         status = os.stat(path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The work of a batch that computes the skeleton of each shape."""
+"""This module computes the skeleton of each shape of a batch."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .option_words import as_words
 
 @dataclass(frozen=True)
 class SkeletonWork:
-    """Skeletons of some settings, as files."""
+    """Computes skeletons with some settings, and writes them as files."""
 
     settings: Settings
     wanted: SkeletonSettings
@@ -31,14 +31,14 @@ class SkeletonWork:
         return compute_skeleton(shape, self.settings, self.wanted, progress, limit)
 
     def check(self, found: Skeletonization) -> None:
-        """A skeleton has one point at least."""
+        """Accept every result: a skeleton has at least one point."""
 
     def write(self, found: Skeletonization, path: Path, frame: np.ndarray) -> tuple[str, ...]:
         export_skeleton(found.skeleton.placed(frame), found.parts, path)
         return ()
 
     def words(self) -> dict[str, Any]:
-        """The settings, as one would write them on the command line."""
+        """Return the settings as words of the command line."""
         return {**as_words(self.settings), **as_words(self.wanted)}
 
     def figures(self, found: Skeletonization) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The work of a batch that measures the thickness of each shape."""
+"""This module measures the thickness of each shape of a batch."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .option_words import as_words
 
 @dataclass(frozen=True)
 class ThicknessWork:
-    """Measurements of some settings, as files; lengths are in `unit`."""
+    """Measures thickness with some settings, and writes it as files; lengths are in `unit`."""
 
     settings: Settings
     wanted: ThicknessSettings
@@ -32,14 +32,14 @@ class ThicknessWork:
         return measure_thickness(shape, self.settings, self.wanted, progress, limit)
 
     def check(self, found: Measurement) -> None:
-        """A shape without walls is a result, too."""
+        """Accept every result: a shape without walls is a result, too."""
 
     def write(self, found: Measurement, path: Path, _frame: np.ndarray) -> tuple[str, ...]:
         export_thickness(found, find_thin_parts(found, self.wanted.limit), path, self.unit)
         return ()
 
     def words(self) -> dict[str, Any]:
-        """The settings, as one would write them on the command line."""
+        """Return the settings as words of the command line."""
         return {**as_words(self.settings), **as_words(self.wanted)}
 
     def figures(self, found: Measurement) -> dict[str, Any]:

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points, meshes and axes as files; docs/formats.md describes them."""
+"""This package reads and writes files of points, meshes and axes; docs/formats.md describes them."""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A medial axis as named arrays, as `.npz` has them, and back.
+"""Convert a medial axis to the named arrays of an `.npz` file, and back.
 
-Files of arrays are for computing, so that `vertices` and `radius` are the exact balls there, and what is shown
-instead of them lies beside them as `shown` and `shown_radius`.
+Files of arrays are for computing, so `vertices` and `radius` are the exact balls there; the displayed places and radii
+are stored separately as `shown` and `shown_radius`.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-# The arrays of every axis, and those that only clean forms and curves have.
+# Every axis has the arrays in NAMES; only clean forms and curves have those in LEVEL_NAMES.
 NAMES = tuple(name for name in MedialAxis.__dataclass_fields__ if name != "level")
 LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti")
 
 
 def exact_balls(axis: MedialAxis) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(v, 3), (v,): the Voronoi vertices that the vertices are, and the radii of their empty balls."""
+    """Return the exact Voronoi vertices of the axis, (v, 3), and the radii of their empty balls, (v,)."""
     if axis.level is None:
         return axis.vertices, axis.radius
     return axis.level.exact, axis.level.exact_radius
@@ -40,7 +40,7 @@ def as_arrays(axis: MedialAxis) -> dict[str, NDArray]:
 
 
 def from_arrays(arrays: Mapping[str, NDArray]) -> MedialAxis:
-    """The axis that `as_arrays` has split; files of earlier versions have no `edges`."""
+    """Return the axis from the arrays of `as_arrays`; files of earlier versions have no `edges`."""
     fields: dict[str, Any] = {name: arrays[name] for name in NAMES if name != "edges"}
     fields |= {name: int(arrays[name]) for name in ("unbounded", "zero_area")}
     fields["edges"] = arrays.get("edges", no_edges())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Extensions of file names, by which formats are chosen."""
+"""The extension of a file name chooses the format."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..errors import ExportError
 
 
 def extension_of(path: str | os.PathLike, known: Iterable[str]) -> str:
-    """The extension of `path` in small letters, one of those that are known.
+    """Return the extension of `path` in lower case, which must be one of the known extensions.
 
     Raises
     ------
@@ -27,6 +27,6 @@ def extension_of(path: str | os.PathLike, known: Iterable[str]) -> str:
 
 
 def listed(extensions: Iterable[str]) -> str:
-    """'.ma, .ply, ... or .npz', for messages."""
+    """Return the extensions as a list for messages, such as '.ma, .ply, ... or .npz'."""
     *first, last = extensions
     return f"{', '.join(first)} or {last}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The contents of a file of points."""
+"""This module holds and checks the contents of a file of points."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ def _no_vertices() -> NDArray[np.int32]:
 
 @dataclass(frozen=True, eq=False)
 class ImportedPoints:
-    """Points, and what else a file says of them.
+    """This is the content of a file: points, and its normals, faces and warnings if there are any.
 
     Parameters
     ----------
     vertices : (n, 3) float64
-        Finite; in the order of the file, nothing merged.
+        They are finite, and in the order of the file; none are merged.
     normals : (n, 3) float64 or None
-        Of any length; zero where a point has none.
+        They have any length; a point without a normal has zero.
     face_offsets : (f + 1,) int32
-        Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`, three at least.
+        Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`, at least three.
     face_vertices : (c,) int32
         Rows of `vertices`.
     warnings : tuple of str
-        What was left in the file, a sentence each.
+        Each sentence names a part of the file that was not read.
     """
 
     vertices: NDArray[np.float64]
@@ -58,17 +58,17 @@ def checked(
     sizes: NDArray | None = None,
     corners: NDArray | None = None,
 ) -> ImportedPoints:
-    """The points of a file, when everything that the file may have got wrong was looked at.
+    """Check the content of a file, and return it as points.
 
     Parameters
     ----------
     name : str
-        Of the file, for messages.
+        The name of the file, for messages.
     vertices, normals : (n, 3)
     sizes : (f,)
-        Corners of each face; faces of fewer than three are left out.
+        The number of corners of each face; faces with fewer than three are left out.
     corners : (sum of sizes,)
-        Face after face.
+        The corners, face after face.
     """
     if len(vertices) == 0:
         raise ReadError(f"Expected points, found none in '{name}'; choose another file")
@@ -79,7 +79,7 @@ def checked(
     corners = np.zeros(0, np.int64) if corners is None else corners
     kept = sizes >= 3
     corners = corners[np.repeat(kept, sizes)]
-    bad = np.flatnonzero(~((corners >= 0) & (corners < len(vertices))))  # NaN, too
+    bad = np.flatnonzero(~((corners >= 0) & (corners < len(vertices))))  # NaN is bad, too
     if len(bad):
         raise ReadError(
             f"Expected corners from 0 to {len(vertices) - 1} in '{name}', found "
@@ -96,7 +96,7 @@ def checked(
 
 
 def _as_float64(rows: NDArray) -> NDArray[np.float64]:
-    """The rows as float64; numbers that are too large for it become infinite."""
+    """Return the rows as float64; numbers that are too large for it become infinite."""
     with np.errstate(over="ignore", invalid="ignore"):
         return np.ascontiguousarray(rows, np.float64)
 
@@ -111,9 +111,9 @@ def _check_finite(name: str, what: str, rows: NDArray) -> None:
 
 
 def are_normals(vectors: NDArray[np.float64]) -> bool:
-    """Whether all vectors have length 1, up to two digits of text, or 0: no normal.
+    """Return whether vectors look like normals: each has length 1, up to two digits of text, or 0 for no normal.
 
-    And one component is negative at least, as in every closed surface and in no colour.
+    At least one component must be negative, as on every closed surface and in no colour.
     """
     lengths = np.linalg.norm(vectors, axis=1)
     unit = np.abs(lengths - 1.0) <= 0.01
@@ -125,6 +125,6 @@ def left_out(
     normals: NDArray[np.float64] | None,
     why: str = "only positions and normals are read",
 ) -> list[str]:
-    """The warning when a file has more columns of points than are read; none otherwise."""
+    """Return a warning if a file has more columns than are read, otherwise an empty list."""
     left = columns - (3 if normals is None else 6)
     return [f"Left out {left} of {columns} columns: {why}"] if left else []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.npz` files that the export wrote -> medial axes."""
+"""This module reads medial axes from `.npz` files that the export wrote."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def load_axis(path: str | os.PathLike) -> MedialAxis:
     ReadError
     """
     arrays = read_arrays(path, (*NAMES, *LEVEL_NAMES))
-    wanted = set(NAMES) - {"edges"}  # which files of earlier versions lack
+    wanted = set(NAMES) - {"edges"}  # files of earlier versions have none
     if "shown" in arrays:
         wanted |= set(LEVEL_NAMES)
     missing = sorted(wanted - set(arrays))
@@ -36,7 +36,7 @@ def load_axis(path: str | os.PathLike) -> MedialAxis:
 
 
 def _fit(arrays: dict[str, np.ndarray]) -> bool:
-    """Whether the arrays agree: their lengths, the corners of the polygons and the ends of edges."""
+    """Return whether the arrays have matching shapes, and polygons and edges name existing vertices."""
     points, faces = len(arrays["radius"]), len(arrays["side"])
     edges = arrays.get("edges", no_edges())
     shapes = {"vertices": (points, 3), "generators": (faces, 2), "face_offsets": (faces + 1,)}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.json` files that the export wrote -> skeletons."""
+"""This module reads skeletons from `.json` files that the export wrote."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def load_skeleton(path: str | os.PathLike) -> Skeleton:
 
 
 def _fit(points: np.ndarray, radius: np.ndarray, branches: list[np.ndarray]) -> bool:
-    """Whether the arrays agree: their lengths, and the points of the branches."""
+    """Return whether the arrays have matching shapes, and branches name existing points."""
     if points.ndim != 2 or points.shape[1] != 3 or radius.shape != points.shape[:1]:
         return False
     if not (np.isfinite(points).all() and np.isfinite(radius).all()):

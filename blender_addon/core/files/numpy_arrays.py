@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.npy` and `.npz`: arrays of NumPy (docs/formats.md)."""
+"""This module reads `.npy` and `.npz` files, which hold arrays of NumPy (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _BROKEN = (
 
 
 def read_npy(path: str | os.PathLike) -> ImportedPoints:
-    """(n, 3) points, or (n, 6) points and normals."""
+    """Read points from an (n, 3) array, or points and normals from an (n, 6) array."""
     name = Path(path).name
     with open_file(path) as stream, _refusing(name):
         table = np.lib.format.read_array(stream, allow_pickle=False)
@@ -48,7 +48,7 @@ def read_npy(path: str | os.PathLike) -> ImportedPoints:
 
 
 def read_npz(path: str | os.PathLike) -> ImportedPoints:
-    """Arrays `points`, and if they are there `triangles` and `normals`."""
+    """Read the array `points`, and the arrays `triangles` and `normals` if they exist."""
     name = Path(path).name
     arrays = read_arrays(path, ("points", "triangles", "normals"))
     if "points" not in arrays:
@@ -71,9 +71,9 @@ def read_npz(path: str | os.PathLike) -> ImportedPoints:
 
 
 def points_of_cloud(path: str | os.PathLike) -> int:
-    """How many points without faces a file of NumPy says to hold, which is not unpacked for it.
+    """Return the number of points that the header of a NumPy file without faces states; nothing is unpacked.
 
-    0 where it is no such file, or broken: to read it says why.
+    It is 0 for other files and for broken ones: reading them reports the error.
     """
     path = Path(path)
     try:
@@ -91,7 +91,7 @@ def points_of_cloud(path: str | os.PathLike) -> int:
 
 
 def _rows(stream: IO[bytes]) -> int:
-    """As the header of an array says."""
+    """Return the number of rows that the header of a two-dimensional array states, otherwise 0."""
     major = np.lib.format.read_magic(stream)[0]
     read = (
         np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
@@ -101,7 +101,7 @@ def _rows(stream: IO[bytes]) -> int:
 
 
 def read_arrays(path: str | os.PathLike, names: Iterable[str]) -> dict[str, NDArray]:
-    """The arrays of an archive that have one of the names; a name that is missing is left out."""
+    """Return the arrays of an archive that have one of the names; missing names are left out."""
     with open_file(path) as stream, _refusing(Path(path).name):
         archive = np.load(stream, allow_pickle=False)
         if not isinstance(archive, np.lib.npyio.NpzFile):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.obj`: points and polygons as text (docs/formats.md)."""
+"""This module reads `.obj` files, which hold points and polygons as text (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from ..errors import ReadError
 from .imported_points import ImportedPoints, checked
 from .text import open_file
 
-_MOST = 1 << 31  # points that there can be
+_MOST = 1 << 31  # a file can have at most so many points
 
 
 def read_obj(path: str | os.PathLike) -> ImportedPoints:
-    """Points and faces; normals only of points without faces, one each, as scans have them.
+    """Read points and faces. Normals are read only if there are no faces and one normal for each point, as in scans.
 
-    Normals of faces belong to their corners, of which a point has several.
+    In files with faces a normal belongs to a corner, and a point has several corners.
     """
     name = Path(path).name
     points: list[list[float]] = []
@@ -53,7 +53,7 @@ def read_obj(path: str | os.PathLike) -> ImportedPoints:
 
 
 def _statements(stream: Iterator[str]) -> Iterator[tuple[int, list[str]]]:
-    """The words of every statement with the number of its last line; a backslash continues a line."""
+    """Yield the words of every statement with the number of its last line; a backslash continues a line."""
     begun = ""
     for number, line in enumerate(stream, 1):
         begun += line.partition("#")[0].rstrip()
@@ -67,14 +67,14 @@ def _statements(stream: Iterator[str]) -> Iterator[tuple[int, list[str]]]:
 
 
 def _three(words: list[str]) -> list[float]:
-    """x y z; weights and colours behind them are left."""
+    """Return x y z; weights and colours after them are ignored."""
     if len(words) < 4:
         raise ValueError
     return [float(word) for word in words[1:4]]
 
 
 def _corner(word: str, points: int) -> int:
-    """'7/2/3' is the seventh point, '-1' the last one so far."""
+    """Return the row of the point of a corner: '7/2/3' is the seventh point, '-1' the last one so far."""
     corner = int(word.partition("/")[0])
     if abs(corner) > _MOST:
         raise ValueError

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.off`: points and polygons as text, with a header OFF, NOFF, COFF, STOFF or several of these (docs/formats.md)."""
+"""This module reads `.off` files: points and polygons as text (docs/formats.md).
+
+The header is OFF, NOFF, COFF, STOFF or a combination of these.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +22,7 @@ _HEADER = re.compile(r"(?:ST|C|N)*OFF")
 
 
 def read_off(lines: Lines) -> ImportedPoints:
-    """Colours and texture coordinates are left."""
+    """Read points, normals and polygons; colours and texture coordinates are ignored."""
     kind = _read_header(lines)
     points, faces = _read_counts(lines)
     rows = lines.rows()
@@ -41,7 +44,7 @@ def read_off(lines: Lines) -> ImportedPoints:
 
 
 def _read_header(lines: Lines) -> str:
-    """The keyword before OFF, such as CN; what follows in its line is left to be read."""
+    """Return the letters before OFF, such as CN; the rest of the line stays to be read."""
     keyword, *rest = lines.line.split() or [""]
     if not _HEADER.fullmatch(keyword):
         raise ReadError(
@@ -59,7 +62,7 @@ def _read_header(lines: Lines) -> str:
 
 
 def _read_counts(lines: Lines) -> tuple[int, int]:
-    """How many points and faces there are; that of edges is not used by anyone."""
+    """Return the numbers of points and faces; the number of edges is not used."""
     words = lines.line.split()
     if len(words) not in (2, 3) or not all(re.fullmatch("[0-9]{1,18}", word) for word in words):
         raise ReadError(
@@ -71,7 +74,7 @@ def _read_counts(lines: Lines) -> tuple[int, int]:
 
 
 def _normals(table: NDArray[np.float64], coloured: bool, name: str) -> NDArray[np.float64]:
-    """Columns 4 to 6; beside colours Geomview writes normals first and MeshLab last."""
+    """Return columns 4 to 6. If there are colours, Geomview writes the normals before them and MeshLab after them."""
     if not coloured:
         return table[:, 3:6]
     places = (table[:, first : first + 3] for first in (3, 6, 7))
@@ -85,7 +88,7 @@ def _normals(table: NDArray[np.float64], coloured: bool, name: str) -> NDArray[n
 
 
 def _read_faces(rows: Rows, points: int) -> tuple[NDArray[np.int32], NDArray[np.int32], int]:
-    """Offsets and corners of the polygons, and how many had fewer than three corners and were left.
+    """Return offsets and corners of the polygons, and the number of faces left out for fewer than three corners.
 
     A line holds the number of corners, the corners, and perhaps a colour.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where things lie in the world: transforms that leave balls balls."""
+"""This module splits world transforms that map balls to balls."""
 
 from __future__ import annotations
 
@@ -14,14 +14,17 @@ if TYPE_CHECKING:
 
 
 def is_identity(transform: NDArray[np.float64]) -> bool:
-    """Asked without LAPACK, whose OpenBLAS waits for memory without end where addresses are few."""
+    """Return whether a transform changes nothing.
+
+    LAPACK is not used: its OpenBLAS waits forever for memory if addresses are limited.
+    """
     return np.array_equal(transform[:3], np.eye(3, 4))
 
 
 def parts_of(
     transform: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """(3, 3), (3,): what a transform turns and moves by; and the factor by which it scales all lengths.
+    """Return the linear part of a transform, (3, 3), its offset, (3,), and the factor by which it scales lengths.
 
     Parameters
     ----------
@@ -31,7 +34,7 @@ def parts_of(
     Raises
     ------
     ExportError
-        It is something else.
+        It does anything else.
     """
     if transform.shape not in ((3, 4), (4, 4)) or not np.isfinite(transform).all():
         raise ExportError(
@@ -42,7 +45,7 @@ def parts_of(
 
 
 def _even_scale(linear: NDArray[np.float64]) -> float:
-    """The factor by which `linear` scales all lengths; exactly 1 for a rigid frame in float32."""
+    """Return the factor by which `linear` scales all lengths; it is exactly 1 for a rigid frame in float32."""
     stretches = np.linalg.svd(linear, compute_uv=False)
     rounding = (
         16 * np.finfo(np.float32).eps

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Medial axes as triangles in text: `.ply`, `.obj` and `.off` that the usual readers of meshes read alike.
+"""This module writes medial axes as triangles in text: all common readers read these `.ply`, `.obj` and `.off` alike.
 
-Some take the first face of a binary PLY for the size of all, some know no numbers beside the corners there, some tear
-polygons (docs/formats.md has the table). What they all read are triangles in text. Each has the values of its facet,
-and the facet's number, by which the polygons can be put together again.
+Some readers assume that all faces of a binary PLY are as large as the first, some accept no numbers besides the corners
+there, and some tear polygons (docs/formats.md has the table). All of them read triangles in text. In `.ply` a triangle
+has the values of its facet and the number of the facet, so the polygons can be put together again.
 
-Edges without a facet are lines of the `.obj`, which all of them read or pass over. In `.ply` and `.off` some refuse
-them and some take them for faces, so these files leave them out, and `left_out` says so.
+Edges without a facet are lines of the `.obj`, which all readers read or skip. In `.ply` and `.off` some readers refuse
+them and some take them for faces, so these files omit them, and `left_out` reports it.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ end_header
 
 
 def left_out(axis: Any) -> str:
-    """A warning about the parts of an axis that `.ply` and `.off` do not hold; "" where there are none."""
+    """Return a warning about the parts of an axis that `.ply` and `.off` do not hold; "" where there are none."""
     edges, alone = len(axis.edges), len(lone_vertices(axis))
     if not edges and not alone:
         return ""
@@ -58,7 +58,7 @@ def left_out(axis: Any) -> str:
 
 
 def lone_vertices(axis: Any) -> NDArray[np.intp]:
-    """(k,) the vertices without a facet and without an edge."""
+    """Return the vertices without a facet and without an edge, (k,)."""
     alone = np.ones(len(axis.vertices), bool)
     alone[axis.face_vertices] = alone[axis.edges.ravel()] = False
     return np.flatnonzero(alone)
@@ -104,7 +104,7 @@ def _require_facets(axis: Any) -> None:
 
 
 def _triangles(axis: Any) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
-    """(t, 3) the triangles, and (t,) the facet of each."""
+    """Return the triangles, (t, 3), and the facet of each, (t,)."""
     triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
     facets = len(axis.face_offsets) - 1
     return triangles, np.repeat(np.arange(facets), np.diff(axis.face_offsets) - 2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.ply`: points and polygons, as text or binary (docs/formats.md)."""
+"""This module reads `.ply` files: points and polygons, as text or binary (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -31,15 +31,17 @@ _TYPES = {
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _POSITION, _NORMAL = ("x", "y", "z"), ("nx", "ny", "nz")
 _CORNERS = ("vertex_indices", "vertex_index")
-_LONGEST = 1 << 16  # bytes of a line of the header; a file that is no PLY may have no lines
+_LONGEST = (
+    1 << 16
+)  # a line of the header is read up to so many bytes; other files may have no lines
 _MOST_ROWS = 10**18  # no file holds as many, and larger counts do not fit into 64 bits
 
 
 @dataclass
 class _Property:
     name: str
-    type: str  # of NumPy, without byte order
-    count: str = ""  # type of the length of a list; "" for a single number
+    type: str  # it is a type of NumPy without byte order
+    count: str = ""  # it is the type of the length of a list; "" means a single number
 
 
 @dataclass
@@ -55,7 +57,7 @@ class _Element:
 
 @dataclass
 class _Table:
-    """The rows of an element: columns of single numbers, and one list per row, of corners."""
+    """A table has the rows of an element: columns of single numbers, and one list of corners for each row."""
 
     columns: dict[str, NDArray]
     sizes: NDArray
@@ -63,7 +65,7 @@ class _Table:
 
 
 def read_ply(path: str | os.PathLike) -> ImportedPoints:
-    """Only positions, normals and faces are read."""
+    """Read positions, normals and faces; everything else is ignored."""
     name = Path(path).name
     with open_file(path) as stream:
         order, elements, lines = _read_header(stream, name)
@@ -104,7 +106,7 @@ def _columns(table: _Table, names: tuple[str, ...]) -> NDArray[np.float64]:
 
 
 def _read_header(stream: BinaryIO, name: str) -> tuple[str, list[_Element], int]:
-    """Byte order ("" for text), the elements, and how many lines that were."""
+    """Return the byte order ("" for text), the elements, and the number of lines of the header."""
     if stream.readline(_LONGEST).strip() != b"ply":
         raise ReadError(f"Expected 'ply' as the first line of '{name}', found none; check the file")
     order: str | None = None
@@ -138,7 +140,7 @@ def _read_header(stream: BinaryIO, name: str) -> tuple[str, list[_Element], int]
 
 
 def _take(words: list[str], order: str | None, elements: list[_Element]) -> str | None:
-    """Read one line of the header into `elements`; returns the byte order as far as it is known."""
+    """Read one line of the header into `elements`; return the byte order, or None if it is not known yet."""
     if words[0] == "format":
         return _ORDERS[words[1]]
     if words[0] == "element":
@@ -163,7 +165,7 @@ def _take(words: list[str], order: str | None, elements: list[_Element]) -> str 
 
 
 class _Text:
-    """The elements of a text file, a row per line."""
+    """Reads the elements of a text file, which has one row on each line."""
 
     def __init__(self, stream: BinaryIO, header: int, name: str) -> None:
         text = io.TextIOWrapper(stream, encoding="latin-1")
@@ -199,7 +201,7 @@ class _Text:
             )
 
     def _read_lists(self, element: _Element, rows: Rows) -> _Table:
-        """The corners of each row; what stands behind them is left."""
+        """Return the corners of each row; numbers after them are ignored."""
         before = _numbers_before_corners(element, self._name)
         starts, words = rows.offsets[:-1] + before, np.diff(rows.offsets) - before
         sizes = np.where(words > 0, rows.values[np.minimum(starts, len(rows.values) - 1)], -1)
@@ -246,14 +248,14 @@ def _too_short(name: str, element: _Element) -> ReadError:
 
 
 class _Binary:
-    """The elements of a binary file, one after the other."""
+    """Reads the elements of a binary file, one after the other."""
 
     def __init__(self, data: bytes, order: str, name: str) -> None:
         self._data, self._order, self._name = data, order, name
         self._at = 0
 
     def read(self, element: _Element) -> _Table:
-        """Rows of one length are read at once; others row by row."""
+        """Read an element; rows of equal length are read at once, others row by row."""
         if not element.lists:
             rows = self._take(element, self._row_type(element, ()))
             columns = {entry.name: rows[str(i)] for i, entry in enumerate(element.properties)}
@@ -262,7 +264,7 @@ class _Binary:
         return self._read_even(element, place) or self._read_uneven(element, place)
 
     def _row_type(self, element: _Element, lengths: tuple[int, ...]) -> np.dtype:
-        """The layout of a row whose lists have these lengths; fields are '0', 'n0' for counts."""
+        """Return the layout of a row whose lists have these lengths; property i is field 'i', and 'ni' is its count."""
         left = list(lengths)
         fields: list[tuple[Any, ...]] = []
         for i, entry in enumerate(element.properties):
@@ -282,7 +284,7 @@ class _Binary:
         return rows
 
     def _place_of_corners(self, element: _Element) -> int:
-        """Which property holds the corners; of other elements than faces any list, which is not used."""
+        """Return the index of the property with the corners; elements other than faces return any list, unused."""
         for i, entry in enumerate(element.properties):
             if entry.count and (entry.name in _CORNERS or element.name != "face"):
                 return i
@@ -292,7 +294,7 @@ class _Binary:
         )
 
     def _read_even(self, element: _Element, place: int) -> _Table | None:
-        """All rows at once, when all their lists are as long as those of the first; else None."""
+        """Read all rows at once if their lists are as long as those of the first row, otherwise return None."""
         if element.rows == 0:
             return _Table({}, np.zeros(0, np.int64), np.zeros(0))
         lengths = tuple(len(part) for part in self._lists(element))
@@ -316,7 +318,7 @@ class _Binary:
         return _Table({}, sizes, np.concatenate(found))
 
     def _lists(self, element: _Element, keep: bool = False) -> list[NDArray]:
-        """The lists of the next row, which is taken when it is to be kept."""
+        """Return the lists of the next row; with `keep` the reader advances past it."""
         at, lists = self._at, []
         try:
             for entry in element.properties:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points from files, with normals and polygons where a file has them (docs/formats.md)."""
+"""This module reads points from files, with normals and polygons if a file has them (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ READERS: dict[str, Callable[[Path], ImportedPoints]] = {
 
 
 def import_points(path: str | os.PathLike) -> ImportedPoints:
-    """Read points, and normals and polygons where the file has them; the extension says which kind it is.
+    """Read points, and normals and polygons if the file has them; the extension chooses the format.
 
     Raises
     ------
     ReadError
-        Unknown extension, the system refuses, or the file is not what it says; all or nothing is read.
+        The extension is unknown, the system refuses, or the content is invalid; all or nothing is read.
     OutOfMemoryError
     """
     path = Path(path)

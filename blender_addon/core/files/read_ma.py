@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.ma` files of this and other tools -> medial axes of balls, triangles and edges (docs/formats.md)."""
+"""This module reads medial axes of balls, triangles and edges from `.ma` files of any tool (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _WIDTHS = {b"v": 4, b"e": 2, b"f": 3}
-_INNER = 1  # value of `_medial.Side`
+_INNER = 1  # the inner side has this value in `_medial.Side`
 
 
 def read_ma(path: str | os.PathLike) -> MedialAxis:
-    """Vertices, radii, triangles, and the edges that are on none of these.
+    """Read vertices, radii, triangles, and the edges that are on no triangle.
 
-    What else an axis knows is not in the file: `generators` are -1, `theta` and `rho` infinite.
+    The file has no other values of an axis: `generators` are -1, `theta` and `rho` are infinite.
 
     Raises
     ------
     ReadError
-        The file is no `.ma`, or contradicts itself.
+        The file is not a `.ma` file, or contradicts itself.
     """
     name = Path(path).name
     with open_file(path) as stream:
@@ -65,7 +65,7 @@ def read_ma(path: str | os.PathLike) -> MedialAxis:
 
 
 def _lines(content: bytes) -> list[tuple[int, list[bytes]]]:
-    """The words of lines that are neither blank nor comment, with their numbers."""
+    """Return the words of lines that are neither blank nor comment, with their numbers."""
     split = ((i + 1, line.split()) for i, line in enumerate(content.splitlines()))
     return [(i, words) for i, words in split if words and not words[0].startswith(b"#")]
 
@@ -92,7 +92,7 @@ def _table(lines: list[tuple[int, list[bytes]]], kind: bytes, name: str) -> NDAr
 
 
 def _row(words: list[bytes], kind: bytes, width: int) -> list[float] | None:
-    """The numbers of a line; None where it is not what it should be."""
+    """Return the numbers of a line, or None if the line is invalid."""
     if len(words) <= width or words[0] != kind:
         return None
     try:
@@ -113,7 +113,7 @@ def _ids(rows: NDArray[np.float64], vertices: int, name: str) -> NDArray[np.int3
 
 
 def _alone(pairs: NDArray[np.int32], corners: NDArray[np.int32]) -> NDArray[np.int32]:
-    """(w, 2) the edges that are on no triangle, i < j, each once, ascending."""
+    """Return the edges that are on no triangle, i < j, each once, ascending, (w, 2)."""
     sides = np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     found = set(map(tuple, sides.tolist()))
     alone = sorted({tuple(sorted(pair)) for pair in pairs.tolist()} - found)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A file as the shape that the method takes: points, triangles, normals."""
+"""This module reads a file as a shape, the input of the method: points, triangles, normals."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from .read import import_points
 def read_shape(
     path: str | os.PathLike, limit: MemoryLimit | None = None
 ) -> tuple[Shape, tuple[str, ...]]:
-    """Read a shape from a file; each part of the file that was left out gives a sentence.
+    """Read a shape from a file; return it with one warning for each part of the file that was left out.
 
     Parameters
     ----------
     path : path of the file
     limit : MemoryLimit, optional
-        What the analysis may need. A cloud that needs more, and is not to be thinned, is not even unpacked.
+        The memory that the analysis may need. A cloud that needs more, and must not be thinned, is not unpacked.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The loss of points that Blender keeps in 32 bits, as of scans with the coordinates of a country."""
+"""Points lose accuracy in Blender's 32 bits, for example scans with the coordinates of a national grid."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_NOTICED = 0.05  # of the spacing; well below the third of it that noise may have
-_SAMPLE = 16  # points whose neighbours are measured
+_NOTICED = 0.05  # this share of the spacing is noticed; noise may be up to a third of the spacing
+_SAMPLE = 16  # the spacing is measured at so many points
 
 
 def rounding_warning(points: NDArray[np.float64]) -> str | None:
-    """A sentence when float32 moves points by a share of their spacing that can be noticed.
+    """Return a warning if float32 moves points by a noticeable share of their spacing, otherwise None.
 
     Parameters
     ----------
     points : (n, 3) float64
-        Below the largest float32.
+        They must be below the largest float32.
     """
     moved = float(np.abs(points - points.astype(np.float32)).max(initial=0.0))
     if moved == 0.0:
@@ -35,9 +35,9 @@ def rounding_warning(points: NDArray[np.float64]) -> str | None:
 
 
 def _spacing(points: NDArray[np.float64]) -> float:
-    """Median distance to the nearest point elsewhere, of a sample; infinite when there is no other."""
+    """Return the median distance of a few points to the nearest other place; it is infinite if there is none."""
     rows = np.linspace(0, len(points) - 1, min(_SAMPLE, len(points))).astype(np.int64)
-    axes = np.ascontiguousarray(points.T)  # much faster than row by row
+    axes = np.ascontiguousarray(points.T)  # this is much faster than row by row
     nearest = []
     for row in rows:
         distances = np.abs(axes - axes[:, [row]]).max(axis=0)  # squares might overflow

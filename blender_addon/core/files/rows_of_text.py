@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows of numbers as lines of text."""
+"""This module writes rows of numbers as lines of text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-CHUNK = 1 << 16  # rows formatted at once; bounds the memory of one write
+CHUNK = 1 << 16  # so many rows are formatted at once, which bounds the memory of one write
 
 
 def write_rows(stream: BinaryIO, row: str, *columns: NDArray) -> None:

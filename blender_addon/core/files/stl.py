@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.stl`: triangles, as text or binary (docs/formats.md)."""
+"""This module reads `.stl` files, which hold triangles as text or binary (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -17,14 +17,16 @@ from .text import open_file
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_HEADER = 84  # bytes before the triangles of a binary file; the last four count them
-_BEGIN = 1024  # bytes by which text is told from binary files that begin with the same word
+_HEADER = (
+    84  # the triangles of a binary file begin after so many bytes; the last four give their number
+)
+_BEGIN = 1024  # so many bytes distinguish text from binary files that begin with the same word
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("colour", "<u2")])
 _VERTEX = re.compile(rb"(?i)\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
 
 
 def read_stl(path: str | os.PathLike) -> ImportedPoints:
-    """Corners with equal coordinates become one point, in the order of the file."""
+    """Read triangles; corners with equal coordinates become one point, in the order of the file."""
     name = Path(path).name
     with open_file(path) as stream:
         data = stream.read()
@@ -58,7 +60,7 @@ def _read_text(data: bytes, name: str) -> NDArray[np.float64]:
 
 
 def _merged(corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """The distinct rows in the order in which they appear first, and the row of each corner."""
+    """Return the distinct rows in the order in which they appear first, and the row of each corner."""
     if len(corners) == 0:
         return corners, np.zeros(0, np.int64)
     corners = corners + 0.0  # -0 is 0

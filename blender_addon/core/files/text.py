@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Text files of numbers, one row per line: what `.xyz` and `.off` have in common.
+"""This module reads text files of numbers with one row per line, such as `.xyz` and `.off`.
 
-From `#` or `//` to the end of a line is comment. Comments and blank lines are passed over. Any byte
-may stand in a comment, so that bytes are characters here (Latin-1); numbers are ASCII.
+A comment goes from `#` or `//` to the end of the line. Comments and blank lines are skipped. A comment may have any
+byte, so every byte is read as a character (Latin-1); numbers are ASCII.
 """
 
 from __future__ import annotations
@@ -23,26 +23,26 @@ from ..errors import ReadError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CHUNK = 1 << 17  # characters parsed at once; few, so that they stay in the cache
-_BYTE_ORDER_MARK = "\xef\xbb\xbf"  # of UTF-8
+_CHUNK = 1 << 17  # so many characters are parsed at once; they are few, to stay in the cache
+_BYTE_ORDER_MARK = "\xef\xbb\xbf"  # this is the mark of UTF-8, read as Latin-1
 _COMMENT = re.compile(r"(?:#|//).*")
-_BLANK = np.isin(np.arange(256), list(b" \t\n\r\v\f"))  # as bytes.split() sees them
+_BLANK = np.isin(np.arange(256), list(b" \t\n\r\v\f"))  # bytes.split() splits at these
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Lines of numbers.
+    """Rows are lines of numbers.
 
     Parameters
     ----------
     values : (t,) float64
-        Line after line. Finite, unless whoever took the lines looks at that himself.
+        The numbers, line after line. They are finite, unless the caller of `Lines.rows` checks that itself.
     offsets : (r + 1,) int64
-        Row i is `values[offsets[i]:offsets[i + 1]]`, never empty.
+        Row i is `values[offsets[i]:offsets[i + 1]]`; it is never empty.
     lines : (r,) int64
-        Number of each line in the file, counted from 1.
+        The number of each line in the file, counted from 1.
     name : str
-        Of the file.
+        The name of the file.
     """
 
     values: NDArray[np.float64]
@@ -54,13 +54,13 @@ class Rows:
         return len(self.lines)
 
     def part(self, start: int, stop: int) -> Rows:
-        """Rows `start` to `stop`, without the latter."""
+        """Return the rows from `start` up to, but without, `stop`."""
         offsets = self.offsets[start : stop + 1]
         values = self.values[offsets[0] : offsets[-1]]
         return Rows(values, offsets - offsets[0], self.lines[start:stop], self.name)
 
     def table(self, least: int, what: str) -> NDArray[np.float64]:
-        """(r, k) the rows as a table of points; k is at least `least`, the columns called `what`."""
+        """Return the rows as a table, (r, k); k must be at least `least`, and `what` names the columns in messages."""
         widths = np.diff(self.offsets)
         if widths[0] < least:
             raise ReadError(
@@ -76,21 +76,21 @@ class Rows:
         return self.values.reshape(len(self), -1)
 
     def place(self, row: int) -> str:
-        """Where a row is, for messages."""
+        """Return the place of a row in the file, for messages."""
         return f"line {self.lines[row]} of '{self.name}'"
 
 
 class Lines:
-    """The lines of a text file that hold something, one after the other.
+    """Iterates over the lines of a text file that are not blank.
 
     Attributes
     ----------
     line : str
-        The first one that was not taken yet, without comment; empty at the end of the file.
+        The first line that was not read yet, without its comment; it is empty at the end of the file.
     number : int
-        Of that line in the file, counted from 1.
+        The number of that line in the file, counted from 1.
     name : str
-        Of the file.
+        The name of the file.
     """
 
     def __init__(self, stream: TextIO, name: str) -> None:
@@ -106,7 +106,7 @@ class Lines:
             self.advance()
 
     def advance(self) -> None:
-        """Go on to the next line that holds something."""
+        """Advance to the next line that is not blank."""
         while raw := self._stream.readline():
             self.number += 1
             self.line = _COMMENT.sub("", raw)
@@ -115,13 +115,13 @@ class Lines:
         self.line = ""
 
     def place(self) -> str:
-        """Where the line is, for messages."""
+        """Return the place of the line in the file, for messages."""
         return f"line {self.number} of '{self.name}'"
 
     def rows(self, delimiter: str = "", finite: bool = True) -> Rows:
-        """Take all lines that are left: numbers with `delimiter`, or else blanks, between them.
+        """Read all remaining lines: numbers separated by `delimiter`, or else by blanks.
 
-        Where some of them are passed over, these need not be `finite`: then those that are read have to be looked at.
+        With `finite` all numbers must be finite. Otherwise the caller checks the numbers that it uses.
         """
         parts = [self._parse(text, first, delimiter, finite) for first, text in self._chunks()]
         found: Any = map(np.concatenate, zip(*parts, strict=True))
@@ -129,14 +129,14 @@ class Lines:
         return Rows(values, np.concatenate([[0], np.cumsum(widths)]), lines, self.name)
 
     def _chunks(self) -> Iterator[tuple[int, str]]:
-        """Pieces of whole lines, each with the number of its first line."""
+        """Yield pieces of whole lines, each with the number of its first line."""
         text, first = self.line + self._whole_lines(), self.number
         while text:
             yield first, text
             first += text.count("\n")
             text = self._whole_lines()
         self.line = ""
-        yield first, ""  # so that there is always one
+        yield first, ""  # this makes sure that there is always one
 
     def _whole_lines(self) -> str:
         text = self._stream.read(_CHUNK) + self._stream.readline()
@@ -145,7 +145,7 @@ class Lines:
     def _parse(
         self, text: str, first: int, delimiter: str, finite: bool
     ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
-        """Numbers of a piece, how many each line has, and the numbers of those lines."""
+        """Return the numbers of a piece, how many of them each filled line has, and the numbers of those lines."""
         if delimiter:
             self._check_fields(text, first, delimiter)
             text = text.replace(delimiter, " ")
@@ -167,12 +167,12 @@ class Lines:
         return values, widths[filled], first + filled
 
     def _check_fields(self, text: str, first: int, delimiter: str) -> None:
-        """Every field holds one word: '1,,2' or '1,5 2,5' are not what they seem."""
+        """Check that every field has exactly one word: '1,,2' and '1,5 2,5' are ambiguous."""
         blank = r"[ \t]"
         leading = f"(?m)^{blank}*{delimiter}"
         empty = f"{delimiter}{blank}*{delimiter}"
         double = rf"{blank}(?<=[^\s{delimiter}]{blank}){blank}*[^\s{delimiter}]"
-        for pattern in (leading, empty, double):  # one after the other, which is much faster
+        for pattern in (leading, empty, double):  # a single combined pattern is much slower
             if found := re.search(pattern, text):
                 line = first + text.count("\n", 0, found.end() - 1)
                 raise ReadError(
@@ -183,7 +183,7 @@ class Lines:
 
 @contextmanager
 def open_file(path: str | os.PathLike, mode: str = "rb", **options: Any) -> Iterator[Any]:
-    """A file to read; what the system refuses becomes a ReadError."""
+    """Open a file to read; errors of the system become a ReadError."""
     if not os.path.isfile(path):
         raise ReadError(f"Expected a file, found none at '{path}'; choose another one")
     try:
@@ -200,13 +200,13 @@ def open_file(path: str | os.PathLike, mode: str = "rb", **options: Any) -> Iter
 
 @contextmanager
 def open_lines(path: str | os.PathLike) -> Iterator[Lines]:
-    """The lines of a text file."""
+    """Open a text file as `Lines`."""
     with open_file(path, "r", encoding="latin-1") as stream:
         yield Lines(stream, Path(path).name)
 
 
 def is_number(word: str | bytes) -> bool:
-    """Also NaN, infinity and 1_000, so that these are not taken for words."""
+    """Return whether a word is a number; NaN, infinity and 1_000 count as numbers, too."""
     try:
         float(word)
     except ValueError:
@@ -220,12 +220,12 @@ def _is_fit(word: bytes, finite: bool) -> bool:
 
 
 def _shown(word: bytes) -> str:
-    """A word for messages; a binary file may hold a very long one."""
+    """Return a word for messages, shortened because a binary file may have very long ones."""
     return ascii(word[:24].decode("latin-1")) + ("..." if len(word) > 24 else "")
 
 
 def _words_per_line(data: bytes) -> NDArray[np.int64]:
-    """How many words each line has; the last one is not ended, or empty."""
+    """Return the number of words of each line; the last line has no line feed, or is empty."""
     symbols = np.frombuffer(b"\n" + data + b"\n", np.uint8)
     blank = _BLANK[symbols]
     starts = np.flatnonzero(blank[:-1] > blank[1:])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that appear whole or not at all: written beside their target, then renamed onto it."""
+"""Files appear whole or not at all: they are written next to their target, then renamed to it."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ def write_whole(path: str | os.PathLike, write: Callable[[BinaryIO], object]) ->
     ----------
     path : path of the file; a link is followed
     write : callable
-        Fills the binary stream that it is given.
+        It writes the content to the given binary stream.
 
     Returns
     -------
     path : Path
-        With links resolved.
+        The path with links resolved.
 
     Raises
     ------
     ExportError
-        The system refused; an old file is then unchanged.
+        The system refused to write; an old file is then unchanged.
     """
     target = Path(os.path.realpath(path))
     temporary = target.parent / f".medial_axis_{secrets.token_hex(8)}.tmp"

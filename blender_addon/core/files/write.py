@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Medial axes as files: `.ma`, `.ply`, `.obj`, `.off` and `.npz` (docs/formats.md).
+"""This module writes medial axes as `.ma`, `.ply`, `.obj`, `.off` and `.npz` files (docs/formats.md).
 
-A file appears whole or not at all: it is written beside its target and renamed. Numbers in text have 17
-significant digits, so that reading them back gives the same float64. Lines end in LF everywhere.
+A file appears whole or not at all: it is written next to its target and renamed. Numbers in text have 17
+significant digits, so that reading them back gives the same float64. Lines end in LF on every system.
 """
 
 from __future__ import annotations
@@ -28,23 +28,23 @@ from .whole_file import write_whole
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CHUNK = 1 << 16  # rows formatted at once; bounds the memory of one write
+_CHUNK = 1 << 16  # so many rows are formatted at once, which bounds the memory of one write
 
 
 @dataclass(frozen=True)
 class Format:
-    """One kind of file.
+    """A format describes one kind of file.
 
     Parameters
     ----------
     label : str
-        For people: menus and file dialogs.
+        The name that menus and file dialogs show.
     write : callable
-        Takes the axis and a binary stream.
+        It takes the axis and a binary stream.
     write_triangles : callable or None
-        The same as triangles in text; None where the format is what it is.
+        It writes the axis as triangles in text; it is None if the format has no such variant.
     holds_edges : bool
-        Triangles in text hold edges without a facet, too.
+        Whether triangles in text include edges without a facet.
     """
 
     label: str
@@ -66,11 +66,11 @@ def export_axis(
     axis : MedialAxis
     path : path of the file; its folder must exist. A file of that name is replaced.
     transform : (3, 4) or (4, 4) float64, optional
-        Where the axis lies in the world. It may move, turn, mirror and scale evenly, for only then balls
+        The world matrix of the axis. It may move, turn, mirror and scale evenly, for only then balls
         stay balls; the radii are scaled with it.
     triangles : bool
-        Write .ply, .obj and .off as triangles in text, which more programs read; the others are as ever.
-        In .ply and .off they are without edges that have no facet: `left_out` says how many.
+        Write .ply, .obj and .off as triangles in text, which more programs read; other formats do not change.
+        Such .ply and .off files omit edges without a facet: `left_out` reports their number.
 
     Returns
     -------
@@ -80,8 +80,8 @@ def export_axis(
     Raises
     ------
     ExportError
-        Unknown extension, unfit transform, edges alone for a file of triangles that cannot hold them, or the
-        system refused to write; an old file is then unchanged.
+        The extension is unknown, the transform does not fit, the axis has only edges and the file holds none, or
+        the system refused to write; an old file is then unchanged.
     """
     known = format_of(path)
     write = (triangles and known.write_triangles) or known.write
@@ -90,14 +90,14 @@ def export_axis(
 
 
 def left_out(axis: MedialAxis, path: str | os.PathLike, triangles: bool) -> str:
-    """A sentence about the parts of an axis that `export_axis` does not write; "" where it writes all."""
+    """Return a sentence about the parts of an axis that `export_axis` does not write; "" where it writes all."""
     known = format_of(path)
     left = triangles and known.write_triangles and not known.holds_edges
     return plain_triangles.left_out(axis) if left else ""
 
 
 def format_of(path: str | os.PathLike) -> Format:
-    """The format that the extension of `path` names."""
+    """Return the format that the extension of `path` names."""
     return FORMATS[extension_of(path, FORMATS)]
 
 
@@ -105,7 +105,7 @@ def format_of(path: str | os.PathLike) -> Format:
 
 
 def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
-    """The same axis, seen in the world."""
+    """Return the axis in world coordinates."""
     if is_identity(transform):
         return axis
     linear, offset, scale = parts_of(transform)
@@ -126,7 +126,7 @@ def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
 
 
 def _turned(face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Each polygon the other way round, from the same first corner: as a mirror shows it."""
+    """Return the corners of each polygon in reverse order after the same first corner, as a mirror shows them."""
     first = np.repeat(face_offsets[:-1], np.diff(face_offsets))
     last = np.repeat(face_offsets[1:], np.diff(face_offsets))
     corner = np.arange(len(face_vertices))
@@ -142,7 +142,7 @@ def _write_polygons(
     counts: NDArray[np.int32],
     tokens: NDArray[np.int32],
 ) -> None:
-    """Write one line per polygon; `row_of(count)` is the %-format of a polygon of so many corners."""
+    """Write one line per polygon; `row_of(count)` is the %-format of a polygon with `count` corners."""
     rows = {int(count): row_of(int(count)) for count in np.unique(counts)}
     ends = np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
     for start in range(0, len(counts), _CHUNK):
@@ -153,7 +153,7 @@ def _write_polygons(
 
 
 def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
-    """Q-MAT's plain variant: `nv ne nf`, then `v x y z r`, every edge once, and triangles."""
+    """Write Q-MAT's plain variant: `nv ne nf`, then `v x y z r`, every edge once, and triangles."""
     vertices, radius = exact_balls(axis)
     triangles = triangulate_facets(vertices, axis.face_offsets, axis.face_vertices)
     edges = _edges(triangles, axis.edges, len(vertices))
@@ -166,7 +166,7 @@ def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
 def _edges(
     triangles: NDArray[np.int32], alone: NDArray[np.int32], vertex_count: int
 ) -> NDArray[np.int64]:
-    """(e, 2) the edges of triangles and those that stand by themselves, each once, i < j, in lexicographic order."""
+    """Return the edges of triangles and those without one, (e, 2), each once, i < j, in lexicographic order."""
     all_ends = np.concatenate([triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), alone])
     ends = np.sort(all_ends, axis=1).astype(np.int64)
     keys = np.unique(ends[:, 0] * vertex_count + ends[:, 1])
@@ -235,7 +235,7 @@ def _ply_floats(*names: str) -> str:
 
 
 def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> Iterator[bytes]:
-    """The face element in pieces: rows of one length are packed together and scattered to their places."""
+    """Yield the face element in pieces: rows of one length are packed together and scattered to their places."""
     fixed: list[tuple[Any, ...]] = [
         ("theta", "<f8"),
         ("rho", "<f8"),

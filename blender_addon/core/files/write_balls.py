@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Balls as files: `.ma` and `.json` (docs/balls.md). A file appears whole or not at all."""
+"""This module writes balls as `.ma` and `.json` files (docs/balls.md). A file appears whole or not at all."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def export_balls(
     balls : Balls
     path : path of the file; its folder must exist. A file of that name is replaced.
     transform : (3, 4) or (4, 4) float64, optional
-        Where the balls lie in the world. It may move, turn, mirror and scale evenly; all lengths are scaled with it.
+        The world matrix of the balls. It may move, turn, mirror and scale evenly; all lengths are scaled with it.
 
     Returns
     -------
@@ -42,7 +42,8 @@ def export_balls(
     Raises
     ------
     ExportError
-        Unknown extension, unfit transform, or the system refused to write; an old file is then unchanged.
+        The extension is unknown, the transform does not fit, or the system refused to write; an old file is then
+        unchanged.
     """
     write = ball_format(path)
     placed = balls if transform is None else _placed(balls, transform)
@@ -55,7 +56,7 @@ def ball_format(path: str | os.PathLike) -> Callable[[Balls, BinaryIO], None]:
 
 
 def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
-    """The same balls, seen in the world."""
+    """Return the balls in world coordinates."""
     if is_identity(transform):
         return balls
     linear, offset, scale = parts_of(transform)
@@ -69,13 +70,13 @@ def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
 
 
 def _write_ma(balls: Balls, stream: BinaryIO) -> None:
-    """Vertices of a medial axis without edges and triangles."""
+    """Write the balls as vertices of a medial axis without edges and triangles."""
     stream.write(b"%d 0 0\n" % len(balls.radii))
     write_rows(stream, "v %.17g %.17g %.17g %.17g\n", balls.centres, balls.radii)
 
 
 def _write_json(balls: Balls, stream: BinaryIO) -> None:
-    """Everything; null is a figure that is unknown."""
+    """Write the balls and all figures; an unknown figure is null."""
     rows = zip(balls.centres.tolist(), balls.radii.tolist(), strict=True)
     found: dict[str, Any] = {
         **as_figures(balls),
@@ -86,7 +87,7 @@ def _write_json(balls: Balls, stream: BinaryIO) -> None:
 
 
 def as_figures(balls: Balls) -> dict[str, str | float | None]:
-    """How well balls represent the solid, for JSON; None is a figure that is unknown."""
+    """Return figures for JSON of how well balls represent the solid; an unknown figure is None."""
     return {
         "mode": balls.mode.name.lower(),
         "covered": _known(balls.covered),

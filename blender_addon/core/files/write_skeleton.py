@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Skeletons as files: `.swc`, `.obj` and `.json` (docs/skeleton.md). A file appears whole or not at all."""
+"""This module writes skeletons as `.swc`, `.obj` and `.json` files (docs/skeleton.md), whole or not at all."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def export_skeleton(skeleton: Skeleton, parts: Parts, path: str | os.PathLike) -
     ----------
     skeleton : Skeleton
     parts : Parts
-        For `.json`, which alone can hold them.
+        Only `.json` files hold them.
     path : path of the file; its folder must exist. A file of that name is replaced.
 
     Returns
@@ -39,14 +39,14 @@ def export_skeleton(skeleton: Skeleton, parts: Parts, path: str | os.PathLike) -
     Raises
     ------
     ExportError
-        Unknown extension, or the system refused to write; an old file is then unchanged.
+        The extension is unknown, or the system refused to write; an old file is then unchanged.
     """
     write = SKELETON_FORMATS[extension_of(path, SKELETON_FORMATS)]
     return write_whole(path, lambda stream: write(skeleton, parts, stream))
 
 
 def _write_swc(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:
-    """`id type x y z radius parent`, parents first. SWC knows trees only: comments name the edges that close loops."""
+    """Write `id type x y z radius parent`, parents first. SWC has only trees: comments name edges that close loops."""
     parent, order = _tree(skeleton)
     number = np.empty(len(order), np.int64)
     number[order] = np.arange(1, len(order) + 1)
@@ -63,7 +63,7 @@ def _write_swc(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:
 
 
 def _tree(skeleton: Skeleton) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The parent of each point, -1 of roots, and all points, parents first; a root is the thickest of its part."""
+    """Return the parent of each point, -1 for roots, and all points, parents first; the thickest of a part is root."""
     neighbours: list[list[int]] = [[] for _ in skeleton.points]
     for a, b in skeleton.edges.tolist():
         neighbours[a].append(b)
@@ -85,7 +85,7 @@ def _tree(skeleton: Skeleton) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 
 def _write_obj(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:
-    """Vertices, and a line for each branch; single points as points."""
+    """Write vertices, a line for each branch, and a point for each node without a branch."""
     for x, y, z in skeleton.points.tolist():
         stream.write(f"v {x:.17g} {y:.17g} {z:.17g}\n".encode("ascii"))
     for branch in skeleton.branches:
@@ -97,7 +97,7 @@ def _write_obj(skeleton: Skeleton, _parts: Parts, stream: BinaryIO) -> None:
 
 
 def _write_json(skeleton: Skeleton, parts: Parts, stream: BinaryIO) -> None:
-    """Everything: points with radii, edges, and for each branch its points and the triangles that belong to it."""
+    """Write points with radii, edges, and for each branch its points and the triangles that belong to it."""
     rows = zip(skeleton.points.tolist(), skeleton.radius.tolist(), strict=True)
     found = {
         "nodes": [{"position": position, "radius": radius} for position, radius in rows],

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Thickness as files: `.csv`, `.json` and `.ply` (docs/formats.md).
+"""This module writes thickness as `.csv`, `.json` and `.ply` files (docs/formats.md).
 
-A file appears whole or not at all. Numbers in text have 17 significant digits; what has no length is "inf" in .csv and
-.ply, and null in .json.
+A file appears whole or not at all. Numbers in text have 17 significant digits; a missing length is infinite in .csv
+and .ply, and null in .json.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .whole_file import write_whole
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_CHUNK = 1 << 16  # rows formatted at once
+_CHUNK = 1 << 16  # so many rows are formatted at once
 
 
 def export_thickness(
@@ -38,10 +38,10 @@ def export_thickness(
     ----------
     found : Measurement
     parts : ThinParts
-        What of it is thin.
+        The thin parts of the measurement.
     path : path of the file; its folder must exist. A file of that name is replaced.
     unit : str
-        What lengths are in, for those who read .json; "" where nobody knows.
+        The unit of lengths, which .json states; "" if it is unknown.
 
     Returns
     -------
@@ -51,14 +51,14 @@ def export_thickness(
     Raises
     ------
     ExportError
-        Unknown extension, or the system refused to write; an old file is then unchanged.
+        The extension is unknown, or the system refused to write; an old file is then unchanged.
     """
     write = THICKNESS_FORMATS[extension_of(path, THICKNESS_FORMATS)]
     return write_whole(path, lambda stream: write(found, parts, unit, stream))
 
 
 def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str, Any]:
-    """The content of `.json`: lengths are in `unit`, areas in its square; null is no length."""
+    """Return the content of `.json`: lengths are in `unit`, areas in its square; None means that there is no length."""
     place = _mover(found)
     return {
         "minimum": _number(found.minimum),
@@ -117,7 +117,7 @@ def _write_json(found: Measurement, parts: ThinParts, unit: str, stream: BinaryI
 
 
 def _write_ply(found: Measurement, parts: ThinParts, _unit: str, stream: BinaryIO) -> None:
-    """The measured surface: its samples and triangles, with lengths, colours and patches."""
+    """Write the measured surface: its samples and triangles, with lengths, colours and patches."""
     header = f"""ply
 format binary_little_endian 1.0
 comment thickness: length at each vertex, inf where there is none; patch of each face, -1 where it is not thin
@@ -147,7 +147,7 @@ end_header
 
 
 def _bytes_of(values: NDArray[np.float64], start: float, end: float) -> NDArray[np.uint8]:
-    """(n, 3) sRGB of the scale of colours."""
+    """Return the colours of values on the scale, (n, 3), as sRGB bytes."""
     linear = colours(values, start, end)[:, :3].astype(np.float64)
     encoded = np.where(
         linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0.0) ** (1 / 2.4) - 0.055

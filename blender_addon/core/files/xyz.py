@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`.xyz` and `.xyzn`: a point per line, x y z, then nx ny nz (docs/formats.md)."""
+"""This module reads `.xyz` and `.xyzn` files: each line has a point, x y z, then nx ny nz (docs/formats.md)."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ if TYPE_CHECKING:
 
 
 def read_xyz(lines: Lines) -> ImportedPoints:
-    """Columns 4 to 6 are normals where they look like ones (`are_normals`): other files have colours there."""
+    """Read points; columns 4 to 6 are normals if `are_normals` accepts them, for some files have colours there."""
     table = _read_table(lines, 3, "x y z")
     normals = table[:, 3:6] if table.shape[1] >= 6 and are_normals(table[:, 3:6]) else None
     return _found(table, normals)
 
 
 def read_xyzn(lines: Lines) -> ImportedPoints:
-    """Columns 4 to 6 are normals, for the name of the file says so."""
+    """Read points; columns 4 to 6 are normals, because the extension says so."""
     table = _read_table(lines, 6, "x y z nx ny nz")
     return _found(table, table[:, 3:6])
 
 
 def _read_table(lines: Lines, least: int, what: str) -> NDArray[np.float64]:
-    """(n, k) the points; a count and a title may stand before them."""
+    """Return the points, (n, k); a count and a title may precede them."""
     stated = _skip_count(lines)
     _skip_title(lines, stated)
     rows = lines.rows(delimiter=next((mark for mark in ";," if mark in lines.line), ""))
@@ -45,7 +45,7 @@ def _read_table(lines: Lines, least: int, what: str) -> NDArray[np.float64]:
 
 
 def _skip_count(lines: Lines) -> int | None:
-    """The number of points, where it stands alone in the first line."""
+    """Return the number of points if the first line has only that, otherwise None."""
     word = lines.line.strip()
     if not re.fullmatch("[0-9]{1,18}", word):
         return None
@@ -54,7 +54,7 @@ def _skip_count(lines: Lines) -> int | None:
 
 
 def _skip_title(lines: Lines, stated: int | None) -> None:
-    """Names of columns; after a count, as in files of molecules, any words."""
+    """Skip a line of column names; after a count, as in files of molecules, the line may have any words."""
     words = re.findall(r"[^\s,;]+", lines.line)
     numbers = sum(map(is_number, words))
     if words and (numbers == 0 if stated is None else numbers < len(words)):

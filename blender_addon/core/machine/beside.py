@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work beside other work: while CGAL inserts points it leaves all cores but one idle."""
+"""Work can run in parallel with other work: while CGAL inserts points it uses only one core."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ T = TypeVar("T")
 
 
 class Beside(Generic[T]):
-    """Work in a thread of its own during a `with`; what it returned, or raised, comes from `result` afterwards.
+    """Runs work in its own thread during a `with`; `result` then returns its value or raises its error.
 
-    When the body of the `with` fails the work is cancelled. It never outlives the body.
+    If the body of the `with` fails, the work is cancelled. The `with` ends only when the work has ended.
 
     Parameters
     ----------
     work : callable
-        Called with a `_medial.Progress`, which nobody watches.
+        It is called with a `_medial.Progress`, which nobody watches.
     """
 
     def __init__(self, work: Callable[[Any], T]) -> None:
@@ -37,7 +37,7 @@ class Beside(Generic[T]):
         thread = threading.Thread(target=self._run, name="beside")
         try:
             thread.start()
-        except RuntimeError:  # the system has no thread to give: the work is done here and now
+        except RuntimeError:  # the system has no more threads, so this one does the work
             self._run()
         return self
 
@@ -49,10 +49,10 @@ class Beside(Generic[T]):
     ) -> None:
         if kind is not None:
             self._progress.cancel()
-        self._ended.wait()  # not by joining: a Ctrl-C there makes Python 3.11 believe that it ended
+        self._ended.wait()  # joining is unsafe: after a Ctrl-C Python 3.11 believes that the thread ended
 
     def result(self) -> T:
-        """Wait for the work and return its result; an error of the work is raised here."""
+        """Return the value of the work after the `with`; an error of the work is raised here."""
         if self._failure is not None:
             raise self._failure
         return self._value
@@ -60,7 +60,7 @@ class Beside(Generic[T]):
     def _run(self) -> None:
         try:
             self._value = self._work(self._progress)
-        except BaseException as failure:  # raised where the result is asked for
+        except BaseException as failure:  # `result` raises it
             self._failure = failure
         finally:
             self._ended.set()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A cache of the last analyses, so that other thresholds for the same points cost milliseconds."""
+"""The cache keeps the last analyses, so that other thresholds for the same points cost milliseconds."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def key_of(*parts: Any) -> str:
     Parameters
     ----------
     *parts : array of numbers, str, bool, int, float, None, member of an Enum, or tuple of these
-        Every array counts with all its elements. Parts of different types are different, whatever they print.
+        All elements of an array count. Parts of different types differ, even if they print the same.
 
     Raises
     ------
     TypeError
-        A part of another type.
+        A part has another type.
     """
     digest = hashlib.blake2b(digest_size=16)
     _add(digest, parts)
@@ -34,7 +34,7 @@ def key_of(*parts: Any) -> str:
 
 
 def _add(digest: hashlib.blake2b, part: Any) -> None:
-    """Add a part to a hash: its type, its length, and its content, so that no two lists of parts look alike."""
+    """Add the type, length and content of a part to a hash, so that different lists of parts differ."""
     if isinstance(part, tuple):
         digest.update(f"tuple {len(part)};".encode())
         for item in part:
@@ -48,7 +48,7 @@ def _add(digest: hashlib.blake2b, part: Any) -> None:
 
 
 def _text_of(part: Any) -> tuple[str, bytes]:
-    """The type and the value of a single part; equal numbers of Python and NumPy have the same."""
+    """Return the type and the value of a single part; equal numbers of Python and NumPy give the same pair."""
     match part:
         case None:
             return "None", b""
@@ -69,21 +69,21 @@ def _text_of(part: Any) -> tuple[str, bytes]:
 
 
 class AnalysisCache:
-    """Keeps the most recent analyses that fit into its room, and drops the oldest first.
+    """Keeps the most recently used analyses that fit into its room, and drops the least recent first.
 
-    An analysis that is larger than the whole room is not kept. It lives as long as the computation that uses it.
+    An analysis that is larger than the whole room is not kept; it lives only as long as its computation.
 
     Parameters
     ----------
     room : int
-        The bytes that all kept analyses may take together.
+        All kept analyses together may take so many bytes.
     """
 
     def __init__(self, room: int) -> None:
         self._room = room
         self._kept: OrderedDict[str, tuple[Any, int]] = OrderedDict()
         self._lock = threading.Lock()
-        self.analyses = 0  # the number computed since Blender started
+        self.analyses = 0  # so many were computed since Blender started
 
     def get(self, key: str) -> Any | None:
         with self._lock:
@@ -102,7 +102,7 @@ class AnalysisCache:
                 self._kept[key] = (analysis, size)
 
     def resize(self, key: str, size: int) -> None:
-        """Record that a kept analysis has grown to `size` bytes; others are dropped to make room."""
+        """Record that a kept analysis has grown to `size` bytes; older ones are dropped to make room."""
         with self._lock:
             if key not in self._kept:
                 return
@@ -123,11 +123,11 @@ class AnalysisCache:
 
     @property
     def bytes(self) -> int:
-        """The bytes that all kept analyses take together."""
+        """Return the bytes that all kept analyses take together."""
         return sum(size for _, size in tuple(self._kept.values()))
 
     def give_back(self, size: int) -> None:
-        """Drop analyses until at least `size` bytes are free again, or none is left."""
+        """Drop analyses until they free at least `size` bytes, or none is left."""
         with self._lock:
             self._drop_until(max(0, self.bytes - size))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How much memory can be had on this machine now without swapping."""
+"""This module finds how much memory is available on this machine now without swapping."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 _GROUPS = Path("/sys/fs/cgroup")
-# The files of a control group, in version 2 and 1: its limit, its use, and the part of the use that can be dropped.
+# These files of a control group, in versions 2 and 1, hold its limit, its use, and the part of it that can be freed.
 _FILES = (
     ("", "memory.max", "memory.current", "inactive_file"),
     ("memory", "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"),
@@ -19,10 +19,10 @@ _FILES = (
 
 
 def free_memory() -> int | None:
-    """The bytes that can be had now; None where the system does not say.
+    """Return the bytes that are available now, or None if the system does not report them.
 
-    Linux: what is available, also in the containers round this process and within its own limit. Windows: the
-    physical memory that is available. Elsewhere: all memory of the machine.
+    On Linux the containers of this process and its own limit count, too. On Windows it is the available physical
+    memory, and elsewhere all memory of the machine.
     """
     if sys.platform == "win32":
         return _of_windows()
@@ -35,7 +35,7 @@ def free_memory() -> int | None:
 
 
 def _available(text: str) -> int:
-    """The available bytes that the text of /proc/meminfo states."""
+    """Return the available bytes that the text of /proc/meminfo states."""
     found = re.search(r"^MemAvailable:\s+(\d+) kB$", text, re.MULTILINE)
     if found is None:
         raise ValueError("no MemAvailable")
@@ -43,21 +43,21 @@ def _available(text: str) -> int:
 
 
 def _left_in_groups(text: str, root: Path) -> Iterator[int]:
-    """The bytes that the control groups of a process leave of their limits; `text` is that of /proc/self/cgroup."""
+    """Yield the bytes that each control group of a process has left; `text` is the text of /proc/self/cgroup."""
     for line in text.splitlines():
         _, controllers, path = line.split(":", 2)
         for controller, *files in _FILES:
             if controller in controllers.split(","):
                 top = root / controller
                 place = top / path.strip("/")
-                # A container may show its own group at the top, under the path of the machine.
+                # A container may mount its own group at the top, while the path is that of the machine.
                 for folder in (place, *place.parents):
                     if folder.is_relative_to(top) and (left := _left(folder, *files)) is not None:
                         yield left
 
 
 def _left(folder: Path, limit: str, use: str, droppable: str) -> int | None:
-    """None where a group has no limit."""
+    """Return the bytes that a control group has left, or None if it has no limit."""
     try:
         most = int((folder / limit).read_text(encoding="ascii"))
         used = int((folder / use).read_text(encoding="ascii"))
@@ -69,8 +69,8 @@ def _left(folder: Path, limit: str, use: str, droppable: str) -> int | None:
 
 
 def _left_of_addresses() -> Iterator[int]:
-    """The bytes that the process may still map where it has a limit, as by `ulimit -v`."""
-    import resource  # there is none on Windows
+    """Yield the bytes that the process may still map, if it has a limit, as by `ulimit -v`."""
+    import resource  # Windows has none
 
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit != resource.RLIM_INFINITY:
@@ -86,7 +86,7 @@ def _installed() -> int | None:
 
 
 class _MemoryStatus(ctypes.Structure):
-    """MEMORYSTATUSEX of Windows."""
+    """This is MEMORYSTATUSEX of Windows."""
 
     _fields_ = (
         ("length", ctypes.c_uint32),

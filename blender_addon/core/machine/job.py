@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Work on several shapes: at once, or in a thread that can be watched and cancelled."""
+"""Work on several shapes runs directly, or in a thread that can be watched and cancelled."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .progress import Progress
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Work on one shape, called with a `Progress` or None; `name` is for messages."""
+    """A task is work on one shape; `work` is called with a `Progress` or None, and `name` is for messages."""
 
     name: str
     work: Callable[[Progress | None], Any]
@@ -23,26 +23,26 @@ class Task:
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """The outcome of a task: the value that its work returned, or an error."""
+    """An outcome of a task has the value that its work returned, or an error."""
 
     value: Any
     error: MedialAxisError | None
 
 
 def run_task(task: Task, progress: Progress | None = None) -> Outcome:
-    """Do the work; of our errors only `Cancelled` leaves as an exception."""
+    """Do the work and return its outcome; of the add-on's errors only `Cancelled` is raised."""
     try:
         return Outcome(task.work(progress), None)
     except Cancelled:
         raise
     except MedialAxisError as error:
         return Outcome(None, error)
-    except MemoryError:  # of NumPy, wherever it was
+    except MemoryError:  # NumPy may raise it anywhere
         return Outcome(None, out_of_memory())
 
 
 class Job:
-    """A thread that runs tasks one after the other; ended by `outcomes`, `stop` or Python's end."""
+    """Runs tasks one after the other in a thread, which ends with `outcomes`, `stop` or the interpreter."""
 
     def __init__(self, tasks: Sequence[Task]) -> None:
         self.names = tuple(task.name for task in tasks)
@@ -57,7 +57,7 @@ class Job:
         )
         try:
             self._thread.start()
-        except RuntimeError:  # the system has no thread to give: the work is done here and now
+        except RuntimeError:  # the system has no more threads, so this one does the work
             self._run(tuple(tasks))
             return
         # A daemon thread inside the compiled module must not outlive the interpreter.
@@ -73,46 +73,46 @@ class Job:
 
     @property
     def fraction(self) -> float:
-        """Share of all tasks that is done, 0 to 1."""
+        """Return the share of all tasks that is done, 0 to 1."""
         return (self._current + self._progress[self._current].fraction) / len(self._progress)
 
     @property
     def name(self) -> str:
-        """The name of the task that runs."""
+        """Return the name of the task that runs."""
         return self.names[self._current]
 
     @property
     def stage(self) -> str:
-        """'Poles', or '1 of 2: Poles' when there are several tasks."""
+        """Return the stage, such as 'Poles', or '1 of 2: Poles' if there are several tasks."""
         count = len(self.names)
         which = f"{self._current + 1} of {count}: " if count > 1 else ""
         return which + (self._progress[self._current].stage or "Preparing")
 
     @property
     def text(self) -> str:
-        """'Suzanne, 1 of 2: Poles, 42 %'."""
+        """Return a text such as 'Suzanne, 1 of 2: Poles, 42 %'."""
         return f"{self.name}, {self.stage}, {100 * self.fraction:.0f} %"
 
     def wait(self, seconds: float) -> bool:
-        """Wait so many seconds at most; returns whether the job is done.
+        """Wait at most so many seconds, and return whether the job is done.
 
-        Not by joining the thread: a Ctrl-C in `Thread.join` makes Python 3.11 believe that it ended.
+        It does not join the thread: after a Ctrl-C in `Thread.join` Python 3.11 believes that the thread ended.
         """
         return self._ended.wait(seconds)
 
     def cancel(self) -> None:
-        """Ask the thread to end; it does within 0.3 s."""
+        """Ask the thread to end, which it does within 0.3 s."""
         self._cancelled = True
         for progress in self._progress:
             progress.cancel()
 
     def stop(self) -> None:
-        """Cancel and wait."""
+        """Cancel the tasks, and wait until the thread has ended."""
         self.cancel()
         self._join()
 
     def outcomes(self) -> list[Outcome]:
-        """The outcome of each task, in order; it waits for the thread.
+        """Wait for the thread, and return the outcome of each task, in order.
 
         Raises
         ------
@@ -126,7 +126,7 @@ class Job:
         return self._outcomes
 
     def _join(self) -> None:
-        if self._thread.ident is not None:  # it was started
+        if self._thread.ident is not None:  # the thread was started
             self._thread.join()
             atexit.unregister(self.stop)
 
@@ -139,7 +139,7 @@ class Job:
                     return
         except Cancelled:
             self._cancelled = True
-        except BaseException as failure:  # raised where the outcomes are asked for
+        except BaseException as failure:  # `outcomes` raises it
             self._failure = failure
         finally:
             self._ended.set()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How much memory an analysis needs, how much it may have, and that it does not begin when it needs more."""
+"""This module forecasts the memory of an analysis, and refuses an analysis that would exceed the limit."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from . import native
 from .cache import CACHE
 from .free_memory import free_memory
 
-OBJECT = "object"  # the output that is no file
-_MOST = 1 << 28  # points that one analysis can have
-# Binary digits that are kept of a number of points that follows from the free memory, so that a little more or less
-# free memory gives the same points.
+OBJECT = "object"  # the output is an object in Blender and not a file
+_MOST = 1 << 28  # one analysis can have at most so many points
+# A number of points that follows from the free memory keeps so many binary digits, so that small changes of the free
+# memory give the same points.
 _DIGITS = 4
 
 
 @dataclass(frozen=True, kw_only=True)
 class Use:
-    """The use of an analysis, on which its peak of memory depends.
+    """A use describes what an analysis is for; its peak of memory depends on that.
 
     Parameters
     ----------
     faces : bool
         The surface has faces, so that Tight Cocone is not needed.
     side : Side
-        Of which facets are wanted; AUTOMATIC is INNER.
+        The side of the facets that are wanted; AUTOMATIC counts as INNER.
     levels : bool
-        A level of the hierarchy is wanted, not the facets as published.
+        A level of the hierarchy is wanted, not the facets of the published method.
     output : str
         The extension of the file that is written, OBJECT in Blender, or "".
     """
@@ -44,10 +44,10 @@ class Use:
 
 @dataclass(frozen=True)
 class MemoryLimit(Options):
-    """The memory that an analysis may need.
+    """This limits the memory that an analysis may need.
 
-    The free memory of the machine, which a limit of 0 means, includes the analyses that the cache keeps: they are
-    dropped to make room. `use` is the further use of the analysis; None: there is none.
+    A limit of 0 means the free memory of the machine, including the analyses in the cache, which are dropped to make
+    room. `use` is the further use of the analysis, or None if there is none.
     """
 
     memory_limit: int = integer(
@@ -73,15 +73,15 @@ class MemoryLimit(Options):
     use: Use | None = field(default=None, repr=False, compare=False)
 
     def used(self, **parts: object) -> MemoryLimit:
-        """The same limit, of which more is known for what; `parts` are fields of Use."""
+        """Return the same limit with more fields of its use set; `parts` are fields of Use."""
         return replace(self, use=replace(self.use or Use(), **parts))
 
     def needed(self, points: int) -> int:
-        """About how many bytes so many points need at the peak."""
+        """Return roughly how many bytes so many points need at the peak."""
         return memory_needed(points, self.use)
 
     def check(self, points: int) -> None:
-        """Check that so many points can be analysed; to be called before they are.
+        """Check that so many points can be analysed; call it before the analysis.
 
         Raises
         ------
@@ -100,7 +100,7 @@ class MemoryLimit(Options):
 
     @property
     def points(self) -> int:
-        """The largest number of points that can be analysed."""
+        """Return the largest number of points that can be analysed."""
         most = max(0, bisect_right(range(_MOST), self._room(), key=self.needed) - 1)
         if self.memory_limit:
             return most
@@ -112,7 +112,7 @@ class MemoryLimit(Options):
         return f"the limit of {room}" if self.memory_limit else f"the free memory of {room}"
 
     def _room(self) -> int:
-        """Bytes."""
+        """Return the bytes that an analysis may have."""
         if self.memory_limit:
             return self.memory_limit * MEGABYTE
         free = free_memory()
@@ -123,7 +123,7 @@ LIMITS = options_of(MemoryLimit)
 WHAT_IS_FREE = MemoryLimit()
 
 
-# Bytes per point at the peak of the process, as measured (docs/lab/performance.md). Levels are of the inner side.
+# These are measured bytes per point at the peak of the process (docs/lab/performance.md). Levels use the inner side.
 _OF_LEVELS = {  # {faces: {output: bytes}}
     False: {"": 2150, ".ply": 2380, ".ma": 3130, OBJECT: 2840},
     True: {"": 2150, ".ply": 2390, ".ma": 3050, OBJECT: 2870},
@@ -143,7 +143,7 @@ _AT_PEAK = {  # {faces: {side: {output: bytes}}}
 
 
 def memory_needed(points: int, use: Use | None = None) -> int:
-    """About how many bytes so many points need at most: to be analysed, and what becomes of that."""
+    """Return roughly how many bytes so many points need at the peak of their analysis and its use."""
     if use is not None:
         peaks = _peaks(use)
         return points * peaks.get(use.output, peaks[""])
@@ -158,5 +158,5 @@ def _peaks(use: Use) -> dict[str, int]:
 
 
 def megabytes(size: int) -> str:
-    """'1,234 MB', rounded up."""
+    """Return a size in megabytes, rounded up, such as '1,234 MB'."""
     return f"{-(-size // MEGABYTE):,} MB"

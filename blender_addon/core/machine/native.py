@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The compiled module `_medial`: it is loaded when it is first needed; `lib/` has one file per Python ABI."""
+"""The compiled module `_medial` is loaded when it is first needed; `lib/` has one file per Python ABI."""
 
 from __future__ import annotations
 
@@ -24,23 +24,23 @@ from ..errors import (
 LIB = Path(__file__).resolve().parents[2] / "lib"
 NAME = "_medial"
 
-# Whether the module is loaded from a copy in memory. The user interface asks for it where the add-on is no extension:
-# there Blender updates it by writing over its files, and to write over a file that is mapped ends Blender.
+# If this is set, the module is loaded from a copy in memory. The user interface sets it if the add-on is no extension:
+# Blender then updates it by overwriting its files, and overwriting a mapped file crashes Blender.
 load_a_copy = False
 
 _package = __package__.removesuffix(".core.machine")
 _module: ModuleType | None = None
-# Why the file that is there does not load; it is kept because trying again would not help.
+# This is the reason why the existing file does not load; it is kept because trying again would not help.
 _failure: str = ""
 
 
 def load() -> ModuleType:
-    """The compiled module.
+    """Return the compiled module.
 
     Raises
     ------
     NativeModuleError
-        No file for this Python, or one that does not load.
+        There is no file for this Python, or it does not load.
     """
     global _module, _failure
     if _module is None:
@@ -49,7 +49,7 @@ def load() -> ModuleType:
         try:
             _module = _imported(f"{_package}.lib.{NAME}")
         except ImportError as error:
-            if isinstance(error.__cause__, KeyboardInterrupt):  # the file has no fault
+            if isinstance(error.__cause__, KeyboardInterrupt):  # the file is not broken
                 raise error.__cause__ from None
             _failure = (
                 f"Expected a compiled module for {expected_abi()} that loads, but the system says "
@@ -60,17 +60,17 @@ def load() -> ModuleType:
 
 
 def _imported(name: str) -> ModuleType:
-    """The module of the file, or of a copy in memory where `load_a_copy` says so and the system lets it.
+    """Return the module from its file, or from a copy in memory if `load_a_copy` is set and the system allows it.
 
-    Some systems refuse files in memory, or libraries in them. The module is then loaded from its file, which
-    computes the same.
+    Some systems refuse files in memory, or libraries in them. The module is then loaded from its file, with the same
+    results.
     """
     original = file()
     if load_a_copy and original and name not in sys.modules and hasattr(os, "memfd_create"):
         try:
             return _imported_from_memory(name, original)
         except (OSError, ImportError):
-            pass  # what is wrong with the file itself is said below
+            pass  # the import below reports an error of the file itself
     return importlib.import_module(name)
 
 
@@ -82,7 +82,7 @@ def _imported_from_memory(name: str, original: Path) -> ModuleType:
         path = f"/proc/self/fd/{copy}"
         loader = ExtensionFileLoader(name, path)
         spec = spec_from_file_location(name, path, loader=loader)
-        assert spec is not None  # there is one for every loader
+        assert spec is not None  # every loader has one
         module = module_from_spec(spec)
         loader.exec_module(module)
     finally:
@@ -93,7 +93,7 @@ def _imported_from_memory(name: str, original: Path) -> ModuleType:
 
 @contextmanager
 def own_errors() -> Iterator[ModuleType]:
-    """The compiled module; its errors are raised as ours, which exist without it."""
+    """Give the compiled module, and translate its errors to the add-on's own, which exist without the module."""
     module = load()
     try:
         yield module
@@ -108,7 +108,7 @@ def own_errors() -> Iterator[ModuleType]:
 
 
 def problem() -> str:
-    """Why `load` would fail, in one sentence, or "". Loads nothing; cheap enough for a panel."""
+    """Return why `load` would fail, in one sentence, or "". It loads nothing and is cheap enough for a panel."""
     if _module is not None or _failure:
         return _failure
     if file() is not None:
@@ -121,18 +121,18 @@ def problem() -> str:
 
 
 def file() -> Path | None:
-    """The compiled module that `load` takes, or None."""
+    """Return the compiled module that `load` takes, or None."""
     files = (LIB / f"{NAME}{suffix}" for suffix in EXTENSION_SUFFIXES)
     return next((file for file in files if file.is_file()), None)
 
 
 def expected_abi() -> str:
-    """The tag in the file name that this Python loads, such as 'cpython-311-x86_64-linux-gnu'."""
+    """Return the tag in the file name of modules for this Python, such as 'cpython-311-x86_64-linux-gnu'."""
     return _tag(EXTENSION_SUFFIXES[0])
 
 
 def found_abis() -> list[str]:
-    """The tags of the compiled modules that are installed."""
+    """Return the tags of the compiled modules that are installed."""
     files = [*LIB.glob(f"{NAME}.*.so"), *LIB.glob(f"{NAME}.*.pyd")]
     return sorted(_tag(file.name.removeprefix(NAME)) for file in files)
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the levels of the axis to a skeleton: branches with radii, parts, bones, weights."""
+"""This package turns the levels of the axis into a skeleton: branches with radii, parts, bones, weights."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Few bones along a skeleton: joints at its nodes and bends, and a tree of bones from a root outwards."""
+"""Place few bones along a skeleton: joints lie at its nodes and bends, and the bones form a tree from a root."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ if TYPE_CHECKING:
 
     from .skeleton import Skeleton
 
-ERROR = 0.5  # how far a bone may leave the curve, as a share of the radius there
-ROOT = -1  # the branch of a root bone
+ERROR = 0.5  # a bone may deviate from the curve by this share of the local radius
+ROOT = -1  # a root bone has this branch
 
 
 @dataclass(frozen=True, eq=False)
 class Bones:
-    """A tree of bones for each connected part of a skeleton; parents come before their children.
+    """Bones form a tree for each connected part of a skeleton; parents come before their children.
 
     Parameters
     ----------
     head, tail : (n, 3) float64
-        The head of a bone is the tail of its parent. The tail of one that closes a loop is that of another bone.
+        The head of a bone is the tail of its parent. A bone that closes a loop shares its tail with another bone.
     head_radius, tail_radius : (n,) float64
     parent : (n,) int32
-        -1 of root bones, which end in the joint from which all others of their part go out.
+        It is -1 for root bones, which end in the joint from which all other bones of their part go out.
     branch : (n,) int32
-        Of the skeleton; -1 of root bones.
+        The branch of the skeleton; it is -1 for root bones.
     along : (n, 2) float64
-        Shares of the branch at the head and at the tail.
+        The head and the tail lie at these shares of the length of the branch.
     chain : (n,) int32
         Bones that go on into each other along one branch have the same number; root bones have their own.
     to_tip : (n,) bool
@@ -59,7 +59,7 @@ class Bones:
 
 @dataclass(frozen=True)
 class _Segment:
-    """Between two neighbouring joints of a branch, rows of the points of the skeleton."""
+    """A segment joins two neighbouring joints of a branch; `ends` are rows of the points of the skeleton."""
 
     ends: tuple[int, int]
     branch: int
@@ -71,7 +71,7 @@ class _Segment:
 
 
 def bones_of(skeleton: Skeleton, centre: NDArray[np.float64]) -> Bones:
-    """The bones of a skeleton; the root is the joint nearest to a centre, such as that of mass.
+    """Return the bones of a skeleton; the root is the joint nearest to a centre, such as that of mass.
 
     Parameters
     ----------
@@ -106,24 +106,24 @@ def _segments(skeleton: Skeleton) -> list[_Segment]:
 
 
 def _by_distance(skeleton: Skeleton, joints: list[int], centre: NDArray[np.float64]) -> list[int]:
-    """Joints, the one nearest to the centre first."""
+    """Return the joints sorted by their distance from the centre."""
     away = np.linalg.norm(skeleton.points[joints] - centre, axis=1)
     return [joints[i] for i in np.argsort(away, kind="stable")]
 
 
 class _Maker:
-    """Bones, as they are made from the root outwards."""
+    """Makes bones from the root outwards."""
 
     def __init__(self, skeleton: Skeleton) -> None:
         self._skeleton, self._degree = skeleton, skeleton.degree
         self._rows: list[
             tuple[_Segment | None, int, int, int]
-        ] = []  # segment, joint, parent, chain
-        self.bone_to: dict[int, int] = {}  # joint: the bone that ends there
+        ] = []  # a row is (segment, joint, parent, chain)
+        self.bone_to: dict[int, int] = {}  # it maps a joint to the bone that ends there
         self._chains = 0
 
     def grow(self, root: int, segments: list[_Segment], at: dict[int, list[int]]) -> None:
-        """A root bone and all that hangs on it, the nearest joints first; what is left closes loops."""
+        """Add a root bone and its descendants, nearest joints first; the remaining segments close loops."""
         self.bone_to[root] = self._add(None, root, -1)
         queue, used = [(0.0, root)], set()
         while queue:

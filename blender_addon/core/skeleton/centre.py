@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The centre of mass of a solid."""
+"""This module computes the centre of mass of a solid."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
 
 def centre_of_mass(skeleton: Skeleton) -> NDArray[np.float64]:
-    """(3,) of tubes along the edges and balls at single points; open and self-intersecting faces do it no harm."""
+    """Return the centre of mass, (3,), of tubes along the edges and balls at single points.
+
+    It needs no faces, so open or self-intersecting ones do not disturb it.
+    """
     a, b = skeleton.edges.T
     length = np.linalg.norm(skeleton.points[a] - skeleton.points[b], axis=1)
     r, s = skeleton.radius[a], skeleton.radius[b]

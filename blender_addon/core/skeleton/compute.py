@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From a shape to its skeleton, and to the part of it that each vertex and face belongs to."""
+"""Compute the skeleton of a shape, and the branch to which each vertex and face belongs."""
 
 from __future__ import annotations
 
@@ -36,29 +36,29 @@ if TYPE_CHECKING:
     from ..samples.analysed import AnalysedSamples
     from ..samples.shape import Shape
 
-# The share of the work before the hierarchy begins.
+# This share of the work is done before the hierarchy begins.
 _ANALYSIS = 0.6
 
 
 @dataclass(frozen=True, eq=False)
 class Skeletonization(OfChosenSamples):
-    """A skeleton and how it came about.
+    """A skeletonization holds a skeleton and how it was computed.
 
     Parameters
     ----------
     shape : Shape
     skeleton : Skeleton
-        With as few points as the settings allow.
+        It has as few points as the settings allow.
     parts : Parts
-        What of the surface belongs to which branch.
+        They assign the surface to the branches.
     loops : Loops
-        The small ones that were cut and filled.
+        They count the small loops that were cut and filled.
     mirrored : bool
-        Both halves are their mean.
+        Both halves were replaced by their mean.
     chosen : ChosenSamples
-        What was analysed, why, and how densely it lies.
+        The samples that were analysed, the reason for them, and their density.
     warnings : tuple of str
-        What was assumed or looks wrong, a sentence each.
+        Each assumption and each suspicion is one sentence.
     seconds : float
     """
 
@@ -79,13 +79,13 @@ def compute_skeleton(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> Skeletonization:
-    """The skeleton of a solid.
+    """Return the skeleton of a solid.
 
     Parameters
     ----------
     shape : Shape
     settings : Settings
-        What is analysed. The side is always the inner one.
+        They control the analysis. The side is always the inner one.
     wanted : SkeletonSettings
     progress : Progress, optional
     limit : MemoryLimit
@@ -94,7 +94,7 @@ def compute_skeleton(
     ------
     NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
     DegenerateInputError
-        The samples span no volume, enclose nothing, or what they enclose has no curve.
+        The samples span no volume, enclose nothing, or enclose a solid without a curve.
     """
     begun = begin(shape, replace(settings, side=Side.INNER), progress, limit, _ANALYSIS)
     chosen = begun.chosen
@@ -119,7 +119,7 @@ def compute_skeleton(
 def _net(
     chosen: ChosenSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
 ) -> tuple[Net, NDArray[np.int64], int, Loops]:
-    """The branches that are limbs, the point that owns each sample, facets that have no curve, and what was cleared."""
+    """Return the net of limbs, the owner of each sample, the number of facets without a curve, and cleared loops."""
     samples = chosen.samples
     level, hierarchy = _curve(samples, settings, wanted, progress)
     owner, balls = owners(samples, hierarchy, level)
@@ -143,7 +143,7 @@ def _net(
 def _curve(
     samples: AnalysedSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
 ) -> tuple[Any, Any]:
-    """The level without sheets, and the hierarchy that it is of."""
+    """Return the level without sheets, and its hierarchy."""
     hierarchy = hierarchy_of(samples, settings, progress.part(0.9))
     with native.own_errors():
         level = hierarchy.extract(
@@ -160,14 +160,14 @@ def _curve(
 def _mean_of_owned(
     owner: NDArray[np.int64], values: NDArray[np.float64], count: int
 ) -> NDArray[np.float64]:
-    """(count,) the mean of the values of the samples that each point owns; of all where it owns none."""
+    """Return the mean value of the samples that each point owns, (count,); a point without samples gets that of all."""
     owned = np.bincount(owner, minlength=count)
     total = np.bincount(owner, weights=values, minlength=count)
     return np.where(owned > 0, total / np.maximum(owned, 1), values.mean())
 
 
 def _thinned(net: Net, names: list[int], simplify: float) -> Skeleton:
-    """The branches with fewer points; neither they nor their radii are farther off than the settings allow."""
+    """Return the branches with fewer points; places and radii deviate by no more than `simplify` times the radius."""
     branches = []
     for name in names:
         chain = np.array(net.branches[name])
@@ -180,7 +180,7 @@ def _thinned(net: Net, names: list[int], simplify: float) -> Skeleton:
 
 
 def _samples_of_vertices(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int64]:
-    """(v,) the sample nearest to each vertex of the shape."""
+    """Return the sample nearest to each vertex of the shape, (v,)."""
     samples = chosen.samples
     distinct = samples.analysis.samples
     if samples.kinds is None and len(distinct) == len(shape.points):  # they are the vertices

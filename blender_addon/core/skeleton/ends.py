@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far limbs reach, and where they end.
+"""This module decides how far limbs reach, and where they end.
 
-In a blunt end of a limb the axis is a sheet, of which the curve goes through any part: it stops short, or runs into a
-corner. What does not depend on that are the balls of the samples that the limb owns. They say how far it reaches; and
-its end is the largest of those that reach as far as any.
+In a blunt end of a limb the axis is a sheet, and the curve may run through any part of it: it stops short, or runs into
+a corner. The balls of the samples that the limb owns do not depend on that. They determine how far the limb reaches; it
+ends at the largest of the balls that reach farthest.
 """
 
 from __future__ import annotations
@@ -18,23 +18,25 @@ if TYPE_CHECKING:
 
     from .net import Net
 
-_AS_FAR = 0.25  # of its radius: a ball that reaches so little less than another one reaches as far
-_LAST = 2.0  # radii: how much of a limb is its end
-_STEP = 0.5  # radii between the points of what is added to it
+_AS_FAR = (
+    0.25  # a ball counts as reaching farthest if it falls short by at most this share of its radius
+)
+_LAST = 2.0  # the end of a limb is so many radii long
+_STEP = 0.5  # nothing uses this constant
 
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """The largest ball at each sample that has one, in the order of the points of the curve that own the samples.
+    """These are the largest balls at the samples, sorted by the points of the curve that own the samples.
 
     Parameters
     ----------
     centre : (n, 3) float64
     radius : (n,) float64
     sample : (n,) int64
-        Which touches each.
+        The sample that touches each ball.
     first : (p + 1,) int64
-        Those of point i are the rows first[i] : first[i + 1].
+        The balls of point i are the rows first[i] : first[i + 1].
     """
 
     centre: NDArray[np.float64]
@@ -43,7 +45,7 @@ class Balls:
     first: NDArray[np.int64]
 
     def of(self, points: list[int]) -> NDArray[np.int64]:
-        """The rows of the balls of some points."""
+        """Return the rows of the balls of some points."""
         starts, ends = self.first[points], self.first[np.array(points, np.int64) + 1]
         counts = ends - starts
         before = np.cumsum(counts) - counts
@@ -57,7 +59,7 @@ def balls_of(
     sample: NDArray[np.int64],
     count: int,
 ) -> Balls:
-    """The balls of samples, which are rows of the same length; `count` points own them."""
+    """Return the balls sorted by owner. All arrays have one row for each ball; `count` points may own them."""
     order = np.argsort(owner, kind="stable")
     first = np.zeros(count + 1, np.int64)
     np.cumsum(np.bincount(owner, minlength=count), out=first[1:])
@@ -65,7 +67,7 @@ def balls_of(
 
 
 def reach_of(net: Net, name: int, balls: Balls) -> float:
-    """How far a leaf, with all that it owns, reaches from the centre of its fork."""
+    """Return how far a leaf and the balls of its samples reach from the centre of its fork."""
     chain = net.from_fork(name)
     rows = balls.of(net.held(chain[1:]))
     far = _reaches(balls, rows, net.points[chain[0]])
@@ -76,7 +78,7 @@ def reach_of(net: Net, name: int, balls: Balls) -> float:
 def _reaches(
     balls: Balls, rows: NDArray[np.int64], base: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """How far balls reach from a point in the direction in which their centres lie in the mean."""
+    """Return how far balls reach from a point in the mean direction of their centres."""
     away = balls.centre[rows] - base
     along = away.sum(axis=0)
     length = max(float(np.linalg.norm(along)), float(np.finfo(float).tiny))
@@ -84,12 +86,12 @@ def _reaches(
 
 
 def end_limbs(net: Net, owner: NDArray[np.int64], balls: Balls) -> NDArray[np.int64]:
-    """Let each limb end where it does.
+    """Move the end of each limb to its largest ball that reaches farthest.
 
     Parameters
     ----------
     net : Net
-        Its tips move. Points are added where a limb goes on beyond its tip.
+        Its tips move, and the last points of a limb are replaced by a straight way to the new tip.
     owner : (n,) int64
         The point that owns each sample.
     balls : Balls
@@ -97,7 +99,7 @@ def end_limbs(net: Net, owner: NDArray[np.int64], balls: Balls) -> NDArray[np.in
     Returns
     -------
     owner : (n,) int64
-        Samples of a tip belong to the nearest of the points that were added to it.
+        A copy of the given owners.
     """
     owner = owner.copy()
     for tip in net.tips():
@@ -120,7 +122,7 @@ def _end(net: Net, tip: int, owner: NDArray[np.int64], balls: Balls) -> None:
 
 
 def _start_of_end(net: Net, chain: list[int]) -> int:
-    """The last point of a chain, but for its tip, from which the tip is farther than two of its radii; or the first."""
+    """Return the last position on a chain that is more than two of its radii away from the tip, or 0."""
     away = np.linalg.norm(net.points[chain[:-1]] - net.points[chain[-1]], axis=1)
     far = np.flatnonzero(away > _LAST * net.radius[chain[:-1]])
     return int(far[-1]) if len(far) else 0
@@ -129,7 +131,7 @@ def _start_of_end(net: Net, chain: list[int]) -> int:
 def _lead_to(
     net: Net, name: int, chain: list[int], start: int, place: NDArray[np.float64], radius: float
 ) -> None:
-    """Let the tip of a chain be at another place, to which it goes straight from the nearest of its last points."""
+    """Move the tip of a chain, and lead the chain straight to it from the nearest of the points after `start`."""
     away = np.linalg.norm(net.points[chain[start:-1]] - place, axis=1)
     kept = start + int(np.argmin(away))
     net.end_at(name, chain[: kept + 1], chain[-1])

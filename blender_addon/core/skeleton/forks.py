@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where forks lie.
+"""This module moves forks to the points where their limbs would meet.
 
-The ball at a fork covers the roots of its limbs; in there the axis says little of where they come from, and its curve
-takes any way. So the fork goes to where the limbs, as they are outside, would meet, and the ways to it are straight.
-Where they do not meet well inside that ball, all stays as it is.
+The ball at a fork covers the roots of its limbs. Inside it the axis hardly shows the directions of the limbs, and its
+curve is arbitrary. So the limbs outside the ball are extended as straight lines, and the fork moves to the point where
+they meet. If that point is not well inside the ball, nothing changes.
 """
 
 from __future__ import annotations
@@ -18,28 +18,28 @@ if TYPE_CHECKING:
 
     from .net import Net
 
-_FAR = 2.5  # radii of the ball: how far a limb says where it comes from
-_MOVED = 1.0  # radii: a fork goes no farther
-_ROOM = 0.6  # of the radius: there has to be so much at the new place
-_STAY = 0.05  # weight of the old place beside those of the limbs
+_FAR = 2.5  # points of a limb count up to this distance from the fork, in radii of its ball
+_MOVED = 1.0  # a fork moves by at most so many radii
+_ROOM = 0.6  # the ball at the new place must have at least this share of the radius
+_STAY = 0.05  # the old place has this weight; each limb has weight 1
 
 
 @dataclass(frozen=True, eq=False)
 class _Root:
-    """The beginning of a branch: its points in the ball of its fork, from the fork outwards, and the next."""
+    """A root begins a branch: `inside` are its points in the ball of its fork, `beyond` is the first one outside."""
 
     inside: list[int]
     beyond: int
 
 
 def draw_forks(net: Net, samples: NDArray[np.float64]) -> None:
-    """Move the forks of a net, and the points between them and their limbs; their radii reach to the nearest sample."""
+    """Move the forks of a net and the points in their balls; each new radius is the distance to the nearest sample."""
     forks = [node for node, names in net.at.items() if len(names) > 2]
     if forks:
         _draw(net, forks, samples)
         _draw(
             net, forks, samples
-        )  # limbs near the new places are others than those near the old ones
+        )  # the points outside the ball change as the fork moves, so a second pass is needed
 
 
 def _draw(net: Net, forks: list[int], samples: NDArray[np.float64]) -> None:
@@ -61,7 +61,7 @@ def _draw(net: Net, forks: list[int], samples: NDArray[np.float64]) -> None:
 
 
 def _meeting_point(net: Net, fork: int) -> NDArray[np.float64]:
-    """The point nearest to the lines along which the limbs come, in least squares."""
+    """Return the point that is nearest in least squares to the lines along the limbs."""
     here = net.points[fork]
     matrix, right = _STAY * np.eye(3), np.zeros(3)
     for name in net.at[fork]:
@@ -74,7 +74,7 @@ def _meeting_point(net: Net, fork: int) -> NDArray[np.float64]:
 
 
 def _outside(net: Net, name: int, fork: int) -> list[int]:
-    """The points of a branch outside the ball of its fork but near to it; in its first half if it ends in a fork."""
+    """Return the points of a branch outside but near the ball of its fork; only its first half if it ends in a fork."""
     chain = _from(net, name, fork)
     if len(net.at[chain[-1]]) > 2:
         chain = chain[: len(chain) // 2 + 1]
@@ -90,13 +90,13 @@ def _from(net: Net, name: int, fork: int) -> list[int]:
 
 
 def _line(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The mean of points, and the direction in which they spread most."""
+    """Return the mean of points, and the direction in which they spread most."""
     middle = points.mean(axis=0)
     return middle, np.linalg.svd(points - middle)[2][0]
 
 
 def _roots(net: Net, fork: int) -> list[_Root]:
-    """The branches that leave the ball of a fork; a loop leaves it twice."""
+    """Return the branches that leave the ball of a fork; a loop leaves it twice."""
     found = []
     for name in dict.fromkeys(net.at[fork]):
         chain = net.branches[name]
@@ -110,14 +110,14 @@ def _roots(net: Net, fork: int) -> list[_Root]:
 
 
 def _straighten(net: Net, root: _Root, place: NDArray[np.float64]) -> None:
-    """Lay the points in the ball evenly on the way from its new centre to the next point."""
+    """Space the points in the ball evenly on the segment from its new centre to the next point."""
     count = len(root.inside)
     share = np.arange(1, count + 1)[:, None] / (count + 1)
     net.points[root.inside] = (1.0 - share) * place + share * net.points[root.beyond]
 
 
 def _room(points: NDArray[np.float64], samples: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n,) the distance to the nearest sample; there are few points, and they are far from all samples."""
+    """Return the distance to the nearest sample, (n,); there are few points, and they are far from all samples."""
     centred = samples - samples.mean(axis=0)
     squares = np.einsum("ij,ij->i", centred, centred)
     found = np.empty(len(points))

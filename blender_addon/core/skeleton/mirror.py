@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a skeleton is symmetric in X but for its samples, both halves become their mean.
+"""If a skeleton is symmetric in X up to the noise of its samples, both halves are replaced by their mean.
 
 The plane goes through the centre of mass. Nodes and branches must have mirror images, and no point may be farther than
-2 % of the size from the image of another one; else nothing changes.
+2 % of the size from the mirror image of another one; otherwise nothing changes.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .net import Net
 
-SYMMETRIC = 0.02  # of the size
+SYMMETRIC = 0.02  # a mirror image may be off by this share of the size
 
 
 def make_symmetric(net: Net, plane: float) -> bool:
@@ -28,7 +28,7 @@ def make_symmetric(net: Net, plane: float) -> bool:
     ----------
     net : Net
     plane : float
-        X of the mirror.
+        The mirror plane has this X.
 
     Returns
     -------
@@ -61,7 +61,7 @@ def _image(points: NDArray[np.float64], plane: float) -> NDArray[np.float64]:
 
 
 def _images_of_nodes(net: Net, plane: float, allowed: float) -> dict[int, int] | None:
-    """{node: the node that is its mirror image}; None where one has none. Forks may be off by their radius."""
+    """Return {node: its mirror image}, or None if one has none. It may be off by `allowed` or its radius."""
     nodes = np.array(sorted(net.at))
     found = nodes[nearest(_image(net.points[nodes], plane), net.points[nodes])]
     away = np.linalg.norm(_image(net.points[nodes], plane) - net.points[found], axis=1)
@@ -74,7 +74,7 @@ def _images_of_nodes(net: Net, plane: float, allowed: float) -> dict[int, int] |
 def _images_of_branches(
     net: Net, nodes: dict[int, int], plane: float, allowed: float
 ) -> dict[int, tuple[int, list[int]]] | None:
-    """{branch: the branch that is its mirror image, and the points of that from the image of its start on}, or None."""
+    """Return {branch: (its mirror image, the points of that from the image of its start)}, or None if one has none."""
     image = {}
     for name, chain in net.branches.items():
         start, end = nodes[chain[0]], nodes[chain[-1]]
@@ -97,7 +97,7 @@ def _images_of_branches(
 
 
 def _average(net: Net, name: int, other: int, way: list[int], plane: float) -> None:
-    """Give two branches, or the two halves of one, as many points, and let each be the image of the other."""
+    """Make two branches, or the two halves of one, mirror images of each other with equally many points."""
     chain = net.branches[name]
     if name == other:
         _average_with_itself(net, chain, chain[0] != way[0], plane)
@@ -107,7 +107,7 @@ def _average(net: Net, name: int, other: int, way: list[int], plane: float) -> N
     share = _shares(net.points[short])
     (places, radii), (others, others_radii) = (_at(net, rows, share) for rows in (short, long))
     mean, radius = (places + _image(others, plane)) / 2, (radii + others_radii) / 2
-    inner = slice(1, -1)  # nodes are for all branches at once
+    inner = slice(1, -1)  # nodes belong to several branches and are averaged later
     left = [long[i] for i in kept]
     net.points[short[inner]], net.radius[short[inner]] = mean[inner], radius[inner]
     net.points[left[inner]], net.radius[left[inner]] = _image(mean, plane)[inner], radius[inner]
@@ -122,7 +122,7 @@ def _average(net: Net, name: int, other: int, way: list[int], plane: float) -> N
 
 
 def _average_with_itself(net: Net, chain: list[int], along: bool, plane: float) -> None:
-    """A branch in the plane, or one that crosses it in its middle, which then goes to and fro."""
+    """Average a branch with its own image: it lies in the plane, or crosses it in its middle (`along`)."""
     share = np.linspace(0.0, 1.0, len(chain)) if along else _shares(net.points[chain])
     places, radii = _at(net, chain, share)
     others, others_radii = (places[::-1], radii[::-1]) if along else (places, radii)
@@ -131,7 +131,7 @@ def _average_with_itself(net: Net, chain: list[int], along: bool, plane: float) 
 
 
 def _shares(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n,) how far along a chain each of its points is, from 0 to 1."""
+    """Return the share of the length of a chain before each of its points, (n,), from 0 to 1."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     return np.concatenate(([0.0], np.cumsum(steps))) / max(steps.sum(), np.finfo(float).tiny)
 
@@ -139,7 +139,7 @@ def _shares(points: NDArray[np.float64]) -> NDArray[np.float64]:
 def _at(
     net: Net, rows: list[int], share: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Places along a chain, and the radii there."""
+    """Return the points at some shares of the length of a chain, and the radii there."""
     marks, points = _shares(net.points[rows]), net.points[rows]
     places = np.column_stack([np.interp(share, marks, points[:, axis]) for axis in range(3)])
     return places, np.interp(share, marks, net.radius[rows])

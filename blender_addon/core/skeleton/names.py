@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of bones: by chain, from the root outwards, with .L or .R where a chain has a mirror image.
+"""Bones are named by chain, from the root outwards, with .L or .R if a chain has a mirror image.
 
-`limb.02.03.L` is the third bone of the second chain that ends in a tip, and `limb.02.03.R` its mirror image in X;
-chains between forks are called trunk. Left is where X is positive, as in Blender. Nothing is guessed of what a limb is.
+`limb.02.03.L` is the third bone of the second chain that ends in a tip, and `limb.02.03.R` is its mirror image in X;
+chains between forks are called trunk. Left means positive X, as in Blender. No limb is guessed to be an arm or a leg.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 
     from .bones import Bones
 
-SYMMETRIC = 0.02  # of the size: how far a mirror image may be off
+SYMMETRIC = 0.02  # a mirror image may be off by this share of the size
 
 
 def names_of(bones: Bones, centre: NDArray[np.float64]) -> list[str]:
-    """A name for each bone.
+    """Return a name for each bone.
 
     Parameters
     ----------
     bones : Bones
     centre : (3,) float64
-        On the plane of the mirror.
+        It lies on the mirror plane.
     """
     chains = [
         np.flatnonzero(bones.chain == chain) for chain in range(bones.chain.max(initial=-1) + 1)
@@ -46,14 +46,17 @@ def names_of(bones: Bones, centre: NDArray[np.float64]) -> list[str]:
 def _numbered(
     bones: Bones, chains: list[NDArray[np.intp]], centre: NDArray[np.float64]
 ) -> list[tuple[int, str, NDArray[np.intp]]]:
-    """Number, side and bones of each chain: from top to bottom, then along Y; mirror images have the same number."""
+    """Return number, side and bones of each chain, sorted from top to bottom, then along Y.
+
+    Mirror images have the same number.
+    """
     ends = np.array([bones.tail[chain[-1]] for chain in chains]).reshape(-1, 3) - centre
     partner = _partners(bones, chains, centre)
     found, number = [], 0
     for index in np.lexsort((-ends[:, 0], ends[:, 1], -ends[:, 2])):
         other = partner[index]
         if other >= 0 and ends[index, 0] < 0.0:
-            continue  # its partner names it
+            continue  # it is named together with its partner
         number += 1
         if other < 0:
             found.append((number, "", chains[index]))
@@ -65,7 +68,7 @@ def _numbered(
 def _partners(
     bones: Bones, chains: list[NDArray[np.intp]], centre: NDArray[np.float64]
 ) -> NDArray[np.int64]:
-    """The chain that is the mirror image of each, on the other side; -1 where none or several are."""
+    """Return the mirror image of each chain on the other side; it is -1 if there is none, or if there are several."""
     partner = np.full(len(chains), -1, np.int64)
     if not chains:
         return partner
@@ -84,7 +87,7 @@ def _partners(
 
 
 def _at_middle(bones: Bones, chain: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Half-way along a chain."""
+    """Return the point half-way along a chain."""
     joints = np.concatenate((bones.head[chain[:1]], bones.tail[chain]))
     marks = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(joints, axis=0), axis=1))))
     return np.array([np.interp(marks[-1] / 2, marks, joints[:, axis]) for axis in range(3)])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Branches between tips and forks, from which branches are taken away."""
+"""This module has the graph of branches between tips and forks, from which branches are removed."""
 
 from __future__ import annotations
 
@@ -14,29 +14,29 @@ if TYPE_CHECKING:
 
 
 class Net:
-    """A graph in space whose nodes are tips, forks and single points, and whose branches are chains of points.
+    """A net is a graph in space: its nodes are tips, forks and single points, its branches are chains of points.
 
     Parameters
     ----------
     points : (p, 3) float64
     radius : (p,) float64
-        Of the ball round each point.
+        The radius of the ball around each point.
     wires : (w, 2) integers
         Edges, rows of `points`.
     singles : (s,) integers
         Points without an edge.
     load : (p,) float64
-        What each point carries: the share of the surface whose balls are nearest to it. What is taken away leaves its
-        load to the point that it hung on.
+        The share of the surface that each point owns. A point that is removed leaves its load to the point that it
+        was attached to.
 
     Attributes
     ----------
     branches : dict of int to list of int
         Rows of `points` from node to node. A loop without a fork starts and ends at its first point.
     at : dict of int to list of int
-        The branches that end at each node; one that starts and ends there is named twice.
+        The branches that end at each node; a branch that starts and ends there is listed twice.
     moved : (p,) int64
-        The point that stands for each; itself for those that are there.
+        The point that has replaced each point; points that remain map to themselves.
     """
 
     def __init__(
@@ -56,44 +56,44 @@ class Net:
         for chain in chains(wires, len(points)):
             self.add(chain)
 
-    # --- what is there
+    # --- queries
 
     def tips(self) -> list[int]:
-        """Nodes at which one branch ends."""
+        """Return the nodes at which exactly one branch ends."""
         return [node for node, branches in self.at.items() if len(branches) == 1]
 
     def leaves(self) -> list[int]:
-        """Branches from a fork to a tip."""
+        """Return the branches from a fork to a tip."""
         return [name for name in self.branches if len(self.ends_free(name)) == 1]
 
     def ends_free(self, name: int) -> list[int]:
-        """The ends of a branch that are tips."""
+        """Return the ends of a branch that are tips."""
         chain = self.branches[name]
         return [node for node in (chain[0], chain[-1]) if len(self.at[node]) == 1]
 
     def length(self, name: int) -> float:
-        """Along a branch."""
+        """Return the length of a branch."""
         steps = np.diff(self.points[self.branches[name]], axis=0)
         return float(np.linalg.norm(steps, axis=1).sum())
 
     def from_fork(self, name: int) -> list[int]:
-        """The points of a leaf, its tip last."""
+        """Return the points of a leaf from its fork to its tip."""
         chain = self.branches[name]
         return chain[::-1] if len(self.at[chain[0]]) == 1 else chain
 
     def carried(self, name: int) -> float:
-        """The load of a leaf without its fork."""
+        """Return the load of a leaf without its fork."""
         return float(self.load[self.from_fork(name)[1:]].sum())
 
     def stands_for(self) -> NDArray[np.int64]:
-        """(p,) the point that is there for each."""
+        """Return the remaining point that has replaced each point, (p,)."""
         target = self.moved
         while not np.array_equal(target, target[target]):
             target = target[target]
         return target
 
     def held(self, rows: Iterable[int]) -> list[int]:
-        """Some points and all those that they stand for."""
+        """Return some points and all points that they have replaced."""
         found, left = [], list(rows)
         while left:
             row = left.pop()
@@ -101,10 +101,10 @@ class Net:
             left += self._held.get(row, ())
         return found
 
-    # --- what changes it
+    # --- changes
 
     def add(self, chain: list[int]) -> int:
-        """A branch along points; its name."""
+        """Add a branch along points, and return its name."""
         name, self._next = self._next, self._next + 1
         self.branches[name] = chain
         for node in (chain[0], chain[-1]):
@@ -112,7 +112,7 @@ class Net:
         return name
 
     def drop_leaf(self, name: int) -> None:
-        """Take away a branch from a fork to a tip."""
+        """Remove a branch from a fork to a tip."""
         chain = self.from_fork(name)
         self._take(name)
         self._give(chain[1:], chain[0])
@@ -120,14 +120,14 @@ class Net:
         self._join(chain[0])
 
     def end_at(self, name: int, kept: list[int], tip: int) -> None:
-        """Let a branch go from the first of its points straight to its tip, which takes what was between."""
+        """Lead a branch from its `kept` points straight to its tip, which takes over the points in between."""
         chain = self.branches[name]
         self._give([row for row in chain if row != tip and row not in kept], tip)
         way = [*kept, tip]
         self.branches[name] = way if chain[0] == way[0] else way[::-1]
 
     def cut(self, name: int) -> None:
-        """Take away a branch of a loop; each half leaves its load to its end."""
+        """Remove a branch of a loop; each half leaves its load to the node at its end."""
         chain = self.branches[name]
         self._take(name)
         middle = len(chain) // 2
@@ -137,7 +137,7 @@ class Net:
             self._join(node)
 
     def contract(self, names: Iterable[int], centre: int) -> None:
-        """Draw branches of a loop together into one of their points; what hangs on them goes there straight."""
+        """Contract branches of a loop to one of their points; branches attached to them lead straight to it."""
         gone: set[int] = set()
         for name in names:
             gone.update(self.branches[name])
@@ -150,7 +150,7 @@ class Net:
         self._join(centre)
 
     def _lead(self, name: int, node: int, centre: int) -> None:
-        """Let a branch that ends at a node end at another one."""
+        """Move one end of a branch from a node to another one."""
         chain = self.branches[name]
         chain = chain[::-1] if chain[0] == node else chain
         self.branches[name] = [*chain[:-1], centre]
@@ -168,7 +168,7 @@ class Net:
         self._held.setdefault(target, []).extend(rows)
 
     def _join(self, node: int) -> None:
-        """Make one branch of the two that meet at a node which is no fork any more."""
+        """Merge the two branches that meet at a node, if it is no longer a fork."""
         names = self.at[node]
         if len(names) != 2 or names[0] == names[1]:
             return
@@ -182,7 +182,7 @@ class Net:
 
 
 def chains(wires: NDArray[np.int32], count: int) -> list[list[int]]:
-    """Edges as chains between vertices of which not two edges go out, and loops; in order of their lowest vertex."""
+    """Return edges as chains between vertices whose degree is not 2, then as loops; both ascend by their start."""
     degree = np.bincount(wires.ravel(), minlength=count)
     edges_at: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     for edge, (a, b) in enumerate(wires.tolist()):
@@ -206,7 +206,7 @@ def _walked(
     degree: NDArray[np.int64],
     used: NDArray[np.bool_],
 ) -> list[int]:
-    """From a vertex through an edge to the next node, or round a loop."""
+    """Return the vertices from a vertex through an edge to the next node, or around a loop."""
     chain = [start]
     while True:
         used[edge] = True

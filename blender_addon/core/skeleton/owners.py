@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which point of the skeleton owns each sample: the nearest, along the axis, to the largest ball that touches it."""
+"""A sample is owned by the point of the skeleton that is nearest, along the axis, to the largest ball at the sample."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ if TYPE_CHECKING:
 
 
 def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArray[np.int64], Balls]:
-    """The point that owns each sample, and the balls of the samples that each point owns.
+    """Return the point that owns each sample, and the balls of the samples that each point owns.
 
     Parameters
     ----------
     samples : AnalysedSamples
     hierarchy : _medial.Hierarchy
     level : _medial.Level
-        Whose vertices are the points.
+        Its vertices are the points.
 
     Returns
     -------
     owner : (n,) int64
-        A row of the points. Samples whose ball the skeleton does not reach have that of the nearest one that has, and
-        where there is none, as on a ball, the nearest point.
+        It is a row of the points. A sample whose ball is not connected to the skeleton gets the owner of the nearest
+        sample that has one; if there is none, as on a ball, the nearest point.
     balls : Balls
     """
     graph = graph_of(hierarchy.vertices, hierarchy.edges)
@@ -50,7 +50,7 @@ def owners(samples: AnalysedSamples, hierarchy: Any, level: Any) -> tuple[NDArra
 
 
 def _of_the_nearest(owner: NDArray[np.int64], samples: AnalysedSamples) -> NDArray[np.int64]:
-    """The owners of samples, those without one as the nearest along Delaunay edges."""
+    """Return the owners; a sample without one gets that of the nearest sample along Delaunay edges."""
     edges = samples.analysis.edges
     edges = edges[(owner[edges] < 0).any(axis=1)]
     seeds = np.unique(edges[owner[edges] >= 0]).astype(np.int64)
@@ -59,7 +59,7 @@ def _of_the_nearest(owner: NDArray[np.int64], samples: AnalysedSamples) -> NDArr
 
 
 def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
-    """(n,) of each sample the vertex of the hierarchy with the largest ball that touches it, or -1."""
+    """Return the vertex of the hierarchy with the largest ball that touches each sample, (n,), or -1."""
     offsets, corners = hierarchy.facet_offsets, hierarchy.facet_vertices
     ball = np.full(count, -1, np.int64)
     if len(offsets) < 2:
@@ -67,21 +67,23 @@ def largest_balls(hierarchy: Any, count: int) -> NDArray[np.int64]:
     radius = hierarchy.radius[corners]
     largest = np.maximum.reduceat(radius, offsets[:-1])
     facet = np.repeat(np.arange(len(largest)), np.diff(offsets))
-    best = np.flatnonzero(radius == largest[facet])[::-1]  # so that the first of several stays
+    best = np.flatnonzero(radius == largest[facet])[
+        ::-1
+    ]  # reversed, the first of several is written last and stays
     of_facet = np.empty(len(largest), np.int64)
     of_facet[facet[best]] = corners[best]
     order = np.argsort(largest, kind="stable")
     ball[hierarchy.generators[order].ravel()] = np.repeat(
         of_facet[order], 2
-    )  # the last of several stays
+    )  # the last of several is written last and stays
     return ball
 
 
 def shares(samples: AnalysedSamples) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The spacing around each sample, (n,), and its share of the surface, (n,); both are 0 for duplicates.
+    """Return the spacing around each sample, (n,), and its share of the surface, (n,); both are 0 for duplicates.
 
-    At sharp edges and at lone samples the umbrella may be as large as the solid; so no spacing counts for more than
-    three usual ones.
+    At sharp edges and isolated samples the umbrella may be as large as the solid, so the spacing is limited to three
+    times its median.
     """
     spacing = np.zeros(len(samples.points))
     rows, found = samples.analysis.samples, samples.analysis.spacing

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts of a surface: which branch of the skeleton each vertex and face belongs to, and where along it."""
+"""A part of a surface belongs to one branch of the skeleton; vertices also have a position along it."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Places on branches.
+    """Places are positions along branches.
 
     Parameters
     ----------
     branch : (n,) int32
-        -1 for what belongs to a single point.
+        It is -1 for places at a point without a branch.
     along : (n,) float64
         The share of the branch before it: 0 at its start, 1 at its end.
     """
@@ -30,20 +30,20 @@ class Places:
     along: NDArray[np.float64]
 
     def of(self, rows: NDArray[np.int64]) -> Places:
-        """The places of some rows."""
+        """Return the places of some rows."""
         return Places(self.branch[rows], self.along[rows])
 
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """The branch to which each part of a surface belongs.
+    """Parts assign vertices and faces of a surface to branches.
 
     Parameters
     ----------
     vertices : Places
-        Of the vertices.
+        The places of the vertices.
     faces : (m,) int32
-        The branch of each triangle: that of most of its corners, else of the first; -1 as in `Places`.
+        The branch of each triangle: that of most of its corners, otherwise of the first; -1 as in `Places`.
     """
 
     vertices: Places
@@ -51,7 +51,7 @@ class Parts:
 
 
 def places(net: Net, names: list[int]) -> Places:
-    """The branch of each point of a net; a fork belongs to the thickest of its branches.
+    """Return the place of each point of a net; a fork belongs to the thickest of its branches.
 
     Parameters
     ----------
@@ -71,6 +71,6 @@ def places(net: Net, names: list[int]) -> Places:
 
 
 def parts_of(vertices: Places, triangles: NDArray[np.int32]) -> Parts:
-    """The parts of a surface whose vertices are at some places."""
+    """Return the parts of a surface whose vertices are at some places."""
     a, b, c = vertices.branch[triangles].T
     return Parts(vertices, np.where(b == c, b, a).astype(np.int32))

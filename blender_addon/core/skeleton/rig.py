@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From a shape to bones with names, and to the weights of its vertices."""
+"""Compute named bones of a shape, and the weights of its vertices."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """Bones, and how vertices follow them.
+    """A rig has bones, and weights by which vertices follow them.
 
     Parameters
     ----------
     made_of : Skeletonization
     bones : Bones
     names : list of str
-        Of the bones.
+        The names of the bones.
     bone : (v, 4) int32
         Up to four bones of each vertex of the shape.
     weight : (v, 4) float64
-        Of sum 1, the largest first.
+        The weights of a vertex add up to 1, and the largest is first.
     warnings : tuple of str
     seconds : float
     """
@@ -58,12 +58,12 @@ def compute_rig(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> Rig:
-    """Bones along the skeleton of a shape; parameters and errors as of `compute_skeleton`.
+    """Compute bones along the skeleton of a shape; parameters and errors are those of `compute_skeleton`.
 
     Raises
     ------
     DegenerateInputError
-        The skeleton is nothing but single points, as that of a ball.
+        The skeleton has only single points, as that of a ball.
     """
     start = time.perf_counter()
     made_of = compute_skeleton(shape, settings, wanted, progress, limit)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which loops and branches of a net are there because of the solid, and which because of its samples.
+"""These rules remove loops and branches that come from the sampling and not from the solid.
 
-Two rules for loops, one for branches:
+There are two rules for loops and one for branches:
 
-- A loop is *cut* at its thinnest branch where that is thinner than two spacings of the samples: there two limbs touch.
-- A loop is *filled*, drawn together into its largest ball, where it lies within a spacing of that ball: it goes round a
-  pinhole.
-- A leaf goes, the lightest first, where it hardly reaches out of the ball at its fork, or carries too small a share of
-  the surface for that: it is a ridge of a plate or of a terrace and no limb. The farther it reaches, the less it may
-  carry.
+- A loop is *cut* at its thinnest branch if that is thinner than two sample spacings: two limbs touch there.
+- A loop is *filled*, that is contracted to its largest ball, if it lies within one spacing of that ball: it goes around
+  a pinhole.
+- A leaf is removed, the lightest first, if it hardly reaches out of the ball at its fork, or owns too small a share of
+  the surface: it is a ridge of a plate or a terrace, and not a limb. The farther a leaf reaches, the less surface it
+  needs.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     from .ends import Balls
     from .net import Net
 
-THIN = 2.0  # spacings
-REACH = 1.6  # radii of the ball at the fork, from the centre of that to the far side of the farthest ball
+THIN = 2.0  # a loop is cut if it is thinner than so many spacings
+REACH = 1.6  # a limb reaches at least so many radii of the ball at its fork from the centre of that ball
 
 
 @dataclass(frozen=True)
 class Loops:
-    """The numbers of small loops that were cut, and that were filled."""
+    """These are the numbers of small loops that were cut and filled."""
 
     cut: int
     filled: int
@@ -46,7 +46,7 @@ def clear_loops(net: Net, spacing: NDArray[np.float64]) -> Loops:
     ----------
     net : Net
     spacing : (p,) float64
-        Of the samples round each point.
+        The spacing of the samples around each point.
     """
     cut = 0
     while (name := _thinnest_of_loops(net, spacing)) is not None:
@@ -60,15 +60,15 @@ def clear_loops(net: Net, spacing: NDArray[np.float64]) -> Loops:
 
 
 def prune(net: Net, share: float, balls: Balls) -> None:
-    """Take the leaves away that are no limbs, the lightest first.
+    """Remove the leaves that are not limbs, the lightest first.
 
     Parameters
     ----------
     net : Net
     share : float
-        Of the surface: what a limb carries at least that hardly reaches out; others less, as they reach farther.
+        A limb that just reaches out owns at least this share of the surface; the farther a limb reaches, the less.
     balls : Balls
-        Of the samples, by the points that own them.
+        The balls of the samples, by the points that own them.
     """
     queue = [(net.carried(name), name) for name in net.leaves()]
     heapq.heapify(queue)
@@ -76,7 +76,7 @@ def prune(net: Net, share: float, balls: Balls) -> None:
         load, name = heapq.heappop(queue)
         if name not in net.branches or len(net.ends_free(name)) != 1:
             continue
-        if net.carried(name) > load:  # it has grown
+        if net.carried(name) > load:  # the leaf has grown since
             heapq.heappush(queue, (net.carried(name), name))
         elif not is_limb(net, name, share, balls):
             before = set(net.branches)
@@ -87,7 +87,7 @@ def prune(net: Net, share: float, balls: Balls) -> None:
 
 
 def join_forks(net: Net) -> None:
-    """Make one fork of two whose branch is shorter than half the radius of the smaller of their balls."""
+    """Merge two forks if the branch between them is shorter than half the radius of the smaller of their balls."""
     while (name := _shortest_between_forks(net)) is not None:
         chain = net.branches[name]
         net.contract([name], max(chain, key=lambda row: (net.radius[row], -row)))
@@ -107,7 +107,7 @@ def _shortest_between_forks(net: Net) -> int | None:
 
 
 def is_limb(net: Net, name: int, share: float, balls: Balls) -> bool:
-    """Whether a leaf reaches out of the ball at its fork, and carries enough for that."""
+    """Return whether a leaf reaches out of the ball at its fork, and owns enough of the surface for its reach."""
     reach = reach_of(net, name, balls)
     needed = REACH * net.radius[net.from_fork(name)[0]]
     return bool(reach >= needed and net.carried(name) * reach >= share * needed)
@@ -117,7 +117,7 @@ def is_limb(net: Net, name: int, share: float, balls: Balls) -> bool:
 
 
 def _thinnest_of_loops(net: Net, spacing: NDArray[np.float64]) -> int | None:
-    """The branch of a loop with the thinnest neck in spacings, where it is too thin to be told from none."""
+    """Return the branch of a loop with the thinnest neck in spacings, or None if no neck is thinner than THIN."""
     necks = []
     for name in _on_loops(net):
         rows = net.branches[name]
@@ -128,7 +128,7 @@ def _thinnest_of_loops(net: Net, spacing: NDArray[np.float64]) -> int | None:
 
 
 def _pinhole(net: Net, spacing: NDArray[np.float64]) -> tuple[list[int], int] | None:
-    """The branches of a loop that lies within a spacing of its largest ball, and the centre of that; or None."""
+    """Return the branches of a loop within one spacing of its largest ball, and the point of that ball; or None."""
     for name in _on_loops(net):
         loop = _shortest_loop(net, name)
         rows = np.unique(np.concatenate([net.branches[branch] for branch in loop]))
@@ -140,7 +140,7 @@ def _pinhole(net: Net, spacing: NDArray[np.float64]) -> tuple[list[int], int] | 
 
 
 def _on_loops(net: Net) -> list[int]:
-    """Branches without which the net hangs together as before: all but its bridges."""
+    """Return the branches on loops, that is all but the bridges of the net."""
     depth: dict[int, int] = {}
     lowest: dict[int, int] = {}
     bridges: set[int] = set()
@@ -153,7 +153,7 @@ def _on_loops(net: Net) -> list[int]:
 def _search(
     net: Net, root: int, depth: dict[int, int], lowest: dict[int, int], bridges: set[int]
 ) -> None:
-    """Depth-first: a branch is a bridge if nothing beyond it leads back above it."""
+    """Search depth-first for bridges: no branch beyond a bridge leads back to its start or above."""
     depth[root] = lowest[root] = 0
     stack = [(root, -1, iter(net.at[root]))]
     while stack:
@@ -177,7 +177,7 @@ def _search(
 
 
 def _shortest_loop(net: Net, name: int) -> list[int]:
-    """The branches of the shortest loop through one of them, that one first."""
+    """Return the branches of the shortest loop through the named branch, which comes first."""
     start, goal = net.branches[name][0], net.branches[name][-1]
     came: dict[int, tuple[int, int]] = {}
     done: set[int] = set()

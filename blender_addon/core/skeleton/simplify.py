@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fewer points on a chain, by the rule of Douglas and Peucker (1973) with a tolerance of its own at each point."""
+"""Chains are simplified by the rule of Douglas and Peucker (1973), with a tolerance for each point."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ if TYPE_CHECKING:
 
 
 def kept_points(points: NDArray[np.float64], tolerance: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Which points of a chain stay, ascending: its ends, and as many that no other is farther from the chain that they
-    make than its tolerance.
+    """Return the points of a chain that are kept, ascending.
+
+    They include its ends, and no other point is farther than its tolerance from the chain of the kept points.
 
     Parameters
     ----------
     points : (n, k) float64
-        In any dimension. Of a closed chain the first and the last are the same.
+        The dimension k is arbitrary. The first and last points of a closed chain are equal.
     tolerance : (n,) float64
     """
     last = len(points) - 1
@@ -34,14 +35,14 @@ def kept_points(points: NDArray[np.float64], tolerance: NDArray[np.float64]) -> 
             kept.add(first + 1 + worst)
             left += [(first, first + 1 + worst), (first + 1 + worst, end)]
     if last > 2 and np.array_equal(points[0], points[last]) and len(kept) < 4:
-        kept |= {last // 3, 2 * last // 3}  # a loop stays one
+        kept |= {last // 3, 2 * last // 3}  # a loop must not collapse to a line
     return np.array(sorted(kept), np.int64)
 
 
 def _distance(
     points: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """From points to a segment."""
+    """Return the distances from points to a segment."""
     along = b - a
     square = float(along @ along)
     share = (

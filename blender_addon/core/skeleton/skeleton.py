@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A skeleton as arrays: branches of points with radii, and what of the surface belongs to which."""
+"""A skeleton consists of arrays: points with radii, and the branches that they form."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """Branches between nodes: tips, forks, and points that stand by themselves.
+    """A skeleton has branches between nodes; nodes are tips, forks and points without a branch.
 
     Parameters
     ----------
     points : (p, 3) float64
     radius : (p,) float64
-        Of the ball round each point, in the unit of the input.
+        The radius of the ball around each point, in the unit of the input.
     branch_offsets : (b + 1,) int32
         Branch i has the points branch_points[branch_offsets[i] : branch_offsets[i + 1]].
     branch_points : (c,) int32
-        Rows of `points`, from node to node. A loop starts and ends at the same one.
+        Rows of `points`, from node to node. A loop starts and ends at the same row.
     nodes : (k,) int32
         Rows of `points`, ascending: all ends of branches, and points without a branch.
     """
@@ -37,17 +37,17 @@ class Skeleton:
 
     @property
     def branches(self) -> list[NDArray[np.int32]]:
-        """The points of each branch."""
+        """Return the points of each branch."""
         return np.split(self.branch_points, self.branch_offsets[1:-1]) if self.count else []
 
     @property
     def count(self) -> int:
-        """Number of branches."""
+        """Return the number of branches."""
         return len(self.branch_offsets) - 1
 
     @property
     def edges(self) -> NDArray[np.int32]:
-        """(e, 2) int32: neighbours along the branches, branch after branch."""
+        """Return the pairs of neighbours along the branches, (e, 2), branch after branch."""
         pairs = np.column_stack((self.branch_points[:-1], self.branch_points[1:]))
         within = np.ones(len(pairs), bool)
         within[self.branch_offsets[1:-1] - 1] = False
@@ -55,22 +55,22 @@ class Skeleton:
 
     @property
     def degree(self) -> NDArray[np.int64]:
-        """(p,) edges at each point: 1 at tips, 3 or more at forks."""
+        """Return the number of edges at each point, (p,): 1 at tips, 3 or more at forks."""
         return np.bincount(self.edges.ravel(), minlength=len(self.points))
 
     @property
     def tips(self) -> int:
-        """Number of ends."""
+        """Return the number of tips."""
         return int((self.degree == 1).sum())
 
     @property
     def loops(self) -> int:
-        """Number of independent loops."""
+        """Return the number of independent loops."""
         return len(self.edges) - len(self.points) + self.pieces
 
     @property
     def pieces(self) -> int:
-        """Number of connected parts."""
+        """Return the number of connected parts."""
         lowest = np.arange(len(self.points))
         a, b = self.edges.T
         while True:
@@ -83,12 +83,12 @@ class Skeleton:
 
     @property
     def length(self) -> float:
-        """The length of all branches together."""
+        """Return the length of all branches together."""
         steps = np.diff(self.points[self.edges], axis=1)[:, 0]
         return float(np.linalg.norm(steps, axis=1).sum())
 
     def placed(self, frame: NDArray[np.float64]) -> Skeleton:
-        """The skeleton moved and turned by a (4, 4) matrix."""
+        """Return the skeleton moved and turned by a (4, 4) matrix."""
         return replace(self, points=self.points @ frame[:3, :3].T + frame[:3, 3])
 
 
@@ -98,7 +98,7 @@ def skeleton_of(
     branches: list[NDArray[np.int64]],
     singles: NDArray[np.int64],
 ) -> Skeleton:
-    """A skeleton of those points that branches use, and single ones; `branches` and `singles` are rows of points."""
+    """Return a skeleton of the points that `branches` and `singles` use; both are rows of `points`."""
     used = np.unique(np.concatenate([*branches, singles]).astype(np.int64))
     row = np.full(len(points), -1, np.int64)
     row[used] = np.arange(len(used))

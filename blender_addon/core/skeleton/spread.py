@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which of some seeds is nearest to each vertex of a graph, along its edges."""
+"""This module finds the nearest seed of each vertex of a graph, along its edges."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-# How much farther the front goes at a time, in mean edges: little, so that few vertices are reached twice.
+# The front advances by so many mean edge lengths at a time; small steps reach few vertices twice.
 _STEP = 2.0
 
 
 @dataclass(frozen=True, eq=False)
 class Graph:
-    """Edges by vertex: those of vertex v are the rows first[v] : first[v + 1] of `to` and `length`."""
+    """A graph lists edges by vertex: those of vertex v are the rows first[v] : first[v + 1] of `to` and `length`."""
 
     first: NDArray[np.int64]
     to: NDArray[np.int64]
@@ -25,7 +25,7 @@ class Graph:
 
 
 def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
-    """The graph of (e, 2) edges between (n, 3) points, as long as they are in space."""
+    """Return the graph of (e, 2) edges between (n, 3) points, with their lengths in space."""
     ends = np.ascontiguousarray(edges.T)
     along = points[ends[0]] - points[ends[1]]
     length = np.sqrt(np.einsum("ij,ij->i", along, along))
@@ -37,7 +37,7 @@ def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
     for here, there, count in zip(ends, ends[::-1], counts, strict=True):
         order = np.argsort(
             here, kind="stable"
-        )  # half of the rows at a time: lists of edges are sorted in part
+        )  # each column of the edges is sorted by itself, because it is partly sorted already
         row = np.arange(len(edges)) + np.repeat(start - (np.cumsum(count) - count), count)
         to[row], far[row] = there[order], length[order]
         start = start + count
@@ -50,22 +50,22 @@ def spread(
     labels: NDArray[np.int64],
     within: float = np.inf,
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """The label of the nearest seed, and how far it is.
+    """Return the label of the nearest seed of each vertex, and its distance.
 
     Parameters
     ----------
     graph : Graph
-    seeds : (s,) vertices; of several labels of one vertex the lowest counts.
+    seeds : (s,) vertices; if a vertex is named several times, its lowest label counts.
     labels : (s,) integers, not negative
     within : float
-        Farther than this nothing is looked for.
+        The search ends at this distance.
 
     Returns
     -------
     label : (n,) int64
-        -1 where no seed can be reached. Of two equally near ones the lower.
+        It is -1 if no seed can be reached. Of two equally near seeds the lower label counts.
     distance : (n,) float64
-        Infinite there.
+        It is infinite if no seed can be reached.
     """
     count = len(graph.first) - 1
     distance, label = np.full(count, np.inf), np.full(count, -1, np.int64)
@@ -92,7 +92,7 @@ def spread(
 def _best(
     front: NDArray[np.int64], at: NDArray[np.float64], marks: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
-    """Each vertex once, with the nearest seed that came to it."""
+    """Return each vertex of the front once, with its smallest distance and then its lowest label."""
     order = np.lexsort((marks, at, front))
     front, at, marks = front[order], at[order], marks[order]
     first = np.ones(len(front), bool)
@@ -103,7 +103,7 @@ def _best(
 def _edges_of(
     graph: Graph, vertices: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The rows of the edges of vertices, one vertex after the other, and how many each has."""
+    """Return the rows of the edges of vertices, one vertex after the other, and their number for each vertex."""
     start, count = graph.first[vertices], graph.first[vertices + 1] - graph.first[vertices]
     before = np.cumsum(count) - count
     return np.arange(int(count.sum()), dtype=np.int64) + np.repeat(start - before, count), count

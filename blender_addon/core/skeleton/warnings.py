@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The warnings about a skeleton, a sentence each."""
+"""Each warning about a skeleton is one sentence."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ if TYPE_CHECKING:
 
 
 def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int) -> list[str]:
-    """Sentences, the most important first.
+    """Return the warnings, the most important first.
 
     Parameters
     ----------
     chosen : ChosenSamples
     loops : Loops
-        What became of the small ones.
+        They count the small loops that were cut and filled.
     sheets : int
-        Facets of closed sheets, which have no curve.
+        The number of facets of closed sheets, which have no curve.
     """
     found = []
     if chosen.thinned:

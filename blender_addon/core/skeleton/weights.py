@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which bones move which vertex, and how much: those of the branch that owns the vertex' ball.
+"""Vertices get weights of the bones on the branch to which they belong.
 
-A vertex follows the bone beside it. Round a joint within a chain its two bones share. Where the part of a limb, and of
-all that hangs on it, meets the rest, it follows the bone that the limb hangs on: so the weights are continuous, and no
+A vertex follows the bone next to it. Near a joint within a chain the two bones share the vertices. At the rim of the
+part of a limb and its descendants, vertices follow the parent bone of the limb: so the weights are continuous, and no
 limb moves the skin of another one.
 """
 
@@ -20,30 +20,30 @@ if TYPE_CHECKING:
     from .bones import Bones
     from .parts import Places
 
-MOST = 4  # bones of a vertex
-_SMOOTHED = 2  # times each vertex takes the mean of itself and its neighbours
+MOST = 4  # a vertex follows at most so many bones
+_SMOOTHED = 2  # the weights are averaged with those of the neighbours so many times
 
 
 def axis_weights(
     bones: Bones, places: Places, vertices: NDArray[np.float64], edges: NDArray[np.int32]
 ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-    """Weights of vertices.
+    """Compute the weights of vertices.
 
     Parameters
     ----------
     bones : Bones
-        At least one.
+        There is at least one.
     places : Places
-        Of the vertices on the branches.
+        The places of the vertices on the branches.
     vertices : (v, 3) float64
     edges : (e, 2) int32
-        Between vertices.
+        The edges between the vertices.
 
     Returns
     -------
     bone : (v, 4) int32
     weight : (v, 4) float64
-        Not negative, of sum 1; the largest first.
+        The weights of a vertex are not negative and add up to 1, and the largest is first.
     """
     weight = np.zeros((len(vertices), bones.count))
     chain = _along_branches(weight, bones, places)
@@ -61,13 +61,13 @@ def axis_weights(
 
 
 def edges_of(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
-    """(e, 2) the edges of triangles, each once."""
+    """Return the edges of triangles, each once, (e, 2)."""
     pairs = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     return np.unique(pairs, axis=0)
 
 
 def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -> NDArray[np.int64]:
-    """Fill in the bones beside each vertex; returns their chain, -1 where there is none."""
+    """Give each vertex the bone next to it, and return the chain of that bone, or -1 if there is none."""
     chain = np.full(len(weight), -1, np.int64)
     length = np.linalg.norm(bones.tail - bones.head, axis=1)
     for bone in np.flatnonzero(bones.branch >= 0):
@@ -92,7 +92,7 @@ def _blend(
     after: int,
     length: NDArray[np.float64],
 ) -> None:
-    """Let two bones share round their joint, as far as its radius, and each at most half."""
+    """Blend two bones around their joint, up to the radius there and at most half of each bone."""
     sign = np.sign(bones.along[after, 1] - bones.along[after, 0])
     share = np.abs(np.diff(bones.along[[before, after]], axis=1)[:, 0])
     of_length = float(share.sum() / length[[before, after]].sum())
@@ -109,7 +109,7 @@ def _to_nearest(
     bones: Bones,
     vertices: NDArray[np.float64],
 ) -> None:
-    """Vertices of parts without a branch follow the bone whose middle is nearest."""
+    """Let vertices of parts without a branch follow the bone whose middle is nearest."""
     middle = (bones.head + bones.tail) / 2
     for row in np.flatnonzero(chain < 0):
         bone = int(np.argmin(np.linalg.norm(middle - vertices[row], axis=1)))
@@ -123,14 +123,12 @@ def _share_with_parents(
     vertices: NDArray[np.float64],
     edges: NDArray[np.int32],
 ) -> None:
-    """Fade each chain, and with it all that hangs on it, out towards the rest in favour of the bone that it hangs on.
+    """Fade out each chain and its descendants, towards the rim of their part, in favour of the parent bone.
 
-    Those that hang on others come first: so what they leave to a chain fades out with it.
+    Descendants come first, so that the weight that they leave to a chain fades out with that chain.
     """
     first = _first_bones(bones)
-    for name in range(
-        len(first) - 1, -1, -1
-    ):  # a chain has a higher number than that which it hangs on
+    for name in range(len(first) - 1, -1, -1):  # a chain has a higher number than its parent
         hangs_on = bones.parent[first[name]]
         if hangs_on < 0:
             continue
@@ -147,9 +145,9 @@ def _share_with_parents(
 def _rim(
     here: NDArray[np.bool_], vertices: NDArray[np.float64], edges: NDArray[np.int32], width: float
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """The vertices of a part of the surface that are nearer to its rim than a width, and how much they follow it.
+    """Return the vertices of a part of the surface within a width of its rim, and the share that they keep.
 
-    What is farthest from the rim of a short part follows it whole: there the width is half of that distance.
+    The width is at most half of the largest distance from the rim, so that some vertices of a short part keep all.
     """
     inside = here[edges]
     apart = inside[:, 0] != inside[:, 1]
@@ -162,14 +160,14 @@ def _rim(
 
 
 def _first_bones(bones: Bones) -> NDArray[np.int64]:
-    """(chains,) the bone with which each begins."""
+    """Return the first bone of each chain, (chains,)."""
     first = np.zeros(bones.chain.max() + 1, np.int64)
     first[bones.chain[::-1]] = np.arange(bones.count)[::-1]
     return first
 
 
 def _all_below(name: int, bones: Bones, first: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """(chains,) a chain, and those that hang on it, at once or by others between."""
+    """Return a mask, (chains,), of a chain and its descendants."""
     found = np.zeros(len(first), bool)
     found[name] = True
     for other in range(name + 1, len(first)):
@@ -179,7 +177,7 @@ def _all_below(name: int, bones: Bones, first: NDArray[np.int64]) -> NDArray[np.
 
 
 def _smooth(weight: NDArray[np.float64], graph: Graph) -> None:
-    """Half of each vertex, and half the mean of its neighbours; the sums stay."""
+    """Replace each weight by half of itself plus half the mean of the neighbours; the sum of each vertex stays."""
     count = np.diff(graph.first)
     joined = np.flatnonzero(count)
     if not len(joined):
