@@ -83,7 +83,7 @@ def assert_between(bounds, found):
 def assert_equals_brute_force(study, name, options):
     expected = Cocone(medial_of(study, name), **OPTIONS[options])
     thin, flat, candidates = study.cocone(
-        expected.study.points, study.CoconeOptions(**OPTIONS[options])
+        expected.medial.points, study.CoconeOptions(**OPTIONS[options])
     )
     assert_between(expected.thin, thin)
     assert_between(expected.flat, flat)

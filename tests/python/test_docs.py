@@ -24,7 +24,7 @@ pytestmark = pytest.mark.docs
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # The folders in which the words of the docs are looked for, and those that a path in the docs may start from.
 SOURCES = ("native", "blender_addon", "tests", "lab", "docs")
-STARTS = ("", "native", "native/medial", "blender_addon", "tests", "lab")
+STARTS = ("", "native", "native/medial", "blender_addon", "blender_addon/core", "tests", "lab")
 TEXTS = {
     ".py",
     ".pyi",

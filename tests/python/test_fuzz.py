@@ -159,7 +159,7 @@ def random_options(medial, rng, seed):
 @pytest.mark.parametrize(
     "batch", [*range(10), *(pytest.param(i, marks=pytest.mark.slow) for i in range(10, 50))]
 )
-def test_tight_cocone(medial, batch):
+def test_tight_cocone(medial, study, batch):
     """Watertight, whatever comes; and the same for one thread and for two."""
     enclosing = 0
     for seed in range(batch * BATCH, (batch + 1) * BATCH):
@@ -172,7 +172,7 @@ def test_tight_cocone(medial, batch):
             continue
         try:
             assert_watertight(points, one)
-            assert_between_inner_and_outer_cells(medial, points, one)
+            assert_between_inner_and_outer_cells(study, points, one)
             assert_same(one, two)
         except AssertionError as error:
             raise AssertionError(f"seed {seed}: {error}") from error

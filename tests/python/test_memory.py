@@ -462,7 +462,7 @@ def test_command_line_says_what_it_expects(here, capsys):
 
 def test_words_of_the_limits_are_those_of_the_settings():
     parser = argparse.ArgumentParser()
-    option_words.add_limits(parser)
+    option_words.add_options(parser, MemoryLimit)
     words = parser.parse_args(["--memory-limit", "7", "--above-limit", "thin"])
     found = option_words.settings_from(words, MemoryLimit)
     assert found == MemoryLimit(7, THIN)

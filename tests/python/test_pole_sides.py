@@ -55,7 +55,7 @@ def test_random_points_equal_the_reference(study, seed):
 
 
 def test_poles_that_both_sides_claim_come_last(study):
-    """Of the seeds above only this one notices another order, so it runs every time."""
+    """Only this seed notices another order of the poles, so the test runs it every time."""
     test_random_points_equal_the_reference(study, 7)
 
 
