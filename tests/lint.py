@@ -59,6 +59,9 @@ def clang_format() -> None:
 def clang_tidy(wanted: set[str] | None = None) -> None:
     """The units of the core and of the bindings that are wanted, each by itself, as the preset `dev` compiles it."""
     run("cmake", "--preset", "dev", "-DMEDIAL_TESTS=OFF", stdout=subprocess.DEVNULL)
+    run(
+        "cmake", "--build", paths.BUILD / "dev", "--target", "docstrings"
+    )  # a header that the bindings include
     database = paths.BUILD / "dev" / "compile_commands.json"
     # The bindings are compiled once for each Python: the first is this machine's, whose headers clang can read.
     entries = json.loads(database.read_text(encoding="utf-8"))

@@ -4,6 +4,8 @@
 #include "analysis_parts.h"
 #include "axis/feature_size.h"
 #include "axis/medial_mesh.h"
+#include "cocone/solid.h"
+#include "cocone/watertight_surface.h"
 #include "inside/pockets.h"
 #include "skeleton/hierarchy.h"
 #include "thickness/thickness.h"

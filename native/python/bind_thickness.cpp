@@ -3,9 +3,9 @@
 #include <medial/thickness.h>
 
 #include "arrays.h"
-#include "base/nearest.h"
 #include "base/parallel.h"
 #include "base/patches.h"
+#include "base/point_tree.h"
 #include "base/rows.h"
 #include "bindings.h"
 #include "docstrings.h"
@@ -40,15 +40,10 @@ py::array nearest_rows(const py::object& sites, const py::object& queries) {
     const py::gil_scoped_release release;
     require_finite(places, "site");
     require_finite(at, "query");
-    const Nearest nearest(places);
-    parallel_chunks(static_cast<int64_t>(at.size()), {thread_count(0)},
-                    [&](int64_t begin, int64_t end, int) {
-                      std::vector<Neighbour> found;
-                      for (int64_t i = begin; i < end; ++i) {
-                        nearest.find(at[i], 1, found);
-                        if (!found.empty()) result[i] = found[0].id;
-                      }
-                    });
+    const Run run{thread_count(0)};
+    const PointTree sites_tree = PointTree::sorted(places, run);
+    parallel_for(static_cast<int64_t>(at.size()), run,
+                 [&](int64_t i) { result[i] = sites_tree.nearest(at[i]).id; });
   }
   return array_of<int32_t>(std::move(result));
 }

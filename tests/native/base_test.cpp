@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "base/nearest.h"
+#include "base/point_tree.h"
 #include "base/polygon_edges.h"
 #include "base/rows.h"
 #include "base/sort.h"
@@ -88,17 +88,6 @@ TEST(OrientedUnionFind, KnowsWhatIsTurned) {
     others += root != id;
   }
   EXPECT_GT(others, 150);
-}
-
-TEST(Nearest, IsTheNearest) {
-  const auto sites = test::random_points(700, 7);
-  const Nearest nearest(sites);
-  for (const Vec3& query : test::random_points(200, 8)) {
-    double least = HUGE_VAL;
-    for (const Vec3& site : sites) least = std::min(least, distance(site, 2 * query));
-    EXPECT_DOUBLE_EQ(nearest.distance(2 * query), least);
-  }
-  EXPECT_EQ(Nearest({}).distance({}), HUGE_VAL);
 }
 
 // On a lattice the Hilbert curve goes from neighbour to neighbour.

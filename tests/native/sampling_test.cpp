@@ -108,13 +108,13 @@ TEST(Pieces, CoverTheirTriangles) {
   }
 }
 
-TEST(Nearest, FindsTheNearest) {
+TEST(PointTree, FindsTheNearestOfPointsInAnyOrder) {
   const auto points = test::random_points(500, 7);
-  const Nearest tree(points);
+  const PointTree tree = PointTree::sorted(points, {2});
   std::vector<Neighbour> found;
   for (const Vec3& query : test::random_points(100, 8)) {
     tree.find(query, 5, found);
-    EXPECT_EQ(tree.distance(query), found[0].distance);
+    EXPECT_EQ(tree.nearest(query), found[0]);
     std::vector<double> all;
     for (const Vec3& p : points) all.push_back(distance(p, query));
     std::sort(all.begin(), all.end());
@@ -123,14 +123,15 @@ TEST(Nearest, FindsTheNearest) {
   }
   tree.find({}, 600, found);
   EXPECT_EQ(found.size(), 500u);
+  EXPECT_EQ(PointTree::sorted({}, {}).nearest({}), (Neighbour{HUGE_VAL, -1}));
 }
 
-TEST(Nearest, TakesTheLowestIdsOfEquallyNearSites) {
+TEST(PointTree, TakesTheLowestIdsOfEquallyNearSites) {
   std::vector<Vec3> sites;
   for (int i = 0; i < 1000; ++i) {
     sites.push_back({i % 10 * 0.1, i / 10 % 10 * 0.1, i / 100 * 0.1});
   }
-  const Nearest tree(sites);
+  const PointTree tree = PointTree::sorted(sites, {2});
   std::vector<Neighbour> found;
   for (const Vec3& query : sites) {
     std::vector<std::pair<double, int32_t>> all;

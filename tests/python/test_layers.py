@@ -299,13 +299,9 @@ def test_cgal_has_one_home():
     assert all("delaunay/cgal.h" in includes_of(home) for home in homes)
 
 
-def test_each_part_of_boost_has_one_home():
-    """Exact integers of the exact circumcentres, and the tree of points; what CGAL itself includes does not count."""
-    assert users_of("boost/multiprecision/") == [MEDIAL / "delaunay" / "circumcentre.cpp"]
-    assert users_of("boost/geometry/") == [MEDIAL / "base" / "nearest.cpp"]
-    assert users_of("boost/") == [
-        MEDIAL / unit for unit in ("base/nearest.cpp", "delaunay/circumcentre.cpp")
-    ]
+def test_boost_has_one_home():
+    """Only the exact circumcentres need its integers; headers that CGAL includes by itself do not count."""
+    assert users_of("boost/") == [MEDIAL / "delaunay" / "circumcentre.cpp"]
 
 
 def test_the_system_has_one_home():

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "base/nearest.h"
+#include "base/point_tree.h"
 #include "base/rows.h"
 
 namespace medial {
@@ -85,7 +85,7 @@ std::vector<double> feature_size(std::span<const Vec3> points, std::span<const i
                                  std::span<const int32_t> edge_ids, const Run& run) {
   const auto marked = cells_round(edge_ids, t, edges, run);
   const Sites all = sites(points, t, voronoi, marked, run);
-  const Nearest near(all.near), far(all.far);
+  const PointTree near = PointTree::sorted(all.near, run), far = PointTree::sorted(all.far, run);
   const double extent = length(box_of(points).extent());
   // The loop follows the spatial order of the points, so neighbours visit the same part of the
   // tree.
@@ -94,8 +94,8 @@ std::vector<double> feature_size(std::span<const Vec3> points, std::span<const i
   std::vector<double> size(points.size());
   parallel_for(static_cast<int64_t>(points.size()), run, [&](int64_t p) {
     if (!wanted[p]) return;
-    size[p] = near.distance(points[p]);
-    if (size[p] > kFar * extent) size[p] = std::min(size[p], far.distance(points[p]));
+    size[p] = near.nearest(points[p]).distance;
+    if (size[p] > kFar * extent) size[p] = std::min(size[p], far.nearest(points[p]).distance);
   });
   std::vector<double> result;
   result.reserve(at.size());

@@ -14,52 +14,39 @@ constexpr int32_t kLeaf = 8;
 NearestBall::NearestBall(std::span<const Ball> balls)
     : balls_(balls.begin(), balls.end()), order_(balls.size()) {
   std::iota(order_.begin(), order_.end(), 0);
-  if (!balls_.empty()) build(0, static_cast<int32_t>(balls_.size()));
-}
-
-int32_t NearestBall::build(int32_t begin, int32_t end) {
-  const auto id = static_cast<int32_t>(nodes_.size());
-  Node node{.begin = begin, .end = end};
-  for (int32_t i = begin; i < end; ++i) {
-    node.box.add(balls_[order_[i]].centre);
-    node.largest = std::max(node.largest, balls_[order_[i]].radius);
-  }
-  nodes_.push_back(node);
-  if (end - begin <= kLeaf) return id;
-  const int axis = longest_axis(node.box.extent());
-  const int32_t middle = begin + (end - begin) / 2;
-  const auto key = [&](int32_t ball) {
-    return std::tuple(coordinate(balls_[ball].centre, axis), ball);
+  const auto describe = [&](Node& node) {
+    for (int32_t i = node.begin; i < node.end; ++i) {
+      node.box.add(balls_[order_[i]].centre);
+      node.largest = std::max(node.largest, balls_[order_[i]].radius);
+    }
   };
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](int32_t a, int32_t b) { return key(a) < key(b); });
-  build(begin, middle);
-  const int32_t right = build(middle, end);
-  nodes_[id].right = right;
-  return id;
+  const auto split = [&](const Node& node) {
+    const int axis = longest_axis(node.box.extent());
+    return split_in_middle(order_, node.begin, node.end, [&](int32_t ball) {
+      return std::tuple(coordinate(balls_[ball].centre, axis), ball);
+    });
+  };
+  if (balls.empty()) return;
+  build_tree(nodes_, 0, static_cast<int32_t>(balls_.size()), kLeaf, describe, split);
 }
 
 int32_t NearestBall::find(const Vec3& query) const {
-  Best best;
-  if (!nodes_.empty()) search(0, query, best);
-  return best.id;
-}
-
-void NearestBall::search(int32_t id, const Vec3& query, Best& best) const {
-  const Node& node = nodes_[id];
-  if (bound(node, query) > best.distance) return;
-  if (node.right < 0) {
-    for (int32_t i = node.begin; i < node.end; ++i) {
+  double least = HUGE_VAL;
+  int32_t nearest = -1;
+  const auto visit = [&](const Node& leaf) {
+    for (int32_t i = leaf.begin; i < leaf.end; ++i) {
       const int32_t ball = order_[i];
       const double away = distance(query, balls_[ball].centre) - balls_[ball].radius;
-      if (std::tie(away, ball) < std::tie(best.distance, best.id)) best = {away, ball};
+      if (std::tie(away, ball) < std::tie(least, nearest))
+        std::tie(least, nearest) = std::tuple(away, ball);
     }
-    return;
+  };
+  if (!nodes_.empty()) {
+    visit_nearest(
+        nodes_, 0, [&](const Node& node) { return bound(node, query); }, [&] { return least; },
+        visit);
   }
-  int32_t near = id + 1, far = node.right;
-  if (bound(nodes_[far], query) < bound(nodes_[near], query)) std::swap(near, far);
-  search(near, query, best);
-  search(far, query, best);
+  return nearest;
 }
 
 // Returns a lower bound, up to rounding, of the distance to the balls of a node.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/vec3.h"
+#include "base/box_tree.h"
 
 namespace medial {
 
@@ -26,19 +26,11 @@ class NearestBall {
   int32_t find(const Vec3& query) const;
 
  private:
-  struct Node {
-    Box box = {};  // bounds the centres
+  struct Node : TreeNode {
+    Box box;  // bounds the centres
     double largest = 0;
-    int32_t begin = 0, end = 0;
-    int32_t right = -1;  // the left child follows its parent; -1: a leaf
-  };
-  struct Best {
-    double distance = HUGE_VAL;
-    int32_t id = -1;
   };
 
-  int32_t build(int32_t begin, int32_t end);
-  void search(int32_t id, const Vec3& query, Best& best) const;
   static double bound(const Node& node, const Vec3& query);
 
   std::vector<Ball> balls_;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/point_tree.h"
 
+#include <algorithm>
+
+#include "base/rows.h"
+
 namespace medial {
 namespace {
 
@@ -13,16 +17,16 @@ struct NearestOne {
 
 struct NearestFew {
   size_t count;
-  std::vector<double> heap;  // squared distances, the largest first
+  std::vector<Neighbour>& heap;  // by squared distances, the farthest first
 
-  double bound() const { return heap.size() < count ? HUGE_VAL : heap.front(); }
+  double bound() const { return heap.size() < count ? HUGE_VAL : heap.front().distance; }
   void meet(const Neighbour& point) {
     if (heap.size() == count) {
-      if (point.distance >= heap.front()) return;
+      if (heap.front() < point) return;
       std::pop_heap(heap.begin(), heap.end());
       heap.pop_back();
     }
-    heap.push_back(point.distance);
+    heap.push_back(point);
     std::push_heap(heap.begin(), heap.end());
   }
 };
@@ -45,10 +49,25 @@ PointTree::PointTree(std::span<const Vec3> points) : points_(points.begin(), poi
   }
 }
 
+PointTree PointTree::sorted(std::span<const Vec3> points, const Run& run) {
+  const auto order = hilbert_order(points, run);
+  std::vector<Vec3> along;
+  along.reserve(points.size());
+  for (const int32_t id : order) along.push_back(points[id]);
+  PointTree tree(along);
+  tree.ids_.assign(order.begin(), order.end());
+  return tree;
+}
+
 size_t PointTree::bytes() const {
   size_t boxes = 0;
   for (const auto& level : levels_) boxes += level.size();
-  return points_.size() * sizeof(Vec3) + boxes * sizeof(Box);
+  return points_.size() * sizeof(Vec3) + ids_.size() * sizeof(int32_t) + boxes * sizeof(Box);
+}
+
+template <typename Search>
+void PointTree::search(const Vec3& query, Search& search) const {
+  if (!levels_.empty()) descend(levels_.size() - 1, 0, query, search);
 }
 
 template <typename Search>
@@ -56,7 +75,7 @@ void PointTree::descend(size_t level, size_t box, const Vec3& query, Search& sea
   const auto [begin, end] = children(level, box);
   if (level == 0) {
     for (size_t i = begin; i < end; ++i) {
-      search.meet({squared_length(points_[i] - query), static_cast<int32_t>(i)});
+      search.meet({squared_length(points_[i] - query), id(i)});
     }
     return;
   }
@@ -76,24 +95,32 @@ void PointTree::descend(size_t level, size_t box, const Vec3& query, Search& sea
 }
 
 Neighbour PointTree::nearest(const Vec3& query) const {
-  NearestOne search;
-  descend(levels_.size() - 1, 0, query, search);
-  return {std::sqrt(search.best.distance), search.best.id};
+  NearestOne one;
+  search(query, one);
+  return {std::sqrt(one.best.distance), one.best.id};
 }
 
 Neighbour PointTree::nearest(const Vec3& query, double within) const {
-  NearestOne search{{within * within, size()}};
-  descend(levels_.size() - 1, 0, query, search);
+  NearestOne one{{within * within, size()}};
+  search(query, one);
   // The known distance may be wrong in its last bits.
-  if (search.best.id == size()) return nearest(query);
-  return {std::sqrt(search.best.distance), search.best.id};
+  if (one.best.id == size()) return nearest(query);
+  return {std::sqrt(one.best.distance), one.best.id};
 }
 
 double PointTree::reach(const Vec3& query, size_t count) const {
-  NearestFew search{count, {}};
-  search.heap.reserve(count + 1);
-  descend(levels_.size() - 1, 0, query, search);
-  return std::sqrt(search.heap.front());
+  std::vector<Neighbour> found;
+  find(query, count, found);
+  return found.back().distance;
+}
+
+void PointTree::find(const Vec3& query, size_t count, std::vector<Neighbour>& found) const {
+  found.clear();
+  found.reserve(std::min(count, points_.size()) + 1);
+  NearestFew few{count, found};
+  search(query, few);
+  std::sort_heap(found.begin(), found.end());
+  for (Neighbour& neighbour : found) neighbour.distance = std::sqrt(neighbour.distance);
 }
 
 }  // namespace medial

@@ -20,56 +20,34 @@ TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const Trian
   for (const auto& [a, b, c] : triangles) {
     triangles_.push_back({vertices[a], vertices[b], vertices[c]});
   }
-  build(0, static_cast<int32_t>(triangles_.size()));
-}
-
-int32_t TriangleTree::build(int32_t begin, int32_t end) {
-  const auto id = static_cast<int32_t>(nodes_.size());
-  Node node{.begin = begin, .end = end};
-  for (int32_t i = begin; i < end; ++i) {
-    for (const Vec3& corner : {triangles_[i].a, triangles_[i].b, triangles_[i].c}) {
-      node.box.add(corner);
+  const auto describe = [&](Node& node) {
+    for (int32_t i = node.begin; i < node.end; ++i) {
+      for (const Vec3& corner : {triangles_[i].a, triangles_[i].b, triangles_[i].c}) {
+        node.box.add(corner);
+      }
     }
-  }
-  nodes_.push_back(node);
-  if (end - begin <= kLeafOfTree) return id;
-  const int axis = longest_axis(node.box.extent());
-  const int32_t middle = begin + (end - begin) / 2;
-  const auto key = [axis](const Corners& t) {
-    return coordinate(t.a, axis) + coordinate(t.b, axis) + coordinate(t.c, axis);
   };
-  std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle,
-                   triangles_.begin() + end,
-                   [&](const Corners& s, const Corners& t) { return key(s) < key(t); });
-  build(begin, middle);
-  const int32_t right = build(middle, end);
-  nodes_[id].right = right;
-  return id;
+  const auto split = [&](const Node& node) {
+    const int axis = longest_axis(node.box.extent());
+    return split_in_middle(triangles_, node.begin, node.end, [axis](const Corners& t) {
+      return coordinate(t.a, axis) + coordinate(t.b, axis) + coordinate(t.c, axis);
+    });
+  };
+  build_tree(nodes_, 0, static_cast<int32_t>(triangles_.size()), kLeafOfTree, describe, split);
 }
 
 double TriangleTree::distance(const Vec3& query) const {
   double squared = HUGE_VAL;
-  search(0, query, squared);
+  // No triangle of a node is nearer than its box, up to rounding.
+  visit_nearest(
+      nodes_, 0, [&](const Node& node) { return medial::squared_distance(node.box, query); },
+      [&] { return squared; },
+      [&](const Node& leaf) {
+        for (int32_t i = leaf.begin; i < leaf.end; ++i) {
+          squared = std::min(squared, squared_distance(triangles_[i], query));
+        }
+      });
   return std::sqrt(squared);
-}
-
-void TriangleTree::search(int32_t id, const Vec3& query, double& squared) const {
-  const Node& node = nodes_[id];
-  // No triangle of the node is nearer than its box, up to rounding.
-  if (medial::squared_distance(node.box, query) > squared) return;
-  if (node.right < 0) {
-    for (int32_t i = node.begin; i < node.end; ++i) {
-      squared = std::min(squared, squared_distance(triangles_[i], query));
-    }
-    return;
-  }
-  int32_t near = id + 1, far = node.right;
-  const auto away = [&](int32_t child) {
-    return medial::squared_distance(nodes_[child].box, query);
-  };
-  if (away(far) < away(near)) std::swap(near, far);
-  search(near, query, squared);
-  search(far, query, squared);
 }
 
 // Measures to the plane if the query projects into the triangle, else to the nearest of its sides.

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/vec3.h"
+#include "base/box_tree.h"
 
 namespace medial {
 
@@ -23,14 +23,10 @@ class TriangleTree {
   struct Corners {
     Vec3 a, b, c;
   };
-  struct Node {
-    Box box = {};
-    int32_t begin = 0, end = 0;
-    int32_t right = -1;  // the left child follows its parent; -1: a leaf
+  struct Node : TreeNode {
+    Box box;
   };
 
-  int32_t build(int32_t begin, int32_t end);
-  void search(int32_t id, const Vec3& query, double& squared) const;
   static double squared_distance(const Corners& triangle, const Vec3& query);
 
   std::vector<Corners> triangles_;  // leaf after leaf

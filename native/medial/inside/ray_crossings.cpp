@@ -63,24 +63,17 @@ std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& di
 RayCrossings::RayCrossings(std::vector<Corners> triangles, const Progress* progress)
     : corners_(std::move(triangles)) {
   nodes_.reserve(corners_.size() + 2);
-  if (!corners_.empty()) build(0, static_cast<int32_t>(corners_.size()), progress);
-}
-
-int32_t RayCrossings::build(int32_t begin, int32_t end, const Progress* progress) {
-  if (end - begin > 1 << 14) throw_if_cancelled(progress);
-  const auto id = static_cast<int32_t>(nodes_.size());
-  Node& node = nodes_.emplace_back();
-  node.begin = begin;
-  node.end = end;
-  for (int32_t i = begin; i < end; ++i) {
-    for (const Vec3& p : {corners_[i].a, corners_[i].b, corners_[i].c}) node.box.add(p);
-  }
-  if (end - begin <= kTrianglesOfLeaf) return id;
-  const int32_t middle = split_in_half(corners_, begin, end);
-  build(begin, middle, progress);
-  const int32_t right = build(middle, end, progress);
-  nodes_[id].right = right;
-  return id;
+  const auto describe = [&](Node& node) {
+    if (node.end - node.begin > 1 << 14) throw_if_cancelled(progress);
+    for (int32_t i = node.begin; i < node.end; ++i) {
+      for (const Vec3& p : {corners_[i].a, corners_[i].b, corners_[i].c}) node.box.add(p);
+    }
+  };
+  const auto split = [&](const Node& node) {
+    return split_in_half(corners_, node.begin, node.end);
+  };
+  if (corners_.empty()) return;
+  build_tree(nodes_, 0, static_cast<int32_t>(corners_.size()), kTrianglesOfLeaf, describe, split);
 }
 
 // Visits the triangles whose boxes the ray meets, until a visit returns false.
@@ -95,7 +88,7 @@ void RayCrossings::visit(const Vec3& origin, const Vec3& direction, double reach
     const int32_t id = stack[--top];
     const Node& node = nodes_[id];
     if (!meets(node.box, origin, inverse_direction, reach)) continue;
-    if (node.right >= 0) {
+    if (!node.is_leaf()) {
       stack[top++] = node.right;
       stack[top++] = id + 1;
       continue;

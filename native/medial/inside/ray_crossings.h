@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "base/box_tree.h"
 #include "base/progress.h"
 #include "inside/solid_angle.h"
 
@@ -30,15 +31,12 @@ class RayCrossings {
   std::span<const Corners> triangles() const { return corners_; }
 
  private:
-  struct Node {
+  struct Node : TreeNode {
     Box box;
-    int32_t begin = 0, end = 0;
-    int32_t right = -1;  // the left child follows its parent; -1: a leaf
   };
 
   template <typename Visit>
   void visit(const Vec3& origin, const Vec3& direction, double reach, const Visit& visit) const;
-  int32_t build(int32_t begin, int32_t end, const Progress* progress);
 
   std::vector<Corners> corners_;
   std::vector<Node> nodes_;

@@ -36,34 +36,23 @@ int32_t split_in_half(std::vector<Corners>& corners, int32_t begin, int32_t end)
   Box box;
   for (int32_t i = begin; i < end; ++i) box.add(corners[i].a);
   const int axis = longest_axis(box.extent());
-  const int32_t middle = begin + (end - begin) / 2;
-  std::nth_element(corners.begin() + begin, corners.begin() + middle, corners.begin() + end,
-                   [&](const Corners& s, const Corners& t) {
-                     return coordinate(s.a, axis) < coordinate(t.a, axis);
-                   });
-  return middle;
+  return split_in_middle(corners, begin, end,
+                         [axis](const Corners& t) { return coordinate(t.a, axis); });
 }
 
 SolidAngle::SolidAngle(std::vector<Corners> triangles) : corners_(std::move(triangles)) {
   nodes_.reserve(corners_.size() + 2);
-  if (!corners_.empty()) build(0, static_cast<int32_t>(corners_.size()));
-}
-
-int32_t SolidAngle::build(int32_t begin, int32_t end) {
-  const auto id = static_cast<int32_t>(nodes_.size());
-  Node& node = nodes_.emplace_back();
-  node.begin = begin;
-  node.end = end;
-  if (end - begin <= kLeafTriangles) {
-    describe_leaf(nodes_[id]);
-    return id;
+  if (corners_.empty()) return;
+  const auto describe = [&](Node& node) {
+    if (node.end - node.begin <= kLeafTriangles) describe_leaf(node);
+  };
+  const auto split_run = [&](const Node& node) { return split(node.begin, node.end); };
+  build_tree(nodes_, 0, static_cast<int32_t>(corners_.size()), kLeafTriangles, describe, split_run);
+  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {  // children before parents
+    if (node->is_leaf()) continue;
+    describe_parent(*node, *node.base(), nodes_[node->right]);
+    find_radius(*node);
   }
-  const int32_t middle = split(begin, end);
-  const int32_t left = build(begin, middle), right = build(middle, end);
-  nodes_[id].right = right;
-  describe_parent(nodes_[id], nodes_[left], nodes_[right]);
-  find_radius(nodes_[id]);
-  return id;
 }
 
 // Splits a range between triangles with different last corners, as near to the middle as possible:
@@ -175,7 +164,7 @@ double SolidAngle::opened(const Vec3& query, const Enough& enough) const {
     heap.pop_back();
     count(top, -1);
     const Node& node = nodes_[top.node];
-    if (node.right < 0) {
+    if (node.is_leaf()) {
       const std::span<const Corners> triangles(corners_);
       total += kFull * solid_angle_sum(triangles.subspan(node.begin, node.end - node.begin), query);
     } else {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "base/vec3.h"
+#include "base/box_tree.h"
 
 namespace medial {
 
@@ -37,9 +37,7 @@ class SolidAngle {
 
  private:
   // A node is a contiguous range of triangles, expanded about its area-weighted centroid.
-  struct Node {
-    int32_t begin = 0, end = 0;
-    int32_t right = -1;           // the left child follows its parent; -1 marks a leaf
+  struct Node : TreeNode {
     double area = 0, spread = 0;  // integral of dA, and of |x - centroid|^2 dA
     double radius = 0;            // of a ball about the centroid that contains the triangles
     Vec3 centroid, area_vector;   // area_vector: integral of n dA
@@ -52,7 +50,6 @@ class SolidAngle {
     int32_t node;
   };
 
-  int32_t build(int32_t begin, int32_t end);
   void describe_leaf(Node& node) const;
   static void describe_parent(Node& node, const Node& left, const Node& right);
   int32_t split(int32_t begin, int32_t end);

@@ -35,16 +35,14 @@ std::vector<Disk> candidates_of(const OpenSurface& open, std::span<const OpenSur
     centres.push_back(disk.centre);
     largest = std::max(largest, disk.radius);
   }
-  const Nearest nearest(centres);
+  const PointTree tree = PointTree::sorted(centres, run);
   std::vector<Disk> candidates(falls.size());
   parallel_chunks(
       static_cast<int64_t>(falls.size()), run,
       [&](int64_t begin, int64_t end, int) {
-        std::vector<Neighbour> found;
         for (int64_t i = begin; i < end; ++i) {
           const Vec3 at = falls[i].middle();
-          nearest.find(at, 1, found);
-          const auto& [away, id] = found.front();
+          const auto [away, id] = tree.nearest(at);
           const double grown = kept[id].radius + SizingField::kGrading * away;
           candidates[i] = {at, std::min(largest, grown), open.normal(at)};
         }
@@ -64,7 +62,7 @@ class Thinning {
     std::fill_n(stays_.begin(), kept_, uint8_t{1});
     std::vector<Vec3> centres;
     for (const Disk& disk : disks_) centres.push_back(disk.centre);
-    nearest_.emplace(centres);
+    centres_ = PointTree::sorted(centres, {});
   }
 
   std::vector<int32_t> operator()(uint64_t seed) {
@@ -85,7 +83,7 @@ class Thinning {
   bool has_room(size_t id) {
     const Disk& disk = disks_[id];
     for (size_t count = 32;; count *= 4) {
-      nearest_->find(disk.centre, count, found_);
+      centres_.find(disk.centre, count, found_);
       for (const auto& [away, j] : found_) {
         if (!stays_[j] || !(away < std::min(disk.radius, disks_[j].radius))) continue;
         if (alike(disk.normal, disks_[j].normal)) return false;
@@ -97,7 +95,7 @@ class Thinning {
   std::vector<Disk> disks_;
   size_t kept_;
   std::vector<uint8_t> stays_;
-  std::optional<Nearest> nearest_;
+  PointTree centres_;
   std::vector<Neighbour> found_;
 };
 

@@ -43,7 +43,7 @@ bool alike(const Disk& a, const Disk& b) {
   return a.normal == Vec3{} || b.normal == Vec3{} || dot(a.normal, b.normal) > 0;
 }
 
-bool has_room(std::span<const Disk> disks, size_t i, const Nearest& centres) {
+bool has_room(std::span<const Disk> disks, size_t i, const PointTree& centres) {
   const Disk& disk = disks[i];
   std::vector<Neighbour> near;
   for (size_t count = 16;; count *= 4) {
@@ -64,11 +64,11 @@ std::vector<int32_t> free_pairs(std::span<const Disk> fixed,
   for (const auto& pair : pairs) disks.insert(disks.end(), pair.begin(), pair.end());
   std::vector<Vec3> centres;
   for (const Disk& disk : disks) centres.push_back(disk.centre);
-  const Nearest nearest(centres);
+  const PointTree tree = PointTree::sorted(centres, run);
   return parallel_append<int32_t>(
       static_cast<int64_t>(pairs.size()), run, [&](int64_t i, std::vector<int32_t>& kept, int) {
         const size_t left = fixed.size() + 2 * static_cast<size_t>(i);
-        if (has_room(disks, left, nearest) && has_room(disks, left + 1, nearest)) {
+        if (has_room(disks, left, tree) && has_room(disks, left + 1, tree)) {
           kept.push_back(static_cast<int32_t>(i));
         }
       });

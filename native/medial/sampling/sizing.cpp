@@ -7,7 +7,7 @@ namespace medial {
 
 SizingField::SizingField(std::span<const Vec3> sites, std::span<const double> spacings,
                          const Run& run)
-    : sites_(sites), spacing_(spacings.begin(), spacings.end()) {
+    : sites_(PointTree::sorted(sites, run)), spacing_(spacings.begin(), spacings.end()) {
   constexpr size_t kNeighbours = 9;  // the site itself is one of them
   std::vector<std::vector<Neighbour>> near(sites.size());
   parallel_for(static_cast<int64_t>(sites.size()), run,

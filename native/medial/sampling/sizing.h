@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "base/nearest.h"
 #include "base/parallel.h"
+#include "base/point_tree.h"
 #include "base/vec3.h"
 
 namespace medial {
@@ -22,7 +22,7 @@ class SizingField {
   double operator()(const Vec3& place) const;
 
  private:
-  Nearest sites_;
+  PointTree sites_;
   std::vector<double> spacing_;
 };
 

@@ -109,7 +109,7 @@ class Fit {
     reach_ = length(half_width, aside) + outer;
     inner_ = (1 - kBand) * from.radius - change - reach_ + outer;
     samples.visit([&](const Box& box) { return may_meet(box); },
-                  [&](int32_t id) { meet(samples[id]); });
+                  [&](const Vec3& sample) { meet(sample); });
   }
 
   Canal fitted() && {
