@@ -6,6 +6,9 @@
 
 namespace medial::python {
 
+// Returns whether this is the main interpreter of the process; sets an ImportError if it is not.
+bool is_main_interpreter();
+
 void bind_product(pybind11::module_& module);
 void bind_analysis(pybind11::module_& module);
 void bind_thickness(pybind11::module_& module);  // before the analysis

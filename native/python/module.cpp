@@ -9,6 +9,15 @@ namespace py = pybind11;
 
 namespace medial::python {
 
+bool is_main_interpreter() {
+  if (PyInterpreterState_Get() == PyInterpreterState_Main()) return true;
+  PyErr_SetString(
+      PyExc_ImportError,
+      "Expected the main interpreter of the process, found a subinterpreter; use threads "
+      "or processes instead.");
+  return false;
+}
+
 // All types and errors are local to this file: an installed package, an extension of Blender and an
 // older add-on may each bring a copy of the module into one process, and each keeps its own.
 void bind_product(py::module_& m) {
@@ -29,4 +38,12 @@ void bind_product(py::module_& m) {
 
 }  // namespace medial::python
 
+// In a subinterpreter the entry point that pybind11 writes would wait for itself for ever. So it
+// gets another name, and the module's own entry point refuses first.
+#define PyInit__medial initialise_medial
 PYBIND11_MODULE(_medial, m) { medial::python::bind_product(m); }
+#undef PyInit__medial
+
+extern "C" PYBIND11_EXPORT PyObject* PyInit__medial() {
+  return medial::python::is_main_interpreter() ? initialise_medial() : nullptr;
+}

@@ -174,7 +174,7 @@ def test_overlapping_parts_differ_from_their_faces():
     source = bpy.context.object
     clean()
     assert result_of(source)["ma_topology"] == (
-        "1 piece, no loop, no cavity, as the solid; by its faces it would be 2 pieces, no loop, "
+        "1 piece, no loop, no cavity, by the samples; by its faces it would be 2 pieces, no loop, "
         "no cavity: its parts overlap"
     )
 

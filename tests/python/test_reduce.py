@@ -195,6 +195,13 @@ def test_points_on_the_surface_of_a_solid(medial):
     assert np.allclose(gaps, medial.solid_distances(outside, *mesh), atol=0.01)
 
 
+@pytest.mark.parametrize("spacing", [1e-4, 1e-9, 5e-324])
+def test_more_points_than_memory_are_refused(medial, spacing):
+    """The work is bounded before it begins, so nothing has to be interrupted."""
+    with pytest.raises(medial.InvalidInputError, match="Expected a spacing for fewer than"):
+        medial.solid_surface(*wire(count=3), spacing)
+
+
 def ellipsoid():
     points, triangles = meshes.icosphere(3)
     return Shape(points * (1.0, 0.7, 0.5), triangles.astype(np.int32))

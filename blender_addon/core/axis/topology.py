@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) -> str:
     """Describe the topology of an axis in a sentence.
 
-    For an axis as published the sentence explains why the axis does not have the wanted form, or is empty.
+    The axis has the topology of the solid that the samples enclose. Only where the count of the closed faces agrees
+    does the sentence claim that this is the solid. For an axis as published the sentence explains why the axis does not have the wanted form, or is empty.
 
     Parameters
     ----------
@@ -30,8 +31,10 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) 
         name = OPTIONS["form"].items[wanted][0]
         return f"Form As Published: {name} is for the inner axis only"
     betti, by_faces = axis.level.betti, samples.by_faces
-    sentence = f"{betti_words(betti)}, as the solid"
-    if by_faces is None or by_faces == betti:
+    if by_faces == betti:
+        return f"{betti_words(betti)}, as the solid"
+    sentence = f"{betti_words(betti)}, by the samples"
+    if by_faces is None:
         return sentence
     return f"{sentence}; by its faces it would be {betti_words(by_faces)}: {_why(betti, by_faces, samples)}"
 

@@ -91,8 +91,8 @@ class MemoryLimit(Options):
         if needed > room:
             raise MemoryLimitError(
                 f"Expected points whose analysis fits into {self}, found {points:,}, which need about "
-                f"{megabytes(needed)}; use fewer points or samples, or change Memory Limit or Above "
-                "the Limit in the preferences",
+                f"{megabytes(needed)}; use fewer points or samples, raise Memory Limit, or choose Thin "
+                "for Above the Limit",
                 points,
             )
         if not self.memory_limit:

@@ -40,11 +40,21 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
             f"{walls.thickness:.2g}, than the samples, so the inner axis is missing or torn there; "
             "more samples, a smaller Spacing or a larger Budget help"
         )
-    if density.share > _SPARSE:
-        yield Severe(
+    if density.share > _SPARSE and not _confirmed_by_faces(chosen):
+        yield (
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "
             f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"
         )
+
+
+def _confirmed_by_faces(chosen: ChosenSamples) -> bool:
+    """Whether rays from the faces found no wall that the samples on them miss.
+
+    Near sharp edges every sample is above any epsilon, however right the axis is; so the faces decide where they can.
+    """
+    walls = chosen.samples.walls
+    on_faces = chosen.sampling is not SamplingMode.VERTICES
+    return on_faces and walls is not None and not walls.are_missed
 
 
 def _loose_vertices(shape: Shape, chosen: ChosenSamples) -> int:

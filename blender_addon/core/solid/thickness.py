@@ -18,7 +18,7 @@ from ..samples.nearness import sample_of_row
 from ..samples.noise import noise_of
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.surface_normals import SurfaceNormals, measured_surface, surface_normals, unit
-from ..settings import Between, Edges, Noise, Settings, ThicknessSettings
+from ..settings import Between, Edges, Noise, SamplingMode, Settings, ThicknessSettings
 from .close_walls import close_walls
 from .measurement import UNKNOWN, Measurement
 
@@ -70,7 +70,7 @@ def measure_thickness(
         measured=measured,
         at_edge=known.at_edge,
         normals=known.source,
-        noise=noise_of(chosen.samples.points, surface, unit(known.normals)),
+        noise=_noise(chosen, surface, known),
         warnings=(),
         seconds=begun.seconds,
         walls=close_walls(shape, chosen, lengths, wanted.between),
@@ -111,6 +111,13 @@ def _lengths(
     return values[rows], measured[rows]
 
 
+def _noise(chosen: ChosenSamples, surface: NDArray[np.int32], known: SurfaceNormals) -> float:
+    """Measure the noise of vertices; samples that were laid on faces have none."""
+    if chosen.sampling is not SamplingMode.VERTICES:
+        return 0.0
+    return noise_of(chosen.samples.points, surface, unit(known.normals))
+
+
 def _warnings(found: Measurement) -> Iterator[str]:
     if found.noise >= _TOO_MUCH:
         yield (
@@ -139,4 +146,6 @@ def _warnings(found: Measurement) -> Iterator[str]:
 def _nothing(found: Measurement) -> str:
     if found.settings.between is Between.GAP:
         return "no two walls face each other across a gap"
-    return "no ball is clear of the noise; choose Noise Clean, or scan more finely"
+    if found.settings.noise is Noise.SCAN:
+        return "no ball is clear of the noise; choose Noise Clean, or scan more finely"
+    return "no two walls that face each other were found; take more samples, or a smaller Spacing"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Spreads points over the surface of the solid: over every slab, cone and ball, except where
 // another one covers them.
+#include <climits>
 #include <numbers>
 
 #include "base/parallel.h"
@@ -12,17 +13,33 @@
 namespace medial {
 namespace {
 
-constexpr double kCovered = 1e-6;  // share of the spacing; deeper points are covered
+constexpr double kMostPoints = INT_MAX / 8;  // as many as an analysis accepts
+constexpr double kCovered = 1e-6;            // share of the spacing; deeper points are covered
 
 class Painter {
  public:
   Painter(const SphereMesh& mesh, const Envelope& envelope, double spacing)
       : mesh_(mesh), envelope_(envelope), spacing_(spacing) {}
 
+  // Returns an upper bound of the number of points that are tried.
+  double tried(std::span<const Edge> edges) const {
+    double sum = 0;
+    for (const double r : mesh_.radius) sum += on_ball(r);
+    for (const auto& [a, b] : edges) {
+      const double whole = distance(mesh_.vertices[a], mesh_.vertices[b]);
+      const double round = 2 * std::numbers::pi * std::max(mesh_.radius[a], mesh_.radius[b]);
+      sum += (whole / spacing_ + 2) * (round / spacing_ + 1);
+    }
+    for (const Triangle& t : mesh_.triangles) {
+      const double along = longest_side(t) / spacing_ + 2;
+      sum += along * (along + 1);
+    }
+    return sum;
+  }
+
   void paint_ball(int32_t v, std::vector<Vec3>& out) const {
     const double r = mesh_.radius[v];
-    const auto count =
-        static_cast<int64_t>(std::ceil(4 * std::numbers::pi * r * r / (spacing_ * spacing_))) + 1;
+    const auto count = static_cast<int64_t>(on_ball(r));
     for (int64_t i = 0; i < count; ++i) {
       const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
       const double turn = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
@@ -59,8 +76,7 @@ class Painter {
     const auto& r = mesh_.radius;
     const TangentNormals tangents = tangent_normals({x[a], r[a]}, {x[b], r[b]}, {x[c], r[c]});
     if (!tangents.exist) return;
-    const int64_t n =
-        steps(std::max({distance(x[a], x[b]), distance(x[b], x[c]), distance(x[c], x[a])}));
+    const int64_t n = steps(longest_side(t));
     for (int64_t i = 0; i <= n; ++i) {
       for (int64_t j = 0; i + j <= n; ++j) {
         const double u = static_cast<double>(i) / static_cast<double>(n),
@@ -73,6 +89,13 @@ class Painter {
   }
 
  private:
+  double on_ball(double r) const {
+    return std::ceil(4 * std::numbers::pi * r * r / (spacing_ * spacing_)) + 1;
+  }
+  double longest_side(const Triangle& t) const {
+    const Vec3 &a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
+    return std::max({distance(a, b), distance(b, c), distance(c, a)});
+  }
   int64_t steps(double whole) const {
     return std::max<int64_t>(1, static_cast<int64_t>(std::ceil(whole / spacing_)));
   }
@@ -112,6 +135,11 @@ Column<Vec3> solid_surface(const SphereMesh& given, double spacing, int threads,
   const Envelope envelope(mesh);
   const Painter painter(mesh, envelope, spacing);
   const auto edges = edges_of(mesh);
+  if (const double tried = painter.tried(edges); !(tried < kMostPoints)) {
+    throw InvalidInputError("Expected a spacing for fewer than " + text(kMostPoints) +
+                            " points, found " + text(spacing) + ", which needs about " +
+                            text(tried) + "; choose a larger one.");
+  }
   const Run run{thread_count(threads), progress};
   parallel_append_to(
       all, static_cast<int64_t>(mesh.triangles.size()), run,

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The light is red only where the result cannot be trusted, and no sentence claims what was not counted or measured."""
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.axis.verdict import Light, verdict
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import Settings, ThicknessSettings
+from medial_axis.core.severe import Severe
+from medial_axis.core.solid.thickness import measure_thickness
+from support.meshes import torus
+from support.thick_meshes import block, ellipsoid, joined, lathe
+
+NO_FACES = np.zeros((0, 3), np.int32)
+
+
+def shape_of(mesh):
+    return Shape(np.ascontiguousarray(mesh[0], float), np.ascontiguousarray(mesh[1], np.int32))
+
+
+def linked_tubes():
+    """Two rings of few faces, one through the other."""
+    points, triangles = torus(1.0, 0.25, 24, 8)
+    return joined((points, triangles), (points[:, [0, 2, 1]] * (1, -1, 1) + (1, 0, 0), triangles))
+
+
+CUP = [(0.0, 0.0), (0.4, 0.0), (0.5, 1.0), (0.45, 1.0), (0.36, 0.05), (0.0, 0.05)]
+SHARP = {
+    "linked tubes": (linked_tubes(), "2 pieces, 2 loops, no cavity"),
+    "cup": (lathe(CUP), "1 piece, no loop, no cavity"),
+}
+
+
+@pytest.mark.parametrize("name", SHARP)
+def test_sharp_edges_make_no_red_light(name):
+    """Near a faceted edge every sample is above any epsilon, yet the axis is right."""
+    mesh, counted = SHARP[name]
+    found = compute_axis(shape_of(mesh), Settings(epsilon=0.05))
+    assert found.topology == f"{counted}, as the solid"
+    assert found.chosen.samples.density.share > 0.5
+    assert not any("too sparse" in warning for warning in found.warnings)
+    assert verdict(found.chosen, found.warnings).light is Light.GOOD
+
+
+def test_sparse_points_are_looked_at():
+    points = ellipsoid(subdivisions=2)[0]
+    found = compute_axis(Shape(points, NO_FACES), Settings(epsilon=0.05))
+    assert any("too sparse" in warning for warning in found.warnings)
+    assert not any(isinstance(warning, Severe) for warning in found.warnings)
+    assert verdict(found.chosen, found.warnings).light is Light.LOOK
+    assert found.topology == "1 piece, no loop, no cavity, by the samples"
+
+
+def test_missed_walls_are_red():
+    found = compute_axis(shape_of(block(1.0, 1.0, 1e-4)), Settings(budget=12_000))
+    assert verdict(found.chosen, found.warnings).light is Light.WRONG
+
+
+@pytest.mark.parametrize("thickness", [0.002, 0.0003, 1e-5])
+def test_samples_on_faces_have_no_noise(thickness):
+    found = measure_thickness(
+        shape_of(block(1.0, 1.0, thickness)), Settings(budget=12_000), ThicknessSettings()
+    )
+    assert found.noise == 0.0
+    assert not any("scatter" in text or "Noise" in text for text in found.warnings)
