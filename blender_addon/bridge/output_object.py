@@ -29,6 +29,8 @@ SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
 DENSITY = "ma_density"  # how densely that lies: a sentence
 SECONDS = "ma_seconds"
 
+KEPT_SCALE = "Medial Axis Scale"  # the constraint that keeps the scale of an output at 1
+
 
 def source_of(output: bpy.types.Object) -> bpy.types.Object | None:
     """The object that this was made of; None when it was not made of one, or its source is gone."""
@@ -154,6 +156,7 @@ def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wa
     frame = output.matrix_world.copy()
     if output.parent == source and not wanted:
         output.parent = None
+        _forget_scale(output)
     elif wanted and output.parent in (None, source) and _can_carry(source, world):
         output.parent = source
         output.matrix_parent_inverse = world.inverted()
@@ -161,8 +164,47 @@ def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wa
         return
     output.matrix_basis = frame
     output.scale = (1.0, 1.0, 1.0)
-    if output.parent is not None and source.type == "CURVE":
-        _undo_path(output, frame, world)
+    if output.parent is not None:
+        _keep_scale(output)
+        if source.type == "CURVE":
+            _undo_path(output, frame, world)
+
+
+def follow_like(output: bpy.types.Object, other: bpy.types.Object) -> None:
+    """Place an output as another output of the same source, as a child of the same parent.
+
+    A parent that an artist chose stays.
+    """
+    if output.parent not in (None, other.parent):
+        output.matrix_world = other.matrix_world
+        return
+    output.parent = other.parent
+    if other.parent is not None:
+        output.parent_type, output.parent_bone = other.parent_type, other.parent_bone
+        _keep_scale(output)
+    output.matrix_parent_inverse = other.matrix_parent_inverse.copy()
+    output.matrix_basis = other.matrix_basis.copy()
+
+
+def _keep_scale(output: bpy.types.Object) -> None:
+    """Radii are lengths of the world, so a source that is scaled later must not stretch what was made of it."""
+    if _scale_of(output) is None:
+        limit = output.constraints.new("LIMIT_SCALE")
+        limit.name, limit.owner_space = KEPT_SCALE, "WORLD"
+        for axis in "xyz":
+            for end in ("min", "max"):
+                setattr(limit, f"use_{end}_{axis}", True)
+                setattr(limit, f"{end}_{axis}", 1.0)
+
+
+def _forget_scale(output: bpy.types.Object) -> None:
+    if limit := _scale_of(output):
+        output.constraints.remove(limit)
+
+
+def _scale_of(output: bpy.types.Object) -> bpy.types.Constraint | None:
+    found = (c for c in output.constraints if c.type == "LIMIT_SCALE" and c.name == KEPT_SCALE)
+    return next(found, None)
 
 
 def _can_carry(source: bpy.types.Object, world: Matrix) -> bool:

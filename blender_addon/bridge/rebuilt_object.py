@@ -20,7 +20,7 @@ from ..core.solid.solid_difference import SolidDifference, solid_difference
 from .axis_object import radius_range, settings_of
 from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
-from .output_object import SOURCE, Product, is_gone, new_object, source_of
+from .output_object import SOURCE, Product, follow_like, is_gone, new_object, source_of
 from .read_object import read_object
 from .reduced_object import is_reduced
 
@@ -66,7 +66,7 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
     if found is not None:
         return found
     made = new_object(result, SOLID.suffix, result.data)
-    made.matrix_world = result.matrix_world
+    follow_like(made, result)
     made[REBUILT], made[SOURCE] = True, result
     voxel = _diagonal(result) / _PARTS
     if is_reduced(result):

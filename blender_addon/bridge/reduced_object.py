@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING
 import bpy
 
 from .. import __version__
+from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.settings import Side
+from .attributes import RADIUS
+from .colours import colour_mesh, remember_colours
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
-from .output_object import SOURCE, VERSION, Product, source_of
+from .output_object import SOURCE, VERSION, Product, follow_like, source_of
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
@@ -53,14 +56,20 @@ def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> 
         The object cannot be changed now, or Blender cannot hold it.
     """
     source = source_of(result) or result
-    thing, is_new = REDUCED_MESH.write_mesh(source, partial(new_axis_mesh, axis))
+    thing, is_new = REDUCED_MESH.write_mesh(source, partial(_coloured_mesh, axis))
     if is_new:
         thing.data.materials.append(radius_material())
         thing.color, thing.show_in_front = FLAT, True  # it lies inside the surface
-    thing.matrix_world = result.matrix_world
+    follow_like(thing, result)
     show_wires(thing, axis)
     _remember(thing, source, axis, vertices)
     return thing
+
+
+def _coloured_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
+    mesh = new_axis_mesh(axis, name)
+    colour_mesh(mesh, axis.radius, *colours_of_radii(axis.radius))
+    return mesh
 
 
 def _remember(
@@ -70,4 +79,5 @@ def _remember(
     thing[SOURCE], thing[VERSION] = source, __version__
     thing["ma_side"] = Side.INNER.name
     thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
+    remember_colours(thing, RADIUS.name, *colours_of_radii(axis.radius))
     thing.update_tag()

@@ -13,11 +13,12 @@ import numpy as np
 from ..core.machine.native import own_errors
 from .attributes import read_vectors
 from .mesh_arrays import read_corner_edges, read_corners, read_loop_triangles, read_spans
-from .thickness_object import AREA, LEAST, MINIMUM, PLACES, THIN
+from .thickness_object import LEAST, MINIMUM, PLACES, THIN
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+_SOME_MINIMA = 10  # as large as a thin patch is shown, in its thickness
 _COLUMNS = 5  # of a patch: x, y, z, area, minimum
 
 
@@ -34,7 +35,9 @@ def patches_of(carrier: bpy.types.Object) -> int:
 
 def least_of(carrier: bpy.types.Object) -> tuple[tuple[float, ...], float]:
     """Place of the minimum in the carrier's own frame, and how large what is worth seeing is there."""
-    return tuple(carrier[LEAST]), max(carrier.get(AREA, 0.0) ** 0.5, 4 * carrier[MINIMUM])
+    least = carrier[MINIMUM]
+    patch = patch_at(carrier, 0)[1] if patches_of(carrier) else 0.0  # the thinnest comes first
+    return tuple(carrier[LEAST]), min(max(patch**0.5, 4 * least), _SOME_MINIMA * least)
 
 
 def select_thin(thing: bpy.types.Object, near: tuple[float, ...] | None = None) -> int:

@@ -8,6 +8,7 @@ import bpy
 
 from ..bridge.output_object import follow
 from ..bridge.read_object import read_object
+from ..bridge.source_state import remember_state, state_of
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task, run_task
 from . import current_job
@@ -132,7 +133,8 @@ class ComputeOperator(FromSelection):
                 continue
             world = thing.evaluated_get(depsgraph).matrix_world.copy()
             uid = getattr(thing, "session_uid", None)
-            found.append(Source(thing.name, uid, shape.frame, world))
+            state = state_of(thing, depsgraph)
+            found.append(Source(thing.name, uid, shape.frame, world, state))
         return found, tasks
 
     def _write(self, context, found, outcomes):
@@ -161,6 +163,8 @@ class ComputeOperator(FromSelection):
         made = self.write(thing, outcome.value, source.frame)
         if made is not None and made != thing:
             follow(made, thing, source.world, self.parent)
+        if made is not None:
+            remember_state(made, source.state)
         seconds = outcome.value.seconds + time.perf_counter() - start
         for warning in outcome.value.warnings:
             text = f"'{source.name}': {warning}"

@@ -8,9 +8,13 @@ import bpy
 from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.colours import colour_range
 from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
+from ..bridge.source_state import has_changed
+from ..core.axis.verdict import Light
+from ..core.samples.density import percent
 from . import manual
 from .guide import WHY
 from .legend import draw_legend, light
+from .properties import copy_settings, needs_analysis
 from .show import shows_colours
 from .translation import say
 from .wrapped_text import draw_wrapped
@@ -34,6 +38,11 @@ def draw_result(context, layout, result):
     if seconds := result.get(output_object.SECONDS):
         figures["Time"] = f"{seconds:.2f} s"
     _draw_figures(layout, figures, 0.3)
+
+
+def share_text(share):
+    """A share as '0.004 %', '7.1 %' or '100 %'."""
+    return percent(share) if share >= 0.095 else f"{100 * share:.2g} %"
 
 
 def draw_sequence(context, layout, frame):
@@ -121,6 +130,11 @@ def _draw_verdict(context, layout, result):
     name = result.get(axis_object.LIGHT)
     if name not in WHY:  # of an older version
         return
+    if reason := why_outdated(context, result):
+        draw_wrapped(context, layout, reason, icon_value=light(Light.LOOK.name))
+        again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
+        copy_settings(context.scene.medial_axis, again)
+        return
     row = layout.row()
     sentence = _short(say(result[axis_object.VERDICT]))
     draw_wrapped(context, row, sentence, icon_value=light(name), beside=_BUTTON)
@@ -128,6 +142,15 @@ def _draw_verdict(context, layout, result):
         why = row.row()
         why.alignment = "RIGHT"
         why.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
+
+
+def why_outdated(context, result):
+    """Why the shown result no longer belongs to its source and settings, or an empty string."""
+    if has_changed(result, context.view_layer.depsgraph):
+        return "The source has changed since"
+    if needs_analysis(result, context.scene.medial_axis):
+        return "The settings have changed since"
+    return ""
 
 
 def _short(sentence):

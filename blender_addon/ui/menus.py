@@ -3,6 +3,7 @@
 
 import bpy
 
+from ..core.settings import THICKNESS_OPTIONS
 from .properties import copy_settings
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
 
@@ -16,6 +17,10 @@ def _compute(self, context):
     self.layout.operator("object.tight_cocone_surface", icon="MESH_ICOSPHERE")
     button = self.layout.operator("object.medial_axis_balls", icon="META_BALL")
     copy_settings(context.scene.medial_axis, button)
+    button = self.layout.operator("object.medial_axis_thickness", icon="DRIVER_DISTANCE")
+    copy_settings(context.scene.medial_axis, button)
+    copy_settings(context.scene.medial_axis_thickness, button, THICKNESS_OPTIONS)
+    self.layout.operator("object.medial_axis_rebuild", icon="MOD_REMESH")
     for operator, icon in SKELETON_OPERATORS.items():
         copy_all(context, self.layout.operator(operator, icon=icon))
 

@@ -188,6 +188,19 @@ def _refilter_result(result, panel) -> str:
     return ""
 
 
+def needs_analysis(result, panel) -> bool:
+    """Whether the panel has other settings than those of a result that only another analysis would apply.
+
+    A result remembers what Automatic chose, so Automatic agrees with everything.
+    """
+    kept, wanted = settings_of(result), settings_from(panel)
+    for name in _ANALYSED:
+        value = getattr(wanted, name)
+        if getattr(value, "name", "") != "AUTOMATIC" and value != getattr(kept, name):
+            return True
+    return False
+
+
 _ANALYSED = {name: OPTIONS[name] for name in (*ANALYSED, *SAMPLING_OPTIONS)}
 _LIVE = {name: option for name, option in OPTIONS.items() if name not in _ANALYSED} | LOOKS
 

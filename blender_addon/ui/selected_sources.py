@@ -43,6 +43,7 @@ class Source:
     uid: int | None
     frame: object  # (4, 4) float64
     world: object  # its matrix when it was read
+    state: object = None  # its shape and scale when it was read, as source_state has them
 
     def find(self):
         """The object, or None when it is gone."""
@@ -60,8 +61,20 @@ def sources(context) -> list:
     for thing in [*_of(context, "selected_objects"), *_of(context, "objects_in_mode")]:
         source = source_of(thing) if _is_made(thing) else thing
         if source is not None and source.type in SOURCE_TYPES and not is_gone(source):
-            found.append(source)
+            found.append(_first_of_family(source))
     return list(dict.fromkeys(found))
+
+
+def _first_of_family(thing):
+    """The metaball that has the shape of its whole family; any other object is returned as it is.
+
+    A family are the metaballs whose names differ only in a number at the end, and its first has none.
+    """
+    if thing.type != "META" or not thing.name[-1].isdigit():
+        return thing
+    first = bpy.data.objects.get(thing.name.rpartition(".")[0])
+    is_first = first is not None and first.type == "META" and not is_gone(first)
+    return first if is_first else thing
 
 
 def has_faces(thing) -> bool:

@@ -19,6 +19,7 @@ from ..bridge.skeleton_object import (
     write_parts,
     write_skeleton,
 )
+from ..bridge.source_state import same_state
 from ..core.settings import BIND, LOOKS, OPTIONS, SKELETON_OPTIONS, SkeletonSettings
 from ..core.skeleton.compute import compute_skeleton
 from ..core.skeleton.rig import compute_rig
@@ -147,13 +148,17 @@ class OBJECT_OT_medial_axis_armature(
 
     def write(self, thing, rig, frame):
         made = write_armature(thing, rig, frame)
+        with same_state(thing):
+            self._bind(thing, made, rig)
+        return made
+
+    def _bind(self, thing, made, rig):
         if self.bind == "AUTOMATIC" and not bind_by_heat(thing, made, rig):
             self.report({"WARNING"}, say(HEAT_FAILED))
             made["ma_warnings"] = "\n".join([*rig.warnings, HEAT_FAILED])
             bind_by_axis(thing, made, rig)
         elif self.bind == "AXIS":
             bind_by_axis(thing, made, rig)
-        return made
 
     def summary(self, rig):
         skeleton = rig.made_of.skeleton

@@ -6,12 +6,14 @@ import bpy
 from ..bridge import thickness_object as of
 from ..bridge.colours import colour_range
 from ..bridge.output_object import WARNINGS
+from ..bridge.source_state import has_changed
 from ..bridge.thin_selection import patch_at, patches_of
+from ..core.axis.verdict import Light
 from ..core.settings import THICKNESS_OPTIONS, Noise
 from ..core.solid.thickness_colours import BLUE
 from . import current_job
-from .figures import length_text
-from .legend import draw_legend
+from .figures import length_text, share_text
+from .legend import draw_legend, light
 from .properties import copy_settings
 from .show import shows_colours
 from .tab import Closed, settings_column
@@ -49,12 +51,16 @@ def _draw_options(layout, settings):
 
 
 def _draw_found(context, layout, carrier):
+    if has_changed(carrier, context.view_layer.depsgraph):
+        draw_wrapped(
+            context, layout, "The source has changed since", icon_value=light(Light.LOOK.name)
+        )
     column = layout.column(align=True)
     least = carrier[of.MINIMUM]
     if of.LEAST in carrier and least < float("inf"):
         _draw_place(column, f"Minimum: {length_text(context, least)}", "MINIMUM", "ZOOM_SELECTED")
     if carrier[of.LIMIT] > 0.0:
-        share = f"{100 * carrier[of.SHARE]:.2g} %"
+        share = share_text(carrier[of.SHARE])
         area = _area(context, carrier[of.AREA])
         column.label(text=say(f"Thinner: {area} ({share})"), icon="MESH_PLANE", translate=False)
         _draw_patches(context, column, carrier)

@@ -16,7 +16,8 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) 
     """Describe the topology of an axis in a sentence.
 
     The axis has the topology of the solid that the samples enclose. Only where the count of the closed faces agrees
-    does the sentence claim that this is the solid. For an axis as published the sentence explains why the axis does not have the wanted form, or is empty.
+    does the sentence claim that this is the solid. For an axis as published the sentence explains why the axis does not
+    have the wanted form, or is empty.
 
     Parameters
     ----------

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A result whose source has changed since says so, and one whose source is as it was does not."""
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, compute, ellipsoid, result_of, select, torus
+
+KINDS = {
+    "curve": lambda: bpy.ops.curve.primitive_bezier_circle_add(),
+    "surface": lambda: bpy.ops.surface.primitive_nurbs_surface_torus_add(),
+    "text": lambda: bpy.ops.object.text_add(),
+    "metaball": lambda: two_metaballs(),
+}
+
+
+def two_metaballs():
+    bpy.ops.object.metaball_add()
+    bpy.context.object.data.elements.new().co.x = 1.5
+
+
+def has_changed(output):
+    bpy.context.view_layer.update()
+    state = addon("bridge.source_state")
+    state._checked.clear()
+    return state.has_changed(output, bpy.context.view_layer.depsgraph)
+
+
+def computed(**settings):
+    source = ellipsoid(segments=4)
+    compute(**settings)
+    return source, result_of(source)
+
+
+def test_a_source_that_is_as_it_was():
+    source, result = computed()
+    assert not has_changed(result)
+    source.location, source.rotation_euler = (3, 1, -2), (0.4, 0.2, 0.9)
+    source.name = "Renamed"
+    source.data.attributes.new("mine", "FLOAT", "POINT")
+    assert not has_changed(result)
+
+
+def move_a_vertex(source):
+    source.data.vertices[7].co.x += 1e-5
+    source.data.update()
+
+
+def flip(source):
+    source.data.flip_normals()
+
+
+def add_modifier(source):
+    source.modifiers.new("Wave", "DISPLACE").strength = 0.01
+
+
+def scale(source):
+    source.scale = (2, 1, 1)
+
+
+def scale_evenly(source):
+    source.scale = (1.01, 1.01, 1.01)
+
+
+CHANGES = (move_a_vertex, flip, add_modifier, scale, scale_evenly)
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_changed_source(change):
+    source, result = computed()
+    change(source)
+    assert has_changed(result)
+    if change is not flip:  # an axis of the inside needs faces that look outward
+        select(source)
+        compute()
+        assert result_of(source) == result and not has_changed(result)
+
+
+def test_a_change_that_is_taken_back():
+    source, result = computed()
+    before = source.data.vertices[7].co.copy()
+    move_a_vertex(source)
+    assert has_changed(result)
+    source.data.vertices[7].co = before
+    source.data.update()
+    assert not has_changed(result)
+
+
+def test_edit_mode_and_a_hidden_source_tell_nothing():
+    source, result = computed()
+    move_a_vertex(source)
+    source.hide_viewport = True
+    assert not has_changed(result)
+    source.hide_viewport = False
+    select(source)
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert not has_changed(result)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert has_changed(result)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_sources_of_other_types(kind):
+    KINDS[kind]()
+    source = bpy.context.object
+    if kind in ("curve", "text"):
+        source.data.bevel_depth = 0.1
+        source.data.extrude = 0.1
+    compute(form="CLEAN", sampling="SURFACE")
+    result = result_of(source)
+    assert not has_changed(result)
+    source.location.x += 1
+    assert not has_changed(result)
+    if kind == "text":
+        source.data.body = "Other"
+    elif kind == "metaball":
+        source.data.elements[0].radius = 1.7
+    elif kind == "curve":
+        source.data.splines[0].bezier_points[0].radius = 0.7
+    else:
+        source.data.splines[0].points[0].co.z += 0.2
+    assert has_changed(result)
+
+
+def test_thickness_skeleton_and_balls_know_their_source():
+    source = ellipsoid(segments=4)
+    bpy.ops.object.medial_axis_thickness(select_result=False, sampling="SURFACE")
+    bpy.ops.object.medial_axis_skeleton(select_result=False)
+    bpy.ops.object.medial_axis_balls(select_result=False)
+    source_of = addon("bridge.output_object").source_of
+    made = [thing for thing in bpy.data.objects if source_of(thing) == source]
+    assert len(made) == 3 and not any(map(has_changed, made))
+    move_a_vertex(source)
+    assert all(map(has_changed, made))
+
+
+def test_binding_to_bones_changes_nothing_and_a_pose_does():
+    _, result = computed()
+    bpy.ops.object.medial_axis_armature(select_result=False)
+    assert not has_changed(result)
+    armature = next(o for o in bpy.data.objects if o.type == "ARMATURE")
+    armature.pose.bones[0].rotation_mode = "XYZ"
+    armature.pose.bones[0].rotation_euler = (0.5, 0, 0)
+    assert has_changed(result)
+
+
+def test_a_scaled_source_does_not_stretch_its_axis():
+    """Radii are lengths of the world."""
+    source, result = computed()
+    before = np.array(result.matrix_world)
+    for factor in ((2, 1, 1), (0.5, 3, 1), (1, 1, 1)):
+        source.scale = factor
+        bpy.context.view_layer.update()
+        assert np.allclose(np.array(result.matrix_world), before, atol=1e-6)
+    source.location = (1, 2, 3)
+    bpy.context.view_layer.update()
+    assert np.allclose(np.array(result.matrix_world)[:3, 3] - before[:3, 3], (1, 2, 3), atol=1e-6)
+
+
+def test_what_was_rebuilt_or_reduced_follows_as_the_axis_does():
+    source, result = computed(form="CLEAN", side="INNER")
+    select(result)
+    bpy.ops.object.medial_axis_rebuild()
+    select(result)
+    bpy.ops.object.medial_axis_reduce(vertices=10)
+    rebuilt = addon("bridge.rebuilt_object").rebuilt_of(result)
+    reduced = addon("bridge.reduced_object").reduced_of(source)
+    source.location, source.rotation_euler = (1.5, -2, 0.5), (0.3, 0.2, 0.1)
+    bpy.context.view_layer.update()
+    for made in (rebuilt, reduced):
+        assert made.parent == source
+        assert np.allclose(np.array(made.matrix_world), np.array(result.matrix_world), atol=1e-6)
+    assert "ma_color" in reduced.data.attributes
+
+
+def test_settings_of_the_panel_that_need_another_analysis():
+    needs = addon("ui.properties").needs_analysis
+    panel = bpy.context.scene.medial_axis
+    torus()
+    compute()
+    result = bpy.context.object
+    assert not needs(result, panel)
+    panel.theta = 0.9
+    assert not needs(result, panel)
+    panel.samples = 2_345
+    assert needs(result, panel)
+    panel.property_unset("samples")
+    panel.side = "OUTER"
+    assert needs(result, panel)
+    panel.property_unset("side")
+    panel.property_unset("theta")
