@@ -13,11 +13,13 @@ import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
-from .output_object import Product, new_object, place, remember
+from .output_object import Product, inverse_of, new_object, place, remember
 from .skeleton_object import rows_of_vertices
 
 if TYPE_CHECKING:
     from ..core.skeleton.rig import Rig
+
+_SHORTEST = 1e-6  # Blender deletes shorter bones
 
 BONES = "ma_bones"
 MODIFIER = "Medial Axis Armature"
@@ -53,6 +55,11 @@ def check_armature_writable(
     if bind and (source.type != "MESH" or source.data.library is not None):
         raise InvalidInputError(
             f"Expected a mesh of this file to bind, found '{source.name}', which is not; choose Bind None"
+        )
+    if bind and not 0.0 < abs(source.matrix_world.determinant()) < float("inf"):
+        raise InvalidInputError(
+            f"Expected a scale that Blender can invert, found one too large or too small of '{source.name}'; "
+            "apply the scale, or choose Bind None"
         )
     made = armature_of(source)
     if bind and not replace_weights and made is not None and _is_painted(source, made):
@@ -93,6 +100,7 @@ def write_armature(source: bpy.types.Object, rig: Rig, frame: np.ndarray) -> bpy
     frame : (4, 4) float64
         Where the bones lie in the world; rotation and translation only.
     """
+    _check_lengths(rig)
     thing = armature_of(source)
     if thing is None:
         thing = new_object(
@@ -113,6 +121,15 @@ def write_armature(source: bpy.types.Object, rig: Rig, frame: np.ndarray) -> bpy
     remember(thing, source, rig.made_of.points, rig.made_of.duplicates, rig.warnings)
     thing[BONES] = rig.bones.count
     return thing
+
+
+def _check_lengths(rig: Rig) -> None:
+    shortest = float(np.linalg.norm(rig.bones.tail - rig.bones.head, axis=1).min(initial=np.inf))
+    if shortest <= _SHORTEST:
+        raise InvalidInputError(
+            f"Expected bones longer than {_SHORTEST:g}, for Blender deletes shorter ones, found one of "
+            f"{shortest:.2g}; scale the object up"
+        )
 
 
 def bind_by_axis(source: bpy.types.Object, armature: bpy.types.Object, rig: Rig) -> None:
@@ -209,7 +226,7 @@ def _attach(source: bpy.types.Object, armature: bpy.types.Object) -> None:
         kind, bone = source.parent_type, source.parent_bone
     world = child.matrix_world.copy()
     child.parent, child.parent_type, child.parent_bone = parent, kind, bone
-    child.matrix_parent_inverse = parent.matrix_world.inverted()
+    child.matrix_parent_inverse = inverse_of(parent.matrix_world)
     child.matrix_world = world
 
 

@@ -9,16 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import bpy
+import numpy as np
 from mathutils import Matrix
 
 from .. import __version__
 from ..core.errors import InvalidInputError
-
-if TYPE_CHECKING:
-    import numpy as np
 
 SOURCE = "ma_source"  # a pointer: it follows when either of the two is renamed
 VERSION = "ma_version"
@@ -159,7 +156,7 @@ def follow(output: bpy.types.Object, source: bpy.types.Object, world: Matrix, wa
         _forget_scale(output)
     elif wanted and output.parent in (None, source) and _can_carry(source, world):
         output.parent = source
-        output.matrix_parent_inverse = world.inverted()
+        output.matrix_parent_inverse = inverse_of(world)
     else:
         return
     output.matrix_basis = frame
@@ -209,15 +206,24 @@ def _scale_of(output: bpy.types.Object) -> bpy.types.Constraint | None:
 
 def _can_carry(source: bpy.types.Object, world: Matrix) -> bool:
     animated = source.type == "CURVE" and source.data.use_path and source.data.animation_data
-    return world.determinant() != 0.0 and not animated
+    return _has_inverse(world) and not animated
+
+
+def inverse_of(matrix: Matrix) -> Matrix:
+    """The inverse, computed in float64: of large scales the determinant overflows in float32, and Blender's is NaN."""
+    return Matrix(np.linalg.inv(np.array(matrix, np.float64)).tolist())
+
+
+def _has_inverse(matrix: Matrix) -> bool:
+    return bool(np.linalg.det(np.array(matrix, np.float64)) != 0.0)
 
 
 def _undo_path(output: bpy.types.Object, frame: Matrix, world: Matrix) -> None:
     """Blender carries the children of a curve to the start of its path; take that back."""
     bpy.context.view_layer.update()
     carried = output.matrix_world @ frame.inverted() @ world
-    if carried.determinant() != 0.0:
-        output.matrix_parent_inverse = carried.inverted()
+    if _has_inverse(carried):
+        output.matrix_parent_inverse = inverse_of(carried)
 
 
 def remember(

@@ -118,7 +118,7 @@ def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidD
 
 def in_frame_of(shape: Shape, thing: bpy.types.Object) -> Shape:
     """A shape as seen from an object."""
-    world, inverse = _in_the_world(shape), np.array(thing.matrix_world.inverted())
+    world, inverse = _in_the_world(shape), np.linalg.inv(np.array(thing.matrix_world, np.float64))
     return replace(world, points=world.points @ inverse[:3, :3].T + inverse[:3, 3])
 
 

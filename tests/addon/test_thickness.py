@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure Thickness: attributes on the source or on a copy, the live limit, thin places, and the feature size."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -291,3 +293,53 @@ def test_thickness_of_what_is_no_mesh_is_on_a_copy(add):
     assert bpy.ops.object.medial_axis_thickness(samples=2000) == {"FINISHED"}
     carrier = addon("bridge.thickness_object").carrier_of(source)
     assert carrier != source and carrier["ma_thickness_minimum"] > 0
+
+
+def test_minimum_is_seen_from_near_also_where_much_is_thin():
+    """A plate is thin everywhere, and what is worth seeing is a few times as large as it is thick."""
+    carrier = measure(box((1.0, 1.0, 0.1)), limit=0.2)
+    assert carrier["ma_thickness_area"] > 1.0
+    _, size = addon("bridge.thin_selection").least_of(carrier)
+    least = carrier["ma_thickness_minimum"]
+    assert 4 * least <= size <= 10 * least < 1.4
+
+
+def test_shares_are_written_out():
+    share_text = addon("ui.figures").share_text
+    shown = {
+        0.0: "0 %",
+        0.00004: "0.004 %",
+        0.071: "7.1 %",
+        0.42: "42 %",
+        0.996: "100 %",
+        1.0: "100 %",
+    }
+    assert {share: share_text(share) for share in shown} == shown
+
+
+def test_menus_have_what_f3_looks_for():
+    """F3 searches the menus, so whatever can be computed is in one."""
+    shown = []
+
+    class Layout:
+        def separator(self):
+            pass
+
+        def operator(self, name, **_):
+            shown.append(name)
+            return SimpleNamespace()
+
+    addon("ui.menus")._compute(SimpleNamespace(layout=Layout()), bpy.context)
+    wanted = {"thickness", "rebuild", "balls", "skeleton", "armature", "sampling_report"}
+    assert {f"object.medial_axis_{name}" for name in wanted} | {"object.medial_axis"} <= set(shown)
+
+
+def test_metaballs_of_one_family_are_one_source(capfd):
+    bpy.ops.object.metaball_add()
+    first = bpy.context.object
+    bpy.ops.object.metaball_add(location=(1.5, 0, 0))
+    select(bpy.context.object, first)
+    assert bpy.ops.object.medial_axis(form="CLEAN") == {"FINISHED"}
+    assert "Expected points" not in capfd.readouterr().out
+    is_result = addon("bridge.axis_object").is_result
+    assert [o["ma_source"] for o in bpy.data.objects if is_result(o)] == [first]
