@@ -120,7 +120,8 @@ def test_sdist_holds_what_is_needed_and_nothing_else(sdist):
     lists = [*(ROOT / "native").rglob("CMakeLists.txt"), ROOT / "native/python/_medial.pyi"]
     expected = {path.relative_to(ROOT).as_posix() for path in (*native, *lists)}
     expected -= {"native/mingw.cmake"}
-    expected |= {"native/python/exports.map", "blender_addon/blender_manifest.toml"}
+    expected |= {"native/python/exports.map", "native/python/docstrings.py"}
+    expected |= {"blender_addon/blender_manifest.toml"}
     expected |= {f"blender_addon/{name}" for name in CORE | FRONT}
     expected |= {"CMakeLists.txt", "LICENSE", "README.md", "pyproject.toml", "PKG-INFO"}
     assert names == expected
