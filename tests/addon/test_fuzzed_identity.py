@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Random stacks of modifiers: what is written on the vertices of a mesh belongs to these vertices.
+
+An attribute that travels through the modifiers says which vertex of the mesh a measured vertex was. Values on the
+mesh must be those that were measured there; where that cannot be, nothing is written on the mesh.
+"""
+
+import random
+
+import bpy
+import numpy as np
+import pytest
+from support.fuzz import repeats
+from scene import addon, attribute, ellipsoid, positions, select, torus
+
+TRAVELLER = "which_vertex"
+
+
+def build(modifier, rng):
+    modifier.frame_start, modifier.frame_duration = -100, 1
+    modifier.use_random_order, modifier.seed = rng.random() < 0.8, rng.randrange(99)
+    modifier.use_reverse = rng.random() < 0.2
+
+
+def set_to(**values):
+    def apply(modifier, _rng):
+        for name, value in values.items():
+            setattr(modifier, name, value)
+
+    return apply
+
+
+# Modifiers that reorder, move, add, remove or double vertices.
+MODIFIERS = {
+    "BUILD": build,
+    "TRIANGULATE": set_to(),
+    "DISPLACE": set_to(strength=0.05),
+    "WELD": set_to(merge_threshold=1e-4),
+    "SUBSURF": set_to(levels=1, subdivision_type="SIMPLE"),
+    "ARRAY": set_to(count=2),
+    "MIRROR": set_to(),
+    "EDGE_SPLIT": set_to(split_angle=0.2),
+    "DECIMATE": set_to(ratio=0.6),
+    "SMOOTH": set_to(iterations=2),
+    "SOLIDIFY": set_to(thickness=0.02),
+    "CAST": set_to(factor=0.2),
+    "BEVEL": set_to(width=0.01),
+    "MASK": set_to(),
+}
+
+
+def stack_on(source, rng):
+    for number in range(rng.randrange(4)):
+        kind = rng.choice(list(MODIFIERS)) if rng.random() < 0.6 else "BUILD"
+        modifier = source.modifiers.new(f"{number} {kind}", kind)
+        MODIFIERS[kind](modifier, rng)
+        modifier.show_viewport = rng.random() < 0.9
+
+
+def add_traveller(source):
+    """The number of each vertex, as a vector, which modifiers interpolate for vertices that they make."""
+    if source.data.attributes.get(TRAVELLER) is None:
+        source.data.attributes.new(TRAVELLER, "FLOAT_VECTOR", "POINT")
+    numbers = np.arange(len(source.data.vertices), dtype=np.float32)
+    vectors = np.column_stack((numbers, numbers**2, np.sqrt(numbers))).astype(np.float32)
+    source.data.attributes[TRAVELLER].data.foreach_set("vector", vectors.ravel())
+    return vectors
+
+
+def travelled(source):
+    """(n,) the vertex of the mesh that each evaluated vertex was, or -1 for those that modifiers made."""
+    mesh = source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    found = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.attributes[TRAVELLER].data.foreach_get("vector", found)
+    found, numbers = found.reshape(-1, 3), None
+    numbers = np.round(found[:, 0]).astype(np.int64)
+    same = (found[:, 0] == numbers) & (found[:, 1] == found[:, 0] ** 2)
+    same &= found[:, 2] == np.sqrt(found[:, 0])
+    return np.where(same, numbers, -1)
+
+
+def tries(seed):
+    """Measure a mesh under a random stack; whether values were written on the mesh, all of which are then right."""
+    rng = random.Random(seed)
+    source = rng.choice((lambda: ellipsoid(segments=2), torus))()
+    add_traveller(source)
+    stack_on(source, rng)
+    select(source)
+    try:
+        bpy.ops.object.medial_axis_thickness(sampling="VERTICES", select_result=False)
+    except RuntimeError as error:
+        assert "Traceback" not in str(error), (seed, error)
+        assert "ma_thickness" not in source.data.attributes
+        return False
+    if "ma_thickness" not in source.data.attributes:
+        return False
+    carrier = addon("bridge.thickness_object").carrier_of(source)
+    measured = addon("core.solid.thickness").kept_measurement(carrier["ma_thickness_key"])
+    rows, written = travelled(source), attribute(source.data, "ma_thickness")
+    values = np.float32(measured.of_vertices)
+    assert len(rows) == len(values) and len(written) == len(positions(source.data))
+    for vertex in range(len(written)):
+        right = values[rows == vertex]
+        assert len(right) and written[vertex] in right, (seed, vertex)
+    return True
+
+
+@pytest.mark.parametrize("seed", repeats(4))
+def test_fuzzed_identity(seed):
+    written = [tries(10 * seed + more) for more in range(10)]
+    assert len(written) == 10
+
+
+def test_both_ends_are_met():
+    """Some stacks leave the vertices and some do not; else the fuzz tells nothing."""
+    assert {tries(seed) for seed in range(12)} == {True, False}
