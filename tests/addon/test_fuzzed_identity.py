@@ -10,8 +10,8 @@ import random
 import bpy
 import numpy as np
 import pytest
-from support.fuzz import repeats
 from scene import addon, attribute, ellipsoid, positions, select, torus
+from support.fuzz import repeats
 
 TRAVELLER = "which_vertex"
 
