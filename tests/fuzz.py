@@ -22,6 +22,7 @@ FUZZES = {
     "narrow facets": ("test_narrow_facets.py", "fuzzed_boxes", 1),
     "scales and offsets": ("test_extreme_coordinates.py", "fuzzed_scales", 1),
     "signals": ("test_batch_faults.py", "fuzzed_signals", 1),
+    "names of outputs": ("test_fuzzed_outputs.py", "fuzzed_outputs", 3),
     "broken files": ("test_broken_files.py", "fuzzed_files", 50),
 }
 

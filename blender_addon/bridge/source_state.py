@@ -60,7 +60,7 @@ def remember_state(output: bpy.types.Object, state: tuple[str, list[float]] | No
 
 @contextmanager
 def same_state(source: bpy.types.Object) -> Iterator[None]:
-    """What is done meanwhile, such as binding to bones at rest, does not make the outputs of a source outdated."""
+    """Work that is done meanwhile, such as binding to bones at rest, does not make the outputs of a source outdated."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     fresh = [
         thing

@@ -13,7 +13,7 @@ from support.fuzz import repeats
 
 NAME = "Source"
 SHAPES = ((1.0, 0.7, 0.5), (0.6, 1.0, 0.9), (1.2, 0.4, 0.5))
-# What an operator may be given, and what the sliders of the panel may be set to.
+# Operators are given these values, and sliders of the panel are set to them.
 CHOICES = {
     "form": ("CLEAN", "PUBLISHED", "CURVE"),
     "theta": (0.2, 0.4, 0.8),
