@@ -23,8 +23,9 @@ from medial_axis.core.skeleton.parts import Places
 from medial_axis.core.skeleton.rig import compute_rig
 from medial_axis.core.skeleton.rules import clear_loops, prune
 from medial_axis.core.skeleton.simplify import kept_points
+from medial_axis.core.skeleton.skeleton import Skeleton
 from medial_axis.core.skeleton.spread import graph_of, spread
-from medial_axis.core.skeleton.weights import axis_weights, edges_of
+from medial_axis.core.skeleton.weights import _share_with_parents, axis_weights, edges_of
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
@@ -339,6 +340,44 @@ def test_two_thin_bones_share_as_far_as_the_radius_of_their_joint():
     weight = weights_along([0.44, 0.46, 0.54, 0.56], radius=0.1)
     assert (weight[[0, 3], [1, 2]] == 1.0).all()
     assert (weight[[1, 2], [1, 2]] < 1.0).all()
+
+
+def test_a_loop_closes_where_it_is_farthest_from_the_root():
+    """The joint X is 7 away from the root on one way and 9 on the other, whose bones are shorter."""
+    points = np.array([(0, 0, 0), (4, 0, 0), (4, 4, 0), (3.4, 4.8, 0), (2.6, 5.4, 0)], float)
+    ring = np.array([0, 1, 2, 3, 4, 0], np.int32)
+    skeleton = Skeleton(
+        points, np.full(5, 0.01), np.array([0, 6], np.int32), ring, np.array([0], np.int32)
+    )
+    bones = bones_of(skeleton, points[0])
+    ways = list(zip(bones.head.tolist(), bones.tail.tolist(), strict=True))
+    x = points[3].tolist()
+    assert [head for head, tail in ways if tail == x] == [points[4].tolist()]
+
+
+def test_a_limb_leaves_to_its_parent_what_it_loses():
+    """Towards the rim of a limb its weight fades, and both together stay 1."""
+    x = np.linspace(-1.0, 1.0, 41)
+    vertices = np.column_stack((x, 0 * x, 0 * x))
+    rows = np.arange(40)
+    chain = (x > 0.0).astype(np.int64)
+    weight = np.column_stack((chain == 0, chain == 1)).astype(float)
+    bones = Bones(
+        head=np.array([(-1.0, 0, 0), (0, 0, 0)]),
+        tail=np.array([(0.0, 0, 0), (1, 0, 0)]),
+        head_radius=np.full(2, 0.4),
+        tail_radius=np.full(2, 0.4),
+        parent=np.array([-1, 0], np.int32),
+        branch=np.array([0, 1], np.int32),
+        along=np.array([(0.0, 1.0)] * 2),
+        chain=np.array([0, 1], np.int32),
+        to_tip=np.array([False, True]),
+    )
+    edges = np.column_stack((rows, rows + 1)).astype(np.int32)
+    _share_with_parents(weight, chain, bones, vertices, edges)
+    np.testing.assert_allclose(weight.sum(axis=1), 1.0)
+    limb = weight[x > 0.0, 1]
+    assert limb[0] < 0.1 and (np.diff(limb) >= 0.0).all() and limb[-1] == 1.0
 
 
 @pytest.mark.parametrize("name", RIGGED)
