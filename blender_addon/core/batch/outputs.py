@@ -18,7 +18,7 @@ class Files:
     """Records the files that a run reads and writes."""
 
     def __init__(self, inputs: Iterable[str] = ()) -> None:
-        self._read = {key: path for path in inputs for key in _identities(Path(path))}
+        self._read: dict[object, Path] = {key: path for path in map(Path, inputs) for key in _identities(path)}
         self._written: dict[object, Path] = {}
 
     def check_not_read(self, output: Path) -> None:
@@ -29,10 +29,10 @@ class Files:
         InvalidInputError
         """
         for path in (output, report_path(output)):
-            if found := [self._read[key] for key in _identities(path) if key in self._read]:
+            if (found := _same_file(path, self._read)) is not None:
                 raise InvalidInputError(
                     f"Expected an output that replaces no input, found '{path}', which is the input "
-                    f"'{found[0]}'; choose another folder or name"
+                    f"'{found}'; choose another folder or name"
                 )
 
     def claim(self, output: Path) -> None:
@@ -44,13 +44,33 @@ class Files:
         """
         self.check_not_read(output)
         for path in (output, report_path(output)):
-            if any(key in self._written for key in _identities(path)):
+            if _same_file(path, self._written) is not None:
                 raise InvalidInputError(
                     f"Expected another output for each input, found '{output}' again; put {{file}} "
                     "or {name} in OUTPUT"
                 )
         for path in (output, report_path(output)):
             self._written |= dict.fromkeys(_identities(path), path)
+
+
+def _same_file(path: Path, recorded: dict[object, Path]) -> Path | None:
+    """Return the recorded path of the same file.
+
+    An inode counts only if both paths still have it: that of a file which was replaced since, by this
+    run or by another one in the same folder, is given to the next new file.
+    """
+    for key in _identities(path):
+        other = recorded.get(key)
+        if other is not None and (isinstance(key, str) or _have_one_inode(path, other)):
+            return other
+    return None
+
+
+def _have_one_inode(path: Path, other: Path) -> bool:
+    try:
+        return os.path.samefile(path, other)
+    except (OSError, ValueError):
+        return False
 
 
 def _identities(path: Path) -> set[object]:
