@@ -18,7 +18,9 @@ class Files:
     """Records the files that a run reads and writes."""
 
     def __init__(self, inputs: Iterable[str] = ()) -> None:
-        self._read: dict[object, Path] = {key: path for path in map(Path, inputs) for key in _identities(path)}
+        self._read: dict[object, Path] = {
+            key: path for path in map(Path, inputs) for key in _identities(path)
+        }
         self._written: dict[object, Path] = {}
 
     def check_not_read(self, output: Path) -> None:
