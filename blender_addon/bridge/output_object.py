@@ -184,8 +184,12 @@ def follow_like(output: bpy.types.Object, other: bpy.types.Object) -> None:
 
 
 def _keep_scale(output: bpy.types.Object) -> None:
-    """Radii are lengths of the world, so a source that is scaled later must not stretch what was made of it."""
+    """Radii are lengths of the world, so a source that is scaled later must not stretch what was made of it.
+
+    The locks show an artist that scaling the output by hand does nothing, either.
+    """
     if _scale_of(output) is None:
+        output.lock_scale = (True, True, True)
         limit = output.constraints.new("LIMIT_SCALE")
         limit.name, limit.owner_space = KEPT_SCALE, "WORLD"
         for axis in "xyz":
@@ -197,6 +201,7 @@ def _keep_scale(output: bpy.types.Object) -> None:
 def _forget_scale(output: bpy.types.Object) -> None:
     if limit := _scale_of(output):
         output.constraints.remove(limit)
+        output.lock_scale = (False, False, False)
 
 
 def _scale_of(output: bpy.types.Object) -> bpy.types.Constraint | None:

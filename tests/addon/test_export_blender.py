@@ -146,7 +146,16 @@ def test_scripts_may_move_the_result_just_before(result, tmp_path):
     assert_same_points(read_ma(tmp_path / "axis.ma")[0][:, :3], world_positions(result), rounding=1)
 
 
+def test_result_keeps_its_scale(result, tmp_path):
+    export(tmp_path / "before.ma")
+    result.scale = (2, 1, 3)
+    export(tmp_path / "after.ma")
+    assert all(result.lock_scale)
+    assert (tmp_path / "after.ma").read_bytes() == (tmp_path / "before.ma").read_bytes()
+
+
 def test_result_scaled_evenly_scales_its_radii(result, tmp_path):
+    result.constraints.clear()
     result.scale = (2, 2, 2)
     export(tmp_path / "axis.ma")
     vertices = read_ma(tmp_path / "axis.ma")[0]
@@ -155,6 +164,7 @@ def test_result_scaled_evenly_scales_its_radii(result, tmp_path):
 
 
 def test_result_scaled_unevenly_is_refused(result, tmp_path):
+    result.constraints.clear()
     result.scale = (2, 1, 1)
     with pytest.raises(RuntimeError, match="scaled evenly, found scales from 1 to 2"):
         export(tmp_path / "axis.ma")

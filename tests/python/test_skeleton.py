@@ -601,6 +601,23 @@ def test_thin_loops_are_cut_and_others_stay():
     assert (loops.cut, loops.filled, len(net.branches)) == (0, 0, 3)
 
 
+def test_genuine_loops_stay_however_thin_they_are():
+    net = net_of(*ladder(), [0.5] * 6 + [0.01])
+    assert net.loops() == 2
+    assert clear_loops(net, np.full(7, 0.1), genuine=2).cut == 0
+    assert clear_loops(net, np.full(7, 0.1), genuine=1).cut == 1 and net.loops() == 1
+
+
+def test_loops_of_closed_faces_stay():
+    """The samples of a thin ring are as far apart as it is thick."""
+    points, triangles = meshes.torus(1.0, 0.04, 160, 24)
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=2_000)
+    found = compute_skeleton(Shape(points, triangles), settings, SkeletonSettings())
+    assert found.chosen.samples.by_faces == (1, 1, 0)
+    assert (found.loops.cut, found.loops.filled) == (0, 0)
+    assert len(found.skeleton.edges) == len(np.unique(found.skeleton.edges))
+
+
 def test_pinholes_are_filled():
     """A loop inside one of its own balls, with two limbs."""
     points = [(0, 0, 0), (0.2, 0.1, 0), (0.2, -0.1, 0), (0.4, 0, 0), (3, 0, 0), (-3, 0, 0)]

@@ -132,7 +132,8 @@ def _net(
         level.points,
         np.bincount(owner, weights=share, minlength=count).astype(np.float64),
     )
-    loops = clear_loops(net, _mean_of_owned(owner, spacing, count))
+    genuine = 0 if samples.by_faces is None else samples.by_faces[1]
+    loops = clear_loops(net, _mean_of_owned(owner, spacing, count), genuine)
     prune(net, wanted.share, balls)
     join_forks(net)
     owner = end_limbs(net, owner, balls)

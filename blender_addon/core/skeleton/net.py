@@ -71,6 +71,23 @@ class Net:
         chain = self.branches[name]
         return [node for node in (chain[0], chain[-1]) if len(self.at[node]) == 1]
 
+    def loops(self) -> int:
+        """Return the number of independent loops."""
+        seen: set[int] = set()
+        pieces = 0
+        for node in self.at:
+            pieces += node not in seen
+            left = [node]
+            while left:
+                if (here := left.pop()) not in seen:
+                    seen.add(here)
+                    left += [end for name in self.at[here] for end in self._ends(name)]
+        return len(self.branches) - len(self.at) + pieces
+
+    def _ends(self, name: int) -> tuple[int, int]:
+        chain = self.branches[name]
+        return chain[0], chain[-1]
+
     def length(self, name: int) -> float:
         """Return the length of a branch."""
         steps = np.diff(self.points[self.branches[name]], axis=0)

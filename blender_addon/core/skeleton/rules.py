@@ -6,6 +6,8 @@ There are two rules for loops and one for branches:
 - A loop is *cut* at its thinnest branch if that is thinner than two sample spacings: two limbs touch there.
 - A loop is *filled*, that is contracted to its largest ball, if it lies within one spacing of that ball: it goes around
   a pinhole.
+
+  Closed faces say how many loops the solid has; so many are kept, however thin they are.
 - A leaf is removed, the lightest first, if it hardly reaches out of the ball at its fork, or owns too small a share of
   the surface: it is a ridge of a plate or a terrace, and not a limb. The farther a leaf reaches, the less surface it
   needs.
@@ -39,21 +41,23 @@ class Loops:
     filled: int
 
 
-def clear_loops(net: Net, spacing: NDArray[np.float64]) -> Loops:
-    """Cut and fill the small loops.
+def clear_loops(net: Net, spacing: NDArray[np.float64], genuine: int = 0) -> Loops:
+    """Cut and fill the small loops, the thinnest first.
 
     Parameters
     ----------
     net : Net
     spacing : (p,) float64
         The spacing of the samples around each point.
+    genuine : int
+        At least so many loops are kept.
     """
     cut = 0
-    while (name := _thinnest_of_loops(net, spacing)) is not None:
+    while net.loops() > genuine and (name := _thinnest_of_loops(net, spacing)) is not None:
         net.cut(name)
         cut += 1
     filled = 0
-    while (found := _pinhole(net, spacing)) is not None:
+    while net.loops() > genuine and (found := _pinhole(net, spacing)) is not None:
         net.contract(*found)
         filled += 1
     return Loops(cut, filled)
