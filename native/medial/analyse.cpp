@@ -3,7 +3,6 @@
 #include "analysis_parts.h"
 #include "cocone/labelled_poles.h"
 #include "cocone/watertight_surface.h"
-#include "inside/pockets.h"
 
 namespace medial {
 namespace {
@@ -53,9 +52,10 @@ std::shared_future<WindingNumber> winding_number(std::span<const Vec3> vertices,
   });
 }
 
-void find_pockets(Parts& made, const std::shared_future<WindingNumber>& winding, const Run& run) {
-  made.pockets = pockets(made.samples.points, made.significance.spacing, winding,
-                         made.triangulation, made.voronoi, made.sides, run);
+void find_small_parts(Parts& made, const std::shared_future<WindingNumber>& winding,
+                      const Run& run) {
+  made.small = small_parts(made.samples.points, made.significance.spacing, winding,
+                           made.triangulation, made.voronoi, made.sides, run);
 }
 
 void take_tight_cocone(Parts& made, TightCocone found, const Csr<int32_t>& incident,
@@ -64,7 +64,8 @@ void take_tight_cocone(Parts& made, TightCocone found, const Csr<int32_t>& incid
   made.sides = sides_in_solid(made.samples.points, found.sides, boundary.triangles,
                               made.triangulation, made.voronoi, run);
   const Surface surface{boundary.triangles, {}};
-  find_pockets(made, winding_number(made.samples.points, surface, std::launch::deferred, run), run);
+  find_small_parts(made, winding_number(made.samples.points, surface, std::launch::deferred, run),
+                   run);
   found.sides = {};
   made.tight_cocone = std::make_shared<WatertightSurface>(
       describe(std::move(found), std::move(boundary), made.samples, run));
@@ -74,7 +75,7 @@ void take_labels(Parts& made, const LabelledPoles& labelled, const Run& run) {
   made.sides = sides_from_normals(made.samples.points, labelled.normals, made.triangulation,
                                   made.voronoi, run);
   made.sides_from = SidesFrom::poles;
-  made.pockets.clear();  // of Tight Cocone
+  made.small = {};  // of Tight Cocone
   made.tight_cocone.reset();
 }
 
@@ -214,7 +215,7 @@ class Stages {
     if (made_.sides_from == SidesFrom::surface) {
       made_.sides = sides_from_surface(points, corners().points, surface_, winding_.get(),
                                        made_.triangulation, made_.voronoi, run_);
-      find_pockets(made_, winding_, run_);
+      find_small_parts(made_, winding_, run_);
     } else if (made_.sides_from == SidesFrom::normals) {
       made_.sides = sides_from_normals(points, unit_normals(*input_.normals, made_.samples),
                                        made_.triangulation, made_.voronoi, run_);

@@ -120,16 +120,18 @@ MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progr
 }
 
 Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
-                                    Progress* progress) const {
+                                    std::optional<int64_t> bodies, Progress* progress) const {
   if (side != Side::inner) {
     throw InvalidInputError(
         "Expected side INNER for a hierarchy, found another one; the outer axis reaches infinity, "
         "where fire has no rim to start from.");
   }
   require_solid(*parts_);
+  const SmallParts& small = parts_->small;
+  const bool has_small = !small.pockets.empty() || !small.crumbs.empty();
   CellSides in_parts;
-  if (!parts_->pockets.empty()) in_parts = without(parts_->pockets, parts_->sides);
-  const CellSides& sides = parts_->pockets.empty() ? parts_->sides : in_parts;
+  if (has_small) in_parts = without(small, bodies, parts_->triangulation, parts_->sides);
+  const CellSides& sides = has_small ? in_parts : parts_->sides;
   return make_hierarchy(parts_->samples, facets_of(*parts_, sides), thresholds, parts_->frame,
                         parts_->run(progress));
 }

@@ -7,6 +7,7 @@
 #include "axis/selection.h"
 #include "base/frame.h"
 #include "delaunay/samples.h"
+#include "inside/pockets.h"
 
 namespace medial {
 
@@ -25,7 +26,7 @@ struct MedialAnalysis::Parts {
   Edges edges;
   Significance significance;
   CellSides sides;
-  std::vector<int32_t> pockets;  // inner cells that the hierarchy leaves out
+  SmallParts small;  // parts of the inner cells that the hierarchy may leave out
   SidesFrom sides_from = SidesFrom::none;
   std::optional<double> pole_disagreement;
   std::shared_ptr<const WatertightSurface> tight_cocone;

@@ -685,6 +685,7 @@ class MedialAnalysis:
         criteria: Criteria = ...,
         side: Side = ...,
         *,
+        bodies: int | None = None,
         progress: Progress | None = None,
     ) -> Hierarchy:
         """The levels of the inner axis; computed once, extracted often. It does not need the analysis any more.
@@ -695,6 +696,9 @@ class MedialAnalysis:
             As in `extract`: what they select is in the level with the thresholds 0, with the bridges that it lacks.
         side : Side
             INNER only.
+        bodies : int, optional
+            The number of bodies of the solid, if it is known. Parts without any ball larger than the hole between the
+            samples at them are left out then, those with few cells first, until no more parts than bodies are left.
         progress : Progress, optional
 
         Raises

@@ -213,14 +213,14 @@ void bind_analysis(py::module_& m) {
       .def(
           "hierarchy",
           [](const MedialAnalysis& a, double theta, double rho, Rule rule, Criteria criteria,
-             Side side, Progress* progress) {
+             Side side, std::optional<int64_t> bodies, Progress* progress) {
             const py::gil_scoped_release release;
-            return a.hierarchy({theta, rho, rule, criteria}, side, progress);
+            return a.hierarchy({theta, rho, rule, criteria}, side, bodies, progress);
           },
           docs::MedialAnalysis_hierarchy, py::arg("theta") = paper.theta,
           py::arg("rho") = paper.rho, py::arg("rule") = paper.rule,
           py::arg("criteria") = paper.criteria, py::arg("side") = Side::inner, py::kw_only(),
-          py::arg("progress") = nullptr)
+          py::arg("bodies") = py::none(), py::arg("progress") = nullptr)
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,

@@ -124,7 +124,7 @@ TEST(Hierarchy, CancelsFromAnotherThreadInEveryStage) {
       progress.cancel();
     });
     try {
-      analysis.hierarchy({}, Side::inner, &progress);
+      analysis.hierarchy({}, Side::inner, std::nullopt, &progress);
     } catch (const Cancelled&) {
       ++met;
     }

@@ -113,11 +113,39 @@ def test_no_body_is_lost(study, body, gap, size):
         assert hierarchy.betti[0] == sum(cells) == 2
 
 
-def test_a_body_of_four_samples_is_a_piece(medial):
-    corners = 0.02 * np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1.0]]) + (1.05, 0, 0)
+def tetrahedron(size, x):
+    corners = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1.0]])
     faces = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]], np.int32)
-    points, triangles = meshes.join(BALL, (corners, faces))
-    assert medial.MedialAnalysis(points, triangles).hierarchy().betti[0] == 2
+    return size * corners + (x, 0, 0), faces
+
+
+def test_a_body_of_four_samples_is_a_piece(medial):
+    points, triangles = meshes.join(BALL, tetrahedron(0.02, 1.05))
+    analysis = medial.MedialAnalysis(points, triangles)
+    assert analysis.hierarchy().betti[0] == 2
+    assert analysis.hierarchy(bodies=2).betti[0] == 2
+    assert analysis.hierarchy(bodies=1).betti == (1, 0, 0)
+    settings = Settings(sampling=SamplingMode.VERTICES)
+    assert compute(points, triangles, settings).axis.level.betti == (2, 0, 0)
+
+
+@pytest.mark.parametrize("name, loops", [("elephant-with-holes.off", 3), ("engine_parts.ply", 24)])
+def test_a_crumb_is_no_piece(data_file, name, loops):
+    """The faces of one are open, those of the other are seven bodies."""
+    found = compute(*meshes.read(data_file(name)), Settings(sampling=SamplingMode.VERTICES))
+    bodies = found.chosen.samples.by_faces
+    betti = found.axis.level.betti
+    assert betti == (1 if bodies is None else bodies[0], loops, 0)
+    plain = found.chosen.samples.analysis.hierarchy().betti
+    assert plain == (betti[0] + 1, loops, 0)
+
+
+def test_parts_that_are_all_small_stay(medial):
+    pair = meshes.join(tetrahedron(1.0, 0.0), tetrahedron(1.0, 9.0))
+    assert medial.MedialAnalysis(*pair).hierarchy(bodies=1).betti == (2, 0, 0)
+    three = meshes.join(BALL, *(tetrahedron(0.02, x) for x in (1.05, 2.0)))
+    assert medial.MedialAnalysis(*three).hierarchy(bodies=1).betti == (1, 0, 0)
+    assert medial.MedialAnalysis(*three).hierarchy(bodies=2).betti == (2, 0, 0)
 
 
 @pytest.mark.parametrize("size", [1.0, 0.2, 0.05])

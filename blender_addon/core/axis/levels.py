@@ -37,7 +37,8 @@ def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | N
     ------
     OutOfMemoryError, Cancelled
     """
-    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress)
+    bodies = 1 if samples.by_faces is None else samples.by_faces[0]
+    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress, bodies)
     CACHE.resize(samples.key, samples.bytes)
     return hierarchy
 

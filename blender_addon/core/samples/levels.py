@@ -23,7 +23,9 @@ class Levels:
         newest = self._newest
         return 0 if newest is None else int(newest[1].bytes)
 
-    def hierarchy(self, analysis: Any, settings: Settings, progress: Any | None) -> Any:
+    def hierarchy(
+        self, analysis: Any, settings: Settings, progress: Any | None, bodies: int | None = None
+    ) -> Any:
         """Return the `_medial.Hierarchy` of an analysis, which must always be the same one.
 
         Another thread may ask for other thresholds at the same time, so `_newest` is read once.
@@ -34,6 +36,9 @@ class Levels:
         settings : Settings
             Only `theta`, `rho`, `rule` and `criteria` matter.
         progress : _medial.Progress or None
+        bodies : int, optional
+            The number of bodies of the solid, always the same one; crumbs of the sampling are left out until no more
+            pieces are left.
 
         Raises
         ------
@@ -51,6 +56,7 @@ class Levels:
                 getattr(module.Rule, settings.rule.name),
                 getattr(module.Criteria, settings.criteria.name),
                 module.Side.INNER,
+                bodies=bodies,
                 progress=progress,
             )
         self._newest = thresholds, hierarchy

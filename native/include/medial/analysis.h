@@ -53,9 +53,13 @@ class MedialAnalysis {
   // and unbounded ones.
   std::vector<int32_t> select(const Extraction& extraction, Progress* progress = nullptr) const;
 
-  // Returns all levels of the inner axis, which no longer need the analysis. Throws
-  // InvalidInputError for other sides, DegenerateInputError for samples that enclose nothing.
+  // Returns all levels of the inner axis, which no longer need the analysis. If the solid is known
+  // to consist of so many bodies, parts without any ball larger than the hole between the samples
+  // at them are left out, those with few cells first, until no more parts than bodies are left.
+  // Throws InvalidInputError for other sides, DegenerateInputError for samples that enclose
+  // nothing.
   Hierarchy hierarchy(const Thresholds& thresholds = {}, Side side = Side::inner,
+                      std::optional<int64_t> bodies = std::nullopt,
                       Progress* progress = nullptr) const;
 
   // Returns for each sample, ascending by row, the largest circumradius in its umbrella, infinite

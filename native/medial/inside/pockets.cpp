@@ -11,10 +11,10 @@ namespace {
 using Part = std::vector<int32_t>;
 
 // Finds the parts of the inner cells that are too small for the samples to determine their shape.
-class SmallParts {
+class Finder {
  public:
-  SmallParts(std::span<const Vec3> points, std::span<const double> spacing, const Triangulation& t,
-             const Voronoi& voronoi, const CellSides& sides, const Run& run)
+  Finder(std::span<const Vec3> points, std::span<const double> spacing, const Triangulation& t,
+         const Voronoi& voronoi, const CellSides& sides, const Run& run)
       : points_(points), spacing_(spacing), t_(t), voronoi_(voronoi), sides_(sides), run_(run) {}
 
   // Returns the parts, the smallest first; equal ones are in the order of their lowest cells.
@@ -105,6 +105,29 @@ struct Way {
   auto operator<=>(const Way&) const = default;
 };
 
+// Counts the parts of the inner cells.
+int64_t number_of_parts(const Triangulation& t, const CellSides& sides) {
+  std::vector<uint8_t> seen(t.cells.size(), 0);
+  int64_t count = 0;
+  Part left;
+  for (int32_t c = 0; c < t.finite_cells; ++c) {
+    if (sides[c] != Side::inner || seen[c]) continue;
+    ++count;
+    seen[c] = 1;
+    left.assign(1, c);
+    while (!left.empty()) {
+      const int32_t cell = left.back();
+      left.pop_back();
+      for (const int32_t n : t.neighbors[cell]) {
+        if (sides[n] != Side::inner || seen[n]) continue;
+        seen[n] = 1;
+        left.push_back(n);
+      }
+    }
+  }
+  return count;
+}
+
 constexpr double kWidth = 0.01;  // half the width of a way at its end, as a share of its length
 
 // Returns whether a way is wide enough: there is no width between bodies that touch in an edge or
@@ -122,11 +145,10 @@ bool is_wide_way(const Vec3& from, const Vec3& to, const WindingNumber& winding)
 
 }  // namespace
 
-std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const double> spacing,
-                             const std::shared_future<WindingNumber>& winding,
-                             const Triangulation& t, const Voronoi& voronoi, const CellSides& sides,
-                             const Run& run) {
-  const auto parts = SmallParts(points, spacing, t, voronoi, sides, run)();
+SmallParts small_parts(std::span<const Vec3> points, std::span<const double> spacing,
+                       const std::shared_future<WindingNumber>& winding, const Triangulation& t,
+                       const Voronoi& voronoi, const CellSides& sides, const Run& run) {
+  const auto parts = Finder(points, spacing, t, voronoi, sides, run)();
   if (parts.empty()) return {};
   std::unordered_map<int32_t, size_t> part_of;
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -149,17 +171,29 @@ std::vector<int32_t> pockets(std::span<const Vec3> points, std::span<const doubl
       return is_wide_way(voronoi.centre[way.from], voronoi.centre[way.to], winding.get());
     });
   };
-  std::vector<int32_t> cells;
+  SmallParts found;
   for (size_t i = 0; i < parts.size(); ++i) {
     throw_if_cancelled(run.progress);
-    if (is_pocket(i)) cells.insert(cells.end(), parts[i].begin(), parts[i].end());
+    if (is_pocket(i)) {
+      found.pockets.insert(found.pockets.end(), parts[i].begin(), parts[i].end());
+    } else {
+      found.crumbs.push_back(parts[i]);
+    }
   }
-  std::sort(cells.begin(), cells.end());
-  return cells;
+  std::sort(found.pockets.begin(), found.pockets.end());
+  return found;
 }
 
-CellSides without(std::span<const int32_t> cells, CellSides sides) {
-  for (const int32_t cell : cells) sides[cell] = Side::outer;
+CellSides without(const SmallParts& small, std::optional<int64_t> bodies,
+                  const Triangulation& triangulation, CellSides sides) {
+  for (const int32_t cell : small.pockets) sides[cell] = Side::outer;
+  if (!bodies || small.crumbs.empty()) return sides;
+  int64_t left = number_of_parts(triangulation, sides);
+  if (left == std::ssize(small.crumbs)) return sides;
+  for (const Part& crumb : small.crumbs) {
+    if (left-- <= *bodies) break;
+    for (const int32_t cell : crumb) sides[cell] = Side::outer;
+  }
   return sides;
 }
 
