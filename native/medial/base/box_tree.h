@@ -19,8 +19,8 @@ struct TreeNode {
 };
 
 // Builds the tree of a run of items, parents before their children, and returns its first node.
-// `describe` fills in a node before its run is split; `split` reorders the run of a node and returns
-// where its right half begins.
+// `describe` fills in a node before its run is split; `split` reorders the run of a node and
+// returns where its right half begins.
 template <typename Node, typename Describe, typename Split>
 int32_t build_tree(std::vector<Node>& nodes, int32_t begin, int32_t end, int32_t most_in_leaf,
                    const Describe& describe, const Split& split) {
