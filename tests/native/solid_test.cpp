@@ -182,8 +182,10 @@ TEST(Pockets, OfAWedgeAreNoPiecesAndABodyBesideItIs) {
     const MedialAnalysis analysis(
         {.points = points, .triangles = mesh.triangles, .vertices = mesh.vertices}, {.threads = 2},
         nullptr);
-    EXPECT_FALSE(analysis.parts().pockets.empty());
+    EXPECT_FALSE(analysis.parts().small.pockets.empty());
     EXPECT_EQ(analysis.hierarchy({}).betti()[0], two ? 2 : 1);
+    EXPECT_EQ(analysis.hierarchy({}, Side::inner, 2).betti()[0], two ? 2 : 1);
+    EXPECT_EQ(analysis.hierarchy({}, Side::inner, 1).betti()[0], 1);
   }
 }
 
@@ -193,7 +195,7 @@ TEST(Pockets, AreNoBodiesThatTouchALargerOneInAnEdge) {
   const MedialAnalysis analysis(
       {.points = points, .triangles = mesh.triangles, .vertices = mesh.vertices}, {.threads = 2},
       nullptr);
-  EXPECT_TRUE(analysis.parts().pockets.empty());
+  EXPECT_TRUE(analysis.parts().small.pockets.empty());
 }
 
 }  // namespace
