@@ -44,6 +44,7 @@ void bind_product(py::module_& m) {
 PYBIND11_MODULE(_medial, m) { medial::python::bind_product(m); }
 #undef PyInit__medial
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): Python asks for this name
 extern "C" PYBIND11_EXPORT PyObject* PyInit__medial() {
   return medial::python::is_main_interpreter() ? initialise_medial() : nullptr;
 }

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_medial_study, m) {
 }
 #undef PyInit__medial_study
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): Python asks for this name
 extern "C" PYBIND11_EXPORT PyObject* PyInit__medial_study() {
   return medial::python::is_main_interpreter() ? initialise_study() : nullptr;
 }
