@@ -230,7 +230,10 @@ def gui(blender: Path, scenes: tuple[str, ...] = ()) -> None:
 def inside(blender: Path) -> list[str]:
     """The command that runs the tests of the installed zip inside Blender."""
     interpreter, _ = blender_python(blender)
-    words = (interpreter, "tests/addon/run.py", "--zip", pack.archive_for(), "--blender", blender)
+    archive = pack.archive_for()
+    if not archive.is_file():
+        raise Failure(f"Expected {paths.shown(archive)}, found none; run the part build first")
+    words = (interpreter, "tests/addon/run.py", "--zip", archive, "--blender", blender)
     return [str(word) for word in words]
 
 
