@@ -85,11 +85,16 @@ def changed() -> set[str]:
 
     A header counts for the unit of its name; the other units that include it are left to the full lint.
     """
-    names = output_of("git", "diff", "--name-only", base_of_changes(), "--", "native").splitlines()
+    names = changed_files("native")
     units = {
         (paths.ROOT / name).with_suffix(".cpp") for name in names if name.endswith((".cpp", ".h"))
     }
     return {str(unit) for unit in units if unit.is_file()}
+
+
+def changed_files(*folders: str) -> list[str]:
+    """The files that differ from the base of the changes."""
+    return output_of("git", "diff", "--name-only", base_of_changes(), "--", *folders).splitlines()
 
 
 def base_of_changes() -> str:

@@ -253,7 +253,11 @@ def run_matrix(blender: Path, *options: object) -> None:
 
 
 def asan(blender: Path) -> None:
-    """The native tests, for addresses and undefined behaviour."""
+    """The native tests, for addresses and undefined behaviour, where the last commits changed C++."""
+    if not any(
+        name.endswith((".cpp", ".h")) for name in lint.changed_files("native", "tests/native")
+    ):
+        raise Skip("the last commits changed no C++; --full runs it always")
     run_sanitized("asan", "-DMEDIAL_PYTHON=OFF")
 
 
@@ -307,7 +311,7 @@ def clang(blender: Path) -> None:
 
 
 # Whatever is left out of `test` is left out by a rule: the marker slow, all but one case in four of the marker oracle,
-# the scenes that are not in SCENES, and the parts that only `full` has.
+# the scenes that are not in SCENES, the parts that only `full` has, and what looks at C++ where none has changed.
 TIERS: dict[str, dict[str, Part]] = {
     "test": {
         "build": functools.partial(build, local=True),

@@ -108,6 +108,7 @@ def test_umbrellas(study, case):
         assert found[sample].tolist() == [list(t) for t in expected.umbrellas[sample]]
 
 
+@pytest.mark.slow
 def test_few_samples_are_left_out(study):
     shares = [reference_of(study, case).ambiguous.mean() for case in GENERIC]
     assert max(shares) <= 0.2 and np.mean(shares) < 0.002

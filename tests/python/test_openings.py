@@ -135,7 +135,11 @@ def surface(mesh, count=4000, **settings):
     return compute(*mesh, Settings(sampling=SamplingMode.SURFACE, samples=count, **settings))
 
 
-@pytest.mark.parametrize("mesh", [BOWL, OPEN_BOX, EYE], ids=["bowl", "box", "eye"])
+@pytest.mark.parametrize(
+    "mesh",
+    [BOWL, OPEN_BOX, pytest.param(EYE, marks=pytest.mark.slow)],
+    ids=["bowl", "box", "eye"],
+)
 def test_an_open_solid_is_one_piece_without_holes(medial, mesh):
     found = surface(mesh)
     samples = found.chosen.samples
@@ -179,7 +183,11 @@ def test_chosen_normals_are_kept(medial):
 
 @pytest.mark.parametrize(
     "name, most",
-    [("human_woman.obj", 7), ("elephant-with-holes.off", 3), ("stanford-bunny.obj", 0)],
+    [
+        ("human_woman.obj", 7),
+        pytest.param("elephant-with-holes.off", 3, marks=pytest.mark.slow),
+        ("stanford-bunny.obj", 0),
+    ],
 )
 def test_tunnels_of_real_meshes(data_file, name, most):
     from medial_axis.core.axis.compute import compute_axis

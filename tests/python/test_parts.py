@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """tests/parts.py and tests/lint.py: which parts run, how they end, what is skipped."""
 
+import contextlib
 import json
 import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -141,6 +143,21 @@ def test_one_failing_linter_fails_after_all_ran(monkeypatch):
     with pytest.raises(Failure, match=r"^first \(bad\)$"):
         lint.run_tools({"first": fail, "second": lambda: ran.append("second")})
     assert ran == ["second"]
+
+
+# --- what looks at changed C++ only
+
+
+@pytest.mark.parametrize(
+    "name, runs", [("native/CMakeLists.txt", False), ("tests/native/a.cpp", True)]
+)
+def test_the_sanitizer_runs_where_cpp_has_changed(monkeypatch, name, runs):
+    begun = []
+    monkeypatch.setattr(lint, "changed_files", lambda *folders: [name])
+    monkeypatch.setattr(parts, "run_sanitized", lambda *words: begun.append(words))
+    with contextlib.suppress(lint.Skip):
+        parts.asan(Path("blender"))
+    assert bool(begun) == runs
 
 
 # --- files that other programs read

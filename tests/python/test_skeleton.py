@@ -141,7 +141,7 @@ def test_a_plate_has_few_ends():
         ("spot_low.obj", {6, 7, 8}, 0),
         ("dilo.off", {6, 7, 8}, 0),
         ("human_woman.obj", {5}, 0),
-        ("elephant-with-holes.off", set(range(6, 13)), 0),
+        pytest.param("elephant-with-holes.off", set(range(6, 13)), 0, marks=pytest.mark.slow),
         ("3holes.off", {0}, 3),
         ("rocker-arm.off", {2, 3}, 1),
         ("knot1.off", {0}, 1),

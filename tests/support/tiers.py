@@ -4,7 +4,7 @@
 - slow: tests that take minutes; left out unless --slow is given.
 - oracle: tests that compare results with independent ones over many cases. With --share I/N the case number k of each
   function runs if k % N == I, so N runs with different I see all cases, and each run sees every function.
-- --files I/N: every N-th file from the I-th on, largest first, so that N Blenders share the work.
+- --files I/N: every N-th file from the I-th on, the longest first, so that N Blenders share the work.
 """
 
 from collections import Counter
@@ -58,7 +58,11 @@ def _other_cases(items, index, count):
 
 
 def _other_files(items, index, count):
-    """The tests in files that another process runs."""
-    files = sorted({item.path for item in items}, key=lambda path: (-path.stat().st_size, path))
+    """The tests in files that another process runs; those that start other Blenders take longest, and come first."""
+
+    def order(path):
+        return "subprocess" not in path.read_text(encoding="utf-8"), -path.stat().st_size, path
+
+    files = sorted({item.path for item in items}, key=order)
     mine = set(files[index::count])
     return (item for item in items if item.path not in mine)
