@@ -29,6 +29,26 @@ SCALE = "ma_source_scale"  # scale, shear and mirror, 9 numbers
 
 _ROUNDING = 1e-5  # share of the scale that is lost where a matrix in float32 is turned
 _SELDOM = 20.0  # a check is repeated after so many times its own duration
+_VALUES = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
+_NO_SHAPE = {
+    *(
+        "name",
+        "tag",
+        "use_fake_user",
+        "use_extra_user",
+        "is_active",
+        "show_expanded",
+        "show_render",
+    ),
+    *("show_in_editmode", "show_on_cage", "eval_time", "use_path", "path_duration"),
+    *(
+        "use_path_follow",
+        "use_path_clamp",
+        "use_auto_texspace",
+        "texspace_location",
+        "texspace_size",
+    ),
+}
 _checked: dict[str, tuple[float, bool]] = {}  # an output -> when to check again, and what was found
 
 
@@ -100,18 +120,32 @@ def _differs(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bool:
 
 
 def _numbers(evaluated: bpy.types.Object) -> Iterator[NDArray]:
-    """All that the shape depends on; curves, texts and metaballs are judged by their boxes and control points."""
+    """All that the shape depends on; curves, texts and metaballs are judged by their settings and control points.
+
+    Their boxes would be easier, but Blender 4.3 knows those only when the object is evaluated once more.
+    """
     data = evaluated.data
     if isinstance(data, bpy.types.Mesh):
         yield read_positions(data)
         yield read_corners(data)
         return
-    yield np.array(evaluated.bound_box, np.float32)
+    for settings in (data, *evaluated.modifiers):
+        yield np.frombuffer(repr(_settings(settings)).encode(), np.uint8)
     for elements, name, size in _control_points(data):
         values = np.empty(len(elements) * size, np.float32)
         elements.foreach_get(name, values)
         yield values
-    yield np.frombuffer(getattr(data, "body", "").encode(), np.uint8)
+
+
+def _settings(block: bpy.types.bpy_struct) -> list[tuple[str, Any]]:
+    """The settings of a curve, a text, a metaball or a modifier, without those that change no shape."""
+    found = []
+    for prop in block.bl_rna.properties:
+        if prop.is_readonly or prop.type not in _VALUES or prop.identifier in _NO_SHAPE:
+            continue
+        value = getattr(block, prop.identifier)
+        found.append((prop.identifier, tuple(value) if getattr(prop, "is_array", False) else value))
+    return found
 
 
 def _control_points(data: bpy.types.ID) -> Iterator[tuple[Any, str, int]]:

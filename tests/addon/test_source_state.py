@@ -111,6 +111,11 @@ def test_sources_of_other_types(kind):
     assert not has_changed(result)
     source.location.x += 1
     assert not has_changed(result)
+    if kind != "metaball":
+        depth, source.data.extrude = source.data.extrude, 0.3
+        assert has_changed(result)
+        source.data.extrude = depth
+        assert not has_changed(result)
     if kind == "text":
         source.data.body = "Other"
     elif kind == "metaball":
