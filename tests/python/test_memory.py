@@ -437,7 +437,9 @@ def test_command_line_refuses(here, capsys):
     megabytes = memory_needed(20_000) // MEGABYTE
     code = cli.main(["egg.npy", "egg.ma", "--memory-limit", str(megabytes)])
     assert code == cli.FAILED and not (here / "egg.ma").exists()
-    assert f"fits into the limit of {megabytes} MB, found 20,000" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert f"fits into the limit of {megabytes} MB, found 20,000" in said
+    assert "preferences" not in said  # of Blender, which a command line has not
 
 
 def test_command_line_thins_and_resumes(here, capsys):
