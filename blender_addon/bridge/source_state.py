@@ -31,23 +31,23 @@ _ROUNDING = 1e-5  # share of the scale that is lost where a matrix in float32 is
 _SELDOM = 20.0  # a check is repeated after so many times its own duration
 _VALUES = {"BOOLEAN", "INT", "FLOAT", "STRING", "ENUM"}
 _NO_SHAPE = {
-    *(
-        "name",
-        "tag",
-        "use_fake_user",
-        "use_extra_user",
-        "is_active",
-        "show_expanded",
-        "show_render",
-    ),
-    *("show_in_editmode", "show_on_cage", "eval_time", "use_path", "path_duration"),
-    *(
-        "use_path_follow",
-        "use_path_clamp",
-        "use_auto_texspace",
-        "texspace_location",
-        "texspace_size",
-    ),
+    "name",
+    "tag",
+    "use_fake_user",
+    "use_extra_user",
+    "is_active",
+    "show_expanded",
+    "show_render",
+    "show_in_editmode",
+    "show_on_cage",
+    "eval_time",
+    "use_path",
+    "path_duration",
+    "use_path_follow",
+    "use_path_clamp",
+    "use_auto_texspace",
+    "texspace_location",
+    "texspace_size",
 }
 _checked: dict[str, tuple[float, bool]] = {}  # an output -> when to check again, and what was found
 
@@ -144,7 +144,11 @@ def _settings(block: bpy.types.bpy_struct) -> list[tuple[str, Any]]:
         if prop.is_readonly or prop.type not in _VALUES or prop.identifier in _NO_SHAPE:
             continue
         value = getattr(block, prop.identifier)
-        found.append((prop.identifier, tuple(value) if getattr(prop, "is_array", False) else value))
+        if getattr(prop, "is_array", False):
+            value = tuple(value)
+        elif isinstance(value, set):  # whose order differs from session to session
+            value = sorted(value)
+        found.append((prop.identifier, value))
     return found
 
 

@@ -63,16 +63,9 @@ def _same_file(path: Path, recorded: dict[object, Path]) -> Path | None:
     """
     for key in _identities(path):
         other = recorded.get(key)
-        if other is not None and (isinstance(key, str) or _have_one_inode(path, other)):
+        if other is not None and (isinstance(key, str) or key in _identities(other)):
             return other
     return None
-
-
-def _have_one_inode(path: Path, other: Path) -> bool:
-    try:
-        return os.path.samefile(path, other)
-    except (OSError, ValueError):
-        return False
 
 
 def _identities(path: Path) -> set[object]:
