@@ -70,14 +70,6 @@ def _triangles(shape: shapes.Box) -> float:
     return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
 
 
-def _turned(shape: shapes.Lathe) -> tuple[float, float]:
-    """Area of the cones and discs that the segments of a profile's axis become, and length of those that stay."""
-    start, end = shape.axis_segments[:, 0], shape.axis_segments[:, 1]
-    lengths = np.linalg.norm(end - start, axis=1)
-    radii = start[:, 0] + end[:, 0]
-    return float(math.pi * (radii * lengths).sum()), float(lengths[radii < 1e-12].sum())
-
-
 def _closed(curve: Callable[[Array], Array], steps: int = 20_000) -> float:
     points = curve(np.arange(steps) * 2 * math.pi / steps)
     return float(np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1).sum())
@@ -88,8 +80,8 @@ def _of_ellipsoid(shape: shapes.Ellipsoid) -> Solid:
 
 
 def _of_lathe(shape: shapes.Lathe) -> Solid:
-    area, length = _turned(shape)
-    return Solid(shape, "sheets and a curve" if length else "sheets", area, length)
+    length = shape.axis_length
+    return Solid(shape, "sheets and a curve" if length else "sheets", shape.axis_area, length)
 
 
 def _all() -> dict[str, Solid]:

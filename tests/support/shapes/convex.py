@@ -40,11 +40,7 @@ class Box(Shape):
     def axis_triangles(self) -> Array:
         """(m, 3, 3): the axis, cut into triangles."""
         planes = [(sign * np.eye(3)[k], self.half[k]) for k in range(3) for sign in (1.0, -1.0)]
-        triangles = []
-        for first, second in combinations(planes, 2):
-            others = [plane for plane in planes if plane is not first and plane is not second]
-            triangles += _fan(_bisector(*first, *second, others))
-        return np.array(triangles)
+        return axis_triangles_of_planes(planes)
 
     def axis_distance(self, x: Array) -> Array:
         return np.min([distance.to_triangle(x, t) for t in self.axis_triangles()], axis=0)
@@ -53,6 +49,15 @@ class Box(Shape):
         return distance.points_on_triangles(
             self.axis_triangles(), count, np.random.default_rng(seed)
         )
+
+
+def axis_triangles_of_planes(planes: list[tuple[Array, float]]) -> Array:
+    """(m, 3, 3): the axis of a convex polytope, cut into triangles. Planes are n . x <= d with unit n."""
+    triangles = []
+    for first, second in combinations(planes, 2):
+        others = [plane for plane in planes if plane is not first and plane is not second]
+        triangles += _fan(_bisector(*first, *second, others))
+    return np.array(triangles)
 
 
 def _bisector(n: Array, d: float, m: Array, e: float, others: list) -> Array:
@@ -126,6 +131,18 @@ class Lathe(Shape):
         lines += [(n * (-1, 1), d) for n, d in lines if n[0] != 0.0]
         found = [_bisecting_segment(lines, *pair) for pair in combinations(range(len(lines)), 2)]
         return np.array([segment for segment in found if segment is not None])
+
+    @cached_property
+    def axis_area(self) -> float:
+        """Of the cones and discs that the segments of the profile's axis become."""
+        lengths, radii = _lengths(self.axis_segments), self.axis_segments[:, :, 0].sum(axis=1)
+        return float(np.pi * (radii * lengths).sum())
+
+    @cached_property
+    def axis_length(self) -> float:
+        """Of the segments that lie on the z axis, and stay curves."""
+        radii = self.axis_segments[:, :, 0].sum(axis=1)
+        return float(_lengths(self.axis_segments)[radii < 1e-12].sum())
 
     @cached_property
     def _areas(self) -> Array:

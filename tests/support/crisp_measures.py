@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures of a computed axis of a solid whose faces are known exactly: where it is, what it misses, how it is made.
+
+Lengths are shares of the solid's diagonal, the gap is in spacings of a hexagonal lattice of as many samples.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import distance
+from .crisp_solids import Solid
+from .crossing_triangles import crossing_pairs
+from .levels import betti_of_mesh
+
+Array = NDArray[np.float64]
+Ints = NDArray[np.integer]
+
+BALLS = 20_000
+
+
+@dataclass(frozen=True, eq=False)
+class Output:
+    """An axis in the frame of its solid.
+
+    Parameters
+    ----------
+    vertices : (v, 3)
+    radius : (v,)
+    face_offsets, face_vertices
+        Polygons, as in `MedialAxis`.
+    wires : (w, 2)
+        Edges without a polygon.
+    triangles : (m, 3)
+        The polygons cut, as they are shown and written.
+    across : (f, 3)
+        The direction about which each polygon turns counter-clockwise: from its one sample to its other one.
+    """
+
+    vertices: Array
+    radius: Array
+    face_offsets: Ints
+    face_vertices: Ints
+    wires: Ints
+    triangles: Ints
+    across: Array
+
+    @property
+    def generators(self) -> Array:
+        """As many rows as polygons, for the counter of Betti numbers."""
+        return self.across
+
+    def cells(self) -> Array:
+        """(k, 3, 3) triangles, wires and single vertices as triangles of two and of one corner."""
+        lone = np.ones(len(self.vertices), bool)
+        lone[self.face_vertices] = lone[self.wires] = False
+        lone = np.flatnonzero(lone)
+        rows = np.concatenate(
+            (self.triangles, self.wires[:, [0, 1, 1]], np.column_stack((lone, lone, lone)))
+        )
+        return self.vertices[rows]
+
+    def following(self) -> Ints:
+        """(c,) the corner after each one in its polygon."""
+        after = np.arange(1, len(self.face_vertices) + 1)
+        after[self.face_offsets[1:] - 1] = self.face_offsets[:-1]
+        return after
+
+
+@dataclass(frozen=True)
+class Spread:
+    mean: float
+    p99: float
+    most: float
+
+    @staticmethod
+    def of(values: Array) -> "Spread":
+        if len(values) == 0:
+            return Spread(0.0, 0.0, 0.0)
+        return Spread(float(values.mean()), float(np.quantile(values, 0.99)), float(values.max()))
+
+
+@dataclass(frozen=True)
+class Found:
+    """The measures; docs/lab/crisp.md says what each is."""
+
+    samples: int
+    facets: int
+    vertices: int
+    err: Spread
+    ball: Spread  # |r - d|
+    cov: Spread
+    gap: Spread  # in spacings
+    rim: float  # of the exact length
+    area: float | None  # of the exact area, less 1
+    folds: int
+    crossings: int
+    betti: tuple[int, int]  # components and Euler characteristic
+
+
+def measured(solid: Solid, output: Output, samples: int) -> Found:
+    size, cells = solid.diagonal, output.cells()
+    area = facet_area(output)
+    return Found(
+        samples=samples,
+        facets=len(output.across),
+        vertices=len(output.vertices),
+        err=Spread.of(solid.off_axis(output.vertices) / size),
+        ball=Spread.of(np.abs(output.radius - solid.distance(output.vertices)) / size),
+        cov=Spread.of(distance.to_triangles(solid.centres(BALLS), cells) / size),
+        gap=gap(solid, cells, solid.spacing(samples)),
+        rim=rim_length(output) / solid.rim,
+        area=None if solid.area is None else area / solid.area - 1.0,
+        folds=int(folded(output).sum()),
+        crossings=len(crossing_pairs(output.vertices, output.triangles)),
+        betti=betti_of_mesh(output),
+    )
+
+
+def gap(solid: Solid, cells: Array, spacing: float) -> Spread:
+    """Distances of convex edges and corners to the output, in spacings."""
+    if len(solid.edges) == 0:
+        return Spread.of(np.empty(0))
+    return Spread.of(distance.to_triangles(solid.edges, cells) / spacing)
+
+
+def rim_edges(output: Output) -> Ints:
+    """(r, 2) edges of exactly one polygon."""
+    corners = output.face_vertices
+    pairs = np.sort(np.column_stack((corners, corners[output.following()])), axis=1)
+    edges, uses = np.unique(pairs, axis=0, return_counts=True)
+    return edges[uses == 1]
+
+
+def rim_length(output: Output) -> float:
+    a, b = output.vertices[rim_edges(output)].transpose(1, 0, 2)
+    return float(np.linalg.norm(b - a, axis=1).sum())
+
+
+def facet_area(output: Output) -> float:
+    a, b, c = output.vertices[output.triangles].transpose(1, 0, 2)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+def folded(output: Output) -> NDArray[np.bool_]:
+    """(f,) polygons that turn right at a corner, seen along the line between their samples, by more than rounding."""
+    places, after = output.vertices[output.face_vertices], output.following()
+    along = places[after] - places
+    length = np.linalg.norm(along, axis=1)
+    of = np.repeat(np.arange(len(output.across)), np.diff(output.face_offsets))
+    turn = np.empty(len(places))
+    turn[after] = np.einsum("ij,ij->i", np.cross(along, along[after]), output.across[of][after])
+    room = np.empty(len(places))
+    size = np.linalg.norm(np.ptp(output.vertices, axis=0)) if len(places) else 0.0
+    room[after] = 1e-9 * length * length[after] + 1e-14 * size * (length + length[after])
+    found = np.zeros(len(output.across), bool)
+    np.logical_or.at(found, of, turn < -room)
+    return found
+
+
+def output_of(computation: Any, frame: Array, exact: bool = False) -> Output:
+    """The axis of a `Computation`, back in the frame of the solid; with the places of the Voronoi diagram if `exact`."""
+    from medial_axis.core.axis.polygon_triangles import polygon_triangles
+
+    axis, points = computation.axis, computation.chosen.samples.points
+    places, radius = (
+        (axis.level.exact, axis.level.exact_radius) if exact else (axis.vertices, axis.radius)
+    )
+    across = np.diff(points[axis.generators], axis=1)[:, 0] @ frame
+    vertices = places @ frame
+    return Output(
+        vertices=vertices,
+        radius=radius,
+        face_offsets=axis.face_offsets,
+        face_vertices=axis.face_vertices,
+        wires=axis.edges,
+        triangles=polygon_triangles(vertices, axis.face_offsets, axis.face_vertices),
+        across=across / np.linalg.norm(across, axis=1)[:, None],
+    )
