@@ -114,7 +114,7 @@ def applies_to_form(name: str, form: Form) -> bool:
     """Whether an option changes anything for a Form."""
     if name in ("simplify", "erode"):
         return form is Form.CLEAN
-    if name == "limb":
+    if name in ("limb", "crisp"):
         return form is not Form.PUBLISHED
     return name != "limit_set" or form is Form.PUBLISHED
 
@@ -238,6 +238,12 @@ class Settings(Options):
                 "walls, which Tight Cocone fills; faces are ignored",
             ),
         },
+    )
+    crisp: bool = switch(
+        "Crisp",
+        "Every vertex of the axis is where the ball touches the faces themselves, and sheets reach "
+        "the sharp edges; off: it is where the ball touches the samples. Only closed faces give crisp places",
+        default=True,
     )
     rule: Rule = choice(
         "Rule",

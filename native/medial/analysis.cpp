@@ -42,6 +42,20 @@ std::vector<double> outward_lengths(std::vector<double> lengths, const Frame& fr
   return lengths;
 }
 
+void require_valid(const FacesInput& faces, size_t points) {
+  if (faces.face.size() != points) {
+    throw InvalidInputError("Expected a face per point, found " +
+                            std::to_string(faces.face.size()) + " for " + std::to_string(points) +
+                            " points; pass -1 for none.");
+  }
+  const auto count = static_cast<int64_t>(faces.triangles.size());
+  for (const int32_t face : faces.face) {
+    if (face >= -1 && face < count) continue;
+    throw InvalidInputError("Expected faces of points below " + std::to_string(count) +
+                            ", found " + std::to_string(face) + "; name rows of the triangles.");
+  }
+}
+
 Facets facets_of(const Parts& made, const CellSides& sides) {
   return {made.samples.points, made.triangulation, made.voronoi,
           made.edges,          made.significance,  sides};
@@ -120,20 +134,22 @@ MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progr
 }
 
 Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
-                                    std::optional<int64_t> bodies, Progress* progress) const {
+                                    std::optional<int64_t> bodies, Progress* progress,
+                                    const FacesInput* faces) const {
   if (side != Side::inner) {
     throw InvalidInputError(
         "Expected side INNER for a hierarchy, found another one; the outer axis reaches infinity, "
         "where fire has no rim to start from.");
   }
   require_solid(*parts_);
+  if (faces) require_valid(*faces, parts_->samples.point_of_row.size());
   const SmallParts& small = parts_->small;
   const bool has_small = !small.pockets.empty() || !small.crumbs.empty();
   CellSides in_parts;
   if (has_small) in_parts = without(small, bodies, parts_->triangulation, parts_->sides);
   const CellSides& sides = has_small ? in_parts : parts_->sides;
-  return make_hierarchy(parts_->samples, facets_of(*parts_, sides), thresholds, parts_->frame,
-                        parts_->run(progress));
+  return make_hierarchy(parts_->samples, facets_of(*parts_, sides), thresholds, faces,
+                        parts_->frame, parts_->run(progress));
 }
 
 std::vector<double> MedialAnalysis::theta(Rule rule) const {

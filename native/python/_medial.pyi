@@ -70,6 +70,38 @@ class Criteria:
     RATIO: Criteria  # 2
 
 @final
+class Faces:
+    """The faces on which the samples of an analysis lie. A hierarchy takes exact places from them."""
+
+    def __init__(
+        self,
+        vertices: NDArray[np.float64],
+        triangles: NDArray[np.int32],
+        face: NDArray[np.int32],
+        *,
+        sharp_angle: float = ...,
+        sharp_edges: NDArray[np.int32] | None = None,
+        smooth: bool = False,
+    ) -> None:
+        """Keeps the arrays, without a copy where their types are right.
+
+        Parameters
+        ----------
+        vertices : (v, 3) float64
+        triangles : (m, 3) int32
+            Outward.
+        face : (n,) int32
+            The triangle on which each point of the analysis lies, or -1 for none.
+        sharp_angle, sharp_edges, smooth
+            As in `sample_surface`.
+
+        Raises
+        ------
+        InvalidInputError
+            The rows are checked when a hierarchy is made.
+        """
+
+@final
 class Progress:
     """Shared by the thread that computes and the one that watches; every member is safe to use at any time."""
 
@@ -347,6 +379,19 @@ class Hierarchy:
     def radius(self) -> NDArray[np.float64]:
         """(v,) float64: radius of each vertex' empty ball."""
     @property
+    def crisp_vertices(self) -> NDArray[np.float64]:
+        """(v, 3) float64: where the vertices are on the medial axis of the faces; none without faces."""
+    @property
+    def crisp_radius(self) -> NDArray[np.float64]:
+        """(v,) float64: the distance of `crisp_vertices` to the faces where `place` is 2 or more, else `radius`."""
+    @property
+    def place(self) -> NDArray[np.int32]:
+        """(v,) int32: how each crisp place was found.
+
+        0: it is the Voronoi vertex, because no walls are known there; 1: it is the Voronoi vertex, because the ball of
+        the walls was not empty or too far away; 2: the ball touches the walls; 3: it is on a convex crease; 4: it is
+        in a corner."""
+    @property
     def edges(self) -> NDArray[np.int32]:
         """(e, 2) int32: ends of each edge, the lower vertex first."""
     @property
@@ -414,6 +459,7 @@ class Hierarchy:
         limb: float = 0.04,
         relaxed: bool = False,
         round_limbs: bool = False,
+        crisp: bool = False,
         progress: Progress | None = None,
     ) -> Level:
         """The level at some thresholds. A facet stays if it exceeds the first three. A vertex or an edge stays if it
@@ -434,6 +480,8 @@ class Hierarchy:
             topology and the facets are the same, and `exact` says where all that is on the Voronoi diagram.
         round_limbs : bool
             Of wires with a loose end only those that run in round limbs.
+        crisp : bool
+            Vertices are at their crisp places, if the hierarchy was made with faces.
         progress : Progress, optional
 
         Infinity takes all away that can go: `sheet=inf` leaves a curve skeleton.
@@ -686,6 +734,7 @@ class MedialAnalysis:
         side: Side = ...,
         *,
         bodies: int | None = None,
+        faces: Faces | None = None,
         progress: Progress | None = None,
     ) -> Hierarchy:
         """The levels of the inner axis; computed once, extracted often. It does not need the analysis any more.
@@ -699,6 +748,9 @@ class MedialAnalysis:
         bodies : int, optional
             The number of bodies of the solid, if it is known. Parts without any ball larger than the hole between the
             samples at them are left out then, those with few cells first, until no more parts than bodies are left.
+        faces : Faces, optional
+            The faces of the solid. With them facets between the two sides of a sharp convex edge are selected,
+            whatever the thresholds say, and every vertex also has a crisp place.
         progress : Progress, optional
 
         Raises

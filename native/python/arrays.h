@@ -89,6 +89,33 @@ class Triangles {
   py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
 };
 
+// This takes an (e, 2) integer array of marked edges, or None for none.
+class EdgeRows {
+ public:
+  explicit EdgeRows(const py::object& object) {
+    if (object.is_none()) return;
+    const py::array view = checked_rows(object, "sharp_edges", 2, "iu", "an (e, 2) int32 array");
+    if (view.size() > 0 && !py::isinstance<py::array_t<int32_t>>(view)) {
+      const auto low = view.attr("min")().cast<long long>();
+      const auto high = view.attr("max")().cast<long long>();
+      if (low < 0 || high > INT_MAX) {
+        throw InvalidInputError("Expected rows of sharp_edges that fit an int32, found " +
+                                std::to_string(low < 0 ? low : high) + "; mark the edges again.");
+      }
+    }
+    rows_ = py::array_t<int32_t, py::array::c_style | py::array::forcecast>::ensure(view);
+  }
+
+  std::span<const std::array<int32_t, 2>> span() const {
+    if (rows_.ndim() != 2) return {};
+    return {reinterpret_cast<const std::array<int32_t, 2>*>(rows_.data()),
+            static_cast<size_t>(rows_.shape(0))};
+  }
+
+ private:
+  py::array_t<int32_t, py::array::c_style | py::array::forcecast> rows_;
+};
+
 // Returns a view of the caller's column. Other types, and arrays that are not contiguous, would
 // need a copy and are refused. `expected` describes the type in NumPy's words.
 template <typename T>

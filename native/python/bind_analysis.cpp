@@ -9,6 +9,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "docstrings.h"
+#include "faces_argument.h"
 
 namespace medial::python {
 namespace {
@@ -86,6 +87,16 @@ void bind_progress(py::module_& m) {
       .def("cancel", &Progress::cancel, docs::Progress_cancel);
 }
 
+void bind_faces(py::module_& m) {
+  const FacesInput defaults;
+  py::class_<FacesArgument>(m, "Faces", docs::Faces, py::is_final(), py::module_local())
+      .def(py::init<const py::object&, const py::object&, const py::object&, double,
+                    const py::object&, bool>(),
+           py::arg("vertices"), py::arg("triangles"), py::arg("face"), py::kw_only(),
+           py::arg("sharp_angle") = defaults.sharp_angle, py::arg("sharp_edges") = py::none(),
+           py::arg("smooth") = defaults.smooth);
+}
+
 void bind_mesh(py::module_& m) {
   py::class_<MedialMesh>(m, "MedialMesh", docs::MedialMesh, py::is_final(), py::module_local())
       .def_property_readonly("vertices", view_property<double>(&MedialMesh::vertices),
@@ -128,6 +139,7 @@ py::array bounded(const MedialAnalysis& a) {
 void bind_analysis(py::module_& m) {
   bind_enums(m);
   bind_progress(m);
+  bind_faces(m);
   bind_mesh(m);
   bind_hierarchy(m);
   bind_thickness(m);
@@ -213,14 +225,18 @@ void bind_analysis(py::module_& m) {
       .def(
           "hierarchy",
           [](const MedialAnalysis& a, double theta, double rho, Rule rule, Criteria criteria,
-             Side side, std::optional<int64_t> bodies, Progress* progress) {
+             Side side, std::optional<int64_t> bodies, const FacesArgument* faces,
+             Progress* progress) {
+            const auto input = faces ? std::optional(faces->input()) : std::nullopt;
             const py::gil_scoped_release release;
-            return a.hierarchy({theta, rho, rule, criteria}, side, bodies, progress);
+            return a.hierarchy({theta, rho, rule, criteria}, side, bodies, progress,
+                               input ? &*input : nullptr);
           },
           docs::MedialAnalysis_hierarchy, py::arg("theta") = paper.theta,
           py::arg("rho") = paper.rho, py::arg("rule") = paper.rule,
           py::arg("criteria") = paper.criteria, py::arg("side") = Side::inner, py::kw_only(),
-          py::arg("bodies") = py::none(), py::arg("progress") = nullptr)
+          py::arg("bodies") = py::none(), py::arg("faces") = nullptr,
+          py::arg("progress") = nullptr)
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,

@@ -163,6 +163,18 @@ void bind_hierarchy(py::module_& m) {
                                return h.parts().complex.radius;
                              }),
                              docs::Hierarchy_radius)
+      .def_property_readonly("crisp_vertices", framed_property([](const Hierarchy& h) -> auto& {
+                               return h.parts().crisp.position;
+                             }),
+                             docs::Hierarchy_crisp_vertices)
+      .def_property_readonly("crisp_radius", framed_property([](const Hierarchy& h) -> auto& {
+                               return h.parts().crisp.radius;
+                             }),
+                             docs::Hierarchy_crisp_radius)
+      .def_property_readonly(
+          "place",
+          [](const Hierarchy& h) { return numbers_of(h.parts().crisp.place); },
+          docs::Hierarchy_place)
       .def_property_readonly("edges", part_property<int32_t>([](const Hierarchy& h) -> auto& {
                                return h.parts().complex.ends;
                              }),
@@ -207,15 +219,17 @@ void bind_hierarchy(py::module_& m) {
       .def(
           "extract",
           [](const Hierarchy& h, double sheet, double spacings, double erosion, double limb,
-             bool relaxed, bool round_limbs, Progress* progress) {
+             bool relaxed, bool round_limbs, bool crisp, Progress* progress) {
             const py::gil_scoped_release release;
-            return h.extract({sheet, spacings, erosion, limb, round_limbs, relaxed}, progress);
+            return h.extract({sheet, spacings, erosion, limb, round_limbs, relaxed, crisp},
+                             progress);
           },
           docs::Hierarchy_extract, py::kw_only(), py::arg("sheet") = LevelOptions{}.sheet,
           py::arg("spacings") = LevelOptions{}.spacings,
           py::arg("erosion") = LevelOptions{}.erosion, py::arg("limb") = LevelOptions{}.limb,
           py::arg("relaxed") = LevelOptions{}.relaxed,
-          py::arg("round_limbs") = LevelOptions{}.round_limbs, py::arg("progress") = nullptr);
+          py::arg("round_limbs") = LevelOptions{}.round_limbs,
+          py::arg("crisp") = LevelOptions{}.crisp, py::arg("progress") = nullptr);
 }
 
 }  // namespace medial::python

@@ -14,7 +14,6 @@ namespace medial::python {
 namespace {
 
 using FloatArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using IntArray = py::array_t<int32_t, py::array::c_style | py::array::forcecast>;
 
 // This holds sites and their spacings, and keeps what the options refer to.
 class Sizing {
@@ -47,20 +46,6 @@ class Sizing {
   FloatArray spacings_;
 };
 
-IntArray marked_rows(const py::object& object) {
-  if (object.is_none()) return IntArray(std::vector<py::ssize_t>{0, 2});
-  const py::array view = checked_rows(object, "sharp_edges", 2, "iu", "an (e, 2) int32 array");
-  if (view.size() > 0 && !py::isinstance<py::array_t<int32_t>>(view)) {
-    const auto low = view.attr("min")().cast<long long>();
-    const auto high = view.attr("max")().cast<long long>();
-    if (low < 0 || high > INT_MAX) {
-      throw InvalidInputError("Expected rows of sharp_edges that fit an int32, found " +
-                              std::to_string(low < 0 ? low : high) + "; mark the edges again.");
-    }
-  }
-  return IntArray::ensure(view);
-}
-
 std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::object& triangles,
                                        std::optional<int64_t> count, std::optional<double> spacing,
                                        const py::object& sizing, double sharp_angle,
@@ -70,14 +55,13 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
   const Points points(vertices, "vertices");
   const Triangles faces(py::reinterpret_borrow<py::object>(triangles));
   const Sizing sizes(sizing);
-  const IntArray marked = marked_rows(sharp_edges);
+  const EdgeRows marked(sharp_edges);
   SamplingOptions options;
   options.count = count;
   options.spacing = spacing;
   sizes.put_into(options);
   options.sharp_angle = sharp_angle;
-  options.sharp_edges = {reinterpret_cast<const Edge*>(marked.data()),
-                         static_cast<size_t>(marked.shape(0))};
+  options.sharp_edges = marked.span();
   options.smooth = smooth;
   options.keep_vertices = keep_vertices;
   options.mirrored_rows = mirrored_rows;

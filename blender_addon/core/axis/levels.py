@@ -30,7 +30,7 @@ def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | N
     ----------
     samples : AnalysedSamples
     settings : Settings
-        Only `theta`, `rho`, `rule` and `criteria` matter.
+        Only `theta`, `rho`, `rule` and `criteria` matter, and `crisp` with `sharp_angle` and `smooth`.
     progress : _medial.Progress or None
 
     Raises
@@ -38,7 +38,8 @@ def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | N
     OutOfMemoryError, Cancelled
     """
     bodies = 1 if samples.by_faces is None else samples.by_faces[0]
-    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress, bodies)
+    solid = samples.solid if settings.crisp else None
+    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress, bodies, solid)
     CACHE.resize(samples.key, samples.bytes)
     return hierarchy
 
@@ -82,8 +83,9 @@ def _wanted(settings: Settings) -> dict[str, Any]:
     """Return the arguments of `_medial.Hierarchy.extract`."""
     limb = settings.limb / 100
     if settings.form is Form.CURVE:
-        return {"sheet": math.inf, "limb": limb, "relaxed": True}
+        return {"sheet": math.inf, "limb": limb, "relaxed": True, "crisp": settings.crisp}
     return {
+        "crisp": settings.crisp,
         "spacings": 1.0,
         "sheet": settings.simplify / 100,
         "erosion": settings.erode / 100,

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..settings import Settings
     from .density import Density
     from .shape import Shape
+    from .solid_faces import SolidFaces
     from .walls import Walls
 
 
@@ -95,6 +96,8 @@ class AnalysedSamples:
         The hierarchy, once a form has needed it.
     faces : (n,) int32 or None
         The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
+    solid : SolidFaces or None
+        The faces that bound the solid, if they decide what is inside.
     """
 
     points: NDArray[np.float64]
@@ -111,6 +114,7 @@ class AnalysedSamples:
     by_faces: tuple[int, int, int] | None = None
     levels: Levels = field(default_factory=Levels)
     faces: NDArray[np.int32] | None = None
+    solid: SolidFaces | None = None
 
     @property
     def walls_to_show(self) -> Walls | None:

@@ -11,6 +11,7 @@ from ..machine.beside import Beside
 from ..settings import SidesFrom
 from .analysed import AnalysedSamples, Request, Sides
 from .density import LOOKED_AT, estimate
+from .solid_faces import solid_faces
 from .walls import Places, Walls, find_walls, middles_of_faces
 
 if TYPE_CHECKING:
@@ -60,6 +61,7 @@ def analyse_vertices(request: Request, sides: Sides, share: float) -> AnalysedSa
         walls=walls,
         rows=shape.rows,
         by_faces=by_faces,
+        solid=solid_faces(shape, sides.source),
     )
 
 
@@ -99,6 +101,7 @@ def analyse_samples(
         walls=walls,
         by_faces=by_faces,
         faces=samples.faces,
+        solid=solid_faces(request.shape, sides.source, samples.faces),
     )
 
 

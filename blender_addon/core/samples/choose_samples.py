@@ -6,7 +6,6 @@ This is the only file that looks for analyses in the cache and keeps new ones th
 
 from __future__ import annotations
 
-import math
 import time
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -26,6 +25,7 @@ from .density import percent
 from .effort import EFFORT
 from .sample_spacing import FirstPass, first_pass, next_amount
 from .sides import decided, resolve_sides, resolve_sides_of_samples
+from .solid_faces import sharp_angle_of
 from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
 
@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
 # The budget counts as spent from this share on: all spacings are scaled to meet it, which is not exact.
 _SPENT = 0.97
-# Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
-_CLEARLY = 1.01
 
 
 def begin(
@@ -254,11 +252,8 @@ def _pass(
 
 def _options(shape: Shape, settings: Settings) -> dict[str, Any]:
     """Return the arguments of `_medial.sample_surface` that are the same in every pass."""
-    names = ("sharp_angle", "smooth", "keep_vertices", "seed")
-    options = {name: getattr(settings, name) for name in names}
-    wider = 2.0 if shape.shaded_smooth else _CLEARLY
-    options["sharp_angle"] = min(wider * settings.sharp_angle, math.pi)
-    return options
+    options = {name: getattr(settings, name) for name in ("smooth", "keep_vertices", "seed")}
+    return {"sharp_angle": sharp_angle_of(shape, settings), **options}
 
 
 def _are_worth_more(request: Request, samples: AnalysedSamples) -> bool:

@@ -9,6 +9,7 @@ from ..machine import native
 
 if TYPE_CHECKING:
     from ..settings import Settings
+    from .solid_faces import SolidFaces
 
 
 class Levels:
@@ -24,7 +25,12 @@ class Levels:
         return 0 if newest is None else int(newest[1].bytes)
 
     def hierarchy(
-        self, analysis: Any, settings: Settings, progress: Any | None, bodies: int | None = None
+        self,
+        analysis: Any,
+        settings: Settings,
+        progress: Any | None,
+        bodies: int | None = None,
+        solid: SolidFaces | None = None,
     ) -> Any:
         """Return the `_medial.Hierarchy` of an analysis, which must always be the same one.
 
@@ -34,17 +40,20 @@ class Levels:
         ----------
         analysis : _medial.MedialAnalysis
         settings : Settings
-            Only `theta`, `rho`, `rule` and `criteria` matter.
+            Only `theta`, `rho`, `rule` and `criteria` matter, and for crisp places `sharp_angle` and `smooth`.
         progress : _medial.Progress or None
         bodies : int, optional
             The number of bodies of the solid, always the same one; crumbs of the sampling are left out until no more
             pieces are left.
+        solid : SolidFaces, optional
+            The faces that give crisp places, always the same ones; without them there are none.
 
         Raises
         ------
         OutOfMemoryError, Cancelled
         """
         thresholds = (settings.theta, settings.rho, settings.rule, settings.criteria)
+        thresholds += () if solid is None else solid.options(settings)
         newest = self._newest
         if newest is not None and newest[0] == thresholds:
             return newest[1]
@@ -57,6 +66,7 @@ class Levels:
                 getattr(module.Criteria, settings.criteria.name),
                 module.Side.INNER,
                 bodies=bodies,
+                faces=None if solid is None else solid.of_module(module, settings),
                 progress=progress,
             )
         self._newest = thresholds, hierarchy

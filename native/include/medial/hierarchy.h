@@ -24,6 +24,8 @@ struct LevelOptions {
   bool round_limbs = false;  // keep wires with a loose end only in round limbs
   // Wires are smoothed, divided anew and fitted to the samples round them; rims are smoothed.
   bool relaxed = false;
+  // Vertices are at their crisp places, if the hierarchy has any.
+  bool crisp = false;
 };
 
 // A level is a mesh of polygons, edges without a facet, and single vertices.

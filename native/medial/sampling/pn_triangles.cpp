@@ -46,6 +46,55 @@ Vec3 Patch::point(const Barycentric& at) const {
   return corners + 3 * edges + 6 * a * b * c * centre_;
 }
 
+// The second derivatives of a cubic in Bernstein form are linear in its second differences, its
+// first ones quadratic.
+PatchExpansion Patch::expansion(const Barycentric& at) const {
+  const auto& [p, q, r] = corners_;
+  const auto& [a, b, c] = at;
+  if (flat_) return {p + b * (q - p) + c * (r - p), q - p, r - p, {}, {}, {}};
+  const auto& [pq, qp, qr, rq, rp, pr] = handles_;
+  // the quadratic patches of the differences towards q and towards r, named by their corners
+  const auto quadratic = [&](const Vec3& aa, const Vec3& ab, const Vec3& ac, const Vec3& bb,
+                             const Vec3& bc, const Vec3& cc) {
+    return a * a * aa + b * b * bb + c * c * cc + 2 * (a * b * ab + a * c * ac + b * c * bc);
+  };
+  const auto linear = [&](const Vec3& x, const Vec3& y, const Vec3& z) {
+    return 6 * (a * x + b * y + c * z);
+  };
+  const std::array<Vec3, 6> to_q{pq - p, qp - pq, centre_ - pr, q - qp, qr - centre_, rq - rp};
+  const std::array<Vec3, 6> to_r{pr - p, centre_ - pq, rp - pr, qr - qp, rq - centre_, r - rp};
+  return {point(at),
+          3 * quadratic(to_q[0], to_q[1], to_q[2], to_q[3], to_q[4], to_q[5]),
+          3 * quadratic(to_r[0], to_r[1], to_r[2], to_r[3], to_r[4], to_r[5]),
+          linear(to_q[1] - to_q[0], to_q[3] - to_q[1], to_q[4] - to_q[2]),
+          linear(to_q[2] - to_q[0], to_q[4] - to_q[1], to_q[5] - to_q[2]),
+          linear(to_r[2] - to_r[0], to_r[4] - to_r[1], to_r[5] - to_r[2])};
+}
+
+// A patch is a mean of its control points, its flat triangle the same mean of those of a flat one.
+double Patch::bulge() const {
+  if (flat_) return 0;
+  const auto& [p, q, r] = corners_;
+  const std::array<Vec3, 6> flat{(1.0 / 3) * (2 * p + q), (1.0 / 3) * (p + 2 * q),
+                                 (1.0 / 3) * (2 * q + r), (1.0 / 3) * (q + 2 * r),
+                                 (1.0 / 3) * (2 * r + p), (1.0 / 3) * (r + 2 * p)};
+  double most = distance(centre_, (1.0 / 3) * (p + q + r));
+  for (size_t i = 0; i < flat.size(); ++i) {
+    // the handles are pq, qp, qr, rq, rp, pr
+    most = std::max(most, distance(handles_[i], flat[i]));
+  }
+  return most;
+}
+
+Box Patch::box() const {
+  Box box;
+  for (const Vec3& corner : corners_) box.add(corner);
+  if (flat_) return box;
+  for (const Vec3& handle : handles_) box.add(handle);
+  box.add(centre_);
+  return box;
+}
+
 CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth,
                              const Run& run)
     : mesh_(mesh) {

@@ -11,6 +11,12 @@ struct Barycentric {
   double a, b, c;
 };
 
+// Holds a point of a patch, and its first and second derivatives by the coordinates b and c, where
+// a is 1 - b - c.
+struct PatchExpansion {
+  Vec3 point, b, c, bb, bc, cc;
+};
+
 // A patch is a flat or cubic triangle.
 class Patch {
  public:
@@ -20,6 +26,11 @@ class Patch {
   Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles);
 
   Vec3 point(const Barycentric& at) const;
+  PatchExpansion expansion(const Barycentric& at) const;
+  // Returns how far the patch is at most from its flat triangle.
+  double bulge() const;
+  // Returns a box that holds the patch.
+  Box box() const;
 
  private:
   std::array<Vec3, 3> corners_;

@@ -41,6 +41,7 @@ struct InnerComplex {
 
   Array<ShrunkFacet> shrunk;
   Array<int32_t> bubbles;  // the samples that are 3-cells, ascending
+  Array<Edge> merged;      // pairs of a vertex and a further cell in its place, ascending
   double diagonal = 0;     // of the bounding box of the samples
 
   int32_t vertices() const { return static_cast<int32_t>(cell.size()); }

@@ -146,13 +146,23 @@ void bring_outward(Level& level, const Frame& frame) {
 }  // namespace
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                         const Frame& frame, const Run& run) {
+                         const FacesInput* faces, const Frame& frame, const Run& run) {
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
   made.frame = frame;
   Stopwatch watch(made.timings);
-  const FacetWeights weight(facets, thresholds);
+  std::optional<SamplesOnFaces> on_faces;
+  std::vector<CreaseMark> marks;
+  if (faces) {
+    // The faces outlive the arena.
+    made.faces = std::make_unique<Faces>(*faces, frame.inward(faces->vertices),
+                                         Run{run.threads, run.progress, nullptr});
+    on_faces.emplace(*faces, *made.faces, samples, facets.significance.spacing, run);
+    marks = crease_marks(*on_faces, facets.edges, run);
+    watch.lap("faces");
+  }
+  const FacetWeights weight(facets, thresholds, marks);
   begin_stage(run.progress, "Inner complex", 0, 0.2);
   made.complex =
       inner_complex(samples, facets.triangulation, facets.voronoi, facets.edges, facets.sides, run);
@@ -169,6 +179,13 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   collapse_all(made, facets, weight, beside_fire, beside_limbs, watch, run);
   release(run.arena);
   keep_significance(made, facets.significance, thresholds.rule, {run.threads, nullptr, run.arena});
+  if (on_faces) {
+    std::vector<uint8_t> selected;
+    for (const ShrunkFacet& s : made.complex.shrunk) selected.push_back(weight.selected(s.dual));
+    made.crisp = crisp_places(made.complex, facets.triangulation, *on_faces, made.values.facet,
+                              made.sine, selected, {run.threads, nullptr, run.arena});
+    watch.lap("crisp");
+  }
   made.complex.dual = {};  // these indices mean nothing without the analysis
   watch.lap("values");
   advance(run.progress, 1);

@@ -2,6 +2,7 @@
 // Makes the hierarchy of the inner medial axis.
 #pragma once
 
+#include <medial/faces.h>
 #include <medial/hierarchy.h>
 
 #include "axis/selection.h"
@@ -11,9 +12,9 @@
 namespace medial {
 
 // Makes the hierarchy. The sides of `facets` must be decided; they and the samples are in the
-// coordinates of `frame`, which the hierarchy keeps. Throws InvalidInputError for thresholds out of
-// range.
+// coordinates of `frame`, which the hierarchy keeps. With faces, those of the solid, vertices also
+// get crisp places. Throws InvalidInputError for thresholds out of range.
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                         const Frame& frame, const Run& run);
+                         const FacesInput* faces, const Frame& frame, const Run& run);
 
 }  // namespace medial

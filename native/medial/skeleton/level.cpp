@@ -40,8 +40,9 @@ Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run)
 // Makes a mesh of the cells that are left.
 class Drawer {
  public:
-  Drawer(const Hierarchy::Parts& h, const Alive& alive, const Run& run)
+  Drawer(const Hierarchy::Parts& h, const Alive& alive, bool crisp, const Run& run)
       : h_(h),
+        crisp_(crisp),
         complex_(h.complex),
         alive_(alive),
         run_(run),
@@ -255,6 +256,11 @@ class Drawer {
     });
     level_.exact = level_.vertices;
     level_.exact_radius = level_.radius;
+    if (!crisp_) return;
+    parallel_for(static_cast<int64_t>(level_.vertex_of.size()), run_, [&](int64_t v) {
+      level_.vertices[v] = h_.crisp.position[level_.vertex_of[v]];
+      level_.radius[v] = h_.crisp.radius[level_.vertex_of[v]];
+    });
   }
 
   void read_values() {
@@ -275,6 +281,7 @@ class Drawer {
   }
 
   const Hierarchy::Parts& h_;
+  bool crisp_;
   const InnerComplex& complex_;
   const Alive& alive_;
   Run run_;
@@ -303,11 +310,12 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
   if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
   begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);
-  Drawer drawer(h, alive, quiet);
+  const bool crisp = options.crisp && !h.crisp.place.empty();
+  Drawer drawer(h, alive, crisp, quiet);
   Level level = drawer.draw();
   throw_if_cancelled(run.progress);
   level.betti = betti_of(h.complex, h.outside, alive, quiet);
-  if (options.relaxed) relax(level, drawer.rims(), h, run);
+  if (options.relaxed) relax(level, drawer.rims(), h, crisp, run);
   advance(run.progress, 1);
   return level;
 }

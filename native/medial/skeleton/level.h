@@ -7,7 +7,7 @@
 #include "base/frame.h"
 #include "base/point_tree.h"
 #include "base/stopwatch.h"
-#include "skeleton/values.h"
+#include "skeleton/crisp.h"
 
 namespace medial {
 
@@ -19,6 +19,8 @@ struct Hierarchy::Parts {
   Values values;
   Array<float> limb;        // per vertex
   Array<double> sine, rho;  // per facet, as in Significance
+  std::unique_ptr<const Faces> faces;  // null if there are none
+  CrispPlaces crisp;                   // empty without faces
   PointTree samples;
   std::vector<int32_t> row;  // of each sample in the input
   Array<int32_t> outside;    // result of outside_components

@@ -19,6 +19,30 @@ void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samp
   });
 }
 
+// Returns the rims without those at vertices that lie on creases.
+std::vector<Edge> rims_off_creases(const Level& level, std::span<const Edge> rims,
+                                   const CrispPlaces& crisp) {
+  std::vector<Edge> off;
+  const auto is_free = [&](int32_t v) {
+    return crisp.place[level.vertex_of[v]] < Placing::crease;
+  };
+  for (const Edge& rim : rims) {
+    if (is_free(rim[0]) && is_free(rim[1])) off.push_back(rim);
+  }
+  return off;
+}
+
+// Does the same at crisp places, where balls end at the faces.
+void smooth_crisp_rims(Level& level, std::span<const Edge> rims, const Faces& faces,
+                       const Run& run) {
+  const auto moved =
+      relax_rims({level.face_offsets, level.face_vertices}, rims, level.vertices, run);
+  parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
+    const auto foot = faces.nearer(level.vertices[moved[i]], HUGE_VAL);
+    level.radius[moved[i]] = foot->distance;
+  });
+}
+
 // Returns the chains of a level; they end at facets and at vertices with other than two wires.
 std::vector<Chain> chains_of(const Level& level) {
   std::vector<uint8_t> on_facet(level.vertices.size(), 0);
@@ -122,10 +146,15 @@ class Rewirer {
 
 }  // namespace
 
-void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, const Run& run) {
+void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, bool crisp,
+           const Run& run) {
   const Run quiet{run.threads, nullptr, run.arena};
   begin_stage(run.progress, "Rims", 0.6, 0.7);
-  smooth_rims(level, rims, h.samples, quiet);
+  if (crisp) {
+    smooth_crisp_rims(level, rims_off_creases(level, rims, h.crisp), *h.faces, quiet);
+  } else {
+    smooth_rims(level, rims, h.samples, quiet);
+  }
   begin_stage(run.progress, "Curves", 0.7, 1);
   if (level.wires.empty()) return;
   const auto chains = chains_of(level);

@@ -8,8 +8,9 @@
 
 namespace medial {
 
-// Relaxes a level; `rims` are its edges with exactly one facet.
-void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& hierarchy,
+// Relaxes a level; `rims` are its edges with exactly one facet. Vertices at crisp places stay on
+// convex creases.
+void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& hierarchy, bool crisp,
            const Run& run);
 
 }  // namespace medial

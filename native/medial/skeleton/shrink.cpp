@@ -47,11 +47,15 @@ class Shrinker {
     result.bubbles = complex_.bubbles;
     result.diagonal = complex_.diagonal;
     for (int32_t v = 0; v < complex_.vertices(); ++v) {
-      if (vertex[v] < 0) continue;
+      if (vertex[v] < 0) {
+        result.merged.push_back({vertex[vertices_.find(v)], complex_.cell[v]});
+        continue;
+      }
       result.cell.push_back(complex_.cell[v]);
       result.position.push_back(complex_.position[v]);
       result.radius.push_back(complex_.radius[v]);
     }
+    std::sort(result.merged.begin(), result.merged.end());
     for (int32_t e = 0; e < complex_.edges(); ++e) {
       if (edge[e] < 0) continue;
       const auto& [a, b] = complex_.ends[e];

@@ -4,17 +4,22 @@
 
 #include "axis/selection.h"
 #include "skeleton/complex.h"
+#include "skeleton/samples_on_faces.h"
 
 namespace medial {
 
 class FacetWeights {
  public:
-  // The arguments must outlive this object.
-  FacetWeights(const Facets& facets, const Thresholds& thresholds)
-      : facets_(facets), t_(thresholds), selection_({thresholds}, facets) {}
+  // The arguments must outlive this object. There is a mark per Delaunay edge, or none at all.
+  FacetWeights(const Facets& facets, const Thresholds& thresholds,
+               std::span<const CreaseMark> marks = {})
+      : facets_(facets), t_(thresholds), selection_({thresholds}, facets), marks_(marks) {}
 
   // Returns whether a Delaunay edge is selected.
   bool selected(int32_t edge) const {
+    if (!marks_.empty() && marks_[edge] != CreaseMark::none) {
+      return marks_[edge] == CreaseMark::into_crease;
+    }
     std::vector<int32_t> none;  // the side `both` needs no ring
     return selection_.wants(edge, none);
   }
@@ -35,6 +40,7 @@ class FacetWeights {
   const Facets& facets_;
   Thresholds t_;
   Selection selection_;
+  std::span<const CreaseMark> marks_;
 };
 
 }  // namespace medial

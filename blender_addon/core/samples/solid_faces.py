@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The faces on which analysed samples lie, from which a hierarchy takes crisp places (docs/stage_crisp.md)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..settings import SidesFrom
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..settings import Settings
+    from .shape import Shape
+
+# Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
+_CLEARLY = 1.01
+
+
+@dataclass(frozen=True, eq=False)
+class SolidFaces:
+    """The faces that bound the solid, and where the samples lie on them.
+
+    Parameters
+    ----------
+    shape : Shape
+    face : (n,) int32
+        The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
+    """
+
+    shape: Shape
+    face: NDArray[np.int32]
+
+    def options(self, settings: Settings) -> tuple[float, bool]:
+        """Return the sharp angle and whether the faces approximate a smooth surface."""
+        return sharp_angle_of(self.shape, settings), settings.smooth
+
+    def of_module(self, module: Any, settings: Settings) -> Any:
+        """Return the `_medial.Faces`."""
+        sharp_angle, smooth = self.options(settings)
+        shape = self.shape
+        return module.Faces(
+            shape.points,
+            shape.triangles,
+            self.face,
+            sharp_angle=sharp_angle,
+            sharp_edges=shape.sharp_edges,
+            smooth=smooth,
+        )
+
+
+def sharp_angle_of(shape: Shape, settings: Settings) -> float:
+    """Return the angle between faces, in radians, from which an edge is sharp."""
+    wider = 2.0 if shape.shaded_smooth else _CLEARLY
+    return min(wider * settings.sharp_angle, math.pi)
+
+
+def solid_faces(
+    shape: Shape, source: SidesFrom, face: NDArray[np.int32] | None = None
+) -> SolidFaces | None:
+    """Return the faces of a shape if they decide what is inside, and None otherwise.
+
+    Parameters
+    ----------
+    shape : Shape
+    source : SidesFrom
+    face : (n,) int32, optional
+        The triangle on which each sample lies; the default is a triangle at each vertex.
+    """
+    if source is not SidesFrom.SURFACE or not len(shape.triangles) or not shape.volume > 0:
+        return None
+    return SolidFaces(shape, _face_of_vertex(shape) if face is None else face)
+
+
+def _face_of_vertex(shape: Shape) -> NDArray[np.int32]:
+    """(n,) the first triangle at each vertex, or -1."""
+    face = np.full(len(shape.points), -1, np.int32)
+    rows = np.repeat(np.arange(len(shape.triangles), dtype=np.int32), 3)
+    face[shape.triangles.ravel()[::-1]] = rows[::-1]  # the last assignment counts
+    return face

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/faces.h"
+
+#include <numeric>
+
+#include "base/union_find.h"
+#include "contact/closest_place.h"
+
+namespace medial {
+namespace {
+
+constexpr int kMostWalked = 1 << 12;  // triangles of one walk
+constexpr int32_t kLeafOfTree = 4;
+// A patch that bulges by less than this share of its size is flat: only rounding bent it.
+constexpr double kFlat = 1e-12;
+
+int corner_of(const Triangle& t, int32_t vertex) {
+  return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
+}
+
+std::vector<Edge> edges_of_points(std::span<const Edge> rows, const FacesInput& input,
+                                  const TriangleMesh& mesh) {
+  std::vector<int32_t> point(input.vertices.size(), -1);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      point[input.triangles[mesh.source[i]][k]] = mesh.triangles[i][k];
+    }
+  }
+  std::vector<Edge> edges;
+  for (const auto& [p, q] : rows) {
+    if (point[p] >= 0 && point[q] >= 0 && point[p] != point[q]) {
+      edges.push_back({point[p], point[q]});
+    }
+  }
+  return edges;
+}
+
+float rounded_up(double value) { return std::nextafter(static_cast<float>(value), HUGE_VALF); }
+
+}  // namespace
+
+Faces::Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run)
+    : mesh_(make_mesh(vertices, input.triangles, run)),
+      creases_(find_creases(mesh_, input.sharp_angle,
+                            edges_of_points(input.sharp_edges, input, mesh_), false, run)),
+      triangle_of_(input.triangles.size(), -1) {
+  surface_.emplace(mesh_, creases_, input.smooth, run);
+  for (size_t t = 0; t < mesh_.source.size(); ++t) {
+    triangle_of_[mesh_.source[t]] = static_cast<int32_t>(t);
+  }
+  find_edges();
+  find_fans();
+  if (input.smooth) {
+    bulge_.resize(mesh_.triangles.size());
+    parallel_for(static_cast<int64_t>(bulge_.size()), run, [&](int64_t id) {
+      const auto t = static_cast<int32_t>(id);
+      const Patch patch = surface_->patch(t);
+      const double bulge = patch.bulge();
+      bulge_[t] = bulge > kFlat * max_abs(patch.box().extent()) ? rounded_up(bulge) : 0;
+    });
+  }
+  build_tree_of_faces();
+}
+
+void Faces::find_edges() {
+  separates_.reserve(creases_.edges.size());
+  for (const MeshEdge& edge : creases_.edges) separates_.push_back(separation(edge));
+  edge_of_.resize(mesh_.triangles.size());
+  for (size_t t = 0; t < edge_of_.size(); ++t) {
+    const Triangle& corners = mesh_.triangles[t];
+    for (int i = 0; i < 3; ++i) {
+      edge_of_[t][i] = creases_.find(corners[i], corners[(i + 1) % 3]);
+    }
+  }
+}
+
+uint8_t Faces::separation(const MeshEdge& edge) const {
+  if (edge.crease == Crease::boundary || !edge.manifold) return 1;
+  if (edge.crease == Crease::none) return 0;
+  const auto& [s, t] = edge.triangles;
+  const Triangle& other = mesh_.triangles[t];
+  const int32_t third = other[0] + other[1] + other[2] - edge.ends[0] - edge.ends[1];
+  const Vec3 away = mesh_.points[third] - mesh_.points[edge.ends[0]];
+  return dot(mesh_.normal[s], away) < 0 ? kConvex : 0;
+}
+
+void Faces::find_fans() {
+  UnionFind corners(3 * mesh_.triangles.size());
+  for (size_t e = 0; e < creases_.edges.size(); ++e) {
+    if (separates_[e]) continue;
+    const auto& [s, t] = creases_.edges[e].triangles;
+    for (const int32_t end : creases_.edges[e].ends) {
+      corners.unite(3 * s + corner_of(mesh_.triangles[s], end),
+                    3 * t + corner_of(mesh_.triangles[t], end));
+    }
+  }
+  const auto fan = std::move(corners).representatives();
+  fan_of_.resize(mesh_.triangles.size());
+  for (size_t c = 0; c < fan.size(); ++c) fan_of_[c / 3][c % 3] = fan[c];
+}
+
+void Faces::build_tree_of_faces() {
+  order_.resize(mesh_.triangles.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::vector<Box> boxes;
+  boxes.reserve(order_.size());
+  for (const int32_t t : order_) boxes.push_back(surface_->patch(t).box());
+  const auto describe = [&](Node& node) {
+    for (int32_t i = node.begin; i < node.end; ++i) {
+      node.box.add(boxes[order_[i]].low);
+      node.box.add(boxes[order_[i]].high);
+    }
+  };
+  const auto split = [&](const Node& node) {
+    const int axis = longest_axis(node.box.extent());
+    return split_in_middle(order_, node.begin, node.end, [&, axis](int32_t t) {
+      return std::pair(coordinate(boxes[t].low, axis) + coordinate(boxes[t].high, axis), t);
+    });
+  };
+  build_tree(nodes_, 0, static_cast<int32_t>(order_.size()), kLeafOfTree, describe, split);
+}
+
+Vec3 Faces::point(int32_t triangle, const Barycentric& at) const {
+  return surface_->point(triangle, at);
+}
+
+Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
+  const Triangle& t = mesh_.triangles[triangle];
+  const Vec3 &p = mesh_.points[t[0]], &q = mesh_.points[t[1]], &r = mesh_.points[t[2]];
+  Foot foot{triangle, closest_on_flat(p, q, r, from), {}, 0};
+  if (bulge_.empty() || bulge_[triangle] == 0) {
+    foot.point = p + foot.at.b * (q - p) + foot.at.c * (r - p);
+    // The height over the plane has a smaller error than the difference of two places.
+    const bool inside = foot.at.a > 0 && foot.at.b > 0 && foot.at.c > 0;
+    foot.distance = inside && mesh_.normal[triangle] != Vec3{}
+                        ? std::abs(dot(from - p, mesh_.normal[triangle]))
+                        : medial::distance(from, foot.point);
+  } else {
+    const Patch patch = surface_->patch(triangle);
+    foot.at = closest_on_patch(patch, foot.at, from);
+    foot.point = patch.point(foot.at);
+    foot.distance = medial::distance(from, foot.point);
+  }
+  return foot;
+}
+
+Foot Faces::descend(int32_t triangle, const Vec3& from) const {
+  Foot foot = foot_on(triangle, from);
+  for (int i = 0; i < kMostWalked; ++i) {
+    const Foot next = best_neighbour(foot, from);
+    if (!(next.distance < foot.distance)) break;
+    foot = next;
+  }
+  return foot;
+}
+
+// Returns the nearest foot on the triangles that meet where a foot is, in the same wall.
+Foot Faces::best_neighbour(const Foot& foot, const Vec3& from) const {
+  const double coordinates[3] = {foot.at.a, foot.at.b, foot.at.c};
+  Foot best = foot;
+  const auto take = [&](int32_t other) {
+    const Foot found = foot_on(other, from);
+    if (found.distance < best.distance) best = found;
+  };
+  for (int i = 0; i < 3; ++i) {
+    if (coordinates[i] == 1) {
+      const int32_t vertex = mesh_.triangles[foot.triangle][i], fan = fan_of_[foot.triangle][i];
+      for (const int32_t t : mesh_.fans[vertex]) {
+        if (t != foot.triangle && fan_of_[t][corner_of(mesh_.triangles[t], vertex)] == fan) take(t);
+      }
+      return best;
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int32_t edge = edge_of_[foot.triangle][(i + 1) % 3];  // opposite to corner i
+    if (coordinates[i] != 0 || separates_[edge]) continue;
+    const Edge& sides = creases_.edges[edge].triangles;
+    take(sides[sides[0] == foot.triangle]);
+  }
+  return best;
+}
+
+std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {
+  std::optional<Foot> best;
+  double within = than;
+  visit_nearest(
+      nodes_, 0,
+      [&](const Node& node) { return std::sqrt(medial::squared_distance(node.box, from)); },
+      [&] { return within; },
+      [&](const Node& leaf) {
+        for (int32_t i = leaf.begin; i < leaf.end; ++i) {
+          const int32_t t = order_[i];
+          const Triangle& c = mesh_.triangles[t];
+          if (!bulge_.empty() && bulge_[t] > 0) {
+            const Vec3 &p = mesh_.points[c[0]], &q = mesh_.points[c[1]], &r = mesh_.points[c[2]];
+            const Barycentric at = closest_on_flat(p, q, r, from);
+            const Vec3 flat = p + at.b * (q - p) + at.c * (r - p);
+            if (medial::distance(flat, from) - bulge_[t] >= within) continue;
+          }
+          const Foot foot = foot_on(t, from);
+          const bool first = best && foot.distance == within && foot.triangle < best->triangle;
+          if (foot.distance < within || first) {
+            best = foot;
+            within = foot.distance;
+          }
+        }
+      });
+  return best;
+}
+
+}  // namespace medial

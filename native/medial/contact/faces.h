@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The faces of a solid, flat or smooth, as walls that balls touch: the places of them that are
+// nearest to a point.
+#pragma once
+
+#include <medial/faces.h>
+
+#include <optional>
+
+#include "base/box_tree.h"
+#include "sampling/pn_triangles.h"
+
+namespace medial {
+
+// A foot is a place of the faces that is nearest to a point, among its neighbours or among all.
+struct Foot {
+  int32_t triangle = -1;
+  Barycentric at{};
+  Vec3 point;
+  double distance = HUGE_VAL;
+};
+
+// Its const members may be called from several threads.
+class Faces {
+ public:
+  // Throws as make_mesh does. `vertices` may be given in another frame than those of the input.
+  Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run);
+  Faces(const Faces&) = delete;
+  Faces& operator=(const Faces&) = delete;
+
+  const TriangleMesh& mesh() const { return mesh_; }
+  const Creases& creases() const { return creases_; }
+  // Returns the triangle of the mesh for a row of the input, or -1 if it was left out.
+  int32_t triangle_of(int32_t row) const { return row < 0 ? -1 : triangle_of_[row]; }
+  // Returns the edge from a corner of a triangle to the next one.
+  int32_t edge_of(int32_t triangle, int corner) const { return edge_of_[triangle][corner]; }
+  // Returns whether an edge separates two walls: a sharp convex one, an open one, or one whose
+  // sides are ambiguous. Sides of a reflex edge are one wall, which a ball rolls round.
+  bool separates(int32_t edge) const { return separates_[edge] != 0; }
+  // Returns whether an edge is sharp, and the solid is convex there.
+  bool is_convex_crease(int32_t edge) const { return separates_[edge] == kConvex; }
+
+  Vec3 point(int32_t triangle, const Barycentric& at) const;
+  Vec3 normal(int32_t triangle, const Barycentric& at) const {
+    return surface_->normal(triangle, at);
+  }
+  // Returns the foot on one triangle.
+  Foot foot_on(int32_t triangle, const Vec3& from) const;
+  // Walks from a triangle to neighbours of the same wall while they are nearer.
+  Foot descend(int32_t triangle, const Vec3& from) const;
+  // Returns the nearest place of all faces if it is nearer than a distance.
+  std::optional<Foot> nearer(const Vec3& from, double than) const;
+
+ private:
+  static constexpr uint8_t kConvex = 2;
+
+  struct Node : TreeNode {
+    Box box;
+  };
+
+  void find_edges();
+  void find_fans();
+  void build_tree_of_faces();
+  uint8_t separation(const MeshEdge& edge) const;
+  Foot best_neighbour(const Foot& foot, const Vec3& from) const;
+
+  TriangleMesh mesh_;
+  Creases creases_;
+  std::optional<CurvedSurface> surface_;
+  std::vector<int32_t> triangle_of_;
+  std::vector<std::array<int32_t, 3>> edge_of_;
+  std::vector<uint8_t> separates_;              // per edge
+  std::vector<std::array<int32_t, 3>> fan_of_;  // the triangles round a corner in one wall
+  std::vector<float> bulge_;                    // per triangle, rounded up; empty if all are flat
+  std::vector<int32_t> order_;                  // triangles, leaf after leaf
+  std::vector<Node> nodes_;
+};
+
+}  // namespace medial

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "skeleton/crisp.h"
+
+#include "base/atomic.h"
+#include "contact/touching_ball.h"
+
+namespace medial {
+namespace {
+
+// All lengths are in spacings of the samples.
+constexpr double kExact = 1e-10;      // the largest difference between a radius and the distance
+constexpr double kFarthestMove = 1.5;     // that a vertex moves
+constexpr double kNearCrease = 3;     // the largest ball of a rim that ends in a crease
+constexpr double kNearCorner = 1.5;   // from the end of a rim to a corner of the solid
+constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
+constexpr double kSameCrease = 0.85;  // the cosine between creases of one direction
+
+// Holds the walls that a ball touches, by triangles of the mesh.
+struct Walls {
+  std::array<int32_t, kMostContacts> triangle{-1, -1, -1, -1};
+  size_t count = 0;
+
+  std::span<int32_t> all() { return {triangle.data(), count}; }
+  bool add(int32_t t) {
+    if (count == kMostContacts) return false;
+    triangle[count++] = t;
+    return true;
+  }
+};
+
+class CrispMaker {
+ public:
+  CrispMaker(const InnerComplex& complex, const Triangulation& t, const SamplesOnFaces& samples,
+             std::span<const Thickness> facets, std::span<const double> sine,
+             std::span<const uint8_t> selected, const Run& run)
+      : complex_(complex), t_(t), samples_(samples), sine_(sine), run_(run) {
+    find_facets(facets);
+    find_rims();
+    find_hidden(selected);
+    find_corners();
+  }
+
+  CrispPlaces make() {
+    made_.position = {complex_.position.begin(), complex_.position.end()};
+    made_.radius = {complex_.radius.begin(), complex_.radius.end()};
+    made_.place = Array<Placing>(complex_.cell.size(), Placing::voronoi);
+    parallel_for(
+        complex_.vertices(), run_,
+        [&](int64_t v) {
+          if (!facets_at_[v].empty()) place(static_cast<int32_t>(v));
+        },
+        256);
+    reach_corners();
+    return std::move(made_);
+  }
+
+ private:
+  static bool in_k1(const Thickness& value) {
+    return value.sheet > 0 && value.spacings > 0 && value.erosion > 0;
+  }
+
+  // Lists the facets of K1 at each vertex, and counts those at each edge.
+  void find_facets(std::span<const Thickness> facets) {
+    facets_at_.offsets = array<int64_t>(complex_.cell.size() + 1, 0, run_);
+    edge_uses_ = array<uint8_t>(complex_.ends.size(), 0, run_);
+    for_corners(facets, [&](int32_t, const Corner& c) {
+      ++facets_at_.offsets[c.vertex];
+      if (edge_uses_[c.edge] < 2) ++edge_uses_[c.edge];
+    });
+    counts_to_offsets(facets_at_.offsets);
+    facets_at_.items = array<int32_t>(static_cast<size_t>(facets_at_.offsets.back()), run_);
+    std::vector<int64_t> next(facets_at_.offsets.begin(), facets_at_.offsets.end());
+    for_corners(facets,
+                [&](int32_t f, const Corner& c) { facets_at_.items[next[c.vertex]++] = f; });
+  }
+  template <typename Found>
+  void for_corners(std::span<const Thickness> facets, const Found& found) const {
+    for (int32_t f = 0; f < complex_.facets(); ++f) {
+      if (!in_k1(facets[f])) continue;
+      for (const Corner& c : complex_.ring(f)) found(f, c);
+    }
+  }
+
+  void find_rims() {
+    on_rim_ = array<uint8_t>(complex_.cell.size(), 0, run_);
+    for (size_t e = 0; e < complex_.ends.size(); ++e) {
+      if (edge_uses_[e] != 1) continue;
+      for (const int32_t v : complex_.ends[e]) on_rim_[v] = 1;
+    }
+  }
+
+  // Lists the pairs of samples that selected facets without area separate at a vertex.
+  void find_hidden(std::span<const uint8_t> selected) {
+    for (size_t i = 0; i < complex_.shrunk.size(); ++i) {
+      if (!selected[i]) continue;
+      const ShrunkFacet& s = complex_.shrunk[i];
+      hidden_.push_back({s.vertex, s.generators});
+      if (s.edge < 0) continue;
+      for (const int32_t v : complex_.ends[s.edge]) hidden_.push_back({v, s.generators});
+    }
+    std::sort(hidden_.begin(), hidden_.end());
+  }
+
+  void find_corners() {
+    std::vector<Vec3> corners;
+    const auto& mesh = samples_.faces().mesh();
+    for (size_t p = 0; p < mesh.points.size(); ++p) {
+      if (samples_.creases().is_corner(static_cast<int32_t>(p))) corners.push_back(mesh.points[p]);
+    }
+    if (!corners.empty()) corners_ = PointTree::sorted(corners, run_);
+    corner_points_ = std::move(corners);
+  }
+
+  void place(int32_t v) {
+    if (on_rim_[v] && onto_crease(v)) return;
+    Walls walls = walls_at(v);
+    if (walls.count < 2) return;
+    made_.place[v] = Placing::refused;
+    touch(v, walls);
+  }
+
+  double spacing_at(int32_t v) const {
+    double most = 0;
+    for (const int32_t f : facets_at_[v]) {
+      for (const int32_t s : complex_.generators[f]) most = std::max(most, samples_.spacing(s));
+    }
+    return most;
+  }
+
+  // --- rims that end in creases
+
+  bool onto_crease(int32_t v) {
+    const double spacing = spacing_at(v);
+    if (!(complex_.radius[v] < kNearCrease * spacing)) return false;
+    std::optional<PlaceOnCrease> nearest;
+    bool at_corner = false;
+    for (const int32_t f : facets_at_[v]) {
+      const auto found = samples_.crease_between(complex_.generators[f], complex_.position[v]);
+      if (!found || distance(found->point, complex_.position[v]) > kNearCrease * spacing) continue;
+      if (nearest && !same_direction(*nearest, *found)) at_corner = true;
+      if (!nearest || distance(found->point, complex_.position[v]) <
+                          distance(nearest->point, complex_.position[v])) {
+        nearest = found;
+      }
+    }
+    if (!nearest) return false;
+    made_.position[v] = nearest->point;
+    made_.radius[v] = 0;
+    made_.place[v] = Placing::crease;
+    if (at_corner) onto_corner(v, kNearCrease * spacing);
+    return true;
+  }
+
+  void onto_corner(int32_t v, double within) {
+    if (corner_points_.empty()) return;
+    const Neighbour nearest = corners_.nearest(complex_.position[v]);
+    if (nearest.distance > within) return;
+    made_.position[v] = corner_points_[nearest.id];
+    made_.place[v] = Placing::corner;
+  }
+
+  bool same_direction(const PlaceOnCrease& a, const PlaceOnCrease& b) const {
+    if (a.edge == b.edge) return true;
+    return std::abs(dot(direction(a.edge), direction(b.edge))) > kSameCrease;
+  }
+  Vec3 direction(int32_t edge) const {
+    const auto& mesh = samples_.faces().mesh();
+    const auto& [a, b] = samples_.faces().creases().edges[edge].ends;
+    return normalized(mesh.points[b] - mesh.points[a]);
+  }
+
+  // Moves the nearest vertex on a crease to each corner that no vertex has reached.
+  void reach_corners() {
+    if (corner_points_.empty()) return;
+    std::vector<uint8_t> reached(corner_points_.size(), 0);
+    std::vector<int32_t> on_crease;
+    std::vector<Vec3> places;
+    for (int32_t v = 0; v < complex_.vertices(); ++v) {
+      if (made_.place[v] == Placing::corner) {
+        reached[corners_.nearest(made_.position[v]).id] = 1;
+      } else if (made_.place[v] == Placing::crease) {
+        on_crease.push_back(v);
+        places.push_back(made_.position[v]);
+      }
+    }
+    if (places.empty()) return;
+    const PointTree tree = PointTree::sorted(places, run_);
+    for (size_t c = 0; c < reached.size(); ++c) {
+      if (reached[c]) continue;
+      const Neighbour nearest = tree.nearest(corner_points_[c]);
+      const int32_t v = on_crease[nearest.id];
+      if (nearest.distance > kNearCorner * spacing_at(v)) continue;
+      made_.position[v] = corner_points_[c];
+      made_.place[v] = Placing::corner;
+    }
+  }
+
+  // --- balls that touch walls
+
+  // Returns the walls of a vertex: its samples are of one wall where no facet of K1 separates them.
+  Walls walls_at(int32_t v) const {
+    const Groups groups = groups_at(v);
+    Walls walls;
+    for (size_t g = 0; g < groups.samples.size(); ++g) {
+      if (groups.group[g] != g) continue;
+      const int32_t t = nearest_wall(v, groups, g);
+      if (t < 0) return {};
+      if (!walls.add(t)) break;
+    }
+    return walls.count < 2 ? walls_of_facet(v) : walls;
+  }
+
+  // Holds the samples of a vertex, each with the first one of its group.
+  struct Groups {
+    std::vector<int32_t> samples;
+    std::vector<size_t> group;
+
+    size_t find(int32_t sample) {
+      for (size_t i = 0; i < samples.size(); ++i) {
+        if (samples[i] == sample) return i;
+      }
+      samples.push_back(sample);
+      group.push_back(group.size());
+      return group.size() - 1;
+    }
+    void unite(size_t a, size_t b) {
+      const size_t low = std::min(group[a], group[b]), high = std::max(group[a], group[b]);
+      for (size_t& g : group) {
+        if (g == high) g = low;
+      }
+    }
+  };
+
+  Groups groups_at(int32_t v) const {
+    Groups groups;
+    for_cells(v, [&](const Cell& cell) {
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < i; ++j) {
+          if (is_separated(v, cell[i], cell[j])) continue;
+          const size_t a = groups.find(cell[i]), b = groups.find(cell[j]);
+          groups.unite(a, b);
+        }
+        groups.find(cell[i]);
+      }
+    });
+    return groups;
+  }
+
+  // Calls found(cell) for the cells that were merged into a vertex.
+  template <typename Found>
+  void for_cells(int32_t v, const Found& found) const {
+    found(t_.cells[complex_.cell[v]]);
+    const auto& merged = complex_.merged;
+    auto next = std::lower_bound(merged.begin(), merged.end(), Edge{v, -1});
+    for (; next != merged.end() && (*next)[0] == v; ++next) found(t_.cells[(*next)[1]]);
+  }
+
+  bool is_separated(int32_t v, int32_t p, int32_t q) const {
+    const auto is_pair = [&](const Edge& g) {
+      return (g[0] == p && g[1] == q) || (g[0] == q && g[1] == p);
+    };
+    for (const int32_t f : facets_at_[v]) {
+      if (is_pair(complex_.generators[f])) return true;
+    }
+    auto next = std::lower_bound(hidden_.begin(), hidden_.end(), Hidden{v, {-1, -1}});
+    for (; next != hidden_.end() && next->vertex == v; ++next) {
+      if (is_pair(next->generators)) return true;
+    }
+    return false;
+  }
+
+  // Returns the triangle of the nearest foot of the samples of a group, or -1 if one has no face.
+  int32_t nearest_wall(int32_t v, const Groups& groups, size_t group) const {
+    Foot best;
+    for (size_t i = 0; i < groups.samples.size(); ++i) {
+      if (groups.group[i] != group) continue;
+      const int32_t t = samples_.triangle(groups.samples[i]);
+      if (t < 0) return -1;
+      const Foot foot = samples_.faces().descend(t, complex_.position[v]);
+      if (foot.distance < best.distance) best = foot;
+    }
+    return best.triangle;
+  }
+
+  // Returns the walls of the facet that separates its samples most.
+  Walls walls_of_facet(int32_t v) const {
+    int32_t best = -1;
+    for (const int32_t f : facets_at_[v]) {
+      if (best < 0 || sine_[f] > sine_[best]) best = f;
+    }
+    Walls walls;
+    for (const int32_t s : complex_.generators[best]) {
+      if (samples_.triangle(s) < 0) return {};
+      walls.add(samples_.triangle(s));
+    }
+    return walls;
+  }
+
+  // Moves a vertex to the ball that touches its walls. A wall that the ball sticks out of is added.
+  void touch(int32_t v, Walls walls) {
+    const double spacing = spacing_at(v), tolerance = kExact * spacing;
+    Vec3 start = complex_.position[v];
+    for (int i = 0; i < kMoreWalls; ++i) {
+      const TouchingBall ball = touching_ball(samples_.faces(), walls.all(), start);
+      if (!(ball.unequal <= tolerance)) return;
+      if (!(distance(ball.centre, complex_.position[v]) <= kFarthestMove * spacing)) return;
+      const auto nearer = samples_.faces().nearer(ball.centre, ball.radius - tolerance);
+      if (!nearer) {
+        made_.position[v] = ball.centre;
+        made_.radius[v] = ball.radius;
+        made_.place[v] = Placing::touching;
+        return;
+      }
+      if (!walls.add(nearer->triangle)) return;
+      start = ball.centre;
+    }
+  }
+
+  struct Hidden {
+    int32_t vertex;
+    Edge generators;
+
+    friend auto operator<=>(const Hidden&, const Hidden&) = default;
+  };
+
+  const InnerComplex& complex_;
+  const Triangulation& t_;
+  const SamplesOnFaces& samples_;
+  std::span<const double> sine_;
+  Run run_;
+  Csr<int32_t> facets_at_;    // per vertex: the facets of K1 at it
+  Array<uint8_t> edge_uses_;  // per edge: the facets of K1 at it; 2 means two or more
+  Array<uint8_t> on_rim_;     // per vertex
+  std::vector<Hidden> hidden_;
+  PointTree corners_;
+  std::vector<Vec3> corner_points_;
+  CrispPlaces made_;
+};
+
+}  // namespace
+
+CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& triangulation,
+                         const SamplesOnFaces& samples, std::span<const Thickness> facets,
+                         std::span<const double> sine, std::span<const uint8_t> selected,
+                         const Run& run) {
+  return CrispMaker(complex, triangulation, samples, facets, sine, selected, run).make();
+}
+
+}  // namespace medial

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Crisp places: each vertex of the axis moves from the Voronoi diagram of the samples to the exact
+// medial axis of the faces. It becomes the centre of the ball that touches the walls on which its
+// samples lie; where a sheet ends at a convex crease, the vertex goes onto the crease. Cells do not
+// change, so all levels keep their topology.
+#pragma once
+
+#include "skeleton/samples_on_faces.h"
+#include "skeleton/values.h"
+
+namespace medial {
+
+enum class Placing : uint8_t {
+  voronoi,   // no wall is known there: the vertex of a wire, or one of samples on no face
+  refused,   // the ball of the walls is not empty, or too far away; the Voronoi vertex stays
+  touching,  // the ball touches the walls, and no face is nearer
+  crease,    // on a convex crease, with radius 0
+  corner     // at the end of convex creases, with radius 0
+};
+
+struct CrispPlaces {
+  Array<Vec3> position;  // (v)
+  Array<double> radius;  // (v) the distance to the faces, unless `place` is voronoi or refused
+  Array<Placing> place;    // (v)
+};
+
+// Returns the places of the vertices of a complex. `values` say which facets are in K1; `selected`
+// tells for each shrunk facet whether it was selected. The distance to the faces was verified for
+// every vertex that moved.
+CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& triangulation,
+                         const SamplesOnFaces& samples, std::span<const Thickness> facets,
+                         std::span<const double> sine, std::span<const uint8_t> selected,
+                         const Run& run);
+
+}  // namespace medial

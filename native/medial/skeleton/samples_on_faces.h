@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the samples of an analysis lie on the faces, and which pairs of them lie on the two sides of
+// a sharp convex edge.
+#pragma once
+
+#include "axis/selection.h"
+#include "contact/convex_creases.h"
+#include "delaunay/samples.h"
+
+namespace medial {
+
+// Marks of Delaunay edges that decide before the thresholds do.
+enum class CreaseMark : uint8_t { none, into_crease, at_crease };
+
+class SamplesOnFaces {
+ public:
+  // The arguments must outlive this object; `spacing` is per sample. Throws InvalidInputError unless
+  // there is a face, or -1, per row of the samples.
+  SamplesOnFaces(const FacesInput& input, const Faces& faces, const Samples& samples,
+                 std::span<const double> spacing, const Run& run);
+
+  const Faces& faces() const { return faces_; }
+  const ConvexCreases& creases() const { return creases_; }
+  const Vec3& point(int32_t sample) const { return samples_.points[sample]; }
+  double spacing(int32_t sample) const { return spacing_[sample]; }
+  // Returns the triangle of the mesh on which a sample lies, or -1.
+  int32_t triangle(int32_t sample) const {
+    return sample < static_cast<int32_t>(triangle_.size()) ? triangle_[sample] : -1;
+  }
+  bool is_on_crease(int32_t sample) const { return on_crease_[sample] != 0; }
+  // Returns the place of the convex crease in which the tangent planes at two samples meet, as near
+  // to `at` as possible; nothing if they do not meet in one.
+  std::optional<PlaceOnCrease> crease_between(const Edge& samples, const Vec3& at) const;
+  CreaseMark mark(const Edge& samples) const;
+
+ private:
+  const Faces& faces_;
+  ConvexCreases creases_;
+  const Samples& samples_;
+  std::span<const double> spacing_;
+  double most_alike_ = 0;  // the cosine of the sharp angle
+  std::vector<int32_t> triangle_;
+  std::vector<Vec3> normal_;
+  std::vector<uint8_t> on_crease_;
+};
+
+// Returns the marks of all Delaunay edges: those into a crease are selected, those at a crease are
+// not.
+std::vector<CreaseMark> crease_marks(const SamplesOnFaces& samples, const Edges& edges,
+                                     const Run& run);
+
+}  // namespace medial
