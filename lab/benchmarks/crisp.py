@@ -16,46 +16,24 @@ import _module
 
 medial = _module.load()
 
-from support import crisp_measures, crisp_solids  # noqa: E402  (found through _module)
+from support import crisp_measures, crisp_runs, crisp_solids  # noqa: E402  (found through _module)
 
 HEADER = ["shape", "samples", "seed", "places", "facets", "err mean/99/max", "r-d mean/max"]
 HEADER += ["cov mean/99/max", "gap mean/max", "rim", "area - 1", "folds", "crossings", "pieces, Euler", "s"]
 
 
-def knows_crisp() -> bool:
-    from medial_axis.core.settings import OPTIONS
-
-    return "crisp" in OPTIONS
-
-
-def computed(mesh, count: int, seed: int, form: str, crisp: bool):
-    """A `Computation` through the library's entry; the option `crisp` is given where it exists."""
-    import medial_axis
-
-    more = {"crisp": crisp} if knows_crisp() else {}
-    return medial_axis.compute(
-        *mesh, sampling="surface", samples=count, seed=seed, form=form, **more
-    )
-
-
-def rows(name: str, count: int, seed: int, options) -> list[list[str]]:
-    solid = crisp_solids.solid(name)
-    turn = None if options.as_is else seed
-    mesh, frame = crisp_solids.turned(solid.mesh, turn, options.float32)
-    wanted = [False, True] if knows_crisp() and not options.no_crisp else [False]
-    made = []
-    for crisp in wanted:
-        start = time.perf_counter()
-        found = computed(mesh, count, seed, options.form, crisp)
-        seconds = time.perf_counter() - start
-        samples = len(found.chosen.samples.points)
-        for exact in (False,) if crisp else (True, False):
-            places = "crisp" if crisp else "exact" if exact else "relaxed"
-            output = crisp_measures.output_of(found, frame, exact)
-            measured = crisp_measures.measured(solid, output, samples)
-            made.append([name, str(samples), str(seed), places, *cells(measured), f"{seconds:.1f}"])
-            print(" | ".join(made[-1]), file=sys.stderr, flush=True)
-    return made
+def rows(case: crisp_runs.Case, crisp: bool) -> list[list[str]]:
+    start = time.perf_counter()
+    made = case.made(crisp)
+    seconds = time.perf_counter() - start
+    kinds = {"crisp": False} if crisp else {"exact": True, "relaxed": False}
+    found = []
+    for places, exact in kinds.items():
+        measures = cells(made.measured(exact))
+        head = [case.name, str(made.samples), str(case.seed), places]
+        found.append([*head, *measures, f"{seconds:.1f}"])
+        print(" | ".join(found[-1]), file=sys.stderr, flush=True)
+    return found
 
 
 def cells(found: crisp_measures.Found) -> list[str]:
@@ -64,7 +42,7 @@ def cells(found: crisp_measures.Found) -> list[str]:
         spread(found.err),
         f"{found.ball.mean:.1e} {found.ball.most:.1e}",
         spread(found.cov),
-        f"{found.gap.mean:.2f} {found.gap.most:.2f}",
+        "" if found.gap is None else f"{found.gap.mean:.2g} {found.gap.most:.2g}",
         f"{found.rim:.3f}",
         "" if found.area is None else f"{found.area:.1e}",
         str(found.folds),
@@ -88,14 +66,22 @@ def main() -> None:
     parser.add_argument("--as-is", action="store_true", help="do not turn the meshes")
     parser.add_argument("--no-crisp", action="store_true", help="leave crisp places out")
     options = parser.parse_args()
+    wanted = [False, True] if crisp_runs.knows_crisp() and not options.no_crisp else [False]
     table = [
         row
         for name in options.shapes
         for count in options.samples
         for seed in options.seeds
-        for row in rows(name, count, seed, options)
+        for crisp in wanted
+        for row in rows(case_of(name, count, seed, options), crisp)
     ]
     _module.publish(_module.markdown(HEADER, table), options.output)
+
+
+def case_of(name: str, count: int, seed: int, options) -> crisp_runs.Case:
+    return crisp_runs.Case(
+        name, count, seed, options.float32, as_is=options.as_is, form=options.form
+    )
 
 
 if __name__ == "__main__":

@@ -92,7 +92,7 @@ class Found:
     err: Spread
     ball: Spread  # |r - d|
     cov: Spread
-    gap: Spread  # in spacings
+    gap: Spread | None  # in spacings; None without edges
     rim: float  # of the exact length
     area: float | None  # of the exact area, less 1
     folds: int
@@ -119,10 +119,10 @@ def measured(solid: Solid, output: Output, samples: int) -> Found:
     )
 
 
-def gap(solid: Solid, cells: Array, spacing: float) -> Spread:
+def gap(solid: Solid, cells: Array, spacing: float) -> Spread | None:
     """Distances of convex edges and corners to the output, in spacings."""
     if len(solid.edges) == 0:
-        return Spread.of(np.empty(0))
+        return None
     return Spread.of(distance.to_triangles(solid.edges, cells) / spacing)
 
 

@@ -81,7 +81,7 @@ class Walled(Solid):
         """The distance from the bisector of the nearest contact and of another one, whichever is least.
 
         For planes this is exact: the difference of the distances over the length of the difference of their gradients.
-        Where an arc is nearest, the axis of its circle counts if the ball there is empty; outside, the convex edges.
+        Where an arc is nearest, the axis of its circle counts if the ball there is empty. Convex edges count, too.
         """
         contacts = _Contacts(self.walls, x, self.diagonal)
         off = np.minimum(contacts.off_bisectors(), self._off_focal_lines(x, contacts))
@@ -139,23 +139,24 @@ class _Contacts:
         beside = self.clipped & (self.distance > 1e-3 * self.near)
         size = np.where(beside, self.distance, 1.0)[:, :, None]
         self.gradient = np.where(beside[:, :, None], away / size, self.inward)
+        self.stand = self._stand()
 
     def off_bisectors(self) -> Array:
         """(n,) Feet from which one sees the point in one direction are one contact."""
         rows = np.arange(self.points.shape[1])
         first, least = self.gradient[self.nearest, rows], self.distance[self.nearest, rows]
         apart = np.linalg.norm(self.gradient - first, axis=2)
-        other = self._stand() & (apart > 1e-6)
+        other = self.stand & (apart > 1e-6)
         off = (self.distance - least) / np.where(other, apart, 1.0)
         return np.where(other, off, np.inf).min(axis=0)
 
     def off_edges(self) -> Array:
-        """(n,) to the nearest border of a wall, of points outside the solid; infinite inside."""
+        """(n,) to the convex edge whose wall is best seen past it, or, from outside, to the nearest border."""
         rows = np.arange(self.points.shape[1])
-        foot = self.points[self.nearest, rows]
-        height = np.einsum("ij,ij->i", self.inward[self.nearest, rows], self.x - foot)
-        to_border = np.where(self.clipped, self.distance, np.inf).min(axis=0)
-        return np.where(height < 0.0, to_border, np.inf)
+        height = np.einsum("wij,wij->wi", self.inward, self.x - self.points)
+        outside = height[self.nearest, rows] < 0.0
+        seen = self.clipped & (outside | (~self.stand & (height > 0.0)))
+        return np.where(seen, self.distance, np.inf).min(axis=0)
 
     def _stand(self) -> NDArray[np.bool_]:
         """(w, n) False where a foot lies on another wall which has a nearer one: the surface comes closer there."""
@@ -254,10 +255,11 @@ def _mesh(loops: Sequence[tuple[Curve, ...]], half: float) -> Mesh:
 
 
 def _points(loop: tuple[Curve, ...]) -> Array:
-    """(k, 2) vertices of a loop."""
-    steps = [
-        1 if isinstance(c, Segment) else round(AROUND * abs(c.sweep) / (2 * np.pi)) for c in loop
-    ]
+    """(k, 2) vertices of a loop. A flat face beside an arc is cut as finely, or its smooth surface would bulge."""
+    steps = [1 for _ in loop]
+    if arcs := [c for c in loop if isinstance(c, Arc)]:
+        longest = 2 * np.pi * max(arc.radius for arc in arcs) / AROUND
+        steps = [int(np.ceil(c.length / longest * (1 - TINY))) for c in loop]
     return np.concatenate([c.at(np.arange(k) / k) for c, k in zip(loop, steps)])
 
 

@@ -1,0 +1,358 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Axes of solids whose faces are known exactly: every vertex at its place, edges reached, no fold, no crossing.
+
+The measures are tested on axes made by hand; those of the product only where it has the setting `crisp`.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+from support import crisp_measures, crisp_runs, crisp_solids, crossing_triangles, crossings, topology
+from support.crisp_measures import Output
+from support.crisp_runs import Case
+
+NAMES = crisp_solids.NAMES
+WALLED = [name for name in NAMES if isinstance(crisp_solids.solid(name), crisp_solids.Walled)]
+
+
+# --- the solids
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_mesh_is_closed_and_on_the_faces(name):
+    solid = crisp_solids.solid(name)
+    vertices, triangles = solid.mesh
+    assert np.all(topology.edges(triangles)[1] == 2) and topology.is_oriented(triangles)
+    assert topology.euler(triangles) == 2 - 2 * solid.betti[1]
+    assert topology.volume(vertices, triangles) > 0
+    assert solid.distance(vertices).max() < 1e-15 * len(vertices)
+    assert len(solid.edges) == 0 or solid.distance(solid.edges).max() < 1e-14
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_centres_of_maximal_balls_are_on_the_axis(name):
+    solid = crisp_solids.solid(name)
+    assert solid.off_axis(solid.centres(5000)).max() < 1e-12 * solid.diagonal
+
+
+@pytest.mark.parametrize("name", WALLED)
+def test_convex_edges_are_on_the_axis(name):
+    solid = crisp_solids.solid(name)
+    assert solid.off_axis(solid.edges).max() < 1e-14
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_distance_to_the_axis_is_that_to_its_nearest_point(name):
+    """Among 200,000 points of it. Beside an edge that is nearly flat, a point that is far off may read more."""
+    solid = crisp_solids.solid(name)
+    truth = cKDTree(np.concatenate((solid.centres(200_000, 1), solid.edges)))
+    near = solid.centres(2000, 2) + 0.03 * np.random.default_rng(3).normal(size=(2000, 3))
+    near = near[crossings.inside(near, *solid.mesh)]
+    wanted, found = truth.query(near)[0], solid.off_axis(near)
+    assert np.all(found < 3.2 * wanted + 1e-3) and np.mean(found < 1.1 * wanted + 1e-3) > 0.99
+    assert np.all(found > 0.5 * wanted - 0.005)
+    assert np.median(found / wanted) == pytest.approx(1.0, abs=0.03)
+
+
+def test_a_shared_foot_is_one_contact():
+    """Just off the reflex edge of a bracket the nearest points of its two faces are nearly one."""
+    solid = crisp_solids.solid("bracket")
+    x = np.array([[0.7 + gap, 0.6, 0.0] for gap in (-1e-3, -1e-12, 0.0, 1e-12, 1e-3)])
+    assert solid.distance(x) == pytest.approx(0.1, abs=1e-5)
+    assert solid.off_axis(x).min() > 0.1
+
+
+def test_the_axis_of_an_arc_counts_where_its_ball_is_empty():
+    solid = crisp_solids.solid("stadium")
+    x = np.array([[1.01, 0.0, 0.0], [1.0, 0.0, 0.0], [0.99, 0.0, 0.0]])
+    assert solid.off_axis(x) == pytest.approx([0.01, 0.0, 0.0], abs=1e-14)
+
+
+# --- the measures, on the axis of the box: 13 polygons on 12 vertices
+
+
+@cache
+def axis_of_box() -> Output:
+    a, b, c = 1.0, 0.7, 0.4
+    corners = [(x, y, z) for x in (-a, a) for y in (-b, b) for z in (-c, c)]
+    middle = [(x, y, 0.0) for x in (c - a, a - c) for y in (c - b, b - c)]
+    rows = {place: row for row, place in enumerate([*corners, *middle])}
+    polygons, across = [[8, 9, 11, 10]], [(0, 0, 1)]
+    for axis in range(3):
+        for corner in (k for k in corners if k[axis] < 0):
+            other = tuple(-x if i == axis else x for i, x in enumerate(corner))
+            inner = [rows[tuple(np.sign(p[:2]) * (a - c, b - c)) + (0.0,)] for p in (other, corner)]
+            polygons.append(list(dict.fromkeys([rows[corner], rows[other], *inner])))
+            signs = np.sign(corner) * [i != axis for i in range(3)]
+            first, second = np.flatnonzero(signs)
+            across.append(signs[second] * np.eye(3)[second] - signs[first] * np.eye(3)[first])
+    return output_of(np.array([*corners, *middle]), polygons, np.array(across, float))
+
+
+def output_of(vertices, polygons, across):
+    """Polygons are turned to their directions, fans of triangles, and radii exact."""
+    across = across / np.linalg.norm(across, axis=1)[:, None]
+    turned = []
+    for polygon, direction in zip(polygons, across):
+        p = vertices[polygon]
+        normal = np.cross(p[1:-1] - p[0], p[2:] - p[0]).sum(axis=0)
+        turned.append(polygon if normal @ direction > 0 else polygon[::-1])
+    triangles = [(p[0], p[i], p[i + 1]) for p in turned for i in range(1, len(p) - 1)]
+    return Output(
+        vertices=vertices,
+        radius=crisp_solids.solid("box").distance(vertices),
+        face_offsets=np.cumsum([0, *map(len, turned)]),
+        face_vertices=np.concatenate(turned),
+        wires=np.empty((0, 2), int),
+        triangles=np.array(triangles),
+        across=across,
+    )
+
+
+def measured(output):
+    return crisp_measures.measured(crisp_solids.solid("box"), output, 4000)
+
+
+def moved(row, by):
+    """The axis of the box with a vertex elsewhere; the radii are those of the places."""
+    vertices = axis_of_box().vertices.copy()
+    vertices[row] += by
+    return replace(
+        axis_of_box(), vertices=vertices, radius=crisp_solids.solid("box").distance(vertices)
+    )
+
+
+def test_exact_axis_of_the_box_has_no_error():
+    found = measured(axis_of_box())
+    assert (found.facets, found.vertices, found.betti) == (13, 12, (1, 1))
+    assert found.err.most < 1e-15 and found.ball.most < 1e-15 and found.cov.most < 5e-13
+    assert found.gap.most < 1e-13 and found.rim == pytest.approx(1.0, abs=1e-14)
+    assert abs(found.area) < 1e-14 and found.folds == 0 and found.crossings == 0
+
+
+def test_a_moved_junction_is_noticed():
+    found = measured(moved(11, (0.0, 0.0, 1e-6)))
+    moved_by = 1e-6 / crisp_solids.solid("box").diagonal
+    assert 0.7 * moved_by < found.err.most < moved_by
+    assert found.cov.most > 1e-7 and abs(found.area) > 1e-13
+    assert found.gap.most < 1e-13 and found.ball.most < 1e-15
+
+
+def test_a_corner_that_is_not_reached_is_noticed():
+    found = measured(moved(0, (0.01, 0.01, 0.01)))
+    assert found.gap.most * crisp_solids.solid("box").spacing(4000) == pytest.approx(0.01, rel=0.8)
+    assert found.rim < 0.999 and found.area < -1e-3 and found.cov.most > 1e-4
+    assert found.err.most < 1e-15
+
+
+def test_a_wrong_radius_is_noticed():
+    radius = axis_of_box().radius.copy()
+    radius[8] *= 1 + 1e-6
+    found = measured(replace(axis_of_box(), radius=radius))
+    assert found.ball.most == pytest.approx(0.4e-6 / crisp_solids.solid("box").diagonal, rel=1e-3)
+
+
+def test_a_missing_polygon_is_noticed():
+    whole = axis_of_box()
+    found = measured(
+        replace(
+            whole,
+            face_offsets=whole.face_offsets[1:] - 4,
+            face_vertices=whole.face_vertices[4:],
+            triangles=whole.triangles[2:],
+            across=whole.across[1:],
+        )
+    )
+    assert found.betti == (1, 0) and found.area < -0.09 and found.cov.most > 0.05
+    assert found.rim == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("row", range(13))
+def test_a_polygon_that_turns_the_other_way_is_folded(row):
+    across = axis_of_box().across.copy()
+    across[row] *= -1
+    folds = crisp_measures.folded(replace(axis_of_box(), across=across))
+    assert np.flatnonzero(folds).tolist() == [row]
+
+
+def test_a_concave_polygon_is_folded():
+    """A corner of the middle rectangle moves to where the rectangle becomes a dart; three neighbours stay convex."""
+    folds = crisp_measures.folded(moved(11, (-0.8, -0.4, 0.0)))
+    assert folds[0]
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-15])
+def test_straight_corners_and_short_edges_are_no_folds(noise):
+    x = np.array([(0, 0), (0.5, 0), (1, 0), (1, 1e-13), (1, 1), (0, 1)])
+    vertices = np.column_stack((x, np.zeros(6))) + noise * np.random.default_rng(0).normal(size=(6, 3))
+    assert not crisp_measures.folded(output_of(vertices, [list(range(6))], np.array([[0, 0, 1.0]])))
+
+
+def test_wires_and_single_vertices_are_output():
+    """The middle rectangle as its diagonal, and a vertex alone."""
+    whole = axis_of_box()
+    lone = np.concatenate((whole.vertices, [[0.0, 0.1, 0.0]]))
+    thin = replace(
+        whole,
+        vertices=lone,
+        radius=np.append(whole.radius, 0.4),
+        face_offsets=np.zeros(1, int),
+        face_vertices=np.empty(0, int),
+        wires=np.array([[8, 11]]),
+        triangles=np.empty((0, 3), int),
+        across=np.empty((0, 3)),
+    )
+    assert len(thin.cells()) == 1 + 11
+    x = np.array([[0.0, 0.0, 0.0], [0.0, 0.1, 0.02]])
+    assert crisp_measures.distance.to_triangles(x, thin.cells()) == pytest.approx([0, 0.02], abs=1e-15)
+
+
+# --- crossing triangles
+
+
+def brute_crossings(points, triangles):
+    pairs = []
+    for i, a in enumerate(triangles):
+        for j in range(i + 1, len(triangles)):
+            if not set(a) & set(triangles[j]):
+                pairs.append((i, j)) if crosses(points[a], points[triangles[j]]) else None
+    return pairs
+
+
+def crosses(a, b):
+    def volume(p, q, r, s):
+        return np.linalg.det(np.array([q - p, r - p, s - p]))
+
+    for one, other in ((a, b), (b, a)):
+        for i in range(3):
+            p, q = one[i], one[(i + 1) % 3]
+            if volume(*other, p) * volume(*other, q) >= 0:
+                continue
+            turns = [volume(p, q, other[k], other[(k + 1) % 3]) for k in range(3)]
+            if min(turns) > 0 or max(turns) < 0:
+                return True
+    return False
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_crossing_pairs_are_those_of_all_pairs(seed):
+    rng = np.random.default_rng(seed)
+    points = rng.random((150, 3))
+    triangles = rng.permutation(150).reshape(50, 3)
+    points[triangles[:, 1:]] = points[triangles[:, :1]] + 0.3 * rng.normal(size=(50, 2, 3))
+    triangles = np.concatenate((triangles, triangles[:, [1, 2, 0]]))  # twins are no crossings
+    found = crossing_triangles.crossing_pairs(points, triangles)
+    assert len(found) > 40 and found.tolist() == [list(p) for p in brute_crossings(points, triangles)]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_coplanar_neighbours_do_not_cross(seed):
+    """Triangles of one turned plane whose common corners are different vertices, up to rounding."""
+    x, y = np.meshgrid(np.arange(20.0), np.arange(20.0), indexing="ij")
+    a = np.column_stack((x.ravel(), y.ravel(), np.zeros(400)))
+    corners = [[a, a + (1, 0, 0), a + (1, 1, 0)], [a, a + (1, 1, 0), a + (0, 1, 0)]]
+    soup = np.concatenate([np.stack(c, axis=1) for c in corners]).reshape(-1, 3)
+    soup = soup @ crisp_solids.inputs.rotation(seed).T / 3
+    triangles = np.arange(len(soup)).reshape(-1, 3)
+    assert len(crossing_triangles.crossing_pairs(soup, triangles)) == 0
+
+
+def test_a_crossing_pair_of_an_axis_is_noticed():
+    whole = axis_of_box()
+    far = np.array([[0.0, 0.0, -0.1], [0.1, 0.0, 0.1], [0.0, 0.1, 0.1]])
+    more = replace(
+        whole,
+        vertices=np.concatenate((whole.vertices, far)),
+        triangles=np.concatenate((whole.triangles, [[12, 13, 14]])),
+    )
+    assert len(crossing_triangles.crossing_pairs(more.vertices, more.triangles)) >= 1
+
+
+# --- the bars of the product
+
+EXACT = ("box", "wedge", "blunt", "bracket")
+CURVED = ("cylinder", "cone", "plate", "fan", "stadium", "profile", "stairs")
+SMOOTH = ("oblate", "ellipsoid")
+
+
+@dataclass(frozen=True)
+class Bars:
+    """The most that each measure may be, as in `crisp_measures.Found`."""
+
+    err: float  # of the largest error
+    err_99: float
+    cov: float
+    cov_99: float
+    gap: float  # in spacings
+    ball: float
+    rim: float
+    area: float
+
+
+def bars(case: Case) -> Bars:
+    """A mesh that is rounded to float32 is another solid: its faces are off by up to 6e-8 of its coordinates."""
+    rounded = 1e-6 if case.single else 1e-9
+    if case.name in EXACT:
+        rim = 0.02 if case.name == "wedge" else 0.001
+        return Bars(rounded, rounded, rounded, rounded, 1e2 * rounded, rounded, rim, 10 * rounded)
+    if case.name in SMOOTH:
+        return Bars(5e-4, 1e-4, 1e-4, 1e-4, 0.0, 1e-4, 0.01, 0.01)
+    return Bars(5e-4, 1e-4, 5e-4, 1e-4, 0.02, 1e-4, 0.005, 0.005)
+
+
+def broken(case: Case, found: crisp_measures.Found) -> list[str]:
+    bar = bars(case)
+    values = {
+        "err": (found.err.most, bar.err),
+        "err, 99 %": (found.err.p99, bar.err_99),
+        "cov": (found.cov.most, bar.cov),
+        "cov, 99 %": (found.cov.p99, bar.cov_99),
+        "gap": (found.gap.most if found.gap else 0.0, bar.gap),
+        "|r - d|, 99 %": (found.ball.p99, bar.ball),
+        "rim": (abs(found.rim - 1.0), bar.rim),
+        "area": (abs(found.area or 0.0), bar.area),
+        "folds": (found.folds, 0),
+    }
+    return [f"{name} {value:.3g} > {most:g}" for name, (value, most) in values.items() if value > most]
+
+
+CASES = [
+    pytest.param(
+        Case(name, count, seed, single),
+        marks=() if (count, seed, single) == (4_000, 0, False) else pytest.mark.slow,
+        id=str(Case(name, count, seed, single)),
+    )
+    for name in (*EXACT, *CURVED, *SMOOTH)
+    for count in ((4_000, 20_000) if name in EXACT else (20_000,))
+    for seed in range(3)
+    for single in (False, True)
+]
+
+
+@pytest.fixture
+def crisp():
+    if not crisp_runs.knows_crisp():
+        pytest.skip("the product has no setting 'crisp'")
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_bars(crisp, case):
+    plain, made = case.made(crisp=False), case.made(crisp=True)
+    found = made.measured()
+    assert not broken(case, found), found
+    relaxed = plain.output()
+    before = crossing_triangles.crossing_pairs(relaxed.vertices, relaxed.triangles)
+    assert found.crossings <= len(before)
+    wanted = crisp_solids.solid(case.name).betti
+    assert made.computation.axis.level.betti == plain.computation.axis.level.betti == wanted
+    assert found.betti == (wanted[0], wanted[0] - wanted[1] + wanted[2])
+
+
+def test_the_bars_can_fail():
+    """Without crisp places the axis of a box misses its edges."""
+    case = Case("box", 4000)
+    missed = broken(case, case.made(crisp=False).measured())
+    assert {word.split()[0].rstrip(",") for word in missed} >= {"err", "cov", "gap", "rim", "area"}
