@@ -60,19 +60,29 @@ Collapse peel(const InnerComplex& complex, const FacetWeights& weight, const Run
   return collapse;
 }
 
+// The thickness, in spacings, of sheets that lead into creases: the faces say that they are there,
+// so they are no noise of the samples, however blunt the crease. No threshold but infinity drops
+// them.
+constexpr float kCertain = std::numeric_limits<float>::max();
+
 // Returns the values by which facets are removed, and preliminary values of the vertices at them.
-Values values_of_facets(const InnerComplex& complex, const Collapse& collapse, const Sheets& sheets,
-                        const Burning& burning, std::span<const double> spacing, const Run& run) {
+Values values_of_facets(const InnerComplex& complex, const Collapse& collapse,
+                        const FacetWeights& weight, const Sheets& sheets, const Burning& burning,
+                        std::span<const double> spacing, const Run& run) {
   Array<float> by_share, by_spacing;
   {
     const auto shares = in_units(burning.thickness, run, [&](int64_t) { return complex.diagonal; });
     by_share = drop_values(complex, collapse, sheets, shares, run);
   }
   {
-    const auto spacings = in_units(burning.thickness, run, [&](int64_t f) {
+    auto spacings = in_units(burning.thickness, run, [&](int64_t f) {
       const auto& [p, q] = complex.generators[f];
       return 0.5 * (spacing[p] + spacing[q]);
     });
+    for (size_t f = 0; f < spacings.size(); ++f) {
+      const bool burns = spacings[f] > 0 && spacings[f] < HUGE_VALF;
+      if (burns && weight.leads_into_crease(complex.dual[f])) spacings[f] = kCertain;
+    }
     by_spacing = drop_values(complex, collapse, sheets, spacings, run);
   }
   return with_vertices(complex, joined(by_share, by_spacing, burning.erosion, run), run);
@@ -105,7 +115,7 @@ void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeigh
     release(run.arena);
     together([&] { wires = burn_wires(complex, burning, collapse, run); },
              [&] {
-               made.values = values_of_facets(complex, collapse, sheets, burning,
+               made.values = values_of_facets(complex, collapse, weight, sheets, burning,
                                               facets.significance.spacing, alone);
              });
     burning = {};

@@ -17,11 +17,13 @@ class FacetWeights {
 
   // Returns whether a Delaunay edge is selected.
   bool selected(int32_t edge) const {
-    if (!marks_.empty() && marks_[edge] != CreaseMark::none) {
-      return marks_[edge] == CreaseMark::into_crease;
-    }
+    if (!marks_.empty() && marks_[edge] != CreaseMark::none) return leads_into_crease(edge);
     std::vector<int32_t> none;  // the side `both` needs no ring
     return selection_.wants(edge, none);
+  }
+  // Returns whether the samples of a Delaunay edge lie on the two sides of a sharp convex edge.
+  bool leads_into_crease(int32_t edge) const {
+    return !marks_.empty() && marks_[edge] == CreaseMark::into_crease;
   }
   // Returns the larger one of theta / theta0 and rho / rho0, or only the one that the criteria use.
   double operator()(int32_t edge) const {
