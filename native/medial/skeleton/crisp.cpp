@@ -7,11 +7,11 @@
 namespace medial {
 namespace {
 
-// All lengths are in spacings of the samples.
+// All lengths are in holes between the samples, as in samples_on_faces.cpp.
 constexpr double kExact = 1e-10;      // the largest difference between a radius and the distance
-constexpr double kFarthestMove = 1.5;     // that a vertex moves
-constexpr double kNearCrease = 3;     // the largest ball of a rim that ends in a crease
-constexpr double kNearCorner = 1.5;   // from the end of a rim to a corner of the solid
+constexpr double kFarthestMove = 2;   // that a vertex moves to touch walls
+constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in a crease
+constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
 constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
 constexpr double kSameCrease = 0.85;  // the cosine between creases of one direction
 

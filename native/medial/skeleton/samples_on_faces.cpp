@@ -4,8 +4,10 @@
 namespace medial {
 namespace {
 
-constexpr double kOnCrease = 1e-6;  // the distance of a sample that lies on a crease, in spacings
-constexpr double kReach = 0.9;      // from where the tangent planes meet to a crease, in spacings
+// All lengths are in holes: the largest circumradius in the umbrella of a sample, about 0.6 of the
+// distance between samples of blue noise.
+constexpr double kOnCrease = 1e-6;  // from a sample that lies on a crease to that crease
+constexpr double kReach = 1.5;      // from where two tangent planes meet to a crease
 
 // Returns the point nearest to `at` in which two planes meet.
 Vec3 apex(const Vec3& p, const Vec3& n, const Vec3& q, const Vec3& m, const Vec3& at) {
@@ -25,24 +27,51 @@ SamplesOnFaces::SamplesOnFaces(const FacesInput& input, const Faces& faces, cons
       spacing_(spacing),
       most_alike_(std::cos(input.sharp_angle)),
       triangle_(samples.row.size(), -1),
-      normal_(samples.row.size()),
+      normals_(samples.row.size()),
       on_crease_(samples.row.size(), 0) {
   parallel_for(static_cast<int64_t>(triangle_.size()), run, [&](int64_t s) {
-    const Vec3& point = samples.points[s];
-    triangle_[s] = faces.triangle_of(input.face[samples.row[s]]);
-    if (triangle_[s] < 0) return;
-    const Foot foot = faces.foot_on(triangle_[s], point);
-    normal_[s] = faces.normal(triangle_[s], foot.at);
-    on_crease_[s] = creases_.nearer(point, kOnCrease * spacing[s]).has_value();
+    const int32_t triangle = faces.triangle_of(input.face[samples.row[s]]);
+    if (triangle >= 0) place(static_cast<int32_t>(s), triangle);
   });
+}
+
+void SamplesOnFaces::place(int32_t s, int32_t triangle) {
+  const Vec3& point = samples_.points[s];
+  triangle_[s] = triangle;
+  const Foot foot = faces_.foot_on(triangle, point);
+  normals_[s][0] = faces_.normal(triangle, foot.at);
+  on_crease_[s] = creases_.nearer(point, kOnCrease * spacing_[s]).has_value();
+  const double coordinates[3] = {foot.at.a, foot.at.b, foot.at.c};
+  for (int i = 0; i < 3; ++i) {
+    const int32_t e = faces_.edge_of(triangle, (i + 1) % 3);
+    const MeshEdge& edge = faces_.creases().edges[e];
+    if (coordinates[i] > kOnCrease || edge.crease != Crease::sharp || faces_.separates(e)) continue;
+    normals_[s][1] = faces_.mesh().normal[edge.triangles[edge.triangles[0] == triangle]];
+  }
 }
 
 std::optional<PlaceOnCrease> SamplesOnFaces::crease_between(const Edge& samples,
                                                             const Vec3& at) const {
   const auto& [p, q] = samples;
   if (creases_.empty() || triangle(p) < 0 || triangle(q) < 0) return {};
-  if (on_crease_[p] || on_crease_[q]) return {};
-  const Vec3 &n = normal_[p], &m = normal_[q], across = point(q) - point(p);
+  if (on_crease_[p] && on_crease_[q]) return {};
+  if (on_crease_[p] || on_crease_[q]) {
+    const int32_t s = on_crease_[p] ? p : q;
+    return creases_.nearer(point(s), kReach * spacing_[s]);
+  }
+  for (const Vec3& n : normals_[p]) {
+    for (const Vec3& m : normals_[q]) {
+      const auto found = crease_of_planes(samples, n, m, at);
+      if (found) return found;
+    }
+  }
+  return {};
+}
+
+std::optional<PlaceOnCrease> SamplesOnFaces::crease_of_planes(const Edge& samples, const Vec3& n,
+                                                              const Vec3& m, const Vec3& at) const {
+  const auto& [p, q] = samples;
+  const Vec3 across = point(q) - point(p);
   const bool convex = dot(across, n) < 0 && dot(across, m) > 0;
   if (!convex || !(dot(n, m) < most_alike_) || !(dot(n, m) > -1)) return {};
   const double reach = kReach * std::max(spacing_[p], spacing_[q]);

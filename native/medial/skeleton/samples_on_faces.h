@@ -29,18 +29,23 @@ class SamplesOnFaces {
   }
   bool is_on_crease(int32_t sample) const { return on_crease_[sample] != 0; }
   // Returns the place of the convex crease in which the tangent planes at two samples meet, as near
-  // to `at` as possible; nothing if they do not meet in one.
+  // to `at` as possible; nothing if they do not meet in one. If one sample is on a crease, it is
+  // the place of this sample.
   std::optional<PlaceOnCrease> crease_between(const Edge& samples, const Vec3& at) const;
   CreaseMark mark(const Edge& samples) const;
 
  private:
+  void place(int32_t sample, int32_t triangle);
+  std::optional<PlaceOnCrease> crease_of_planes(const Edge& samples, const Vec3& n, const Vec3& m,
+                                                const Vec3& at) const;
+
   const Faces& faces_;
   ConvexCreases creases_;
   const Samples& samples_;
   std::span<const double> spacing_;
   double most_alike_ = 0;  // the cosine of the sharp angle
   std::vector<int32_t> triangle_;
-  std::vector<Vec3> normal_;
+  std::vector<std::array<Vec3, 2>> normals_;  // on a reflex edge those of both sides; else one
   std::vector<uint8_t> on_crease_;
 };
 
