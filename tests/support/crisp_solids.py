@@ -64,6 +64,10 @@ class Solid:
         """(n,) to the exact axis, in first order."""
         raise NotImplementedError
 
+    def inward(self, x: Array) -> Array:
+        """(n, 3) unit normals of the face nearest to each point, into the solid."""
+        raise NotImplementedError
+
     def centres(self, count: int, seed: int = 0) -> Array:
         """(count, 3) centres of exact maximal balls that touch random points of the surface."""
         raise NotImplementedError
@@ -138,13 +142,20 @@ class Walled(Solid):
         vertices, triangles = self.mesh
         rng = np.random.default_rng(seed)
         near = distance.points_on_triangles(vertices[triangles], count, rng)
-        feet = [wall.feet(near) for wall in self.walls]
-        wall = np.argmin([np.linalg.norm(f.points - near, axis=1) for f in feet], axis=0)
-        rows = np.arange(count)
+        return self._feet(near)
+
+    def _feet(self, x: Array) -> tuple[Array, Array]:
+        """(n, 3) the nearest points of the exact faces and the normals into the solid there."""
+        feet = [wall.feet(x) for wall in self.walls]
+        wall = np.argmin([np.linalg.norm(f.points - x, axis=1) for f in feet], axis=0)
+        rows = np.arange(len(x))
         points, inward = (
             np.stack([getattr(f, name) for f in feet])[wall, rows] for name in ("points", "inward")
         )
         return points, inward
+
+    def inward(self, x: Array) -> Array:
+        return self._feet(x)[1]
 
 
 class _Contacts:
@@ -211,6 +222,9 @@ class Round(Solid):
 
     def off_axis(self, x: Array) -> Array:
         return self.shape.axis_distance(x)
+
+    def inward(self, x: Array) -> Array:
+        return -self.shape.normals(x)
 
     def centres(self, count: int, seed: int = 0) -> Array:
         """The normals meet the plane of the disc there."""
