@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The race on meshes: programs get the faces of solids, or as many samples of them as ours takes.
 
-    python3 -m lab.race.meshes [--shapes box wedge ...] [--samples 8000] [--page table.md]
+    python3 -m lab.race.meshes [--shapes box wedge ...] [--samples 8000] [--programs NAME ...] [--page table.md]
 
 The solids are those of `support.crisp_solids`, turned at random. What gets faces has the mesh itself, whose vertices
 are few; what gets points or normals has the samples of Sampling Surface, with normals of the exact faces.
@@ -87,17 +87,17 @@ def cells(found: dict[str, Any]) -> list[str]:
     return [*lengths, *ratios, numbers, str(found["faces"])]
 
 
-def programs(count: int) -> list[recipes.Recipe]:
-    """Ours with faces first; then all others that are on this machine."""
-    known = [*recipes.read(OURS), *recipes.read()]
+def programs(count: int, names: list[str] | None = None) -> list[recipes.Recipe]:
+    """Ours with faces first; then all others that are on this machine, or those that are named."""
+    known = [r for r in (*recipes.read(OURS), *recipes.read()) if names is None or r.name in names]
     return [recipe for recipe in known if not recipe.missing() and count <= recipe.largest]
 
 
-def table(name: str, count: int, limit: int) -> str:
+def table(name: str, count: int, limit: int, names: list[str] | None = None) -> str:
     with tempfile.TemporaryDirectory() as folder:
         inputs = Inputs(name, count, Path(folder))
         rows = []
-        for recipe in programs(count):
+        for recipe in programs(count, names):
             rows.append(row(recipe, inputs, count, limit))
             print(name, " | ".join(rows[-1]), file=sys.stderr, flush=True)
     return f"### {name}\n\n{product.markdown(HEADER, rows)}"
@@ -111,9 +111,11 @@ def main() -> None:
     parser.add_argument("--shapes", nargs="+", default=shapes, choices=crisp_solids.NAMES)
     parser.add_argument("--samples", type=int, default=8000)
     parser.add_argument("--limit", type=int, default=300, help="seconds that a program may take")
+    parser.add_argument("--programs", nargs="+", help="names of both lists; default: all")
     parser.add_argument("--page", type=Path, help="also write the tables to this file")
     options = parser.parse_args()
-    text = "\n".join(table(name, options.samples, options.limit) for name in options.shapes)
+    given = options.samples, options.limit, options.programs
+    text = "\n".join(table(name, *given) for name in options.shapes)
     print(text)
     if options.page:
         options.page.write_text(text, encoding="utf-8")

@@ -140,6 +140,7 @@ def test_exact_axis_of_the_box_has_no_error():
     assert found.err.most < 1e-15 and found.ball.most < 1e-15 and found.cov.most < 5e-13
     assert found.gap.most < 1e-13 and found.rim == pytest.approx(1.0, abs=1e-14)
     assert abs(found.area) < 1e-14 and found.folds == 0 and found.crossings == 0
+    assert not broken(Case("box", 4000), found)
 
 
 def test_a_moved_junction_is_noticed():
