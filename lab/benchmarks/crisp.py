@@ -19,7 +19,16 @@ medial = _module.load()
 from support import crisp_measures, crisp_runs, crisp_solids  # noqa: E402  (found through _module)
 
 HEADER = ["shape", "samples", "seed", "places", "facets", "err mean/99/max", "r-d mean/max"]
-HEADER += ["cov mean/99/max", "gap mean/max", "rim", "area - 1", "folds", "crossings", "pieces, Euler", "s"]
+HEADER += [
+    "cov mean/99/max",
+    "gap mean/max",
+    "rim",
+    "area - 1",
+    "folds",
+    "crossings",
+    "pieces, Euler",
+    "s",
+]
 
 
 def rows(case: crisp_runs.Case, crisp: bool) -> list[list[str]]:

@@ -4,7 +4,8 @@
     python3 -m lab.race
 
 `solids` says what is known, `read_axis` and `betti` read and count what a program wrote, `judge` scores it;
-`recipes.toml` lists the programs, `run` runs them, `compare` and `page` make docs/lab/benchmark.md.
+`recipes.toml` lists the programs, `run` runs them, `compare` and `page` make docs/lab/benchmark.md. `meshes` is the
+race on meshes, with the measures of `support.crisp_solids`.
 """
 
 import sys

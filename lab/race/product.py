@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the add-on of this checkout importable as `medial_axis`, and its compiled module as `load()`; and the module
-that is not shipped as `study()`."""
+"""Makes the add-on of this checkout importable as `medial_axis`, and its compiled module as `load()`.
+
+`study()` is the module that is not shipped, `markdown()` makes the tables of the benchmarks.
+"""
 
 import sys
 
@@ -10,5 +12,5 @@ sys.path.insert(0, str(ROOT / "lab" / "benchmarks"))
 
 import _module
 
-load, study = _module.load, _module.study
+load, study, markdown = _module.load, _module.study, _module.markdown
 load()

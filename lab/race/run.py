@@ -74,7 +74,7 @@ def run(recipe: Recipe, case: Case, inputs: Inputs, limit: int = 300, outer: boo
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder, recipe.output)
         words = recipe.words({**files, "output": output}, outer)
-        cost, said = _metered(words, Path(folder), limit)
+        cost, said = metered(words, Path(folder), limit)
         row |= {name: cost[name] for name in ("cpu", "wall", "bytes")}
         if cost["exit"] != 0 or not output.exists():
             why = "took too long" if cost["wall"] >= limit else f"exit code {cost['exit']}"
@@ -86,7 +86,7 @@ def run(recipe: Recipe, case: Case, inputs: Inputs, limit: int = 300, outer: boo
             return row | {"failed": str(error)}
 
 
-def _metered(words: list[str], folder: Path, limit: int) -> tuple[dict[str, Any], str]:
+def metered(words: list[str], folder: Path, limit: int) -> tuple[dict[str, Any], str]:
     result = folder / "meter.json"
     paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
     meter = [sys.executable, "-S", str(Path(__file__).with_name("meter.py")), result, str(limit)]

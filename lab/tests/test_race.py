@@ -629,3 +629,40 @@ def test_the_commands_of_the_page(tmp_path):
     python("lab.race.rivals", "lambda", samples, axis, "radius=0.05")
     told = json.loads(python("lab.race.judge", "torus", axis, "--samples", 200))
     assert told["faces"] > 0 and 0 < told["mean"] < 0.4
+
+
+# --- meshes
+
+
+def test_the_exact_axis_of_a_box_scores_nothing():
+    """Its sheets as triangles, with the rounding by which their common corners differ rounded off."""
+    from lab.race import meshes
+
+    solid = meshes.crisp_solids.solid("box")
+    triangles = np.round(solids.SOLIDS["box"].shape.axis_triangles(), 14)
+    found = complex_of(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+    inputs = meshes.Inputs.__new__(meshes.Inputs)
+    inputs.solid, inputs.frame, inputs.samples = solid, np.eye(3), 4000
+    score = meshes.score(inputs, found)
+    assert max(*score["off"], *score["missed"], score["gap"]) < 1e-12
+    assert score["area"] == pytest.approx(1.0) and score["betti"] == (1, 0, 0)
+
+
+def test_the_race_on_meshes(tmp_path):
+    import subprocess
+
+    words = [
+        "--shapes",
+        "box",
+        "--samples",
+        "400",
+        "--programs",
+        "ours, clean, faces",
+        "poles alone",
+    ]
+    page = tmp_path / "page.md"
+    command = [sys.executable, "-m", "lab.race.meshes", *words, "--page", str(page)]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    rows = [line.split("|") for line in page.read_text().splitlines() if line.startswith("| ")]
+    assert [row[1].strip() for row in rows[2:]] == ["ours, clean, faces", "poles alone"]
+    assert 0 < float(rows[2][3]) < 0.01 and "failed" not in page.read_text()

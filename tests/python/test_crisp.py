@@ -10,7 +10,14 @@ from functools import cache
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from support import crisp_measures, crisp_runs, crisp_solids, crossing_triangles, crossings, topology
+from support import (
+    crisp_measures,
+    crisp_runs,
+    crisp_solids,
+    crossing_triangles,
+    crossings,
+    topology,
+)
 from support.crisp_measures import Output
 from support.crisp_runs import Case
 
@@ -44,17 +51,19 @@ def test_convex_edges_are_on_the_axis(name):
     assert solid.off_axis(solid.edges).max() < 1e-14
 
 
+@pytest.mark.oracle
 @pytest.mark.parametrize("name", NAMES)
 def test_distance_to_the_axis_is_that_to_its_nearest_point(name):
-    """Among 200,000 points of it. Beside an edge that is nearly flat, a point that is far off may read more."""
+    """Its nearest of 40,000 points, about 0.02 apart. Beside blunt edges, a point that is far off may read more."""
     solid = crisp_solids.solid(name)
-    truth = cKDTree(np.concatenate((solid.centres(200_000, 1), solid.edges)))
+    truth = cKDTree(np.concatenate((solid.centres(40_000, 1), solid.edges)))
     near = solid.centres(2000, 2) + 0.03 * np.random.default_rng(3).normal(size=(2000, 3))
     near = near[crossings.inside(near, *solid.mesh)]
     wanted, found = truth.query(near)[0], solid.off_axis(near)
     assert np.all(found < 3.2 * wanted + 1e-3) and np.mean(found < 1.1 * wanted + 1e-3) > 0.99
-    assert np.all(found > 0.5 * wanted - 0.005)
-    assert np.median(found / wanted) == pytest.approx(1.0, abs=0.03)
+    assert np.all(found > 0.8 * wanted - 0.03)
+    far = wanted > 0.05
+    assert far.sum() > 20 and np.median(found[far] / wanted[far]) == pytest.approx(1.0, abs=0.1)
 
 
 def test_a_shared_foot_is_one_contact():
@@ -84,7 +93,7 @@ def axis_of_box() -> Output:
     for axis in range(3):
         for corner in (k for k in corners if k[axis] < 0):
             other = tuple(-x if i == axis else x for i, x in enumerate(corner))
-            inner = [rows[tuple(np.sign(p[:2]) * (a - c, b - c)) + (0.0,)] for p in (other, corner)]
+            inner = [rows[(*(np.sign(p[:2]) * (a - c, b - c)), 0.0)] for p in (other, corner)]
             polygons.append(list(dict.fromkeys([rows[corner], rows[other], *inner])))
             signs = np.sign(corner) * [i != axis for i in range(3)]
             first, second = np.flatnonzero(signs)
@@ -131,6 +140,7 @@ def test_exact_axis_of_the_box_has_no_error():
     assert found.err.most < 1e-15 and found.ball.most < 1e-15 and found.cov.most < 5e-13
     assert found.gap.most < 1e-13 and found.rim == pytest.approx(1.0, abs=1e-14)
     assert abs(found.area) < 1e-14 and found.folds == 0 and found.crossings == 0
+    assert not broken(Case("box", 4000), found)
 
 
 def test_a_moved_junction_is_noticed():
@@ -187,7 +197,9 @@ def test_a_concave_polygon_is_folded():
 @pytest.mark.parametrize("noise", [0.0, 1e-15])
 def test_straight_corners_and_short_edges_are_no_folds(noise):
     x = np.array([(0, 0), (0.5, 0), (1, 0), (1, 1e-13), (1, 1), (0, 1)])
-    vertices = np.column_stack((x, np.zeros(6))) + noise * np.random.default_rng(0).normal(size=(6, 3))
+    vertices = np.column_stack((x, np.zeros(6))) + noise * np.random.default_rng(0).normal(
+        size=(6, 3)
+    )
     assert not crisp_measures.folded(output_of(vertices, [list(range(6))], np.array([[0, 0, 1.0]])))
 
 
@@ -207,7 +219,9 @@ def test_wires_and_single_vertices_are_output():
     )
     assert len(thin.cells()) == 1 + 11
     x = np.array([[0.0, 0.0, 0.0], [0.0, 0.1, 0.02]])
-    assert crisp_measures.distance.to_triangles(x, thin.cells()) == pytest.approx([0, 0.02], abs=1e-15)
+    assert crisp_measures.distance.to_triangles(x, thin.cells()) == pytest.approx(
+        [0, 0.02], abs=1e-15
+    )
 
 
 # --- crossing triangles
@@ -245,7 +259,9 @@ def test_crossing_pairs_are_those_of_all_pairs(seed):
     points[triangles[:, 1:]] = points[triangles[:, :1]] + 0.3 * rng.normal(size=(50, 2, 3))
     triangles = np.concatenate((triangles, triangles[:, [1, 2, 0]]))  # twins are no crossings
     found = crossing_triangles.crossing_pairs(points, triangles)
-    assert len(found) > 40 and found.tolist() == [list(p) for p in brute_crossings(points, triangles)]
+    assert len(found) > 40 and found.tolist() == [
+        list(p) for p in brute_crossings(points, triangles)
+    ]
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -253,7 +269,8 @@ def test_coplanar_neighbours_do_not_cross(seed):
     """Triangles of one turned plane whose common corners are different vertices, up to rounding."""
     x, y = np.meshgrid(np.arange(20.0), np.arange(20.0), indexing="ij")
     a = np.column_stack((x.ravel(), y.ravel(), np.zeros(400)))
-    corners = [[a, a + (1, 0, 0), a + (1, 1, 0)], [a, a + (1, 1, 0), a + (0, 1, 0)]]
+    right, up = np.eye(3)[:2]
+    corners = [[a, a + right, a + right + up], [a, a + right + up, a + up]]
     soup = np.concatenate([np.stack(c, axis=1) for c in corners]).reshape(-1, 3)
     soup = soup @ crisp_solids.inputs.rotation(seed).T / 3
     triangles = np.arange(len(soup)).reshape(-1, 3)
@@ -316,7 +333,9 @@ def broken(case: Case, found: crisp_measures.Found) -> list[str]:
         "area": (abs(found.area or 0.0), bar.area),
         "folds": (found.folds, 0),
     }
-    return [f"{name} {value:.3g} > {most:g}" for name, (value, most) in values.items() if value > most]
+    return [
+        f"{name} {value:.3g} > {most:g}" for name, (value, most) in values.items() if value > most
+    ]
 
 
 CASES = [

@@ -161,7 +161,7 @@ def folded(output: Output) -> NDArray[np.bool_]:
 
 
 def output_of(computation: Any, frame: Array, exact: bool = False) -> Output:
-    """The axis of a `Computation`, back in the frame of the solid; with the places of the Voronoi diagram if `exact`."""
+    """The axis of a `Computation`, back in the frame of the solid; if `exact`, at the places of the Voronoi diagram."""
     from medial_axis.core.axis.polygon_triangles import polygon_triangles
 
     axis, points = computation.axis, computation.chosen.samples.points

@@ -21,6 +21,7 @@ from .walls import Arc, Array, Curve, Segment, Wall, circle, polygon
 
 TINY = 1e-12  # of the diagonal: what rounding of a few operations stays below
 NEAR = 1e-9  # of the diagonal: feet so close are one
+SAME = 1e-6  # directions so close are one
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +64,10 @@ class Solid:
         """(n,) to the exact axis, in first order."""
         raise NotImplementedError
 
+    def inward(self, x: Array) -> Array:
+        """(n, 3) unit normals of the face nearest to each point, into the solid."""
+        raise NotImplementedError
+
     def centres(self, count: int, seed: int = 0) -> Array:
         """(count, 3) centres of exact maximal balls that touch random points of the surface."""
         raise NotImplementedError
@@ -70,9 +75,17 @@ class Solid:
 
 @dataclass(frozen=True, eq=False)
 class Walled(Solid):
-    """A solid between walls."""
+    """A solid between walls.
+
+    Parameters
+    ----------
+    walls : tuple of Wall
+    reflex : tuple
+        Both ends of each straight reflex edge, and the normals into the solid of its two faces, each (3,).
+    """
 
     walls: tuple[Wall, ...]
+    reflex: tuple[tuple[Array, Array, Array, Array], ...] = ()
 
     def distance(self, x: Array) -> Array:
         return np.min([np.linalg.norm(x - w.feet(x).points, axis=1) for w in self.walls], axis=0)
@@ -100,8 +113,13 @@ class Walled(Solid):
         return found
 
     def centres(self, count: int, seed: int = 0) -> Array:
-        """By bisection along the normal: the ball that touches a point grows until it is no longer empty."""
-        points, inward = self._surface_points(count, seed)
+        """By bisection along the normal: the ball that touches a point grows until it is no longer empty.
+
+        A twentieth of the points are on each reflex edge, with directions between those of its faces.
+        """
+        on_edges = [self._edge_points(edge, count // 20, seed) for edge in self.reflex]
+        on_faces = self._surface_points(count - len(on_edges) * (count // 20), seed)
+        points, inward = map(np.concatenate, zip(on_faces, *on_edges))
         low, high = np.zeros(count), np.full(count, self.diagonal)
         for _ in range(50):
             middle = 0.5 * (low + high)
@@ -110,18 +128,34 @@ class Walled(Solid):
             low, high = np.where(empty, middle, low), np.where(empty, high, middle)
         return points + low[:, None] * inward
 
+    @staticmethod
+    def _edge_points(edge: tuple[Array, ...], count: int, seed: int) -> tuple[Array, Array]:
+        """(count, 3) points of a reflex edge and directions between the normals of its faces."""
+        start, end, first, second = edge
+        t, turn = np.random.default_rng((seed, 1)).random((2, count, 1))
+        angle = np.arccos(first @ second)
+        inward = np.sin((1 - turn) * angle) * first + np.sin(turn * angle) * second
+        return start + t * (end - start), inward / np.sin(angle)
+
     def _surface_points(self, count: int, seed: int) -> tuple[Array, Array]:
         """(count, 3) points of the exact faces and the normals into the solid."""
         vertices, triangles = self.mesh
         rng = np.random.default_rng(seed)
         near = distance.points_on_triangles(vertices[triangles], count, rng)
-        feet = [wall.feet(near) for wall in self.walls]
-        wall = np.argmin([np.linalg.norm(f.points - near, axis=1) for f in feet], axis=0)
-        rows = np.arange(count)
+        return self._feet(near)
+
+    def _feet(self, x: Array) -> tuple[Array, Array]:
+        """(n, 3) the nearest points of the exact faces and the normals into the solid there."""
+        feet = [wall.feet(x) for wall in self.walls]
+        wall = np.argmin([np.linalg.norm(f.points - x, axis=1) for f in feet], axis=0)
+        rows = np.arange(len(x))
         points, inward = (
             np.stack([getattr(f, name) for f in feet])[wall, rows] for name in ("points", "inward")
         )
         return points, inward
+
+    def inward(self, x: Array) -> Array:
+        return self._feet(x)[1]
 
 
 class _Contacts:
@@ -139,36 +173,42 @@ class _Contacts:
         beside = self.clipped & (self.distance > 1e-3 * self.near)
         size = np.where(beside, self.distance, 1.0)[:, :, None]
         self.gradient = np.where(beside[:, :, None], away / size, self.inward)
-        self.stand = self._stand()
+        self.stand, self.at_edge = self._look_round()
 
     def off_bisectors(self) -> Array:
         """(n,) Feet from which one sees the point in one direction are one contact."""
         rows = np.arange(self.points.shape[1])
         first, least = self.gradient[self.nearest, rows], self.distance[self.nearest, rows]
         apart = np.linalg.norm(self.gradient - first, axis=2)
-        other = self.stand & (apart > 1e-6)
+        other = self.stand & (apart > SAME)
         off = (self.distance - least) / np.where(other, apart, 1.0)
         return np.where(other, off, np.inf).min(axis=0)
 
     def off_edges(self) -> Array:
-        """(n,) to the convex edge whose wall is best seen past it, or, from outside, to the nearest border."""
+        """(n,) to a convex edge, of points in front of a wall and beyond its border, and of points outside."""
         rows = np.arange(self.points.shape[1])
         height = np.einsum("wij,wij->wi", self.inward, self.x - self.points)
         outside = height[self.nearest, rows] < 0.0
-        seen = self.clipped & (outside | (~self.stand & (height > 0.0)))
+        seen = self.at_edge & (outside | (height > 0.0)) | (self.clipped & outside)
         return np.where(seen, self.distance, np.inf).min(axis=0)
 
-    def _stand(self) -> NDArray[np.bool_]:
-        """(w, n) False where a foot lies on another wall which has a nearer one: the surface comes closer there."""
-        stand = np.ones(self.clipped.shape, bool)
+    def _look_round(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """(w, n) each: the surface comes no closer beside the foot; it does, on a wall of another direction.
+
+        Only feet on borders are asked: whether they lie on another wall, too, which has a nearer foot.
+        """
+        stand, at_edge = np.ones(self.clipped.shape, bool), np.zeros(self.clipped.shape, bool)
         for wall, clipped in enumerate(self.clipped):
             rows = np.flatnonzero(clipped)
-            foot = self.points[wall, rows]
+            foot, inward = self.points[wall, rows], self.inward[wall, rows]
             for other, surface in enumerate(self.walls):
-                on_it = np.linalg.norm(surface.feet(foot).points - foot, axis=1) <= self.near
-                moved = np.linalg.norm(self.points[other, rows] - foot, axis=1) > self.near
-                stand[wall, rows] &= ~(on_it & moved)
-        return stand
+                there = surface.feet(foot)
+                closer = np.linalg.norm(there.points - foot, axis=1) <= self.near
+                closer &= np.linalg.norm(self.points[other, rows] - foot, axis=1) > self.near
+                stand[wall, rows] &= ~closer
+                bent = np.linalg.norm(there.inward - inward, axis=1) > SAME
+                at_edge[wall, rows] |= closer & bent
+        return stand, at_edge
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,6 +222,9 @@ class Round(Solid):
 
     def off_axis(self, x: Array) -> Array:
         return self.shape.axis_distance(x)
+
+    def inward(self, x: Array) -> Array:
+        return -self.shape.normals(x)
 
     def centres(self, count: int, seed: int = 0) -> Array:
         """The normals meet the plane of the disc there."""
@@ -221,7 +264,16 @@ def prism(
         area,
         (1, handles, 0),
         walls.of_prism(loops, half),
+        tuple(_reflex_edge(loops[0], row, half) for row in reflex),
     )
+
+
+def _reflex_edge(loop: Sequence[Curve], row: int, half: float) -> tuple[Array, ...]:
+    """The upright edge at the start of a segment, with the normals of both faces; of `Walled.reflex`."""
+    at = np.array([loop[row].start])
+    normals = [np.append(side.feet(at).inward[0], 0.0) for side in (loop[row - 1], loop[row])]
+    ends = [np.append(at[0], z) for z in (-half, half)]
+    return (*ends, *normals)
 
 
 def _edges(
@@ -414,9 +466,7 @@ def _ellipsoid(name: str) -> Round:
     turn = np.linspace(0.0, 2 * np.pi, 200_001)
     curve = np.column_stack((p * np.cos(turn), q * np.sin(turn)))
     rim = float(np.linalg.norm(np.diff(curve, axis=0), axis=1).sum())
-    return Round(
-        MESHED[name][1], np.empty((0, 3)), rim, float(np.pi * p * q), shape.betti, shape
-    )
+    return Round(MESHED[name][1], np.empty((0, 3)), rim, float(np.pi * p * q), shape.betti, shape)
 
 
 _MAKERS: dict[str, Callable[[], Solid]] = {

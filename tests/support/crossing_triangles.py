@@ -35,7 +35,9 @@ def _close_pairs(corners: Array):
     owner = np.repeat(np.arange(len(corners)), count.prod(axis=1))
     rank = _ranks(count.prod(axis=1))
     of = count[owner]
-    steps = np.column_stack((rank // (of[:, 1] * of[:, 2]), rank // of[:, 2] % of[:, 1], rank % of[:, 2]))
+    steps = np.column_stack(
+        (rank // (of[:, 1] * of[:, 2]), rank // of[:, 2] % of[:, 1], rank % of[:, 2])
+    )
     cell = first[owner] + steps
     _, cell = np.unique(cell, axis=0, return_inverse=True)
     order = np.argsort(cell.reshape(-1), kind="stable")

@@ -86,7 +86,9 @@ class Arc:
     def feet(self, u: Array) -> Feet:
         out = u - self.centre
         size = np.linalg.norm(out, axis=1)
-        out = np.where(size[:, None] > 0, out / np.where(size > 0, size, 1.0)[:, None], self._middle)
+        out = np.where(
+            size[:, None] > 0, out / np.where(size > 0, size, 1.0)[:, None], self._middle
+        )
         turn = np.sign(self.sweep) * (np.arctan2(out[:, 1], out[:, 0]) - self.start)
         beyond = np.mod(turn, 2 * np.pi) > abs(self.sweep)
         if beyond.any() and not self.whole:

@@ -134,13 +134,13 @@ class Lathe(Shape):
 
     @cached_property
     def axis_area(self) -> float:
-        """Of the cones and discs that the segments of the profile's axis become."""
+        """The area of the cones and discs that the segments of the profile's axis become."""
         lengths, radii = _lengths(self.axis_segments), self.axis_segments[:, :, 0].sum(axis=1)
         return float(np.pi * (radii * lengths).sum())
 
     @cached_property
     def axis_length(self) -> float:
-        """Of the segments that lie on the z axis, and stay curves."""
+        """The length of the segments that lie on the z axis, and stay curves."""
         radii = self.axis_segments[:, :, 0].sum(axis=1)
         return float(_lengths(self.axis_segments)[radii < 1e-12].sum())
 

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The race on meshes: programs get the faces of solids, or as many samples of them as ours takes.
+
+    python3 -m lab.race.meshes [--shapes box wedge ...] [--samples 8000] [--programs NAME ...] [--page table.md]
+
+The solids are those of `support.crisp_solids`, turned at random. What gets faces has the mesh itself, whose vertices
+are few; what gets points or normals has the samples of Sampling Surface, with normals of the exact faces.
+`meshes.toml` lists ours, `recipes.toml` the others. Distances are in shares of the diagonal, the gap of convex edges
+in spacings; the area is that of the output over the exact one.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from support import crisp_runs, crisp_solids, distance, meshes
+
+from . import judge, product, read_axis, recipes
+from .betti import betti
+from .run import metered
+
+HEADER = ["program", "gets", "off mean", "off largest", "missed mean", "missed largest"]
+HEADER += ["gap mean", "area", "Betti", "faces"]
+OURS = Path(__file__).parent / "meshes.toml"
+POINTS = 8000  # drawn from the output
+BALLS = 5000  # of the exact axis
+
+
+class Inputs:
+    """Files of one solid in a folder: its mesh, and samples of it with normals."""
+
+    def __init__(self, name: str, count: int, folder: Path) -> None:
+        self.solid = crisp_solids.solid(name)
+        made = crisp_runs.Case(name, count).made(crisp=False)
+        self.frame, points = made.frame, made.computation.chosen.samples.points
+        self.samples = len(points)
+        normals = -self.solid.inward(points @ self.frame) @ self.frame.T
+        self.files = {name: folder / f"{name}.{end}" for name, end in _ENDS.items()}
+        mesh, _ = crisp_solids.turned(self.solid.mesh, 0)
+        meshes.write_off(self.files["mesh"], mesh)
+        np.savetxt(self.files["points"], points, fmt="%.17g")
+        np.savetxt(self.files["oriented"], np.hstack((points, normals)), fmt="%.17g")
+
+
+_ENDS = {"mesh": "off", "points": "xyz", "oriented": "xyzn"}
+
+
+def row(recipe: recipes.Recipe, inputs: Inputs, count: int, limit: int) -> list[str]:
+    head = [recipe.name, "faces" if recipe.gets == "mesh" else recipe.gets]
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder, recipe.output)
+        words = recipe.words({**inputs.files, "output": output, "count": count})
+        cost, said = metered(words, Path(folder), limit)
+        if cost["exit"] != 0 or not output.exists():
+            print(recipe.name, said[-300:], file=sys.stderr)
+            return [*head, "failed", *[""] * (len(HEADER) - 3)]
+        return [*head, *cells(score(inputs, read_axis.read(output)))]
+
+
+def score(inputs: Inputs, found: read_axis.Complex) -> dict[str, Any]:
+    solid, spacing = inputs.solid, inputs.solid.spacing(inputs.samples)
+    off = solid.off_axis(judge.points_of(found, spacing, POINTS) @ inputs.frame)
+    corners = solid.off_axis(found.vertices @ inputs.frame)
+    pieces = judge.simplices_of(found) @ inputs.frame
+    missed = distance.to_triangles(solid.centres(BALLS), pieces)
+    gap = distance.to_triangles(solid.edges, pieces).mean() / spacing if len(solid.edges) else None
+    area = judge.areas(judge.triangles_of(found)).sum()
+    return {
+        "off": (off.mean() / solid.diagonal, max(off.max(), corners.max()) / solid.diagonal),
+        "missed": (missed.mean() / solid.diagonal, missed.max() / solid.diagonal),
+        "gap": gap,
+        "area": None if solid.area is None else area / solid.area,
+        "betti": betti(found),
+        "faces": found.faces,
+    }
+
+
+def cells(found: dict[str, Any]) -> list[str]:
+    lengths = [f"{x:.1e}" for x in (*found["off"], *found["missed"])]
+    ratios = ["" if x is None else f"{x:.3g}" for x in (found["gap"], found["area"])]
+    numbers = "" if found["betti"] is None else ", ".join(map(str, found["betti"]))
+    return [*lengths, *ratios, numbers, str(found["faces"])]
+
+
+def programs(count: int, names: list[str] | None = None) -> list[recipes.Recipe]:
+    """Ours with faces first; then all others that are on this machine, or those that are named."""
+    known = [r for r in (*recipes.read(OURS), *recipes.read()) if names is None or r.name in names]
+    return [recipe for recipe in known if not recipe.missing() and count <= recipe.largest]
+
+
+def table(name: str, count: int, limit: int, names: list[str] | None = None) -> str:
+    with tempfile.TemporaryDirectory() as folder:
+        inputs = Inputs(name, count, Path(folder))
+        rows = []
+        for recipe in programs(count, names):
+            rows.append(row(recipe, inputs, count, limit))
+            print(name, " | ".join(rows[-1]), file=sys.stderr, flush=True)
+    return f"### {name}\n\n{product.markdown(HEADER, rows)}"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    shapes = ["box", "wedge", "blunt", "bracket", "cylinder", "plate", "ellipsoid"]
+    parser.add_argument("--shapes", nargs="+", default=shapes, choices=crisp_solids.NAMES)
+    parser.add_argument("--samples", type=int, default=8000)
+    parser.add_argument("--limit", type=int, default=300, help="seconds that a program may take")
+    parser.add_argument("--programs", nargs="+", help="names of both lists; default: all")
+    parser.add_argument("--page", type=Path, help="also write the tables to this file")
+    options = parser.parse_args()
+    given = options.samples, options.limit, options.programs
+    text = "\n".join(table(name, *given) for name in options.shapes)
+    print(text)
+    if options.page:
+        options.page.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
