@@ -80,7 +80,7 @@ TouchingBall touching_ball(const Faces& faces, std::span<int32_t> walls, const V
   }
   double least = HUGE_VAL;
   for (size_t i = 0; i < feet.count; ++i) least = std::min(least, feet.foot[i].distance);
-  return {centre, least, inequality(feet)};
+  return {centre, least, inequality(feet), feet.away};
 }
 
 }  // namespace medial

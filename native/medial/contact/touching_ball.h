@@ -13,6 +13,7 @@ struct TouchingBall {
   Vec3 centre;
   double radius = 0;
   double unequal = HUGE_VAL;  // the largest difference of the distances to the walls
+  std::array<Vec3, kMostContacts> away{};  // the unit directions from the feet to the centre
 };
 
 // Moves a centre by the shortest way to where it is equally far from some walls, each named by a

@@ -2,6 +2,7 @@
 #include "skeleton/crisp.h"
 
 #include "base/atomic.h"
+#include "base/flat_polygon.h"
 #include "contact/touching_ball.h"
 
 namespace medial {
@@ -13,6 +14,13 @@ constexpr double kFarthestMove = 2;   // that a vertex moves to touch walls
 constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in a crease
 constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
 constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
+constexpr int kRounds = 12;           // of steps that unfold facets
+// A smooth rim is looked for where a ball touches two places that are seen under less than 84
+// degrees.
+constexpr double kMostOpen = 0.45;   // the squared sine of half the angle
+constexpr double kFarOut = 0.8;      // of the way to the rim that balls are tried on
+constexpr double kFarthestRim = 12;  // from the last vertex to the rim
+constexpr int kRimSteps = 8;
 constexpr double kSameCrease = 0.85;  // the cosine between creases of one direction
 
 // Holds the walls that a ball touches, by triangles of the mesh.
@@ -44,6 +52,7 @@ class CrispMaker {
     made_.position = {complex_.position.begin(), complex_.position.end()};
     made_.radius = {complex_.radius.begin(), complex_.radius.end()};
     made_.place = Array<Placing>(complex_.cell.size(), Placing::voronoi);
+    walls_ = array<Walls>(complex_.cell.size(), Walls{}, run_);
     parallel_for(
         complex_.vertices(), run_,
         [&](int64_t v) {
@@ -51,6 +60,7 @@ class CrispMaker {
         },
         256);
     reach_corners();
+    unfold();
     return std::move(made_);
   }
 
@@ -61,22 +71,23 @@ class CrispMaker {
 
   // Lists the facets of K1 at each vertex, and counts those at each edge.
   void find_facets(std::span<const Thickness> facets) {
+    for (int32_t f = 0; f < complex_.facets(); ++f) {
+      if (in_k1(facets[f])) facets_.push_back(f);
+    }
     facets_at_.offsets = array<int64_t>(complex_.cell.size() + 1, 0, run_);
     edge_uses_ = array<uint8_t>(complex_.ends.size(), 0, run_);
-    for_corners(facets, [&](int32_t, const Corner& c) {
+    for_corners([&](int32_t, const Corner& c) {
       ++facets_at_.offsets[c.vertex];
-      if (edge_uses_[c.edge] < 2) ++edge_uses_[c.edge];
+      if (edge_uses_[c.edge] < 3) ++edge_uses_[c.edge];
     });
     counts_to_offsets(facets_at_.offsets);
     facets_at_.items = array<int32_t>(static_cast<size_t>(facets_at_.offsets.back()), run_);
     std::vector<int64_t> next(facets_at_.offsets.begin(), facets_at_.offsets.end());
-    for_corners(facets,
-                [&](int32_t f, const Corner& c) { facets_at_.items[next[c.vertex]++] = f; });
+    for_corners([&](int32_t f, const Corner& c) { facets_at_.items[next[c.vertex]++] = f; });
   }
   template <typename Found>
-  void for_corners(std::span<const Thickness> facets, const Found& found) const {
-    for (int32_t f = 0; f < complex_.facets(); ++f) {
-      if (!in_k1(facets[f])) continue;
+  void for_corners(const Found& found) const {
+    for (const int32_t f : facets_) {
       for (const Corner& c : complex_.ring(f)) found(f, c);
     }
   }
@@ -113,10 +124,13 @@ class CrispMaker {
 
   void place(int32_t v) {
     if (on_rim_[v] && onto_crease(v)) return;
-    Walls walls = walls_at(v);
+    const Walls walls = walls_at(v);
     if (walls.count < 2) return;
-    made_.place[v] = Placing::refused;
-    touch(v, walls);
+    const Touch found = touch(v, walls, complex_.position[v]);
+    made_.place[v] = found.radius > 0 ? Placing::touching : Placing::refused;
+    if (!(found.radius > 0)) return;
+    take(v, found);
+    if (on_rim_[v] && found.walls.count == 2) onto_rim(v, found);
   }
 
   double spacing_at(int32_t v) const {
@@ -296,24 +310,164 @@ class CrispMaker {
     return walls;
   }
 
-  // Moves a vertex to the ball that touches its walls. A wall that the ball sticks out of is added.
-  void touch(int32_t v, Walls walls) {
+  struct Touch {
+    Vec3 position;
+    double radius = 0;  // 0: there is no empty ball that touches the walls
+    Walls walls;
+    std::array<Vec3, kMostContacts> away{};  // unit directions from the feet
+  };
+
+  void take(int32_t v, const Touch& found) {
+    made_.position[v] = found.position;
+    made_.radius[v] = found.radius;
+    walls_[v] = found.walls;
+  }
+
+  // Moves a vertex of a smooth rim outward to where the two feet become one: there the openness is
+  // 0. It falls linearly towards the rim; the line is fitted to several balls on the way, because
+  // the curvature of curved triangles jumps from one to the next.
+  void onto_rim(int32_t v, Touch inner) {
+    const double first = openness(inner.away);
+    if (!(first < kMostOpen)) return;
+    const double spacing = spacing_at(v);
+    const Vec3 outward = -normalized(inner.away[0] + inner.away[1]);
+    double reach = distance_to_rim(inner, 0.25 * spacing * outward, 1);
+    for (int i = 0; i < 3; ++i) {
+      if (!(reach < kFarthestRim * spacing)) return;
+      reach = distance_to_rim(inner, (kFarOut * reach / kRimSteps) * outward, kRimSteps);
+    }
+    if (reach < kFarthestRim * spacing) end_on_rim(v, inner.position + reach * outward);
+  }
+
+  // Returns how far the openness of the balls after some steps lets the rim be; infinite if it does
+  // not fall.
+  double distance_to_rim(const Touch& inner, const Vec3& step, int steps) const {
+    Walls walls = inner.walls;
+    Vec3 position = inner.position;
+    const double first = openness(inner.away);
+    double products = 0, squares = 0;
+    for (int i = 0; i < steps; ++i) {
+      const TouchingBall ball = touching_ball(samples_.faces(), walls.all(), position + step);
+      position = ball.centre;
+      const double along = distance(position, inner.position);
+      products += along * (first - openness(ball.away));
+      squares += along * along;
+    }
+    return products > 0 ? first * squares / products : HUGE_VAL;
+  }
+
+  // Returns the squared sine of half the angle between the directions to the first two feet.
+  static double openness(const std::array<Vec3, kMostContacts>& away) {
+    return 0.5 * (1 - dot(away[0], away[1]));
+  }
+
+  void end_on_rim(int32_t v, const Vec3& position) {
+    const auto foot = samples_.faces().nearer(position, HUGE_VAL);
+    made_.position[v] = position;
+    made_.radius[v] = foot->distance;
+    made_.place[v] = Placing::rim;
+  }
+
+  // Finds the ball that touches some walls near a place. A wall that it sticks out of is added.
+  Touch touch(int32_t v, Walls walls, Vec3 start) const {
     const double spacing = spacing_at(v), tolerance = kExact * spacing;
-    Vec3 start = complex_.position[v];
     for (int i = 0; i < kMoreWalls; ++i) {
       const TouchingBall ball = touching_ball(samples_.faces(), walls.all(), start);
-      if (!(ball.unequal <= tolerance)) return;
-      if (!(distance(ball.centre, complex_.position[v]) <= kFarthestMove * spacing)) return;
+      if (!(ball.unequal <= tolerance)) return {};
+      if (!(distance(ball.centre, complex_.position[v]) <= kFarthestMove * spacing)) return {};
       const auto nearer = samples_.faces().nearer(ball.centre, ball.radius - tolerance);
-      if (!nearer) {
-        made_.position[v] = ball.centre;
-        made_.radius[v] = ball.radius;
-        made_.place[v] = Placing::touching;
-        return;
-      }
-      if (!walls.add(nearer->triangle)) return;
+      if (!nearer) return {ball.centre, ball.radius, walls, ball.away};
+      if (!walls.add(nearer->triangle)) break;
       start = ball.centre;
     }
+    return {};
+  }
+
+  // --- folds
+
+  // Facets fold where places that nearly coincide changed their order. Their vertices take steps
+  // towards the middle of their neighbours, along the seam or crease that they are on.
+  void unfold() {
+    for (int round = 0; round < kRounds; ++round) {
+      throw_if_cancelled(run_.progress);
+      const std::vector<int32_t> vertices = folded_vertices();
+      if (vertices.empty()) return;
+      std::vector<Touch> found(vertices.size());
+      parallel_for(
+          static_cast<int64_t>(vertices.size()), run_,
+          [&](int64_t i) { found[i] = step_of(vertices[i]); }, 64);
+      for (size_t i = 0; i < vertices.size(); ++i) {
+        const int32_t v = vertices[i];
+        if (made_.place[v] == Placing::crease) {
+          made_.position[v] = found[i].position;
+        } else if (found[i].radius > 0) {
+          take(v, found[i]);
+        }
+      }
+    }
+  }
+
+  // Returns the vertices of folded facets of K1, ascending.
+  std::vector<int32_t> folded_vertices() const {
+    auto vertices = parallel_append<int32_t>(
+        static_cast<int64_t>(facets_.size()), run_, [&](int64_t i, auto& out, int) {
+          if (!is_folded(facets_[i])) return;
+          for (const Corner& c : complex_.ring(facets_[i])) out.push_back(c.vertex);
+        });
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+  }
+
+  // Returns whether a facet is turned over, or its boundary crosses itself, as seen along the line
+  // between its samples. A facet at a reflex rim may be dented.
+  bool is_folded(int32_t facet) const {
+    const auto ring = complex_.ring(facet);
+    const auto& [p, q] = complex_.generators[facet];
+    const auto [right, up] = across(normalized(samples_.point(q) - samples_.point(p)));
+    std::vector<FlatPoint> corners;
+    const Vec3& origin = made_.position[ring[0].vertex];
+    for (const Corner& c : ring) {
+      const Vec3 at = made_.position[c.vertex] - origin;
+      corners.push_back({dot(at, right), dot(at, up)});
+    }
+    return is_turned_over(corners) || crosses_itself(corners);
+  }
+
+  // Returns the new place of a vertex half way to the middle of its neighbours.
+  Touch step_of(int32_t v) const {
+    const Vec3& here = made_.position[v];
+    const Placing place = made_.place[v];
+    if (place != Placing::crease && place != Placing::touching) return {here};
+    const auto middle = middle_of_neighbours(v, place);
+    if (!middle) return {here};
+    const Vec3 start = 0.5 * here + 0.5 * *middle;
+    if (place == Placing::touching) return touch(v, walls_[v], start);
+    const auto on_crease = samples_.creases().nearer(start, spacing_at(v));
+    return {on_crease ? on_crease->point : here};
+  }
+
+  // A vertex on a crease has its neighbours on the rim, one of three walls those on the seam.
+  std::optional<Vec3> middle_of_neighbours(int32_t v, Placing place) const {
+    Vec3 sum;
+    int count = 0;
+    const auto take = [&](const Corner& c, int32_t other) {
+      const int uses = edge_uses_[c.edge];
+      const bool along = place == Placing::crease ? uses == 1 : walls_[v].count < 3 || uses == 3;
+      if (!along) return;
+      sum = sum + made_.position[other];
+      ++count;
+    };
+    for (const int32_t f : facets_at_[v]) {
+      const auto ring = complex_.ring(f);
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const size_t next = (i + 1) % ring.size();
+        if (ring[i].vertex == v) take(ring[i], ring[next].vertex);
+        if (ring[next].vertex == v) take(ring[i], ring[i].vertex);
+      }
+    }
+    if (count == 0) return {};
+    return (1.0 / count) * sum;
   }
 
   struct Hidden {
@@ -328,13 +482,15 @@ class CrispMaker {
   const SamplesOnFaces& samples_;
   std::span<const double> sine_;
   Run run_;
+  std::vector<int32_t> facets_;  // of K1
   Csr<int32_t> facets_at_;    // per vertex: the facets of K1 at it
-  Array<uint8_t> edge_uses_;  // per edge: the facets of K1 at it; 2 means two or more
+  Array<uint8_t> edge_uses_;  // per edge: the facets of K1 at it; 3 means three or more
   Array<uint8_t> on_rim_;     // per vertex
   std::vector<Hidden> hidden_;
   PointTree corners_;
   std::vector<Vec3> corner_points_;
   CrispPlaces made_;
+  Array<Walls> walls_;  // per vertex: what its ball touches
 };
 
 }  // namespace

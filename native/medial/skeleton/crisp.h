@@ -14,6 +14,7 @@ enum class Placing : uint8_t {
   voronoi,   // no wall is known there: the vertex of a wire, or one of samples on no face
   refused,   // the ball of the walls is not empty, or too far away; the Voronoi vertex stays
   touching,  // the ball touches the walls, and no face is nearer
+  rim,       // on a smooth rim, where the two places that the ball touches become one
   crease,    // on a convex crease, with radius 0
   corner     // at the end of convex creases, with radius 0
 };

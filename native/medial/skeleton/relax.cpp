@@ -20,7 +20,7 @@ void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samp
 }
 
 // Returns the rims without those at vertices that lie on creases.
-std::vector<Edge> rims_off_creases(const Level& level, std::span<const Edge> rims,
+std::vector<Edge> rims_to_smooth(const Level& level, std::span<const Edge> rims,
                                    const CrispPlaces& crisp) {
   std::vector<Edge> off;
   const auto is_free = [&](int32_t v) {
@@ -151,7 +151,7 @@ void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, 
   const Run quiet{run.threads, nullptr, run.arena};
   begin_stage(run.progress, "Rims", 0.6, 0.7);
   if (crisp) {
-    smooth_crisp_rims(level, rims_off_creases(level, rims, h.crisp), *h.faces, quiet);
+    smooth_crisp_rims(level, rims_to_smooth(level, rims, h.crisp), *h.faces, quiet);
   } else {
     smooth_rims(level, rims, h.samples, quiet);
   }

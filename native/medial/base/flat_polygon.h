@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests of polygons in the plane, which rounding must not decide.
+#pragma once
+
+#include <span>
+
+namespace medial {
+
+struct FlatPoint {
+  double x = 0, y = 0;
+};
+
+// Returns whether a polygon runs clockwise round a larger area than rounding could cause.
+bool is_turned_over(std::span<const FlatPoint> corners);
+// Returns whether two sides that are no neighbours cross inside both.
+bool crosses_itself(std::span<const FlatPoint> corners);
+
+}  // namespace medial
