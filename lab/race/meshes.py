@@ -27,6 +27,7 @@ from .run import metered
 HEADER = ["program", "gets", "off mean", "off largest", "missed mean", "missed largest"]
 HEADER += ["gap mean", "area", "Betti", "faces"]
 OURS = Path(__file__).parent / "meshes.toml"
+MARK = "<!-- Below this line stands what `python3 -m lab.race.meshes` measured. -->"
 POINTS = 8000  # drawn from the output
 BALLS = 5000  # of the exact axis
 
@@ -112,13 +113,19 @@ def main() -> None:
     parser.add_argument("--samples", type=int, default=8000)
     parser.add_argument("--limit", type=int, default=300, help="seconds that a program may take")
     parser.add_argument("--programs", nargs="+", help="names of both lists; default: all")
-    parser.add_argument("--page", type=Path, help="also write the tables to this file")
+    parser.add_argument("--page", type=Path, help="also write the tables there, below the mark")
     options = parser.parse_args()
     given = options.samples, options.limit, options.programs
     text = "\n".join(table(name, *given) for name in options.shapes)
     print(text)
     if options.page:
-        options.page.write_text(text, encoding="utf-8")
+        publish(text, options.page)
+
+
+def publish(text: str, page: Path) -> None:
+    """Below the mark, where the page has one; what is above it stays."""
+    above = page.read_text(encoding="utf-8").partition(MARK)[0] if page.exists() else ""
+    page.write_text(f"{above}{MARK}\n\n{text}", encoding="utf-8")
 
 
 if __name__ == "__main__":
