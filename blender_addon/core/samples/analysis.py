@@ -11,6 +11,8 @@ from ..machine.beside import Beside
 from ..settings import SidesFrom
 from .analysed import AnalysedSamples, Request, Sides
 from .density import LOOKED_AT, estimate
+from .patches import patches_of
+from .surface_samples import apart_of
 from .walls import Places, Walls, find_walls, middles_of_faces
 
 if TYPE_CHECKING:
@@ -60,6 +62,7 @@ def analyse_vertices(request: Request, sides: Sides, share: float) -> AnalysedSa
         walls=walls,
         rows=shape.rows,
         by_faces=by_faces,
+        patches=patches_of(shape, request.settings),
     )
 
 
@@ -99,6 +102,8 @@ def analyse_samples(
         walls=walls,
         by_faces=by_faces,
         faces=samples.faces,
+        patches=patches_of(request.shape, request.settings, samples),
+        apart=apart_of(samples),
     )
 
 

@@ -6,7 +6,6 @@ This is the only file that looks for analyses in the cache and keeps new ones th
 
 from __future__ import annotations
 
-import math
 import time
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -24,6 +23,7 @@ from .chosen import Begun, ChosenSamples
 from .closing_samples import close_openings
 from .density import percent
 from .effort import EFFORT
+from .patches import sharp_angle_of
 from .sample_spacing import FirstPass, first_pass, next_amount
 from .sides import decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces
@@ -35,8 +35,6 @@ if TYPE_CHECKING:
 
 # The budget counts as spent from this share on: all spacings are scaled to meet it, which is not exact.
 _SPENT = 0.97
-# Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
-_CLEARLY = 1.01
 
 
 def begin(
@@ -161,7 +159,9 @@ def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
     shape = request.shape
     sides = resolve_sides(request.settings.sides, shape.triangles, request.gaps, shape.normals)
     used = used_by_sides(sides.source, shape.triangles, shape.normals)
-    key = key_of(request.bounding_sphere, sides.source, shape.points, shape.rows, used)
+    edges = (shape.triangles, sharp_angle_of(shape, request.settings), shape.sharp_edges)
+    divided = edges if len(shape.triangles) else None
+    key = key_of(request.bounding_sphere, sides.source, shape.points, shape.rows, used, divided)
     samples = CACHE.get(key)
     if samples is None:
         samples = _kept(key, analyse_vertices(request, sides, share))
@@ -256,8 +256,7 @@ def _options(shape: Shape, settings: Settings) -> dict[str, Any]:
     """Return the arguments of `_medial.sample_surface` that are the same in every pass."""
     names = ("sharp_angle", "smooth", "keep_vertices", "seed")
     options = {name: getattr(settings, name) for name in names}
-    wider = 2.0 if shape.shaded_smooth else _CLEARLY
-    options["sharp_angle"] = min(wider * settings.sharp_angle, math.pi)
+    options["sharp_angle"] = sharp_angle_of(shape, settings)
     return options
 
 
