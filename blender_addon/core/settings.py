@@ -429,6 +429,7 @@ class Look(Options):
     by_part: bool = switch(
         "Colours by Part",
         "ma_color has a colour for each sheet of a clean form, instead of colours by radius",
+        default=False,
     )
     parent: bool = switch(
         "Parent to Source",
