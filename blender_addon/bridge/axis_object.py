@@ -159,7 +159,7 @@ def _axis_mesh(axis: MedialAxis, look: Look, name: str) -> bpy.types.Mesh:
 
 
 def _shows_parts(axis: MedialAxis, look: Look) -> bool:
-    return look.by_part and axis.structure is not None and axis.facets > 0
+    return look.by_part and axis.structure is not None
 
 
 def _box(points: np.ndarray) -> list[float]:

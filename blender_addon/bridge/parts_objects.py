@@ -126,7 +126,7 @@ def with_agreeing_facets(axis: MedialAxis) -> MedialAxis:
     InvalidInputError
     """
     structure = axis.structure
-    if structure is None or not axis.facets:
+    if structure is None:
         raise InvalidInputError(
             "Expected a medial axis with parts, found one without; compute the form Clean again"
         )

@@ -27,7 +27,7 @@ _OF_TABLE = tuple(name for name in FIELDS if name.startswith(("part_", "curve_",
 def remember_structure(result: bpy.types.Object, axis: MedialAxis) -> None:
     """Keep the table of an axis on its object, or forget an older one."""
     structure = axis.structure
-    if structure is None or not axis.facets:
+    if structure is None:
         for name in (TABLE, COUNTS):
             if name in result:
                 del result[name]

@@ -48,7 +48,7 @@ def new_axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
         return mesh
     with _removed_on_error(mesh):
         _add_attributes(mesh, axis.level, level_attributes())
-        if structure is not None and axis.facets:
+        if structure is not None:
             _add_structure(mesh, structure)
     return mesh
 

@@ -76,7 +76,7 @@ def extract_level(
             limb=100 * level.limb,
             betti=level.betti,
         ),
-        structure=structure_of(level, samples),
+        structure=structure_of(level, samples) if len(level.facet_of) else None,
     )
 
 

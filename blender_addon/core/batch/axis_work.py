@@ -70,7 +70,7 @@ class AxisWork:
             "topology": found.topology,
             "betti": None if axis.level is None else list(axis.level.betti),
             "structure": None
-            if axis.structure is None or not axis.facets
+            if axis.structure is None
             else summary_of(axis.structure, axis.vertices),
             "facets": axis.facets,
             "edges": len(axis.edges),

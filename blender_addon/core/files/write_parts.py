@@ -21,7 +21,7 @@ def write_csv(axis: MedialAxis, stream: BinaryIO) -> None:
         The axis has no parts, as an axis as published or a curve.
     """
     structure = axis.structure
-    if structure is None or not axis.facets:
+    if structure is None:
         raise ExportError(
             "Expected a medial axis with sheets for a table of parts, found one without; "
             "compute the form Clean of the inner axis"
