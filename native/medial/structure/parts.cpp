@@ -120,15 +120,16 @@ class Merger {
     }
   }
 
-  // A crumb at an edge divides nothing: without it two facets are left, which are one sheet if
-  // their labels are the same.
+  // A crumb divides nothing. Where it was a strip between two sheets it has their label now; where
+  // it stood on a sheet, two facets are left without it.
   void unite_across_crumbs() {
     UnionFind sets(area_.size());
     for (int32_t e = 0; e < facets_.edge_count(); ++e) {
       Edge two{-1, -1};
       int count = 0;
-      for (const int32_t f : facets_.at_edge[e]) {
-        if (parts_.crumb[f]) continue;
+      const auto at = facets_.at_edge[e];
+      for (const int32_t f : at) {
+        if (at.size() > 2 && parts_.crumb[f]) continue;
         if (count < 2) two[count] = part(f);
         ++count;
       }
