@@ -11,7 +11,7 @@
 namespace medial {
 namespace {
 
-// Of normals that are closer than this, rounding decides to which side they turn.
+// Rounding decides to which side normals turn that are closer than this.
 constexpr double kLeastTurn = 1e-5;
 
 // Collects the patches that meet somewhere.
