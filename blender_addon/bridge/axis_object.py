@@ -26,7 +26,6 @@ from ..core.settings import (
 from .attributes import RADIUS
 from .colours import colour_mesh, colour_parts, remember_colours
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
-from .structure_object import remember_structure
 from .output_object import (
     DENSITY,
     SAMPLED,
@@ -36,6 +35,7 @@ from .output_object import (
     remember,
     replace_mesh,
 )
+from .structure_object import remember_structure
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
 

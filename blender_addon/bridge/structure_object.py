@@ -64,7 +64,9 @@ def read_structure(
     if TABLE not in result:
         return None
     table = {
-        name: np.array(values, np.float64 if name.endswith(("area", "radius", "length")) else np.int32)
+        name: np.array(
+            values, np.float64 if name.endswith(("area", "radius", "length")) else np.int32
+        )
         for name, values in json.loads(result[TABLE]).items()
     }
     columns = {a.field: _column(mesh, a.name, a.domain) for a in structure_attributes()}

@@ -63,7 +63,9 @@ def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
         data = mesh.attributes.new(attribute.name, attribute.type, attribute.domain).data
         own = attribute.values(structure)
         if attribute.domain == "EDGE":
-            own = np.concatenate([own, np.full(alone, -1 if attribute.field == "curve" else 0, np.int32)])
+            own = np.concatenate(
+                [own, np.full(alone, -1 if attribute.field == "curve" else 0, np.int32)]
+            )
         data.foreach_set(attribute.key, own)
     if hasattr(mesh, "shade_smooth"):  # from 4.1
         mesh.shade_smooth()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sheets, seams, rims, junctions and corners of medial axes: counts of shapes that can be counted by hand, and files."""
+"""Sheets, seams, rims, junctions and corners of medial axes: counts that can be made by hand, and files."""
 
 import csv
 
@@ -210,10 +210,10 @@ def test_ply_has_parts_and_kinds(boxed, tmp_path):
 
 
 def test_the_summary_names_curves_and_nodes(boxed):
-    found = summary_of(boxed.structure, boxed.vertices)
+    found = summary_of(boxed.structure)
     assert [curve["kind"] for curve in found["curves"]] == ["seam"] * 12 + ["crease"] * 12
     assert [node["kind"] for node in found["nodes"]] == ["junction"] * 4 + ["corner"] * 8
     assert all(len(node["curves"]) == 4 for node in found["nodes"])
-    places = np.array([node["place"] for node in found["nodes"][:4]])
+    places = boxed.vertices[[node["vertex"] for node in found["nodes"][:4]]]
     exact = [(x, y, 0.5) for x in (0.5, 2.5) for y in (0.5, 1.5)]
     assert all(np.linalg.norm(places - place, axis=1).min() < 0.05 for place in exact)

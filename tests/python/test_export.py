@@ -291,7 +291,9 @@ def test_off_holds_polygons(axis, tmp_path):
 def test_npz_holds_everything(axis, tmp_path):
     """Exact balls have the names that every axis has; the shown places have names of their own."""
     arrays = np.load(export_axis(axis, tmp_path / "a.npz"))
-    wanted = {name: value for name, value in vars(axis).items() if name not in ("level", "structure")}
+    wanted = {
+        name: value for name, value in vars(axis).items() if name not in ("level", "structure")
+    }
     if (level := axis.level) is not None:
         wanted |= {"vertices": level.exact, "radius": level.exact_radius, "betti": level.betti}
         wanted |= {"shown": axis.vertices, "shown_radius": axis.radius}

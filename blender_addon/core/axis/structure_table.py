@@ -3,17 +3,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import Any
 
 from .structure import CORNER, CREASE, CURVE_NAMES, JUNCTION, NODE_NAMES, RIM, SEAM, Structure
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-COLUMNS = ("part", "patch_a", "patch_b", "area", "mean_radius", "least_radius", "neighbours")
-COLUMNS += ("seams", "rims", "creases")
+COLUMNS = (
+    *("part", "patch_a", "patch_b", "area", "mean_radius", "least_radius", "neighbours"),
+    *("seams", "rims", "creases"),
+)
 
 
 def counts_of(structure: Structure) -> dict[str, int]:
@@ -30,9 +27,9 @@ def counts_of(structure: Structure) -> dict[str, int]:
 
 def rows_of(structure: Structure) -> list[dict[str, Any]]:
     """Return a row with `COLUMNS` for each part; neighbours and curves are lists of numbers."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for part, (low, high) in enumerate(structure.part_patches.tolist()):
-        row = {
+        row: dict[str, Any] = {
             "part": part,
             "patch_a": low,
             "patch_b": high,
@@ -53,8 +50,8 @@ def rows_of(structure: Structure) -> list[dict[str, Any]]:
     return rows
 
 
-def summary_of(structure: Structure, vertices: NDArray[np.float64]) -> dict[str, Any]:
-    """Return the structure for JSON: counts, parts, curves and nodes; the places are those of the vertices."""
+def summary_of(structure: Structure) -> dict[str, Any]:
+    """Return the structure for JSON: counts, parts, curves, and nodes with the rows of their vertices."""
     curves = [
         {
             "curve": curve,
@@ -70,7 +67,6 @@ def summary_of(structure: Structure, vertices: NDArray[np.float64]) -> dict[str,
         {
             "kind": NODE_NAMES[kind],
             "vertex": int(structure.node_vertex[node]),
-            "place": vertices[structure.node_vertex[node]].tolist(),
             "curves": structure.curves_at(node).tolist(),
         }
         for node, kind in enumerate(structure.node_kind.tolist())

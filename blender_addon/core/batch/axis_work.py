@@ -69,9 +69,7 @@ class AxisWork:
             "form": as_words(found.settings)["form"],
             "topology": found.topology,
             "betti": None if axis.level is None else list(axis.level.betti),
-            "structure": None
-            if axis.structure is None
-            else summary_of(axis.structure, axis.vertices),
+            "structure": None if axis.structure is None else summary_of(axis.structure),
             "facets": axis.facets,
             "edges": len(axis.edges),
             "vertices": len(axis.vertices),

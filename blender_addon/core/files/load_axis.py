@@ -48,9 +48,7 @@ def _shapes_of_structure(
     shapes |= dict.fromkeys(("part", "turned"), (faces,))
     shapes |= {"curve": (edges,), "part_patches": (parts, 2), "node_vertex": (nodes,)}
     shapes |= dict.fromkeys(("part_mean_radius", "part_least_radius"), (parts,))
-    shapes |= dict.fromkeys(
-        ("curve_length", "curve_mean_radius", "curve_least_radius"), (curves,)
-    )
+    shapes |= dict.fromkeys(("curve_length", "curve_mean_radius", "curve_least_radius"), (curves,))
     shapes |= {"curve_part_offsets": (curves + 1,), "node_curve_offsets": (nodes + 1,)}
     return shapes
 

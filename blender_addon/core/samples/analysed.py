@@ -132,7 +132,15 @@ class AnalysedSamples:
     def bytes(self) -> int:
         """The memory that these samples, their analysis and its hierarchy take."""
         density = self.density
-        own = (self.points, self.kinds, self.normals, self.rows, self.faces, self.patches, self.apart)
+        own = (
+            self.points,
+            self.kinds,
+            self.normals,
+            self.rows,
+            self.faces,
+            self.patches,
+            self.apart,
+        )
         others = (density.points, density.spacing, density.feature_size, density.edges)
         walls = self.walls
         more = (walls.points, walls.distance, walls.spacing, walls.area) if walls else ()
