@@ -56,8 +56,8 @@ CLOSED_PIPE = 128 + 13  # the exit code by which shells report that SIGPIPE ende
 _EXAMPLES = """\
 INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend and what Blender imports.
           Without INPUT, inside Blender: the file that is open.
-OUTPUT    a file (.ma .ply .obj .off .npz), or a folder; {name} is the object or the file, {file} the
-          file, #### the frame.
+OUTPUT    a file (.ma .ply .obj .off .npz, or .csv for a table of the sheets), or a folder; {name} is
+          the object or the file, {file} the file, #### the frame.
 
 Other results: medial_axis thickness --help, medial_axis skeleton --help, medial_axis balls --help
 

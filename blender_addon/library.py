@@ -255,7 +255,7 @@ def read(path: str | os.PathLike[str]) -> Shape:
 def write(
     found: MedialAxis | Computation, path: str | os.PathLike[str], *, triangles: bool = False
 ) -> Path:
-    """Write a medial axis; the extension chooses the format: .ma .ply .obj .off .npz (docs/formats.md).
+    """Write a medial axis; the extension chooses the format: .ma .ply .obj .off .npz .csv (docs/formats.md).
 
     Parameters
     ----------

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.axis.medial_axis import LevelValues, MedialAxis
+    from ..core.axis.structure import Structure
     from ..core.samples.sampling_report import SamplingReport
 
 
@@ -51,8 +52,8 @@ class Attribute:
         """Blender's name for the numbers of an element."""
         return "vector" if self.type == "FLOAT_VECTOR" else "value"
 
-    def values(self, axis: MedialAxis | LevelValues | SamplingReport) -> NDArray:
-        """The flat array that `foreach_set` wants; of edges, those that stand by themselves."""
+    def values(self, axis: MedialAxis | LevelValues | Structure | SamplingReport) -> NDArray:
+        """The flat array that `foreach_set` wants; of edges, those that the values are about."""
         array = getattr(axis, self.field)
         if self.column is not None:
             array = array[:, self.column]
@@ -86,6 +87,15 @@ _LEVEL = (
     Attribute("ma_limb", "limb", "EDGE", "FLOAT", np.float32),
 )
 
+# Only clean forms have these; the edges are those of the facets, which come first.
+PART = Attribute("ma_part", "part", "FACE", "INT", np.int32)
+_STRUCTURE = (
+    PART,
+    Attribute("ma_seam", "seam", "EDGE", "INT", np.int32),
+    Attribute("ma_curve", "curve", "EDGE", "INT", np.int32),
+    Attribute("ma_kind", "kind", "POINT", "INT", np.int32),
+)
+
 EPSILON = Attribute("ma_epsilon", "epsilon", "POINT", "FLOAT", np.float32)
 SAMPLE_ATTRIBUTES = (
     EPSILON,
@@ -103,6 +113,11 @@ def attributes() -> tuple[Attribute, ...]:
 def level_attributes() -> tuple[Attribute, ...]:
     """The further attributes of clean forms and curves."""
     return _LEVEL
+
+
+def structure_attributes() -> tuple[Attribute, ...]:
+    """The attributes of the structure of a clean form."""
+    return _STRUCTURE
 
 
 def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:

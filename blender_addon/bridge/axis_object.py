@@ -24,7 +24,7 @@ from ..core.settings import (
     Side,
 )
 from .attributes import RADIUS
-from .colours import colour_mesh, remember_colours
+from .colours import colour_mesh, colour_parts, remember_colours
 from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
 from .output_object import (
     DENSITY,
@@ -35,6 +35,7 @@ from .output_object import (
     remember,
     replace_mesh,
 )
+from .structure_object import remember_structure
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
 
@@ -150,9 +151,15 @@ def look_of(result: bpy.types.Object) -> Look:
 
 def _axis_mesh(axis: MedialAxis, look: Look, name: str) -> bpy.types.Mesh:
     mesh = new_axis_mesh(axis, name)
-    if look.colours:
+    if look.colours and _shows_parts(axis, look):
+        colour_parts(mesh, axis.structure.part, np.diff(axis.face_offsets))
+    elif look.colours:
         colour_mesh(mesh, axis.radius, *colours_of_radii(axis.radius))
     return mesh
+
+
+def _shows_parts(axis: MedialAxis, look: Look) -> bool:
+    return look.by_part and axis.structure is not None
 
 
 def _box(points: np.ndarray) -> list[float]:
@@ -203,7 +210,9 @@ def _remember_shown(
     result[RADIUS_MIN] = float(axis.radius.min())
     result[RADIUS_MAX] = float(axis.radius.max())
     start, end = colours_of_radii(axis.radius)
-    remember_colours(result, RADIUS.name if look.colours else "", start, end)
+    by_radius = look.colours and not _shows_parts(axis, look)
+    remember_colours(result, RADIUS.name if by_radius else "", start, end)
+    remember_structure(result, axis)
     result.update_tag()
 
 

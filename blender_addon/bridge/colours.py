@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..core.axis.colours import colours
+from ..core.axis.colours import colours, part_colours
 
 if TYPE_CHECKING:
     import bpy
@@ -39,6 +39,23 @@ def colour_mesh(
     mesh.color_attributes.active_color = attribute
     if render:
         mesh.color_attributes.render_color_index = mesh.color_attributes.find(COLOUR)
+
+
+def colour_parts(mesh: bpy.types.Mesh, part: NDArray, sizes: NDArray) -> None:
+    """Give a new mesh `ma_color` by the parts of its polygons, active in the viewport and in renders.
+
+    Colours belong to corners, because a vertex of a seam lies on several parts.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    part, sizes : (number of polygons,)
+        The part and the number of corners of each polygon.
+    """
+    attribute = mesh.color_attributes.new(COLOUR, "FLOAT_COLOR", "CORNER")
+    attribute.data.foreach_set("color", part_colours(part).repeat(sizes, axis=0).ravel())
+    mesh.color_attributes.active_color = attribute
+    mesh.color_attributes.render_color_index = mesh.color_attributes.find(COLOUR)
 
 
 def remember_colours(thing: bpy.types.Object, of: str, start: float, end: float) -> None:

@@ -11,12 +11,14 @@ import bpy
 import numpy as np
 
 from ..core.axis.medial_axis import LevelValues, MedialAxis
+from ..core.axis.turning import with_facets_turned
 from ..core.errors import InvalidInputError
 from .attributes import Attribute, attributes, level_attributes
 from .axis_object import BETTI, UNBOUNDED, ZERO_AREA, is_result, result_of
 from .mesh_arrays import read_corner_edges, read_edges, read_polygons, read_positions
 from .output_object import is_gone
 from .reduced_object import is_reduced
+from .structure_object import read_structure
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -43,7 +45,9 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
         edges, alone = _edges_alone(mesh)
         fields = _fields(mesh, attributes(), result.name)
         level = _level(mesh, alone, result)
-    return MedialAxis(
+        structure = read_structure(mesh, alone, result, fields["generators"])
+    turned = fields["generators"][:, 0] > fields["generators"][:, 1]
+    axis = MedialAxis(
         vertices=vertices,
         face_offsets=offsets,
         face_vertices=corners,
@@ -51,8 +55,10 @@ def read_axis(result: bpy.types.Object) -> MedialAxis:
         zero_area=int(result.get(ZERO_AREA, 0)),
         edges=edges,
         level=level,
+        structure=structure,
         **fields,
     )
+    return with_facets_turned(axis, turned) if turned.any() else axis
 
 
 def world_matrix(result: bpy.types.Object) -> NDArray[np.float64]:

@@ -11,14 +11,17 @@ import bpy
 import numpy as np
 
 from ..core.axis.medial_axis import no_edges
+from ..core.axis.structure import SEAM
+from ..core.axis.turning import with_facets_turned
 from ..core.errors import InvalidInputError
 from ..core.machine.native import own_errors
-from .attributes import attributes, level_attributes
+from .attributes import attributes, level_attributes, structure_attributes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.axis.medial_axis import MedialAxis
+    from ..core.axis.structure import Structure
     from .attributes import Attribute
 
 
@@ -38,12 +41,40 @@ def new_axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
     InvalidInputError
         Coordinates too large for Blender.
     """
-    mesh = new_mesh(axis, name, attributes(), axis.edges)
+    structure = axis.structure
+    shown = axis if structure is None else with_facets_turned(axis, structure.turned)
+    mesh = new_mesh(shown, name, attributes(), axis.edges)
     if axis.level is None:
         return mesh
     with _removed_on_error(mesh):
         _add_attributes(mesh, axis.level, level_attributes())
+        if structure is not None:
+            _add_structure(mesh, structure)
     return mesh
+
+
+def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
+    """Add the attributes of sheets and seams, and shade the sheets smooth between their seams.
+
+    Blender takes edges of other than two faces for sharp by itself.
+    """
+    alone = len(mesh.edges) - len(structure.seam)
+    for attribute in structure_attributes():
+        data = mesh.attributes.new(attribute.name, attribute.type, attribute.domain).data
+        own = attribute.values(structure)
+        if attribute.domain == "EDGE":
+            own = np.concatenate(
+                [own, np.full(alone, -1 if attribute.field == "curve" else 0, np.int32)]
+            )
+        data.foreach_set(attribute.key, own)
+    if hasattr(mesh, "shade_smooth"):  # from 4.1
+        mesh.shade_smooth()
+    else:
+        mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
+        mesh.use_auto_smooth, mesh.auto_smooth_angle = True, np.pi
+    sharp = np.concatenate([structure.seam == SEAM, np.zeros(alone, bool)])
+    mesh.edges.foreach_set("use_edge_sharp", sharp)
+    mesh.update()
 
 
 def new_mesh(

@@ -432,6 +432,11 @@ class Look(Options):
         "Color: Attribute",
         default=True,
     )
+    by_part: bool = switch(
+        "Colours by Part",
+        "ma_color has a colour for each sheet of a clean form, instead of colours by radius",
+        default=False,
+    )
     parent: bool = switch(
         "Parent to Source",
         "Results move and turn with the object that they were made of",

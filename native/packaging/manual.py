@@ -23,6 +23,7 @@ PAGES = (
     "skeleton",
     "balls",
     "small_mesh",
+    "parts",
     "command_line",
     "formats",
     "limits",

@@ -943,6 +943,185 @@ def patches(
     InvalidInputError
     """
 
+class CurveKind:
+    """What an edge of an axis is, in `Structure.seam`."""
+
+    NONE: CurveKind  # 0
+    """Inside a sheet."""
+    SEAM: CurveKind  # 1
+    """Sheets meet here."""
+    RIM: CurveKind  # 2
+    """A sheet ends here."""
+    CREASE: CurveKind  # 3
+    """A sheet ends here because it reaches a sharp convex edge of the solid."""
+
+class PlaceKind:
+    """What a vertex of an axis is, in `Structure.kind`."""
+
+    SHEET: PlaceKind  # 0
+    """Inside a sheet."""
+    SEAM: PlaceKind  # 1
+    """On a seam."""
+    JUNCTION: PlaceKind  # 2
+    """Three or more seams meet here."""
+    RIM: PlaceKind  # 3
+    """On a rim or a crease."""
+    CORNER: PlaceKind  # 4
+    """A seam reaches a crease here."""
+    WIRE: PlaceKind  # 5
+    """On no facet."""
+
+@final
+class Structure:
+    """Sheets, seams, rims, junctions and corners of a medial axis, made by `structure`.
+
+    A part is a sheet: facets that are connected across edges of two facets and lie between the same two patches of the
+    surface. A curve is a seam, rim or crease between the same parts. A node is a junction or a corner. The numbers
+    follow rules that do not know the samples: parts are in the order of their pairs of patches, curves in that of their
+    kinds and parts, nodes in that of their kinds and curves. Where these agree the order is that of the middles: by x,
+    by y where x differs by less than a spacing, and by z.
+    """
+
+    @property
+    def part(self) -> NDArray[np.int32]:
+        """(f,) int32: the part of each facet."""
+    @property
+    def turned(self) -> NDArray[np.bool_]:
+        """(f,) bool: whether the facet must be turned to agree with its part."""
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """(e, 2) int32: the edges of the facets, as `polygon_edges` returns them."""
+    @property
+    def seam(self) -> NDArray[np.int32]:
+        """(e,) int32: `CurveKind` of each edge."""
+    @property
+    def curve(self) -> NDArray[np.int32]:
+        """(e,) int32: the curve of each edge; -1 where there is none, or where it is shorter than 1.5 spacings."""
+    @property
+    def kind(self) -> NDArray[np.int32]:
+        """(v,) int32: `PlaceKind` of each vertex. One vertex stands for each node."""
+    @property
+    def part_patches(self) -> NDArray[np.int32]:
+        """(p, 2) int32: the patches between which each part lies, lower first; -1 where they are not known."""
+    @property
+    def part_area(self) -> NDArray[np.float64]:
+        """(p,) float64."""
+    @property
+    def part_mean_radius(self) -> NDArray[np.float64]:
+        """(p,) float64: mean over the area."""
+    @property
+    def part_least_radius(self) -> NDArray[np.float64]:
+        """(p,) float64."""
+    @property
+    def curve_kind(self) -> NDArray[np.int32]:
+        """(c,) int32: `CurveKind` of each curve."""
+    @property
+    def curve_length(self) -> NDArray[np.float64]:
+        """(c,) float64."""
+    @property
+    def curve_mean_radius(self) -> NDArray[np.float64]:
+        """(c,) float64: mean over the length."""
+    @property
+    def curve_least_radius(self) -> NDArray[np.float64]:
+        """(c,) float64."""
+    @property
+    def curve_part_offsets(self) -> NDArray[np.int32]:
+        """(c + 1,) int32: the parts at curve i are `curve_parts[curve_part_offsets[i] : curve_part_offsets[i + 1]]`."""
+    @property
+    def curve_parts(self) -> NDArray[np.int32]:
+        """Parts, curve after curve, ascending and each once."""
+    @property
+    def node_kind(self) -> NDArray[np.int32]:
+        """(n,) int32: `PlaceKind.JUNCTION` or `PlaceKind.CORNER`."""
+    @property
+    def node_vertex(self) -> NDArray[np.int32]:
+        """(n,) int32: the vertex that stands for each node."""
+    @property
+    def node_curve_offsets(self) -> NDArray[np.int32]:
+        """(n + 1,) int32: the curves at node i are `node_curves[node_curve_offsets[i] : node_curve_offsets[i + 1]]`."""
+    @property
+    def node_curves(self) -> NDArray[np.int32]:
+        """Curves, node after node, ascending and each once."""
+
+def structure(
+    *,
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    face_offsets: NDArray[np.int32],
+    face_vertices: NDArray[np.int32],
+    generators: NDArray[np.int32],
+    wires: NDArray[np.int32],
+    patches: NDArray[np.int32],
+    spacing: NDArray[np.float64],
+    threads: int = 0,
+) -> Structure:
+    """Find the sheets, seams, rims, junctions and corners of a medial axis, such as a `Level`.
+
+    Sheets smaller than two squared spacings go to the neighbour with the longest common edge. Curves shorter than 1.5
+    spacings have no number. A rim is a crease where its sheet lies between two patches and its radii are below two
+    spacings.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    radius : (v,) float64
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+        Counter-clockwise about the direction p -> q.
+    generators : (f, 2) int32
+        Rows p, q of the samples.
+    wires : (w, 2) int32
+        Edges without a facet.
+    patches : (n, 2) int32
+        The patches of each sample, as of `surface_patches`; (0, -1) where nothing is known of any.
+    spacing : (n,) float64
+        The distance of neighbours at each sample.
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
+def surface_patches(
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    samples: tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]] | None = None,
+    sharp_angle: float = ...,
+    sharp_edges: NDArray[np.int32] | None = None,
+    threads: int = 0,
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """The patches into which the sharp convex edges divide a surface. A patch goes on across reflex edges, and round
+    the end of a crease.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        Rows of vertices, outward.
+    samples : tuple, optional
+        `points`, `kind` and `triangle` of `SurfaceSamples`; a triangle may be -1 where a sample closes an opening.
+    sharp_angle, sharp_edges
+        As in `sample_surface`. Edges of more than two triangles, and those that two triangles pass in the same
+        direction, divide patches, too.
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Returns
+    -------
+    of_triangles : (m,) int32
+        Patches are numbered in the order of their first triangles; -1: the triangle is repeated or has a corner twice.
+    of_samples : (n, 2) int32
+        Of each sample, or of each vertex without samples: its patch and -1; both patches, lower first, where two meet;
+        twice -1 where more meet, and on no triangle. Samples that close openings have one more patch.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
 def nearest(sites: NDArray[np.float64], queries: NDArray[np.float64]) -> NDArray[np.int32]:
     """(k,) int32: row of the site nearest to each of (k, 3) queries, of equally near ones the lowest; -1 where there
     are no sites.

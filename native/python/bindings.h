@@ -16,6 +16,7 @@ void bind_hierarchy(pybind11::module_& module);  // after the progress, before t
 void bind_reduce(pybind11::module_& module);     // after the progress
 void bind_tight_cocone(pybind11::module_& module);
 void bind_sampling(pybind11::module_& module);
+void bind_structure(pybind11::module_& module);
 void bind_surfaces(pybind11::module_& module);
 void bind_balls(pybind11::module_& module);
 

@@ -31,6 +31,7 @@ void bind_product(py::module_& m) {
   bind_tight_cocone(m);
   bind_analysis(m);
   bind_sampling(m);
+  bind_structure(m);
   bind_surfaces(m);
   bind_balls(m);
   bind_reduce(m);

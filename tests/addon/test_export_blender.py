@@ -205,7 +205,7 @@ def test_nothing_to_export_says_so(tmp_path):
 
 def test_unknown_extension_raises(result, tmp_path):
     with pytest.raises(
-        RuntimeError, match=r"\.ma, \.ply, \.obj, \.off or \.npz, found 'axis\.stl'"
+        RuntimeError, match=r"\.ma, \.ply, \.obj, \.off, \.npz or \.csv, found 'axis\.stl'"
     ):
         export(tmp_path / "axis.stl")
     assert list(tmp_path.iterdir()) == []
@@ -275,7 +275,7 @@ def test_menu_entry():
     shown = {}
     layout = SimpleNamespace(operator=lambda name, text: shown.update({name: text}))
     draw(SimpleNamespace(layout=layout), bpy.context)
-    assert shown == {"export_scene.medial_axis": "Medial Axis (.ma/.ply/.obj/.off/.npz)"}
+    assert shown == {"export_scene.medial_axis": "Medial Axis (.ma/.ply/.obj/.off/.npz/.csv)"}
 
 
 @pytest.mark.parametrize(

@@ -276,7 +276,7 @@ def test_pages_of_the_method_name_every_room_of_the_native_core():
     rooms = {path.name for path in (ROOT / "native" / "medial").iterdir() if path.is_dir()}
     rooms -= {"rivals"}
     named = " ".join(path for stage in STAGES for path in code_of(stage))
-    for page in ("thickness", "balls"):
+    for page in ("thickness", "balls", "parts"):
         named += (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
     assert {room for room in rooms if f"{room}/" in named} == rooms
 

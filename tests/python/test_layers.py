@@ -244,6 +244,7 @@ MAY_INCLUDE = {
     "cocone": {"base", "delaunay", "inside", "axis"},
     "skeleton": {"base", "delaunay", "inside", "axis"},
     "sampling": {"base", "inside"},
+    "structure": {"base"},
     "reduce": {"base"},
     ".": {
         "base",
@@ -269,6 +270,7 @@ PUBLIC = {
     "thickness.h": {"thickness"},
     "ball_cover.h": {"balls"},
     "sampling.h": {"sampling"},
+    "structure.h": {"structure"},
     "analysis.h": {".", "rivals"},
 }
 

@@ -7,13 +7,16 @@ import numpy as np
 
 
 def same_axis(a: Any, b: Any) -> bool:
-    """Whether two `MedialAxis` have equal arrays, also in their levels."""
+    """Whether two `MedialAxis` have equal arrays, also in their levels and structures."""
     if (a.level is None) != (b.level is None):
         return False
-    pairs = [(a, b)] if a.level is None else [(a, b), (a.level, b.level)]
+    if (a.structure is None) != (b.structure is None):
+        return False
+    parts = [(a, b), (a.level, b.level), (a.structure, b.structure)]
+    pairs = [(one, other) for one, other in parts if one is not None]
     return all(
         np.array_equal(getattr(one, name), getattr(other, name))
         for one, other in pairs
         for name in one.__dataclass_fields__
-        if name != "level"
+        if name not in ("level", "structure")
     )

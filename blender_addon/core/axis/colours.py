@@ -23,6 +23,7 @@ SCALE = (
     (0.75, (1.0, 0.3, 0.05)),
     (1.0, (1.0, 0.81, 0.07)),
 )
+_GOLDEN = (5**0.5 - 1.0) / 2.0  # multiples of it are spread evenly over a circle
 UNKNOWN = (0.25, 0.25, 0.25)  # the colour of NaN
 
 
@@ -37,6 +38,15 @@ def colours(values: ArrayLike, start: float, end: float) -> NDArray[np.float32]:
     for channel in range(3):
         result[:, channel] = np.interp(share, positions, [rgb[channel] for _, rgb in SCALE])
     result[np.isnan(share), :3] = UNKNOWN
+    return result
+
+
+def part_colours(parts: ArrayLike) -> NDArray[np.float32]:
+    """(n, 4) linear RGBA of (n,) numbers of parts: numbers that follow each other have colours that differ much."""
+    hue = np.asarray(parts, np.float64)[:, None] * _GOLDEN + np.array([0.0, 2.0, 1.0]) / 3.0
+    shade = 1.0 - 0.25 * (np.asarray(parts) % 3)[:, None]
+    result = np.ones((len(hue), 4), np.float32)
+    result[:, :3] = shade * (0.08 + 0.82 * (0.5 + 0.5 * np.cos(2.0 * np.pi * hue)) ** 2)
     return result
 
 

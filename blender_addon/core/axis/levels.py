@@ -15,6 +15,7 @@ from ..machine import native
 from ..machine.cache import CACHE
 from ..settings import Form, Settings
 from .medial_axis import LevelValues, MedialAxis
+from .structure import structure_of
 
 if TYPE_CHECKING:
     from ..machine.progress import Progress
@@ -76,6 +77,7 @@ def extract_level(
             limb=100 * level.limb,
             betti=level.betti,
         ),
+        structure=structure_of(level, samples) if len(level.facet_of) else None,
     )
 
 

@@ -11,6 +11,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from .structure import Structure
+
 
 @dataclass(frozen=True, eq=False)
 class LevelValues:
@@ -69,6 +71,8 @@ class MedialAxis:
         The ends of the edges that belong to no facet.
     level : LevelValues or None
         None: the axis is as published.
+    structure : Structure or None
+        Sheets, seams, rims, junctions and corners; only of levels, and None where they are not known.
     """
 
     vertices: NDArray[np.float64]
@@ -83,6 +87,7 @@ class MedialAxis:
     zero_area: int
     edges: NDArray[np.int32] = field(default_factory=no_edges)
     level: LevelValues | None = None
+    structure: Structure | None = None
 
     @property
     def facets(self) -> int:

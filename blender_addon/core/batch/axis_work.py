@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..axis.compute import Computation, compute_axis
+from ..axis.structure_table import summary_of
 from ..errors import MedialAxisError
 from ..files.write import export_axis, left_out
 from ..machine.memory_limit import MemoryLimit
@@ -68,6 +69,7 @@ class AxisWork:
             "form": as_words(found.settings)["form"],
             "topology": found.topology,
             "betti": None if axis.level is None else list(axis.level.betti),
+            "structure": None if axis.structure is None else summary_of(axis.structure),
             "facets": axis.facets,
             "edges": len(axis.edges),
             "vertices": len(axis.vertices),

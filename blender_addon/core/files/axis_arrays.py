@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..axis.medial_axis import LevelValues, MedialAxis, no_edges
+from ..axis.structure import FIELDS, Structure
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,8 +20,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 # Every axis has the arrays in NAMES; only clean forms and curves have those in LEVEL_NAMES.
-NAMES = tuple(name for name in MedialAxis.__dataclass_fields__ if name != "level")
+NAMES = tuple(
+    name for name in MedialAxis.__dataclass_fields__ if name not in ("level", "structure")
+)
 LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti")
+# Only axes whose structure is known have these.
+STRUCTURE_NAMES = FIELDS
 
 
 def exact_balls(axis: MedialAxis) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -36,6 +41,8 @@ def as_arrays(axis: MedialAxis) -> dict[str, NDArray]:
         arrays["vertices"], arrays["radius"] = exact_balls(axis)
         arrays |= {"shown": axis.vertices, "shown_radius": axis.radius}
         arrays |= {name: np.asarray(getattr(level, name)) for name in LEVEL_NAMES[2:]}
+    if (structure := axis.structure) is not None:
+        arrays |= {name: np.asarray(getattr(structure, name)) for name in STRUCTURE_NAMES}
     return arrays
 
 
@@ -54,4 +61,6 @@ def from_arrays(arrays: Mapping[str, NDArray]) -> MedialAxis:
         **{name: arrays[name] for name in ("sheet", "erosion", "limb")},
     )
     fields |= {"vertices": arrays["shown"], "radius": arrays["shown_radius"], "level": level}
+    if "part" in arrays:
+        fields["structure"] = Structure(**{name: arrays[name] for name in STRUCTURE_NAMES})
     return MedialAxis(**fields)

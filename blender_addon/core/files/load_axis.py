@@ -10,7 +10,7 @@ import numpy as np
 
 from ..axis.medial_axis import MedialAxis, no_edges
 from ..errors import ReadError
-from .axis_arrays import LEVEL_NAMES, NAMES, from_arrays
+from .axis_arrays import LEVEL_NAMES, NAMES, STRUCTURE_NAMES, from_arrays
 from .numpy_arrays import read_arrays
 
 
@@ -21,10 +21,12 @@ def load_axis(path: str | os.PathLike) -> MedialAxis:
     ------
     ReadError
     """
-    arrays = read_arrays(path, (*NAMES, *LEVEL_NAMES))
+    arrays = read_arrays(path, (*NAMES, *LEVEL_NAMES, *STRUCTURE_NAMES))
     wanted = set(NAMES) - {"edges"}  # files of earlier versions have none
     if "shown" in arrays:
         wanted |= set(LEVEL_NAMES)
+    if "part" in arrays:
+        wanted |= set(STRUCTURE_NAMES)
     missing = sorted(wanted - set(arrays))
     if missing or not _fit(arrays):
         raise ReadError(
@@ -33,6 +35,22 @@ def load_axis(path: str | os.PathLike) -> MedialAxis:
             "export it again"
         )
     return from_arrays(arrays)
+
+
+def _shapes_of_structure(
+    arrays: dict[str, np.ndarray], points: int, faces: int
+) -> dict[str, tuple[int, ...]]:
+    """Return the shapes of the arrays of a structure; those of lists follow from their offsets."""
+    edges, parts, curves, nodes = (
+        len(arrays[name]) for name in ("seam", "part_area", "curve_kind", "node_kind")
+    )
+    shapes: dict[str, tuple[int, ...]] = {"kind": (points,), "facet_edges": (edges, 2)}
+    shapes |= dict.fromkeys(("part", "turned"), (faces,))
+    shapes |= {"curve": (edges,), "part_patches": (parts, 2), "node_vertex": (nodes,)}
+    shapes |= dict.fromkeys(("part_mean_radius", "part_least_radius"), (parts,))
+    shapes |= dict.fromkeys(("curve_length", "curve_mean_radius", "curve_least_radius"), (curves,))
+    shapes |= {"curve_part_offsets": (curves + 1,), "node_curve_offsets": (nodes + 1,)}
+    return shapes
 
 
 def _fit(arrays: dict[str, np.ndarray]) -> bool:
@@ -45,6 +63,8 @@ def _fit(arrays: dict[str, np.ndarray]) -> bool:
     if "shown" in arrays:
         shapes |= {"shown": (points, 3), "shown_radius": (points,), "limb": (len(edges),)}
         shapes |= {"sheet": (faces,), "erosion": (faces,), "betti": (3,)}
+    if "part" in arrays:
+        shapes |= _shapes_of_structure(arrays, points, faces)
     if points == 0 or any(arrays[name].shape != shape for name, shape in shapes.items()):
         return False
     offsets, corners = arrays["face_offsets"], arrays["face_vertices"]

@@ -18,12 +18,14 @@ import numpy as np
 
 from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import MedialAxis
+from ..axis.turning import turned_corners
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
 from .extensions import extension_of
 from .placing import is_identity, parts_of
 from .rows_of_text import write_rows as _write_rows
 from .whole_file import write_whole
+from .write_parts import write_csv
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -111,26 +113,19 @@ def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
     linear, offset, scale = parts_of(transform)
     corners = axis.face_vertices
     if np.linalg.det(linear) < 0:
-        corners = _turned(axis.face_offsets, corners)
+        corners = turned_corners(axis.face_offsets, corners)
     placed = replace(
         axis,
         vertices=axis.vertices @ linear.T + offset,
         radius=axis.radius if scale == 1.0 else axis.radius * scale,
         face_vertices=corners,
+        structure=axis.structure and axis.structure.scaled(scale),
     )
     if (level := axis.level) is None:
         return placed
     radius = level.exact_radius if scale == 1.0 else level.exact_radius * scale
     exact = level.exact @ linear.T + offset
     return replace(placed, level=replace(level, exact=exact, exact_radius=radius))
-
-
-def _turned(face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Return the corners of each polygon in reverse order after the same first corner, as a mirror shows them."""
-    first = np.repeat(face_offsets[:-1], np.diff(face_offsets))
-    last = np.repeat(face_offsets[1:], np.diff(face_offsets))
-    corner = np.arange(len(face_vertices))
-    return face_vertices[np.where(corner == first, corner, first + last - corner)]
 
 
 # --- formats
@@ -202,6 +197,9 @@ def _write_ply(axis: MedialAxis, stream: BinaryIO) -> None:
     count_type = "uchar" if counts.max(initial=0) < 256 else "int"
     known = axis.level is not None
     of_faces = _ply_floats("sheet", "erosion") if known else ""
+    of_vertices = ""
+    if axis.structure is not None:
+        of_faces, of_vertices = of_faces + "property int part\n", "property int kind\n"
     of_edges = _ply_floats("limb") if known else ""
     header = f"""ply
 format binary_little_endian 1.0
@@ -211,7 +209,7 @@ property double x
 property double y
 property double z
 property double radius
-element face {len(counts)}
+{of_vertices}element face {len(counts)}
 property list {count_type} int vertex_indices
 property double theta
 property double rho
@@ -224,10 +222,21 @@ property int vertex2
 {of_edges}end_header
 """
     stream.write(header.encode("ascii"))
-    stream.write(np.column_stack([axis.vertices, axis.radius]).astype("<f8").tobytes())
+    stream.write(_ply_vertices(axis).tobytes())
     for faces in _ply_faces(axis, counts, "u1" if count_type == "uchar" else "<i4"):
         stream.write(faces)
     stream.write(_ply_edges(axis).tobytes())
+
+
+def _ply_vertices(axis: MedialAxis) -> NDArray:
+    fields: list[tuple[Any, ...]] = [("place", "<f8", (3,)), ("radius", "<f8")]
+    if axis.structure is not None:
+        fields.append(("kind", "<i4"))
+    rows = np.empty(len(axis.vertices), fields)
+    rows["place"], rows["radius"] = axis.vertices, axis.radius
+    if axis.structure is not None:
+        rows["kind"] = axis.structure.kind
+    return rows
 
 
 def _ply_floats(*names: str) -> str:
@@ -244,6 +253,8 @@ def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> 
     ]
     if axis.level is not None:
         fixed += [("sheet", "<f4"), ("erosion", "<f4")]
+    if axis.structure is not None:
+        fixed += [("part", "<i4")]
     for start in range(0, len(counts), _CHUNK):
         chunk = counts[start : start + _CHUNK]
         row_sizes = np.dtype([("count", count_type), *fixed]).itemsize + 4 * chunk.astype(np.int64)
@@ -259,10 +270,15 @@ def _ply_faces(axis: MedialAxis, counts: NDArray[np.int32], count_type: str) -> 
             rows["count"] = count
             rows["corners"] = axis.face_vertices[axis.face_offsets[ids][:, None] + np.arange(count)]
             for name, *_ in fixed:
-                rows[name] = getattr(axis if hasattr(axis, name) else axis.level, name)[ids]
+                rows[name] = _of_faces(axis, name)[ids]
             places = row_starts[local][:, None] + np.arange(rows.itemsize)
             piece[places] = rows.view(np.uint8).reshape(len(rows), -1)
         yield piece.tobytes()
+
+
+def _of_faces(axis: MedialAxis, name: str) -> NDArray:
+    holders = (axis, axis.level, axis.structure)
+    return next(getattr(holder, name) for holder in holders if hasattr(holder, name))
 
 
 def _ply_edges(axis: MedialAxis) -> NDArray:
@@ -297,4 +313,5 @@ FORMATS: dict[str, Format] = {
         "OFF, polygons and lines", _write_off, plain_triangles.write_off, holds_edges=False
     ),
     ".npz": Format("NumPy arrays, everything", _write_npz),
+    ".csv": Format("Table of parts", write_csv),
 }

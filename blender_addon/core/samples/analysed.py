@@ -98,6 +98,11 @@ class AnalysedSamples:
         The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
     solid : SolidFaces or None
         The faces that bound the solid, if they decide what is inside.
+    patches : (n, 2) int32 or None
+        The patches between sharp convex edges on which each sample lies, as of `_medial.surface_patches`; None where
+        there are no faces.
+    apart : (n,) float64 or None
+        The wanted distance of neighbours at each sample; None where the points are vertices.
     """
 
     points: NDArray[np.float64]
@@ -115,6 +120,8 @@ class AnalysedSamples:
     levels: Levels = field(default_factory=Levels)
     faces: NDArray[np.int32] | None = None
     solid: SolidFaces | None = None
+    patches: NDArray[np.int32] | None = None
+    apart: NDArray[np.float64] | None = None
 
     @property
     def walls_to_show(self) -> Walls | None:
@@ -129,7 +136,15 @@ class AnalysedSamples:
     def bytes(self) -> int:
         """The memory that these samples, their analysis and its hierarchy take."""
         density = self.density
-        own = (self.points, self.kinds, self.normals, self.rows, self.faces)
+        own = (
+            self.points,
+            self.kinds,
+            self.normals,
+            self.rows,
+            self.faces,
+            self.patches,
+            self.apart,
+        )
         others = (density.points, density.spacing, density.feature_size, density.edges)
         walls = self.walls
         more = (walls.points, walls.distance, walls.spacing, walls.area) if walls else ()

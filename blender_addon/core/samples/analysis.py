@@ -12,6 +12,8 @@ from ..settings import SidesFrom
 from .analysed import AnalysedSamples, Request, Sides
 from .density import LOOKED_AT, estimate
 from .solid_faces import solid_faces
+from .patches import patches_of
+from .surface_samples import apart_of
 from .walls import Places, Walls, find_walls, middles_of_faces
 
 if TYPE_CHECKING:
@@ -62,6 +64,7 @@ def analyse_vertices(request: Request, sides: Sides, share: float) -> AnalysedSa
         rows=shape.rows,
         by_faces=by_faces,
         solid=solid_faces(shape, sides.source),
+        patches=patches_of(shape, request.settings),
     )
 
 
@@ -102,6 +105,8 @@ def analyse_samples(
         by_faces=by_faces,
         faces=samples.faces,
         solid=solid_faces(request.shape, sides.source, samples.faces),
+        patches=patches_of(request.shape, request.settings, samples),
+        apart=apart_of(samples),
     )
 
 

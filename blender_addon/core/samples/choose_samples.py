@@ -23,9 +23,9 @@ from .chosen import Begun, ChosenSamples
 from .closing_samples import close_openings
 from .density import percent
 from .effort import EFFORT
+from .patches import sharp_angle_of
 from .sample_spacing import FirstPass, first_pass, next_amount
 from .sides import decided, resolve_sides, resolve_sides_of_samples
-from .solid_faces import sharp_angle_of
 from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
 
@@ -159,7 +159,9 @@ def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
     shape = request.shape
     sides = resolve_sides(request.settings.sides, shape.triangles, request.gaps, shape.normals)
     used = used_by_sides(sides.source, shape.triangles, shape.normals)
-    key = key_of(request.bounding_sphere, sides.source, shape.points, shape.rows, used)
+    edges = (shape.triangles, sharp_angle_of(shape, request.settings), shape.sharp_edges)
+    divided = edges if len(shape.triangles) else None
+    key = key_of(request.bounding_sphere, sides.source, shape.points, shape.rows, used, divided)
     samples = CACHE.get(key)
     if samples is None:
         samples = _kept(key, analyse_vertices(request, sides, share))

@@ -3,23 +3,19 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..settings import SidesFrom
+from .patches import sharp_angle_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..settings import Settings
     from .shape import Shape
-
-# Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
-_CLEARLY = 1.01
-
 
 @dataclass(frozen=True, eq=False)
 class SolidFaces:
@@ -51,12 +47,6 @@ class SolidFaces:
             sharp_edges=shape.sharp_edges,
             smooth=smooth,
         )
-
-
-def sharp_angle_of(shape: Shape, settings: Settings) -> float:
-    """Return the angle between faces, in radians, from which an edge is sharp."""
-    wider = 2.0 if shape.shaded_smooth else _CLEARLY
-    return min(wider * settings.sharp_angle, math.pi)
 
 
 def solid_faces(

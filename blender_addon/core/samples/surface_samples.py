@@ -113,6 +113,13 @@ def sample_faces(
     )
 
 
+def apart_of(samples: FaceSamples) -> NDArray[np.float64]:
+    """(n,) the wanted distance of neighbours at each sample; where samples close openings, the mean one."""
+    apart = np.full(len(samples.points), samples.spacing)
+    apart[: len(samples.radius)] = samples.radius / _DISC
+    return apart
+
+
 def _are_inside_faces(kinds: NDArray[np.int32]) -> NDArray[np.bool_]:
     """(n,) mark the samples in the interior of faces, or all samples if those are a minority.
 

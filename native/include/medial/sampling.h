@@ -46,4 +46,30 @@ SurfaceSamples sample_surface(std::span<const Vec3> vertices, std::span<const Tr
                               const SamplingOptions& options, int threads = 0,
                               Progress* progress = nullptr);
 
+// Samples for surface_patches, one row each, such as those of sample_surface.
+struct SamplePlaces {
+  std::span<const Vec3> points;
+  std::span<const SampleKind> kind;
+  std::span<const int32_t> triangle;  // input row, -1 for samples that close openings
+};
+
+// Patches are the parts into which the sharp convex edges divide a surface: one patch goes on
+// across reflex edges, and round the end of a crease.
+struct SurfacePatches {
+  // (m) in the order of their first triangles; -1 for triangles that are repeated or have a corner
+  // twice.
+  std::vector<int32_t> of_triangle;
+  // Per sample, or per vertex if there are no samples: its patch and -1; both patches, ascending,
+  // where two meet; twice -1 where more meet, and where it is on no triangle. Samples that close
+  // openings have one more patch, after all others.
+  std::vector<Edge> of_sample;
+};
+
+// Finds the patches. Edges are sharp as for sample_surface, and sharp convex edges, edges of more
+// than two triangles, and those that two triangles pass in the same direction divide patches.
+// Throws InvalidInputError for an option out of its range and for samples that do not fit.
+SurfacePatches surface_patches(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                               const SamplePlaces* samples, double sharp_angle,
+                               std::span<const Edge> sharp_edges, int threads = 0);
+
 }  // namespace medial

@@ -302,6 +302,22 @@ TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle>
   return mesh;
 }
 
+std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const Edge> rows,
+                               const TriangleMesh& mesh, std::span<const Triangle> triangles) {
+  std::vector<Edge> marked;
+  if (rows.empty()) return marked;
+  std::vector<int32_t> point(vertices.size(), -1);
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) point[triangles[mesh.source[i]][k]] = mesh.triangles[i][k];
+  }
+  for (const auto& [p, q] : rows) {
+    if (point[p] >= 0 && point[q] >= 0 && point[p] != point[q]) {
+      marked.push_back({point[p], point[q]});
+    }
+  }
+  return marked;
+}
+
 Creases find_creases(const TriangleMesh& mesh, double sharp_angle, std::span<const Edge> marked,
                      bool split_at_vertices, const Run& run) {
   Creases creases;

@@ -55,6 +55,11 @@ struct Creases {
 TriangleMesh make_mesh(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
                        const Run& run);
 
+// Returns the edges between some rows of vertices as ids of points, without those of rows that no
+// triangle uses. The mesh is that of the same vertices and triangles.
+std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const Edge> rows,
+                               const TriangleMesh& mesh, std::span<const Triangle> triangles);
+
 // Finds the creases. An edge is sharp if its normals are `sharp_angle` or more apart, if it has
 // more than two triangles, if two triangles have it in one direction, or if it is `marked` (by ids
 // of points). A point is a corner if it ends other than two creases, or two that turn by more than

@@ -46,23 +46,6 @@ struct Model {
   double area = 0;
 };
 
-// Returns the marked edges as ids of points, without those that no triangle uses.
-std::vector<Edge> marked_edges(std::span<const Vec3> vertices, std::span<const Edge> rows,
-                               const TriangleMesh& mesh, std::span<const Triangle> triangles) {
-  std::vector<Edge> marked;
-  if (rows.empty()) return marked;
-  std::vector<int32_t> point(vertices.size(), -1);
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) point[triangles[mesh.source[i]][k]] = mesh.triangles[i][k];
-  }
-  for (const auto& [p, q] : rows) {
-    if (point[p] >= 0 && point[q] >= 0 && point[p] != point[q]) {
-      marked.push_back({point[p], point[q]});
-    }
-  }
-  return marked;
-}
-
 double area_of(const CurvedSurface& surface, const Run& run) {
   int cuts = 0;
   for (size_t pieces = surface.mesh().triangles.size(); surface.smooth() && cuts < kMostCuts;

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The structure of a medial axis: sheets, the curves where they meet or end, and the nodes of these (docs/parts.md)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..machine import native
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..samples.analysed import AnalysedSamples
+
+SEAM, RIM, CREASE = 1, 2, 3  # values of `Structure.seam` and `curve_kind`
+JUNCTION, CORNER = 2, 4  # values of `Structure.kind` and `node_kind`
+CURVE_NAMES = {SEAM: "seam", RIM: "rim", CREASE: "crease"}
+NODE_NAMES = {JUNCTION: "junction", CORNER: "corner"}
+# Spacings of vertices are measured, and may be as large as the solid at sharp edges; this multiple of the median is
+# the largest one that counts.
+_LARGEST = 3.0
+_PER_HOLE = 1.0 / 0.85  # spacings to the radius of the hole round a sample
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """Sheets, seams, rims, junctions and corners.
+
+    The numbers follow rules that do not know the samples, so they are the same for other samples of the same shape
+    where these show the same structure (docs/parts.md).
+
+    Parameters
+    ----------
+    part : (f,) int32
+        The part of each facet: a sheet.
+    turned : (f,) bool
+        Whether the facet must be turned to agree with its part.
+    facet_edges : (e, 2) int32
+        The edges of the facets, lower vertex first, in lexicographic order.
+    seam : (e,) int32
+        0 inside a sheet, 1 seam, 2 rim, 3 crease: a rim at a sharp convex edge of the solid.
+    curve : (e,) int32
+        The curve of each edge; -1 where there is none or one too short to count.
+    kind : (v,) int32
+        0 inside a sheet, 1 on a seam, 2 junction, 3 on a rim, 4 corner, 5 on no facet.
+    part_patches : (p, 2) int32
+        The patches of the surface between which the part lies, lower first; -1 where they are not known.
+    part_area, part_mean_radius, part_least_radius : (p,) float64
+    curve_kind : (c,) int32
+        As `seam`.
+    curve_length, curve_mean_radius, curve_least_radius : (c,) float64
+    curve_part_offsets, curve_parts : int32
+        The parts at curve i are `curve_parts[curve_part_offsets[i] : curve_part_offsets[i + 1]]`.
+    node_kind : (n,) int32
+        2 junction, 4 corner.
+    node_vertex : (n,) int32
+    node_curve_offsets, node_curves : int32
+        The curves at each node, likewise.
+    """
+
+    part: NDArray[np.int32]
+    turned: NDArray[np.bool_]
+    facet_edges: NDArray[np.int32]
+    seam: NDArray[np.int32]
+    curve: NDArray[np.int32]
+    kind: NDArray[np.int32]
+    part_patches: NDArray[np.int32]
+    part_area: NDArray[np.float64]
+    part_mean_radius: NDArray[np.float64]
+    part_least_radius: NDArray[np.float64]
+    curve_kind: NDArray[np.int32]
+    curve_length: NDArray[np.float64]
+    curve_mean_radius: NDArray[np.float64]
+    curve_least_radius: NDArray[np.float64]
+    curve_part_offsets: NDArray[np.int32]
+    curve_parts: NDArray[np.int32]
+    node_kind: NDArray[np.int32]
+    node_vertex: NDArray[np.int32]
+    node_curve_offsets: NDArray[np.int32]
+    node_curves: NDArray[np.int32]
+
+    @property
+    def parts(self) -> int:
+        """Number of sheets."""
+        return len(self.part_area)
+
+    def count(self, kind: int) -> int:
+        """Return the number of SEAM, RIM or CREASE curves."""
+        return int(np.count_nonzero(self.curve_kind == kind))
+
+    def count_nodes(self, kind: int) -> int:
+        """Return the number of JUNCTION or CORNER nodes."""
+        return int(np.count_nonzero(self.node_kind == kind))
+
+    def parts_at(self, curve: int) -> NDArray[np.int32]:
+        """Return the parts at a curve."""
+        start, end = self.curve_part_offsets[curve : curve + 2]
+        return self.curve_parts[start:end]
+
+    def curves_at(self, node: int) -> NDArray[np.int32]:
+        """Return the curves at a node."""
+        start, end = self.node_curve_offsets[node : node + 2]
+        return self.node_curves[start:end]
+
+    def scaled(self, scale: float) -> Structure:
+        """Return the structure of the axis in another scale."""
+        lengths = [name for name in FIELDS if name.endswith(("_radius", "_length"))]
+        changed = {name: getattr(self, name) * scale for name in lengths}
+        return replace(self, part_area=self.part_area * scale**2, **changed)
+
+
+FIELDS = tuple(Structure.__dataclass_fields__)
+_NAMES = {name: name for name in FIELDS} | {"facet_edges": "edges"}
+
+
+def structure_of(level: Any, samples: AnalysedSamples) -> Structure:
+    """Return the structure of a `_medial.Level` of analysed samples."""
+    patches = samples.patches
+    if patches is None:
+        patches = np.tile(np.array([0, -1], np.int32), (len(samples.points), 1))
+    with native.own_errors() as module:
+        found = module.structure(
+            vertices=level.vertices,
+            radius=level.radius,
+            face_offsets=level.face_offsets,
+            face_vertices=level.face_vertices,
+            generators=level.generators,
+            wires=level.wires,
+            patches=patches,
+            spacing=_spacing(samples),
+        )
+    return Structure(**{ours: getattr(found, theirs) for ours, theirs in _NAMES.items()})
+
+
+def _spacing(samples: AnalysedSamples) -> NDArray[np.float64]:
+    """(n,) the distance of neighbours at each sample; duplicates have 0."""
+    if samples.apart is not None:
+        return samples.apart
+    spacing, found = np.zeros(len(samples.points)), samples.analysis.spacing * _PER_HOLE
+    spacing[samples.analysis.samples] = np.minimum(found, _LARGEST * float(np.median(found)))
+    return spacing

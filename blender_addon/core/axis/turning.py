@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Facets turned round, so that those of a sheet agree."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .medial_axis import MedialAxis
+
+
+def with_facets_turned(axis: MedialAxis, which: NDArray[np.bool_]) -> MedialAxis:
+    """Return the axis with the facets that (f,) bool marks turned round; the first corner stays.
+
+    Their generators are exchanged, so every facet still turns counter-clockwise about the direction between them.
+    """
+    corners = turned_corners(axis.face_offsets, axis.face_vertices)
+    of_corner = np.repeat(which, np.diff(axis.face_offsets))
+    return replace(
+        axis,
+        face_vertices=np.where(of_corner, corners, axis.face_vertices),
+        generators=np.where(which[:, None], axis.generators[:, ::-1], axis.generators),
+    )
+
+
+def turned_corners(
+    face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32]
+) -> NDArray[np.int32]:
+    """Return the corners of each polygon in reverse order after the same first corner."""
+    first = np.repeat(face_offsets[:-1], np.diff(face_offsets))
+    last = np.repeat(face_offsets[1:], np.diff(face_offsets))
+    corner = np.arange(len(face_vertices))
+    return face_vertices[np.where(corner == first, corner, first + last - corner)]

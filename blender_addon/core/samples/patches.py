@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The patches of a surface: its parts between sharp convex edges, and those on which samples lie."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ..machine import native
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..settings import Settings
+    from .shape import Shape
+    from .surface_samples import FaceSamples
+
+# Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
+_CLEARLY = 1.01
+
+
+def sharp_angle_of(shape: Shape, settings: Settings) -> float:
+    """Return the angle in radians from which edges of the shape are sharp."""
+    wider = 2.0 if shape.shaded_smooth else _CLEARLY
+    return min(wider * settings.sharp_angle, math.pi)
+
+
+def patches_of(
+    shape: Shape, settings: Settings, samples: FaceSamples | None = None
+) -> NDArray[np.int32] | None:
+    """Return the patches of samples of the faces, or of the vertices, as `AnalysedSamples.patches`."""
+    if not len(shape.triangles):
+        return None
+    with native.own_errors() as module:
+        _, found = module.surface_patches(
+            shape.points,
+            shape.triangles,
+            samples=samples and (samples.points, samples.kinds, samples.faces),
+            sharp_angle=sharp_angle_of(shape, settings),
+            sharp_edges=shape.sharp_edges,
+        )
+    return found

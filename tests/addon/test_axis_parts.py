@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sheets and seams of a medial axis in Blender: attributes, shading, colours, selecting, separating, files."""
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, attribute, compute, positions, result_of, select
+
+EVEN = {"sampling": "SURFACE", "samples": 4_000, "form": "CLEAN"}
+
+
+def box():
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    thing = bpy.context.object
+    thing.scale = (3.0, 2.0, 1.0)
+    bpy.context.view_layer.update()
+    return thing
+
+
+@pytest.fixture
+def result():
+    source = box()
+    before = sorted(attribute.name for attribute in source.data.attributes)
+    compute(**EVEN)
+    assert sorted(attribute.name for attribute in source.data.attributes) == before
+    return result_of(source)
+
+
+def normals_of(mesh):
+    """(m, 3) the normals of the polygons."""
+    values = np.empty(3 * len(mesh.polygons), np.float32)
+    mesh.polygons.foreach_get("normal", values)
+    return values.reshape(-1, 3)
+
+
+def sharp_edges(mesh):
+    values = np.empty(len(mesh.edges), bool)
+    mesh.edges.foreach_get("use_edge_sharp", values)
+    return values
+
+
+def test_attributes_name_the_parts_of_a_box(result):
+    mesh = result.data
+    assert set(attribute(mesh, "ma_part").tolist()) == set(range(13))
+    seam, kind = attribute(mesh, "ma_seam"), attribute(mesh, "ma_kind")
+    assert set(seam.tolist()) == {0, 1, 3}
+    assert np.count_nonzero(kind == 2) == 4 and np.count_nonzero(kind == 4) == 8
+    assert set(attribute(mesh, "ma_curve").tolist()) == set(range(-1, 24))
+    counts = addon("bridge.structure_object").counts_on(result)
+    assert list(counts.values()) == [13, 12, 0, 12, 4, 8]
+
+
+def test_sheets_are_smooth_and_seams_sharp(result):
+    mesh = result.data
+    assert all(polygon.use_smooth for polygon in mesh.polygons)
+    assert np.array_equal(sharp_edges(mesh), attribute(mesh, "ma_seam") == 1)
+    if bpy.app.version < (4, 1, 0):
+        assert mesh.use_auto_smooth
+
+
+def test_the_facets_of_a_sheet_look_the_same_way(result):
+    mesh, part = result.data, attribute(result.data, "ma_part")
+    normals = normals_of(mesh)
+    for number in range(13):
+        own = normals[part == number]
+        mean = own.mean(axis=0)
+        assert np.quantile(own @ (mean / np.linalg.norm(mean)), 0.02) > 0.7
+
+
+def test_the_axis_is_read_back_as_it_was_computed(result):
+    axis = addon("bridge.read_axis").read_axis(result)
+    assert (axis.generators[:, 0] < axis.generators[:, 1]).all()
+    first = axis.face_vertices[axis.face_offsets[:-1]]
+    assert np.array_equal(first, np.minimum.reduceat(axis.face_vertices, axis.face_offsets[:-1]))
+    assert axis.structure.parts == 13
+    assert axis.structure.turned.any() and not axis.structure.turned.all()
+
+
+def test_colours_by_part_are_live(result):
+    panel = bpy.context.scene.medial_axis
+    select(result)
+    panel.by_part = True
+    colour = result.data.color_attributes["ma_color"]
+    assert colour.domain == "CORNER" and result.data.color_attributes.active_color == colour
+    values = np.empty(4 * len(colour.data), np.float32)
+    colour.data.foreach_get("color", values)
+    assert len(np.unique(values.reshape(-1, 4), axis=0)) == 13
+    assert addon("bridge.colours").colour_range(result) is None
+    panel.by_part = False
+    assert result.data.color_attributes["ma_color"].domain == "POINT"
+
+
+def test_a_part_can_be_selected(result):
+    select(result)
+    bpy.ops.object.medial_axis_select_part(number=12)
+    assert result.mode == "EDIT"
+    assert addon("bridge.parts_objects").part_of_active_face(result) in range(13)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    part = attribute(result.data, "ma_part")
+    selected = np.array([polygon.select for polygon in result.data.polygons])
+    assert np.array_equal(selected, part == 12)
+    bpy.ops.object.medial_axis_select_part(number=3, extend=True)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    selected = np.array([polygon.select for polygon in result.data.polygons])
+    assert np.array_equal(selected, (part == 12) | (part == 3))
+
+
+def test_parts_become_objects_and_are_replaced(result):
+    before = positions(result.data).copy()
+    select(result)
+    for _ in range(2):
+        bpy.ops.object.medial_axis_separate_parts()
+        parts = addon("bridge.parts_objects").parts_of(result)
+        assert len(parts) == 13
+        (collection,) = {thing.users_collection[0] for thing in parts}
+        assert len(collection.objects) == 13
+    assert sum(len(thing.data.polygons) for thing in parts) == len(result.data.polygons)
+    assert all(thing.matrix_world == result.matrix_world for thing in parts)
+    assert np.array_equal(positions(result.data), before)
+
+
+def test_separating_can_be_undone(result):
+    name = result.name
+    select(result)
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.object.medial_axis_separate_parts()
+    bpy.ops.ed.undo_push(message="Separate Parts")
+    bpy.ops.ed.undo()
+    assert not [c for c in bpy.data.collections if c.name.endswith("Parts")]
+    assert name in bpy.data.objects
+
+
+def test_other_forms_have_no_parts(result):
+    panel = bpy.context.scene.medial_axis
+    select(result)
+    panel.form = "PUBLISHED"
+    assert "ma_part" not in result.data.attributes and "ma_structure" not in result
+    assert not bpy.ops.object.medial_axis_separate_parts.poll()
+    assert not any(polygon.use_smooth for polygon in result.data.polygons)
+    panel.form = "CLEAN"
+    assert "ma_part" in result.data.attributes
+
+
+def test_a_table_is_exported(result, tmp_path):
+    select(result)
+    bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "parts.csv"))
+    rows = (tmp_path / "parts.csv").read_text().splitlines()
+    assert rows[0].startswith("part,patch_a,patch_b,area") and len(rows) == 14
+
+
+def test_a_changed_axis_has_no_table(result):
+    select(result)
+    bpy.ops.object.medial_axis_select_part(number=12)
+    bpy.ops.mesh.delete(type="FACE")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert addon("bridge.read_axis").read_axis(result).structure is None
