@@ -190,7 +190,9 @@ def test_exact_places_lie_inside(medial, count, seed):
     samples = np.concatenate([points, thrown(points, triangles, count, seed)])
     hierarchy = medial.MedialAnalysis(samples, triangles, vertices=points).hierarchy()
     for limb in (0.0, 0.04):
-        raw, level = (hierarchy.extract(sheet=math.inf, limb=limb, relaxed=r) for r in (False, True))
+        raw, level = (
+            hierarchy.extract(sheet=math.inf, limb=limb, relaxed=r) for r in (False, True)
+        )
         middles = raw.vertices[raw.wires].mean(axis=1)
         assert limb or (medial.winding_number(middles, points, triangles) < 0.5).any()
         assert (medial.winding_number(level.exact, points, triangles) > 0.5).all()
