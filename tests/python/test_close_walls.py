@@ -12,6 +12,7 @@ from medial_axis.core.settings import Between, Edges, SamplingMode, Settings, Th
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_parts import find_thin_parts
 from scipy.spatial import cKDTree
+from support import meshes
 from support.thick_meshes import joined
 
 pytestmark = pytest.mark.oracle
@@ -220,6 +221,18 @@ def test_a_fin_on_parts_that_overlap():
 def test_thick_parts_that_overlap_have_no_close_walls(offset):
     found = measured(*joined(box(1.0, 1.0, 1.0), moved_block(*offset)))
     assert found.chosen.samples.buried > 100 and not len(found.walls.distance)
+
+
+def test_ways_end_where_the_solid_does(data_file, medial):
+    """Faces of several parts coincide in this mesh: rays once ended at one of them, inside another part."""
+    points, triangles = meshes.read(data_file("openscad-nonmanifold-crash.obj"))
+    walls = measured(points, triangles).walls
+    inward = -normals_of(points, triangles)[walls.faces]
+    steps = np.array([-0.02, 0.02, 0.5, 0.98, 1.02])[:, None, None] * walls.distance[:, None]
+    places = (walls.points + steps * inward).reshape(-1, 3)
+    triangles = triangles.astype(np.int32)
+    inside = medial.winding_number(places, points, triangles).reshape(5, -1) > 0.5
+    assert len(walls.distance) > 100 and inside[1:4].all() and not inside[[0, 4]].any()
 
 
 def test_a_gap_is_no_wall():

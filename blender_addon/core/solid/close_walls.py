@@ -32,6 +32,8 @@ _ACUTE = math.radians(75.0)
 # So many ways through the solid from such an edge, its faces are no longer a wedge but two walls (at 18 degrees).
 _REACH = 3.0
 _STEPS = 4  # places on an acute edge for each spacing
+# Both sides of the faces at the ends of a way are tested this far from them, as a share of the way.
+_BESIDE = 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +91,7 @@ def close_walls(
     walls = chosen.samples.walls
     if walls is None or between is not Between.WALL or not len(walls.area):
         return no_close_walls(shape)
-    known = _known(shape, walls, 0.0 if not chosen.samples.buried else rounding_of(shape.points))
+    known = _known(shape, walls, overlapping=chosen.samples.buried > 0)
     with native.own_errors() as module:
         sample = module.nearest(chosen.samples.points, walls.points[known])
     closer = is_shorter(walls.distance[known], lengths[sample])
@@ -109,15 +111,26 @@ def rounding_of(points: NDArray[np.float64]) -> float:
     return 4 * float(np.finfo(np.float32).eps) * float(np.abs(points).max(initial=0.0))
 
 
-def _known(shape: Shape, walls: Walls, least: float) -> NDArray[np.intp]:
-    """The places whose way through the solid is longer than `least`, finite, and not in a wedge.
-
-    Faces of parts that touch may coincide up to rounding, and nothing is between them.
-    """
-    finite = np.flatnonzero(np.isfinite(walls.distance) & (walls.distance > least))
+def _known(shape: Shape, walls: Walls, overlapping: bool) -> NDArray[np.intp]:
+    """The places whose way through the solid is finite and not in a wedge."""
+    finite = np.flatnonzero(np.isfinite(walls.distance))
+    if overlapping:
+        finite = finite[_are_through(shape, walls, finite)]
     spacing = float(walls.spacing[finite].min(initial=np.inf))
     edge = _distance_to_acute_edges(shape, walls.points[finite], spacing)
     return finite[edge > _REACH * walls.distance[finite] + spacing / _STEPS]
+
+
+def _are_through(shape: Shape, walls: Walls, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """(k,) whether ways begin and end where the solid does: not at faces of several parts that coincide."""
+    places, way = walls.points[rows], walls.distance[rows]
+    normals, _ = unit_normals(shape.points[shape.triangles[walls.faces[rows]]])
+    beside = _BESIDE * way[:, None] * normals
+    through = way > rounding_of(shape.points)
+    with native.own_errors() as module:
+        for ends in (places, places - way[:, None] * normals):
+            through &= module.buried(ends, beside, 1.0, shape.points, shape.triangles) == 0
+    return through
 
 
 def _at_vertices(shape: Shape, walls: Walls, known: NDArray[np.intp]) -> NDArray[np.float64]:
