@@ -12,8 +12,11 @@ from medial_axis.core.settings import Between, Edges, SamplingMode, Settings, Th
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_parts import find_thin_parts
 from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
 from support import meshes
 from support.thick_meshes import joined
+
+from tests.support.fuzz import repeats
 
 pytestmark = pytest.mark.oracle
 
@@ -113,6 +116,28 @@ def test_no_value_exceeds_what_rays_find(mesh, limit, edges):
     thin = found.of_triangles < limit - found.slack
     np.testing.assert_array_equal(parts.patch_of_triangles >= 0, thin)
     assert parts.area == pytest.approx(found.areas[thin].sum())
+
+
+@pytest.mark.parametrize("seed", repeats(12))
+def test_fuzzed_thin_parts(seed):
+    """Plates, and fins on one or two blocks, turned, moved and of any size."""
+    rng = np.random.default_rng(seed)
+    mesh = cube_with_fin(rng.uniform(0.05, 0.6), 10 ** rng.uniform(-5.0, -1.5))
+    if rng.random() < 0.4:
+        mesh = joined(mesh, moved_block(*rng.uniform(-0.6, 0.6, 2), rng.uniform(-1.2, -0.2)))
+    elif rng.random() < 0.4:
+        mesh = box(1.0, rng.uniform(0.1, 1.0), 10 ** rng.uniform(-5.0, -1.5))
+    turned = mesh[0] @ Rotation.random(random_state=seed).as_matrix().T
+    points = (turned + rng.uniform(-2.0, 2.0, 3)) * 10 ** rng.uniform(-8.0, 8.0)
+    sampling = (SamplingMode.SURFACE, SamplingMode.VERTICES)[seed % 2]
+    wanted = ThicknessSettings(edges=list(Edges)[seed % 3])
+    shape = Shape(points, mesh[1].astype(np.int32))
+    found = measure_thickness(shape, Settings(sampling=sampling, samples=2_000), wanted)
+    walls, reach = found.walls, 1.5 * found.chosen.samples.walls.spacing.max()
+    for least in values_near(found, walls.points, reach):
+        assert (least <= walls.distance).all()
+    assert found.triangles.max() < len(found.points) == len(found.lengths) == len(found.at_edge)
+    assert len(find_thin_parts(found, 2 * found.minimum).patch_of_faces) == len(mesh[1])
 
 
 @pytest.mark.parametrize(("width", "thickness"), FINS)
