@@ -36,6 +36,16 @@ bool is_turned_over(std::span<const FlatPoint> corners) {
   return area < -kRoundingOfArea * size;
 }
 
+bool has_dent(std::span<const FlatPoint> corners, double sine) {
+  const size_t n = corners.size();
+  for (size_t i = 0; i < n; ++i) {
+    const FlatPoint in = from(corners[i], corners[(i + 1) % n]);
+    const FlatPoint out = from(corners[(i + 1) % n], corners[(i + 2) % n]);
+    if (cross(in, out) < -sine * length(in) * length(out)) return true;
+  }
+  return false;
+}
+
 bool crosses_itself(std::span<const FlatPoint> corners) {
   const size_t n = corners.size();
   for (size_t i = 0; i + 2 < n; ++i) {

@@ -15,7 +15,10 @@ constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in 
 constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
 constexpr double kSameFoot = 0.08;    // between unit directions to feet that are one
 constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
-constexpr int kRounds = 12;           // of steps that unfold facets
+constexpr int kRounds = 40;           // of steps that unfold facets
+constexpr int kOwnRounds = 3;         // of these, the rounds without the neighbours
+constexpr int kDentRounds = 12;       // of these, the rounds that mend deep dents, too
+constexpr double kDeepDent = 0.25;    // the sine of the turn
 // A smooth rim is looked for where a ball touches two places that are seen under less than 84
 // degrees.
 constexpr double kMostOpen = 0.45;   // the squared sine of half the angle
@@ -69,14 +72,15 @@ class CrispMaker {
   }
 
  private:
-  static bool in_k1(const Thickness& value) {
-    return value.sheet > 0 && value.spacings > 0 && value.erosion > 0;
+  // Facets of K1 that noise of the samples may have caused keep their places.
+  static bool is_certain(const Thickness& value) {
+    return value.sheet > 0 && value.spacings > 1 && value.erosion > 0;
   }
 
   // Lists the facets of K1 at each vertex, and counts those at each edge.
   void find_facets(std::span<const Thickness> facets) {
     for (int32_t f = 0; f < complex_.facets(); ++f) {
-      if (in_k1(facets[f])) facets_.push_back(f);
+      if (is_certain(facets[f])) facets_.push_back(f);
     }
     facets_at_.offsets = array<int64_t>(complex_.cell.size() + 1, 0, run_);
     edge_uses_ = array<uint8_t>(complex_.ends.size(), 0, run_);
@@ -465,8 +469,9 @@ class CrispMaker {
   void unfold() {
     for (int round = 0; round < kRounds; ++round) {
       throw_if_cancelled(run_.progress);
-      const std::vector<int32_t> vertices = folded_vertices();
+      std::vector<int32_t> vertices = folded_vertices(round < kDentRounds);
       if (vertices.empty()) return;
+      if (round >= kOwnRounds) vertices = with_neighbours(vertices);
       std::vector<Touch> found(vertices.size());
       parallel_for(
           static_cast<int64_t>(vertices.size()), run_,
@@ -482,21 +487,37 @@ class CrispMaker {
     }
   }
 
-  // Returns the vertices of folded facets of K1, ascending.
-  std::vector<int32_t> folded_vertices() const {
+  // Returns the vertices of folded facets, and of dented ones if wanted, ascending.
+  std::vector<int32_t> folded_vertices(bool dented) const {
     auto vertices = parallel_append<int32_t>(
         static_cast<int64_t>(facets_.size()), run_, [&](int64_t i, auto& out, int) {
-          if (!is_folded(facets_[i])) return;
+          if (!is_folded(facets_[i], dented)) return;
           for (const Corner& c : complex_.ring(facets_[i])) out.push_back(c.vertex);
         });
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_out(vertices);
     return vertices;
   }
 
+  std::vector<int32_t> with_neighbours(std::span<const int32_t> vertices) const {
+    std::vector<int32_t> all;
+    for (const int32_t v : vertices) {
+      for (const int32_t f : facets_at_[v]) {
+        for (const Corner& c : complex_.ring(f)) all.push_back(c.vertex);
+      }
+    }
+    sort_out(all);
+    return all;
+  }
+
+  static void sort_out(std::vector<int32_t>& ids) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  }
+
   // Returns whether a facet is turned over, or its boundary crosses itself, as seen along the line
-  // between its samples. A facet at a reflex rim may be dented.
-  bool is_folded(int32_t facet) const {
+  // between its samples; if `dented`, also whether it has a deep dent. A facet at the rim of a hole
+  // has a slight one.
+  bool is_folded(int32_t facet, bool dented) const {
     const auto ring = complex_.ring(facet);
     const auto& [p, q] = complex_.generators[facet];
     const auto [right, up] = across(normalized(samples_.point(q) - samples_.point(p)));
@@ -506,7 +527,8 @@ class CrispMaker {
       const Vec3 at = made_.position[c.vertex] - origin;
       corners.push_back({dot(at, right), dot(at, up)});
     }
-    return is_turned_over(corners) || crosses_itself(corners);
+    return is_turned_over(corners) || crosses_itself(corners) ||
+           (dented && has_dent(corners, kDeepDent));
   }
 
   // Returns the new place of a vertex half way to the middle of its neighbours.
@@ -557,9 +579,9 @@ class CrispMaker {
   const SamplesOnFaces& samples_;
   std::span<const double> sine_;
   Run run_;
-  std::vector<int32_t> facets_;  // of K1
-  Csr<int32_t> facets_at_;    // per vertex: the facets of K1 at it
-  Array<uint8_t> edge_uses_;  // per edge: the facets of K1 at it; 3 means three or more
+  std::vector<int32_t> facets_;  // those that get places
+  Csr<int32_t> facets_at_;    // per vertex: the facets at it
+  Array<uint8_t> edge_uses_;  // per edge: the facets at it; 3 means three or more
   Array<uint8_t> on_rim_;     // per vertex
   std::vector<Hidden> hidden_;
   PointTree corners_;
