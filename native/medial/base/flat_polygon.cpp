@@ -7,6 +7,7 @@
 namespace medial {
 namespace {
 
+constexpr double kRoundingOfTurn = 1e-9;  // the sine of a turn
 constexpr double kRoundingOfArea = 1e-12;  // as a share of the product of the lengths
 
 FlatPoint from(const FlatPoint& a, const FlatPoint& b) { return {b.x - a.x, b.y - a.y}; }
@@ -42,6 +43,20 @@ bool has_dent(std::span<const FlatPoint> corners, double sine) {
     const FlatPoint in = from(corners[i], corners[(i + 1) % n]);
     const FlatPoint out = from(corners[(i + 1) % n], corners[(i + 2) % n]);
     if (cross(in, out) < -sine * length(in) * length(out)) return true;
+  }
+  return false;
+}
+
+bool turns_back(std::span<const FlatPoint> corners) {
+  const size_t n = corners.size();
+  for (size_t i = 0; i < n; ++i) {
+    const FlatPoint in = from(corners[i], corners[(i + 1) % n]);
+    const FlatPoint out = from(corners[(i + 1) % n], corners[(i + 2) % n]);
+    const double lengths = length(in) * length(out);
+    if (in.x * out.x + in.y * out.y < 0 && cross(in, out) <= kRoundingOfTurn * lengths &&
+        lengths > 0) {
+      return true;
+    }
   }
   return false;
 }

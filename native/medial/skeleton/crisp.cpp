@@ -67,6 +67,7 @@ class CrispMaker {
         256);
     end_fillets();
     reach_corners();
+    join_seams();
     unfold();
     return std::move(made_);
   }
@@ -462,6 +463,68 @@ class CrispMaker {
     return false;
   }
 
+  // --- seams
+
+  // A vertex may reach a seam without being on one: the sheet of the samples goes on a little where
+  // that of the faces ends. It follows the nearest neighbour that is on the seam, or else the order
+  // along the seam would be lost.
+  void join_seams() {
+    follows_ = array<int32_t>(complex_.cell.size(), -1, run_);
+    parallel_for(complex_.vertices(), run_, [&](int64_t id) {
+      const auto v = static_cast<int32_t>(id);
+      if (reaches_seam(v) && !is_on_seam(v)) follows_[v] = neighbour_on_seam(v);
+    });
+    for (int32_t v = 0; v < complex_.vertices(); ++v) {
+      if (follows_[v] >= 0) followers_.push_back(v);
+    }
+    follow();
+  }
+
+  void follow() {
+    for (const int32_t v : followers_) {
+      made_.position[v] = made_.position[follows_[v]];
+      made_.radius[v] = made_.radius[follows_[v]];
+    }
+  }
+
+  bool reaches_seam(int32_t v) const {
+    return made_.place[v] == Placing::touching && walls_[v].count >= 3;
+  }
+
+  bool is_on_seam(int32_t v) const {
+    bool found = false;
+    for_edges(v, [&](const Corner& c, int32_t) { found |= edge_uses_[c.edge] == 3; });
+    return found;
+  }
+
+  int32_t neighbour_on_seam(int32_t v) const {
+    int32_t best = -1;
+    const auto away = [&](int32_t other) {
+      return distance(complex_.position[other], complex_.position[v]);
+    };
+    for_edges(v, [&](const Corner&, int32_t other) {
+      if (!reaches_seam(other) || !is_on_seam(other)) return;
+      if (best < 0 || away(other) < away(best) || (away(other) == away(best) && other < best)) {
+        best = other;
+      }
+    });
+    return best;
+  }
+
+  // Calls found(corner, other) for the edges of each facet at a vertex, where `corner` names the
+  // edge and `other` is its other end.
+  template <typename Found>
+  void for_edges(int32_t v, const Found& found) const {
+    for (const int32_t f : facets_at_[v]) {
+      const auto ring = complex_.ring(f);
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const size_t next = (i + 1) % ring.size();
+        if (ring[i].vertex == v) found(ring[i], ring[next].vertex);
+        if (ring[next].vertex == v) found(ring[i], ring[i].vertex);
+      }
+    }
+  }
+
   // --- folds
 
   // Facets fold where places that nearly coincide changed their order. Their vertices take steps
@@ -484,6 +547,7 @@ class CrispMaker {
           take(v, found[i]);
         }
       }
+      follow();
     }
   }
 
@@ -514,9 +578,9 @@ class CrispMaker {
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
 
-  // Returns whether a facet is turned over, or its boundary crosses itself, as seen along the line
-  // between its samples; if `dented`, also whether it has a deep dent. A facet at the rim of a hole
-  // has a slight one.
+  // Returns whether a facet is turned over, or its boundary runs back or crosses itself, as seen
+  // along the line between its samples; if `dented`, also whether it has a deep dent. A facet at
+  // the rim of a hole has a slight one.
   bool is_folded(int32_t facet, bool dented) const {
     const auto ring = complex_.ring(facet);
     const auto& [p, q] = complex_.generators[facet];
@@ -527,7 +591,7 @@ class CrispMaker {
       const Vec3 at = made_.position[c.vertex] - origin;
       corners.push_back({dot(at, right), dot(at, up)});
     }
-    return is_turned_over(corners) || crosses_itself(corners) ||
+    return is_turned_over(corners) || turns_back(corners) || crosses_itself(corners) ||
            (dented && has_dent(corners, kDeepDent));
   }
 
@@ -535,7 +599,8 @@ class CrispMaker {
   Touch step_of(int32_t v) const {
     const Vec3& here = made_.position[v];
     const Placing place = made_.place[v];
-    if (place != Placing::crease && place != Placing::touching) return {here};
+    const bool moves = place == Placing::crease || place == Placing::touching;
+    if (!moves || follows_[v] >= 0) return {here};
     const auto middle = middle_of_neighbours(v, place);
     if (!middle) return {here};
     const Vec3 start = 0.5 * here + 0.5 * *middle;
@@ -555,14 +620,7 @@ class CrispMaker {
       sum = sum + made_.position[other];
       ++count;
     };
-    for (const int32_t f : facets_at_[v]) {
-      const auto ring = complex_.ring(f);
-      for (size_t i = 0; i < ring.size(); ++i) {
-        const size_t next = (i + 1) % ring.size();
-        if (ring[i].vertex == v) take(ring[i], ring[next].vertex);
-        if (ring[next].vertex == v) take(ring[i], ring[i].vertex);
-      }
-    }
+    for_edges(v, take);
     if (count == 0) return {};
     return (1.0 / count) * sum;
   }
@@ -588,6 +646,8 @@ class CrispMaker {
   std::vector<Vec3> corner_points_;
   CrispPlaces made_;
   Array<Walls> walls_;  // per vertex: what its ball touches
+  Array<int32_t> follows_;  // per vertex: the vertex in whose place it is, or -1
+  std::vector<int32_t> followers_;
 };
 
 }  // namespace
