@@ -12,7 +12,7 @@ constexpr double kRoundingOfArea = 1e-12;  // as a share of the product of the l
 
 FlatPoint from(const FlatPoint& a, const FlatPoint& b) { return {b.x - a.x, b.y - a.y}; }
 double cross(const FlatPoint& a, const FlatPoint& b) { return a.x * b.y - a.y * b.x; }
-double length(const FlatPoint& a) { return std::hypot(a.x, a.y); }
+double length(const FlatPoint& a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 
 // Returns on which side of a line through two points a third one lies: 1 left, -1 right, 0 unclear.
 int side(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {

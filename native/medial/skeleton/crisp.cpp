@@ -24,8 +24,8 @@ constexpr double kDeepDent = 0.25;    // the sine of the turn
 constexpr double kMostOpen = 0.45;   // the squared sine of half the angle
 constexpr double kFarOut = 0.8;      // of the way to the rim that balls are tried on
 constexpr double kFarthestRim = 12;  // from the last vertex to the rim
-constexpr double kBent = 0.2;  // the largest deviation from a line, as a share of the openness
-constexpr int kRimSteps = 8;
+constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
+constexpr int kRimSteps = 6;
 constexpr int kBisections = 40;  // of the way to the last ball that touches two places
 constexpr double kSameCrease = 0.85;  // the cosine between creases of one direction
 
@@ -341,7 +341,7 @@ class CrispMaker {
     const double spacing = spacing_at(v);
     const Vec3 outward = -normalized(inner.away[0] + inner.away[1]);
     double reach = distance_to_rim(inner, 0.25 * spacing * outward, 1);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 2; ++i) {
       if (!(reach < kFarthestRim * spacing)) return;
       reach = distance_to_rim(inner, (kFarOut * reach / kRimSteps) * outward, kRimSteps);
     }
@@ -530,11 +530,13 @@ class CrispMaker {
   // Facets fold where places that nearly coincide changed their order. Their vertices take steps
   // towards the middle of their neighbours, along the seam or crease that they are on.
   void unfold() {
+    std::vector<int32_t> suspects = facets_;
     for (int round = 0; round < kRounds; ++round) {
       throw_if_cancelled(run_.progress);
-      std::vector<int32_t> vertices = folded_vertices(round < kDentRounds);
+      std::vector<int32_t> vertices = folded_vertices(suspects, round < kDentRounds);
       if (vertices.empty()) return;
       if (round >= kOwnRounds) vertices = with_neighbours(vertices);
+      suspects = facets_round(vertices);
       std::vector<Touch> found(vertices.size());
       parallel_for(
           static_cast<int64_t>(vertices.size()), run_,
@@ -551,12 +553,12 @@ class CrispMaker {
     }
   }
 
-  // Returns the vertices of folded facets, and of dented ones if wanted, ascending.
-  std::vector<int32_t> folded_vertices(bool dented) const {
+  // Returns the vertices of folded facets out of some, and of dented ones if wanted, ascending.
+  std::vector<int32_t> folded_vertices(std::span<const int32_t> suspects, bool dented) const {
     auto vertices = parallel_append<int32_t>(
-        static_cast<int64_t>(facets_.size()), run_, [&](int64_t i, auto& out, int) {
-          if (!is_folded(facets_[i], dented)) return;
-          for (const Corner& c : complex_.ring(facets_[i])) out.push_back(c.vertex);
+        static_cast<int64_t>(suspects.size()), run_, [&](int64_t i, auto& out, int) {
+          if (!is_folded(suspects[i], dented)) return;
+          for (const Corner& c : complex_.ring(suspects[i])) out.push_back(c.vertex);
         });
     sort_out(vertices);
     return vertices;
@@ -568,6 +570,18 @@ class CrispMaker {
       for (const int32_t f : facets_at_[v]) {
         for (const Corner& c : complex_.ring(f)) all.push_back(c.vertex);
       }
+    }
+    sort_out(all);
+    return all;
+  }
+
+  // Returns the facets at some vertices, and at those that follow them.
+  std::vector<int32_t> facets_round(std::span<const int32_t> vertices) const {
+    std::vector<int32_t> all;
+    for (const int32_t v : vertices) all.insert(all.end(), facets_at_[v].begin(), facets_at_[v].end());
+    for (const int32_t v : followers_) {
+      if (!std::binary_search(vertices.begin(), vertices.end(), follows_[v])) continue;
+      all.insert(all.end(), facets_at_[v].begin(), facets_at_[v].end());
     }
     sort_out(all);
     return all;
