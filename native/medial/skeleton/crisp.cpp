@@ -12,6 +12,7 @@ namespace {
 constexpr double kExact = 1e-10;      // the largest difference between a radius and the distance
 constexpr double kFarthestMove = 2;   // that a vertex moves to touch walls
 constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in a crease
+constexpr double kNearAccident = 2;   // the same of one that may be no crease
 constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
 constexpr double kSameFoot = 0.08;    // between unit directions to feet that are one
 constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
@@ -23,7 +24,9 @@ constexpr double kDeepDent = 0.25;    // the sine of the turn
 // degrees.
 constexpr double kMostOpen = 0.45;   // the squared sine of half the angle
 constexpr double kFarOut = 0.8;      // of the way to the rim that balls are tried on
-constexpr double kFarthestRim = 12;  // from the last vertex to the rim
+constexpr double kFarthestRim = 0.5;       // from the last vertex to the rim, in radii
+constexpr double kLongerThanBeside = 1.25;  // of the way of a vertex to that of its neighbours
+constexpr int kRimRounds = 3;
 constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
 constexpr int kRimSteps = 4;
 constexpr int kBisections = 40;  // of the way to the last ball that touches two places
@@ -59,12 +62,14 @@ class CrispMaker {
     made_.radius = {complex_.radius.begin(), complex_.radius.end()};
     made_.place = Array<Placing>(complex_.cell.size(), Placing::voronoi);
     walls_ = array<Walls>(complex_.cell.size(), Walls{}, run_);
+    rim_ = array<SmoothRim>(complex_.cell.size(), SmoothRim{}, run_);
     parallel_for(
         complex_.vertices(), run_,
         [&](int64_t v) {
           if (!facets_at_[v].empty()) place(static_cast<int32_t>(v));
         },
         256);
+    settle_rims();
     end_fillets();
     reach_corners();
     join_seams();
@@ -139,7 +144,7 @@ class CrispMaker {
     made_.place[v] = found.radius > 0 ? Placing::touching : Placing::refused;
     if (!(found.radius > 0)) return;
     take(v, found);
-    if (on_rim_[v] && found.walls.count == 2) onto_rim(v, found);
+    if (on_rim_[v] && found.walls.count == 2) find_rim(v, found);
   }
 
   double spacing_at(int32_t v) const {
@@ -159,7 +164,9 @@ class CrispMaker {
     bool at_corner = false;
     for (const int32_t f : facets_at_[v]) {
       const auto found = samples_.crease_between(complex_.generators[f], complex_.position[v]);
-      if (!found || distance(found->point, complex_.position[v]) > kNearCrease * spacing) continue;
+      if (!found || distance(found->point, complex_.position[v]) > reach_of(*found) * spacing) {
+        continue;
+      }
       if (nearest && !same_direction(*nearest, *found)) at_corner = true;
       if (!nearest || distance(found->point, complex_.position[v]) <
                           distance(nearest->point, complex_.position[v])) {
@@ -173,6 +180,11 @@ class CrispMaker {
     made_.place[v] = jagged ? Placing::rim : Placing::crease;
     if (at_corner && !jagged) onto_corner(v, kNearCrease * spacing);
     return true;
+  }
+
+  // Sharp edges that divide nothing are often accidents of a coarse mesh.
+  double reach_of(const PlaceOnCrease& place) const {
+    return samples_.creases().divides(place.edge) ? kNearCrease : kNearAccident;
   }
 
   void onto_corner(int32_t v, double within) {
@@ -338,17 +350,44 @@ class CrispMaker {
   // Moves a vertex of a smooth rim outward to where the two feet become one: there the openness is
   // 0. It falls linearly towards the rim; the line is fitted to several balls on the way, because
   // the curvature of curved triangles jumps from one to the next.
-  void onto_rim(int32_t v, Touch inner) {
+  void find_rim(int32_t v, const Touch& inner) {
     const double first = openness(inner.away);
     if (!(first < kMostOpen)) return;
-    const double spacing = spacing_at(v);
+    const double farthest = kFarthestRim * inner.radius;
     const Vec3 outward = -normalized(inner.away[0] + inner.away[1]);
-    double reach = distance_to_rim(inner, 0.25 * spacing * outward, 1);
+    double reach = distance_to_rim(inner, 0.25 * spacing_at(v) * outward, 1);
     for (int i = 0; i < 2; ++i) {
-      if (!(reach < kFarthestRim * spacing)) return;
+      if (!(reach < farthest)) return;
       reach = distance_to_rim(inner, (kFarOut * reach / kRimSteps) * outward, kRimSteps);
     }
-    if (reach < kFarthestRim * spacing) end_on_rim(v, inner.position + reach * outward);
+    if (reach < farthest) rim_[v] = {outward, reach};
+  }
+
+  // Moves the vertices of smooth rims. A vertex goes no farther than the rim beside it does.
+  void settle_rims() {
+    for (int round = 0; round < kRimRounds; ++round) {
+      auto settled = array<double>(rim_.size(), run_);
+      parallel_for(complex_.vertices(), run_,
+                   [&](int64_t v) { settled[v] = settled_reach(static_cast<int32_t>(v)); });
+      for (size_t v = 0; v < rim_.size(); ++v) rim_[v].reach = settled[v];
+    }
+    parallel_for(complex_.vertices(), run_, [&](int64_t v) {
+      if (rim_[v].reach > 0) {
+        end_on_rim(static_cast<int32_t>(v),
+                   made_.position[v] + rim_[v].reach * rim_[v].outward);
+      }
+    });
+  }
+
+  double settled_reach(int32_t v) const {
+    if (!(rim_[v].reach > 0)) return 0;
+    std::vector<double> beside{rim_[v].reach};
+    for_edges(v, [&](const Corner& c, int32_t other) {
+      if (edge_uses_[c.edge] == 1) beside.push_back(rim_[other].reach);
+    });
+    const auto middle = beside.begin() + static_cast<std::ptrdiff_t>((beside.size() - 1) / 2);
+    std::nth_element(beside.begin(), middle, beside.end());
+    return std::min(rim_[v].reach, kLongerThanBeside * *middle);
   }
 
   // Returns how far the openness of the balls after some steps lets the rim be; infinite if it does
@@ -663,6 +702,12 @@ class CrispMaker {
   std::vector<Vec3> corner_points_;
   CrispPlaces made_;
   Array<Walls> walls_;  // per vertex: what its ball touches
+  // Per vertex: how far, and in which direction, a smooth rim is; 0 if there is none.
+  struct SmoothRim {
+    Vec3 outward;
+    double reach = 0;
+  };
+  Array<SmoothRim> rim_;
   Array<int32_t> follows_;  // per vertex: the vertex in whose place it is, or -1
   std::vector<int32_t> followers_;
 };
