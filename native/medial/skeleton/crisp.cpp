@@ -3,6 +3,7 @@
 
 #include "base/atomic.h"
 #include "base/flat_polygon.h"
+#include "base/union_find.h"
 #include "contact/touching_ball.h"
 
 namespace medial {
@@ -12,7 +13,7 @@ namespace {
 constexpr double kExact = 1e-10;      // the largest difference between a radius and the distance
 constexpr double kFarthestMove = 2;   // that a vertex moves to touch walls
 constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in a crease
-constexpr double kNearAccident = 2;   // the same of one that may be no crease
+constexpr double kNearAccident = 3.5;   // the same of one that may be no crease
 constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
 constexpr double kSameFoot = 0.08;    // between unit directions to feet that are one
 constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
@@ -27,6 +28,7 @@ constexpr double kFarOut = 0.8;      // of the way to the rim that balls are tri
 constexpr double kFarthestRim = 0.5;       // from the last vertex to the rim, in radii
 constexpr double kLongerThanBeside = 1.25;  // of the way of a vertex to that of its neighbours
 constexpr int kRimRounds = 3;
+constexpr double kCertainRim = 0.85;  // of the vertices of a rim must have found it
 constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
 constexpr int kRimSteps = 4;
 constexpr int kBisections = 40;  // of the way to the last ball that touches two places
@@ -371,12 +373,32 @@ class CrispMaker {
                    [&](int64_t v) { settled[v] = settled_reach(static_cast<int32_t>(v)); });
       for (size_t v = 0; v < rim_.size(); ++v) rim_[v].reach = settled[v];
     }
+    leave_doubtful_rims();
     parallel_for(complex_.vertices(), run_, [&](int64_t v) {
       if (rim_[v].reach > 0) {
         end_on_rim(static_cast<int32_t>(v),
                    made_.position[v] + rim_[v].reach * rim_[v].outward);
       }
     });
+  }
+
+  // A rim moves as a whole or not at all: where too few of its vertices have found the end of the
+  // sheet, as on noisy bodies, it would become ragged.
+  void leave_doubtful_rims() {
+    UnionFind rims(rim_.size());
+    for (size_t e = 0; e < complex_.ends.size(); ++e) {
+      if (edge_uses_[e] == 1) rims.unite(complex_.ends[e][0], complex_.ends[e][1]);
+    }
+    const auto rim = std::move(rims).representatives();
+    std::vector<int32_t> all(rim_.size(), 0), found(rim_.size(), 0);
+    for (int32_t v = 0; v < complex_.vertices(); ++v) {
+      if (!on_rim_[v] || made_.place[v] >= Placing::rim) continue;
+      ++all[rim[v]];
+      found[rim[v]] += rim_[v].reach > 0;
+    }
+    for (int32_t v = 0; v < complex_.vertices(); ++v) {
+      if (found[rim[v]] < kCertainRim * all[rim[v]]) rim_[v].reach = 0;
+    }
   }
 
   double settled_reach(int32_t v) const {
