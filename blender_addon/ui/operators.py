@@ -46,11 +46,11 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        form = Form[self.form]
+        form, possible = Form[self.form], settings_from(self).crisp_is_possible
         for name in OPTIONS:
             if name not in SAMPLING_OPTIONS:
                 row = self.layout.row()
-                row.active = applies_to_form(name, form)
+                row.active = possible if name == "crisp" else applies_to_form(name, form)
                 row.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 

@@ -83,9 +83,10 @@ class SamplingProperties:
 def draw_sampling(layout, properties):
     """Draw the options of the sampling; those that do not matter for the chosen Sampling are grey."""
     chosen = SamplingMode[properties.sampling]
+    of_faces = settings_from(properties).options_of_faces if hasattr(properties, "form") else ()
     for name in SAMPLING_OPTIONS:
         row = layout.row()
-        row.active = applies(name, chosen, properties.spacing)
+        row.active = applies(name, chosen, properties.spacing, of_faces)
         row.prop(properties, name)
 
 

@@ -69,6 +69,8 @@ class AxisWork:
             "form": as_words(found.settings)["form"],
             "topology": found.topology,
             "betti": None if axis.level is None else list(axis.level.betti),
+            "places": None if axis.level is None else axis.level.places,
+            "refused": None if axis.level is None else axis.level.refused,
             "structure": None if axis.structure is None else summary_of(axis.structure),
             "facets": axis.facets,
             "edges": len(axis.edges),
