@@ -63,10 +63,10 @@ class LevelValues:
     @property
     def places(self) -> str:
         """A sentence about the places of the vertices."""
-        crisp = int(np.count_nonzero(self.is_crisp))
-        if not crisp:
-            return "Balls end at the samples"
-        return f"Balls of {crisp:,} of {len(self.place):,} vertices end at the faces, the others at the samples"
+        crisp, balls = int(np.count_nonzero(self.is_crisp)), len(self.place)
+        if crisp in (0, balls):
+            return f"All balls end at the {'faces' if crisp else 'samples'}"
+        return f"{crisp:,} of {balls:,} balls end at the faces, the others at the samples"
 
 
 def no_edges() -> NDArray[np.int32]:
