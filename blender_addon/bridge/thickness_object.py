@@ -107,7 +107,7 @@ def write_thickness(
     own = _has_own(source, found) and keeps_rows(source)
     if own:
         _write_attributes(source.data, found.of_vertices)
-    dense = own and len(source.data.vertices) >= _ENOUGH * len(found.points)
+    dense = own and len(source.data.vertices) >= _ENOUGH * found.samples
     if dense and COPY.of(source) is None and len(found.shape.triangles):
         carrier = source
         local = np.linalg.inv(np.array(source.matrix_world, np.float64)) @ frame
@@ -171,7 +171,7 @@ def _write_copy(
         copy.show_in_front = True  # it lies on its source
     place(copy, frame)
     duplicates = found.chosen.samples.analysis.duplicates
-    remember(copy, source, len(found.points), duplicates, found.warnings)
+    remember(copy, source, found.samples, duplicates, found.warnings)
     return copy
 
 

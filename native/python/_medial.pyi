@@ -296,14 +296,15 @@ class Level:
         """(v,) float64: radius of each vertex' ball: the empty one, or, relaxed, that of what is shown."""
     @property
     def exact(self) -> NDArray[np.float64]:
-        """(v, 3) float64: the place on the Voronoi diagram that each vertex stands for; equal to `vertices` unless
-        relaxed."""
+        """(v, 3) float64: the place of the vertex of the hierarchy that each vertex stands for, a Voronoi vertex inside
+        the solid; equal to `vertices` unless relaxed. Neighbours on a wire may stand for the same one."""
     @property
     def exact_radius(self) -> NDArray[np.float64]:
         """(v,) float64: radius of the empty ball there."""
     @property
     def vertex_of(self) -> NDArray[np.int32]:
-        """(v,) int32: vertex of the hierarchy, for its values; of new vertices the nearest along the wire."""
+        """(v,) int32: vertex of the hierarchy that each vertex stands for; of new vertices the nearest along the
+        wire."""
     @property
     def face_offsets(self) -> NDArray[np.int32]:
         """(f + 1,) int32: facet i has the corners `face_vertices[face_offsets[i] : face_offsets[i + 1]]`."""

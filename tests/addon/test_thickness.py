@@ -141,6 +141,45 @@ def test_thin_faces_are_selected_in_edit_mode():
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
+def fin():
+    """A cube with a fin of 0.002, thinner than the samples are apart."""
+    cube = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    corners = [(0.25, 0.499), (0.75, 0.499), (0.75, 0.501), (0.25, 0.501)]
+    points = cube + [(x, y, z) for z in (1, 1.1) for x, y in corners]
+    faces = [(0, 3, 2, 1), (12, 13, 14, 15)]
+    for start in (0, 4, 8):  # the sides of the cube, its top around the fin, the sides of the fin
+        rings = [(start + i, start + (i + 1) % 4) for i in range(4)]
+        faces += [(i, j, j + 4, i + 4) for i, j in rings]
+    return link("Fin", points, faces)
+
+
+def test_thin_parts_that_only_rays_find_are_seen():
+    source = fin()
+    carrier = measure(source, limit=0.001)
+    panel = bpy.context.scene.medial_axis_thickness
+    assert carrier != source and not thin_faces(carrier).any()
+    panel.limit = 0.02
+    assert panel.note == ""
+    centres = np.array([tuple(p.center) for p in carrier.data.polygons])
+    thin = thin_faces(carrier)
+    area = np.array([p.area for p in carrier.data.polygons])[thin].sum()
+    assert area == pytest.approx(0.1, rel=0.15) and centres[thin][:, 2].min() > 0.97
+    used = [v for p in carrier.data.polygons if thin[p.index] for v in p.vertices]
+    colours = np.array([tuple(c.color) for c in carrier.data.color_attributes["ma_color"].data])
+    assert np.median(colours[used], axis=0)[0] > 0.7
+    assert attribute(source.data, "ma_thickness")[8:] == pytest.approx([0.002] * 8, rel=0.01)
+    on_fin = [p for p in source.data.polygons if min(p.vertices) >= 8]
+    sides = [p.index for p in on_fin if abs(p.normal.y) > 0.9]
+    assert len(sides) == 2 and thin_faces(source)[sides].all()
+    for thing in (source, carrier):
+        for which in ("MINIMUM", "NEXT", "ALL"):
+            select(thing)
+            assert bpy.ops.object.medial_axis_thin_place(which=which) == {"FINISHED"}
+            selected = np.array([p.select for p in thing.data.polygons])
+            assert selected.any() and thin_faces(thing)[selected].all(), which
+        assert np.array_equal(selected, thin_faces(thing))
+
+
 def test_edit_mode_and_places_without_a_measurement_are_refused():
     source = torus()
     select(source)

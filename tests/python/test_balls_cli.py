@@ -85,6 +85,16 @@ def test_closed_standard_output(source, tmp_path):
     assert (tmp_path / "torus.json").exists()
 
 
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="there is no /dev/full")
+def test_standard_output_is_full(source, tmp_path):
+    words = ["balls", source, str(tmp_path / "torus.json"), *WORDS]
+    program = [sys.executable, os.path.dirname(medial_axis.__file__)]
+    with open("/dev/full", "wb") as full:
+        done = subprocess.run([*program, *words], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert done.returncode == cli.FAILED and (tmp_path / "torus.json").exists()
+    assert done.stderr.count("\n") == 1 and "No space left" in done.stderr
+
+
 @pytest.mark.parametrize(
     "words", [("x.ply",), ("x.json", "--theta", "30"), ("x.json", "--options", "--count 0")]
 )

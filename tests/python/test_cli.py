@@ -281,6 +281,9 @@ COMMANDS = [
     ["skeleton", "egg.obj", "egg.obj"],
     ["skeleton", "egg.obj", ".", "--format", "obj"],
     ["egg.npz", "egg.npz"],
+    ["thickness", "egg_####.ply", "./egg_####.ply", "--frames", "1-2"],
+    ["balls", "egg_0001.ply", "hard.ma"],
+    ["balls", "egg_####.ply", "hard_####.ma", "--frames", "1-2"],
 ]
 
 
@@ -298,6 +301,8 @@ def test_no_output_replaces_an_input(here, run, words):
     (here / "sub").mkdir()
     (here / "linked.ply").symlink_to("egg.ply")
     os.link(here / "egg.ply", here / "hard.ply")
+    os.link(here / "egg_0001.ply", here / "hard.ma")
+    os.link(here / "egg_0002.ply", here / "hard_0002.ma")
     before = written(here)
     code, reports, said = run(*words)
     assert code == cli.USAGE and reports == [] and written(here) == before

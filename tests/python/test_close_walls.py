@@ -6,10 +6,17 @@ import json
 import numpy as np
 import pytest
 from medial_axis import cli
+from medial_axis.core.files.write_thickness import export_thickness
 from medial_axis.core.samples.shape import Shape
-from medial_axis.core.settings import Between, Edges, Settings, ThicknessSettings
+from medial_axis.core.settings import Between, Edges, SamplingMode, Settings, ThicknessSettings
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_parts import find_thin_parts
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+from support import meshes
+from support.thick_meshes import joined
+
+from tests.support.fuzz import repeats
 
 pytestmark = pytest.mark.oracle
 
@@ -48,6 +55,12 @@ def measured(points, triangles, **wanted):
     return measure_thickness(shape, Settings(), ThicknessSettings(**wanted))
 
 
+def normals_of(points, triangles):
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    normals = np.cross(b - a, c - a)
+    return normals / np.linalg.norm(normals, axis=1)[:, None]
+
+
 def write(path, points, triangles):
     rows = [f"OFF\n{len(points)} {len(triangles)} 0"]
     rows += ["{!r} {!r} {!r}".format(*map(float, row)) for row in points]
@@ -73,9 +86,133 @@ def test_a_fin_does_not_pass_the_gate(tmp_path, capsys, width, thickness):
     assert abs(x - 0.5) <= width and abs(y - 0.5) <= 0.01 and z >= 0.99
 
 
+def values_near(found, places, reach):
+    """(k,) the least length of the samples, and of the triangles, whose places are nearer than a reach."""
+    middles = found.points[found.triangles].mean(axis=1)
+    least = []
+    for points, values in ((found.points, found.lengths), (middles, found.of_triangles)):
+        near = cKDTree(points).query_ball_point(places, reach)
+        least.append(np.array([values[rows].min(initial=np.inf) for rows in near]))
+    return least
+
+
+THIN_THINGS = [
+    *(pytest.param(cube_with_fin(*fin), 0.02, id=f"fin-{fin}") for fin in FINS),
+    *(pytest.param(box(1.0, 1.0, t), 0.02, id=f"plate-{t}") for t in (0.002, 0.0015, 1e-5)),
+    pytest.param(cube_with_fin(0.5, 0.002), 0.001, id="no limit is met"),
+]
+
+
+@pytest.mark.parametrize("edges", list(Edges))
+@pytest.mark.parametrize(("mesh", "limit"), THIN_THINGS)
+def test_no_value_exceeds_what_rays_find(mesh, limit, edges):
+    """The lengths at the samples, at the triangles and at the vertices of the shape are those of the close walls."""
+    found = measured(*mesh, limit=limit, edges=edges)
+    walls, spacing = found.walls, found.chosen.samples.walls.spacing.max()
+    of_samples, of_triangles = values_near(found, walls.points, spacing)
+    assert (of_samples <= walls.distance).all() and (of_triangles <= walls.distance).all()
+    assert found.minimum <= walls.distance.min(initial=np.inf)
+    parts = find_thin_parts(found, limit)
+    thin = found.of_triangles < limit - found.slack
+    np.testing.assert_array_equal(parts.patch_of_triangles >= 0, thin)
+    assert parts.area == pytest.approx(found.areas[thin].sum())
+
+
+@pytest.mark.parametrize("seed", repeats(12))
+def test_fuzzed_thin_parts(seed):
+    """Plates, and fins on one or two blocks, turned, moved and of any size."""
+    rng = np.random.default_rng(seed)
+    mesh = cube_with_fin(rng.uniform(0.05, 0.6), 10 ** rng.uniform(-5.0, -1.5))
+    if rng.random() < 0.4:
+        mesh = joined(mesh, moved_block(*rng.uniform(-0.6, 0.6, 2), rng.uniform(-1.2, -0.2)))
+    elif rng.random() < 0.4:
+        mesh = box(1.0, rng.uniform(0.1, 1.0), 10 ** rng.uniform(-5.0, -1.5))
+    turned = mesh[0] @ Rotation.random(random_state=seed).as_matrix().T
+    points = (turned + rng.uniform(-2.0, 2.0, 3)) * 10 ** rng.uniform(-8.0, 8.0)
+    sampling = (SamplingMode.SURFACE, SamplingMode.VERTICES)[seed % 2]
+    wanted = ThicknessSettings(edges=list(Edges)[seed % 3])
+    shape = Shape(points, mesh[1].astype(np.int32))
+    found = measure_thickness(shape, Settings(sampling=sampling, samples=2_000), wanted)
+    walls, reach = found.walls, 1.5 * found.chosen.samples.walls.spacing.max()
+    for least in values_near(found, walls.points, reach):
+        assert (least <= walls.distance).all()
+    assert found.triangles.max() < len(found.points) == len(found.lengths) == len(found.at_edge)
+    assert len(find_thin_parts(found, 2 * found.minimum).patch_of_faces) == len(mesh[1])
+
+
+@pytest.mark.parametrize(("width", "thickness"), FINS)
+def test_a_fin_is_seen(tmp_path, width, thickness):
+    """Its vertices in the table, its triangles and colours in the picture, and its faces in the selection."""
+    points, triangles = cube_with_fin(width, thickness)
+    found = measured(points, triangles, limit=0.02)
+    parts = find_thin_parts(found, 0.02)
+    table = export_thickness(found, parts, tmp_path / "fin.csv").read_text().split("\n")[1:-1]
+    lengths = np.array([float(row.split(",")[-1]) for row in table])
+    assert lengths[8:] == pytest.approx(np.full(8, thickness), rel=0.01)
+    assert (lengths[:8] > 0.5).all()
+    on_fin = triangles.min(axis=1) >= 8
+    sides = on_fin & (np.abs(normals_of(points, triangles)[:, 1]) > 0.9)
+    assert (parts.patch_of_faces[sides] >= 0).all() and (parts.patch_of_faces[~on_fin] < 0).all()
+    path = export_thickness(found, parts, tmp_path / "fin.ply")
+    head, body = path.read_bytes().split(b"end_header\n", 1)
+    kind = np.dtype([("place", "<f8", 3), ("thickness", "<f8"), ("colour", "u1", 3)])
+    vertices = np.frombuffer(body, kind, len(found.points))
+    kind = np.dtype([("n", "u1"), ("corners", "<i4", 3), ("patch", "<i4")])
+    faces = np.frombuffer(body[vertices.nbytes :], kind)
+    corners = vertices[faces["corners"][faces["patch"] >= 0]].ravel()
+    height = corners["place"][:, 2]
+    assert len(corners) and f"element face {len(faces)}\n".encode() in head
+    assert (height > 0.95).all() and (corners["colour"][height > 1.02, 0] > 200).mean() > 0.9
+
+
+@pytest.mark.parametrize(("width", "thickness"), [f for f in FINS if f[0] >= 0.1])
+def test_the_area_of_a_fin_is_its_own(width, thickness):
+    found = measured(*cube_with_fin(width, thickness))
+    true = 2 * 0.1 * width / (6 + 2 * 0.1 * (width + thickness))
+    assert find_thin_parts(found, 0.02).share == pytest.approx(true, rel=0.15)
+
+
+def test_vertices_that_are_samples_have_the_length_of_the_faces_at_them():
+    """A fine cube with a fin whose own faces are large."""
+    points, triangles = cube_with_fin(0.5, 0.002)
+    shape = Shape(points, triangles.astype(np.int32))
+    found = measure_thickness(shape, Settings(sampling=SamplingMode.VERTICES), ThicknessSettings())
+    sides = np.abs(normals_of(points, triangles)[:, 1]) > 0.9
+    sides &= triangles.min(axis=1) >= 8
+    assert (found.of_triangles[sides] <= 0.00201).all() and (found.of_vertices[8:] <= 0.00201).all()
+
+
+def test_a_face_that_is_thin_at_one_end_is_thick_at_the_other():
+    """A block with a tongue of 0.002; both stand on one long face."""
+    profile = [(0, 0), (2, 0), (2, 0.002), (1, 0.002), (1, 0.4), (0, 0.4)]
+    points = np.array([(x, y, z) for y in (0.0, 0.5) for x, z in profile])
+    sides = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
+    ends = [[5, 4, 3, 0], [3, 2, 1, 0]]
+    triangles = halves([*sides, *ends, *([i + 6 for i in end[::-1]] for end in ends)])[:, ::-1]
+    found = measured(points, triangles, limit=0.02)
+    parts = find_thin_parts(found, 0.02)
+    place = found.points[found.triangles].mean(axis=1)
+    thin = parts.patch_of_triangles >= 0
+    assert place[thin, 0].min() > 0.9 and found.areas[thin].sum() == pytest.approx(1.0, rel=0.05)
+    assert found.of_vertices[[1, 2, 7, 8]] == pytest.approx(np.full(4, 0.002), rel=0.01)
+    assert (found.of_vertices[[0, 5, 6, 11]] > 0.3).all()
+
+
+@pytest.mark.parametrize("cut", [1, 2, 5])
+def test_pieces_cover_a_face(cut):
+    from medial_axis.core.solid.face_pieces import _lattice
+
+    shares, pieces = _lattice(cut)
+    corners = shares[pieces] @ np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    assert len(pieces) == cut * cut and len(np.unique(pieces)) == len(shares)
+    assert a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] == pytest.approx(np.full(cut * cut, 1 / cut**2))
+
+
 @pytest.mark.parametrize("thickness", [0.01, 0.002, 0.0015, 0.0003, 1e-5])
 def test_plates_have_their_thickness_however_thin(thickness):
     found = measured(*box(1.0, 1.0, thickness), limit=0.02)
+    assert (found.of_vertices <= 1.01 * thickness).all()
     assert found.minimum == pytest.approx(thickness, rel=0.01)
     assert find_thin_parts(found, 0.02).share > 0.9 and found.unmeasured < 0.01
 
@@ -89,6 +226,40 @@ def test_thick_solids_are_as_before():
         assert len(found.walls.distance) == 0 and found.unmeasured < 0.01
 
 
+def moved_block(*offset):
+    points, triangles = box(1.0, 1.0, 1.0)
+    return points + np.array(offset), triangles
+
+
+def test_a_fin_on_parts_that_overlap():
+    """Rays pass through the walls inside the solid, so they are right where parts overlap."""
+    found = measured(*joined(cube_with_fin(0.5, 0.002), moved_block(0.5, 0.3, -0.5)), limit=0.02)
+    assert found.chosen.samples.buried > 100
+    assert found.minimum == pytest.approx(0.002, rel=0.01)
+    assert 0.005 < find_thin_parts(found, 0.02).share < 0.02
+
+
+@pytest.mark.parametrize(
+    "offset",
+    [(0.5, 0.3, 0.2), (0.99, 0.3, 0.2), (0.0, 0.001, 0.6), (1e-16, 0, 0.5), (0, 1e-9, 0.6)],
+)
+def test_thick_parts_that_overlap_have_no_close_walls(offset):
+    found = measured(*joined(box(1.0, 1.0, 1.0), moved_block(*offset)))
+    assert found.chosen.samples.buried > 100 and not len(found.walls.distance)
+
+
+def test_ways_end_where_the_solid_does(data_file, medial):
+    """Faces of several parts coincide in this mesh: rays once ended at one of them, inside another part."""
+    points, triangles = meshes.read(data_file("openscad-nonmanifold-crash.obj"))
+    walls = measured(points, triangles).walls
+    inward = -normals_of(points, triangles)[walls.faces]
+    steps = np.array([-0.02, 0.02, 0.5, 0.98, 1.02])[:, None, None] * walls.distance[:, None]
+    places = (walls.points + steps * inward).reshape(-1, 3)
+    triangles = triangles.astype(np.int32)
+    inside = medial.winding_number(places, points, triangles).reshape(5, -1) > 0.5
+    assert len(walls.distance) > 100 and inside[1:4].all() and not inside[[0, 4]].any()
+
+
 def test_a_gap_is_no_wall():
     assert len(measured(*cube_with_fin(0.1, 0.002), between=Between.GAP).walls.distance) == 0
 
@@ -97,7 +268,7 @@ def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):
     """Where the axis and the rays find nothing: here by taking the walls away."""
     from medial_axis.core.solid import close_walls, thickness
 
-    nothing = lambda *_: close_walls.no_close_walls()
+    nothing = lambda shape, *_: close_walls.no_close_walls(shape)
     monkeypatch.setattr(thickness, "close_walls", nothing)
     source = write(tmp_path / "plate.off", *box(1.0, 1.0, 1e-5))
     output = tmp_path / "plate.json"

@@ -77,7 +77,7 @@ def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str
             }
             for patch in parts.patches
         ],
-        "samples": len(found.points),
+        "samples": found.samples,
         "sampled": found.chosen.reason,
         "inside": str(found.chosen.sides),
         "normals": found.normals,

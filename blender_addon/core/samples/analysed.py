@@ -147,6 +147,8 @@ class AnalysedSamples:
         )
         others = (density.points, density.spacing, density.feature_size, density.edges)
         walls = self.walls
-        more = (walls.points, walls.distance, walls.spacing, walls.area) if walls else ()
+        more: tuple[NDArray, ...] = ()
+        if walls:
+            more = (walls.points, walls.distance, walls.spacing, walls.area, walls.faces)
         arrays = [x for x in (*own, *others, *more) if x is not None]
         return int(self.analysis.bytes) + self.levels.bytes + sum(x.nbytes for x in arrays)

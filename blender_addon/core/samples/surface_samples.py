@@ -109,7 +109,13 @@ def sample_faces(
         spacing=spacing,
         buried=int(np.count_nonzero(~bare)),
         closing=0,
-        places=Places(feet[inside], outward[inside], radius[inside] / _DISC, radius[inside] ** 2),
+        places=Places(
+            feet[inside],
+            outward[inside],
+            radius[inside] / _DISC,
+            radius[inside] ** 2,
+            found.triangle[inside],
+        ),
     )
 
 

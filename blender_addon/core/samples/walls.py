@@ -45,12 +45,15 @@ class Places:
         The distance of neighbouring samples there.
     area : (n,) float64
         The area that each place represents; only ratios matter.
+    faces : (n,) int32
+        The triangle of the shape on which each place lies.
     """
 
     points: NDArray[np.float64]
     normals: NDArray[np.float64]
     spacing: NDArray[np.float64]
     area: NDArray[np.float64]
+    faces: NDArray[np.int32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,12 +69,15 @@ class Walls:
         The distance of neighbouring samples there.
     area : (n,) float64
         The area that each place represents; only ratios matter.
+    faces : (n,) int32
+        The triangle of the shape on which each place lies.
     """
 
     points: NDArray[np.float64]
     distance: NDArray[np.float64]
     spacing: NDArray[np.float64]
     area: NDArray[np.float64]
+    faces: NDArray[np.int32]
 
     @cached_property
     def missed(self) -> float:
@@ -115,10 +121,12 @@ class Walls:
 
 def middles_of_faces(shape: Shape) -> Places:
     """The middles of the faces, with the spacing of their corners; of many faces an even selection."""
-    corners = shape.points[shape.triangles[some_of(len(shape.triangles))]]
+    rows = some_of(len(shape.triangles))
+    corners = shape.points[shape.triangles[rows]]
     normals, doubled = unit_normals(corners)
     wide, spacing = doubled > 0.0, np.sqrt(2.0 / math.sqrt(3.0) * doubled)
-    return Places(corners.mean(axis=1)[wide], normals[wide], spacing[wide], doubled[wide])
+    faces = rows[wide].astype(np.int32)
+    return Places(corners.mean(axis=1)[wide], normals[wide], spacing[wide], doubled[wide], faces)
 
 
 def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
@@ -139,4 +147,4 @@ def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
             shape.triangles,
             progress=progress,
         )
-    return Walls(places.points, distance, places.spacing, places.area)
+    return Walls(places.points, distance, places.spacing, places.area, places.faces)

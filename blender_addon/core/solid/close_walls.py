@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from ..samples.chosen import ChosenSamples
     from ..samples.shape import Shape
+    from ..samples.walls import Walls
 
 # A way through the solid counts where it is shorter than this share of the measured length.
 _SHORTER = 0.95
@@ -31,6 +32,8 @@ _ACUTE = math.radians(75.0)
 # So many ways through the solid from such an edge, its faces are no longer a wedge but two walls (at 18 degrees).
 _REACH = 3.0
 _STEPS = 4  # places on an acute edge for each spacing
+# Both sides of the faces at the ends of a way are tested this far from them, as a share of the way.
+_BESIDE = 0.01
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,15 +47,31 @@ class CloseWalls:
         The way straight through the solid.
     share : (k,) float64
         The share of the surface that each place represents.
+    faces : (k,) int32
+        The triangle of the shape on which each place lies.
+    sample : (k,) int32
+        The sample next to each place.
+    at_vertices : (v,) float64
+        The way through the solid at the place of a face that is next to each vertex of the shape, the least of its
+        faces; infinite where none is known.
     """
 
     points: NDArray[np.float64]
     distance: NDArray[np.float64]
     share: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    sample: NDArray[np.int32]
+    at_vertices: NDArray[np.float64]
 
 
-def no_close_walls() -> CloseWalls:
-    return CloseWalls(np.empty((0, 3)), np.empty(0), np.empty(0))
+def no_close_walls(shape: Shape) -> CloseWalls:
+    none, far = np.empty(0, np.int32), np.full(len(shape.points), np.inf)
+    return CloseWalls(np.empty((0, 3)), np.empty(0), np.empty(0), none, none, far)
+
+
+def is_shorter(way: NDArray[np.float64], lengths: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether ways through the solid count, compared with the lengths that were measured."""
+    return way < _SHORTER * lengths
 
 
 def close_walls(
@@ -69,18 +88,67 @@ def close_walls(
     between : Between
         Gaps are not looked for.
     """
-    walls = chosen.samples.walls_to_show
+    walls = chosen.samples.walls
     if walls is None or between is not Between.WALL or not len(walls.area):
-        return no_close_walls()
-    near = np.flatnonzero(np.isfinite(walls.distance))
+        return no_close_walls(shape)
+    known = _known(shape, walls, overlapping=chosen.samples.buried > 0)
     with native.own_errors() as module:
-        sample = module.nearest(chosen.samples.points, walls.points[near])
-    near = near[walls.distance[near] < _SHORTER * lengths[sample]]
-    spacing = float(walls.spacing[near].min(initial=np.inf))
-    edge = _distance_to_acute_edges(shape, walls.points[near], spacing)
-    near = near[edge > _REACH * walls.distance[near] + spacing / _STEPS]
-    share = walls.area[near] / walls.area.sum()
-    return CloseWalls(walls.points[near], walls.distance[near], share)
+        sample = module.nearest(chosen.samples.points, walls.points[known])
+    closer = is_shorter(walls.distance[known], lengths[sample])
+    near, sample = known[closer], sample[closer]
+    return CloseWalls(
+        points=walls.points[near],
+        distance=walls.distance[near],
+        share=walls.area[near] / walls.area.sum(),
+        faces=walls.faces[near],
+        sample=sample,
+        at_vertices=_at_vertices(shape, walls, known),
+    )
+
+
+def rounding_of(points: NDArray[np.float64]) -> float:
+    """The rounding of coordinates that may once have been float32, as all of Blender's are."""
+    return 4 * float(np.finfo(np.float32).eps) * float(np.abs(points).max(initial=0.0))
+
+
+def _known(shape: Shape, walls: Walls, overlapping: bool) -> NDArray[np.intp]:
+    """The places whose way through the solid is finite and not in a wedge."""
+    finite = np.flatnonzero(np.isfinite(walls.distance))
+    if overlapping:
+        finite = finite[_are_through(shape, walls, finite)]
+    spacing = float(walls.spacing[finite].min(initial=np.inf))
+    edge = _distance_to_acute_edges(shape, walls.points[finite], spacing)
+    return finite[edge > _REACH * walls.distance[finite] + spacing / _STEPS]
+
+
+def _are_through(shape: Shape, walls: Walls, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """(k,) whether ways begin and end where the solid does: not at faces of several parts that coincide."""
+    places, way = walls.points[rows], walls.distance[rows]
+    normals, _ = unit_normals(shape.points[shape.triangles[walls.faces[rows]]])
+    beside = _BESIDE * way[:, None] * normals
+    through = way > rounding_of(shape.points)
+    with native.own_errors() as module:
+        for ends in (places, places - way[:, None] * normals):
+            through &= module.buried(ends, beside, 1.0, shape.points, shape.triangles) == 0
+    return through
+
+
+def _at_vertices(shape: Shape, walls: Walls, known: NDArray[np.intp]) -> NDArray[np.float64]:
+    """As `CloseWalls.at_vertices`."""
+    found = np.full(len(shape.points), np.inf)
+    way = np.full(len(walls.distance), np.inf)
+    way[known] = walls.distance[known]
+    used = np.zeros(len(shape.triangles), bool)
+    used[walls.faces[known]] = True
+    places = np.flatnonzero(used[walls.faces])
+    corners = shape.triangles[walls.faces[places]]
+    away = np.linalg.norm(shape.points[corners] - walls.points[places, None], axis=2)
+    for corner in range(3):
+        order = np.lexsort((away[:, corner], walls.faces[places]))
+        _, first = np.unique(walls.faces[places[order]], return_index=True)
+        nearest = order[first]
+        np.minimum.at(found, corners[nearest, corner], way[places[nearest]])
+    return found
 
 
 def _distance_to_acute_edges(

@@ -12,7 +12,8 @@ import numpy as np
 from ..machine import native
 from ..samples.surface_normals import cross
 from ..settings import Between, Edges, ThicknessSettings
-from .close_walls import CloseWalls
+from .bounded_lengths import MeasuredSurface
+from .close_walls import CloseWalls, is_shorter, rounding_of
 from .thin_faces import face_of_triangles, thinnest_of_faces
 
 if TYPE_CHECKING:
@@ -20,10 +21,6 @@ if TYPE_CHECKING:
 
     from ..samples.chosen import ChosenSamples
     from ..samples.shape import Shape
-
-# Coordinates may once have been float32, as all of Blender's are: lengths that differ by less are equal.
-_ROUNDING = 4 * float(np.finfo(np.float32).eps)
-
 
 # A larger share of the surface without a thickness is reported; smaller ones come from single triangles at rims.
 UNKNOWN = 0.01
@@ -39,14 +36,11 @@ class Measurement:
     chosen : ChosenSamples
     settings : ThicknessSettings
         The settings of the measurement; the limit is not used here.
-    triangles : (f, 3) int32
-        The measured surface, rows of the samples.
-    lengths : (n,) float64
-        The thickness or the gap at each sample; infinite where there is no wall.
-    measured : (n,) bool
+    surface : MeasuredSurface
+        The samples and the triangles between them with the thickness or the gap, and pieces of faces where the axis
+        missed a wall.
+    measured : (k,) bool
         The length was measured at the sample itself; else it comes from the nearest sample, or is infinite.
-    at_edge : (n,) bool
-        The sample lies on a sharp edge.
     normals : str
         A sentence about the source of the normals.
     noise : float
@@ -62,10 +56,8 @@ class Measurement:
     shape: Shape
     chosen: ChosenSamples
     settings: ThicknessSettings
-    triangles: NDArray[np.int32]
-    lengths: NDArray[np.float64]
+    surface: MeasuredSurface
     measured: NDArray[np.bool_]
-    at_edge: NDArray[np.bool_]
     normals: str
     noise: float
     warnings: tuple[str, ...]
@@ -74,16 +66,36 @@ class Measurement:
     key: str = ""
 
     @property
+    def samples(self) -> int:
+        """The number of samples, which are the first points of the surface."""
+        return len(self.chosen.samples.points)
+
+    @property
     def points(self) -> NDArray[np.float64]:
-        """(n, 3) the samples."""
-        return self.chosen.samples.points
+        """(n, 3) the points of the measured surface."""
+        return self.surface.points
+
+    @property
+    def triangles(self) -> NDArray[np.int32]:
+        """(f, 3) the triangles of the measured surface."""
+        return self.surface.triangles
+
+    @property
+    def lengths(self) -> NDArray[np.float64]:
+        """(n,) the length at each point; infinite where there is no wall."""
+        return self.surface.lengths
+
+    @property
+    def at_edge(self) -> NDArray[np.bool_]:
+        """(n,) whether each point lies on a sharp edge."""
+        return self.surface.at_edge
 
     @cached_property
     def of_triangles(self) -> NDArray[np.float64]:
         """(f,) the median of the lengths at the corners, so that no single sample decides.
 
         Where one or two corners lie on an edge, which belongs to two faces, it is no less than the largest length at
-        the other corners.
+        the other corners. It is no more than the way to a wall that rays found there.
         """
         values, on_edge = self.lengths[self.triangles].T, self.at_edge[self.triangles].T
         a, b, c = values
@@ -93,7 +105,7 @@ class Measurement:
         median[mixed] = np.maximum(median[mixed], others)
         if self.settings.between is Between.GAP:  # no wall faces the corner of a solid
             median[on_edge.all(axis=0)] = np.inf
-        return median
+        return np.minimum(median, self.surface.at_most)
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
@@ -103,16 +115,12 @@ class Measurement:
 
     @cached_property
     def minimum(self) -> float:
-        """The smallest length of all triangles and of the walls that they miss; infinite where there is none."""
-        return float(
-            min(self.of_triangles.min(initial=np.inf), self.walls.distance.min(initial=np.inf))
-        )
+        """The smallest length of all triangles; infinite where there is none."""
+        return float(self.of_triangles.min(initial=np.inf))
 
     @cached_property
     def thinnest_place(self) -> NDArray[np.float64]:
-        """(3,) the place of the minimum: the middle of a triangle, or a place on the faces."""
-        if self.walls.distance.min(initial=np.inf) < self.of_triangles.min(initial=np.inf):
-            return self.walls.points[self.walls.distance.argmin()]
+        """(3,) the place of the minimum: the middle of a triangle."""
         return self.points[self.triangles[self.of_triangles.argmin()]].mean(axis=0)
 
     @cached_property
@@ -126,29 +134,30 @@ class Measurement:
             return 0.0
         if not len(self.triangles):
             return 1.0
-        unknown = float(self.areas[~np.isfinite(self.of_triangles)].sum() / self.areas.sum())
-        return max(0.0, unknown - float(self.walls.share.sum()))
+        return float(self.areas[~np.isfinite(self.of_triangles)].sum() / self.areas.sum())
 
     @cached_property
     def slack(self) -> float:
         """The rounding of the coordinates: a length is below a limit only if it differs by more than this."""
-        return _ROUNDING * float(np.abs(self.points).max(initial=0.0))
+        return rounding_of(self.points)
 
     @cached_property
     def of_vertices(self) -> NDArray[np.float64]:
-        """(v,) the length at each vertex of the shape, taken from the nearest sample."""
-        if len(self.points) == len(self.shape.points) and self.chosen.samples.kinds is None:
-            return self.lengths
+        """(v,) the length at each vertex of the shape, taken from the nearest sample and from walls that rays found."""
+        samples = self.chosen.samples
+        if self.samples == len(self.shape.points) and samples.kinds is None:
+            return self.lengths[: self.samples]
         with native.own_errors() as module:
-            return self.lengths[module.nearest(self.points, self.shape.points)]
+            nearest = module.nearest(samples.points, self.shape.points)
+        lengths, way = self.lengths[nearest], self.walls.at_vertices
+        return np.where(is_shorter(way, lengths), way, lengths)
 
     @cached_property
     def triangle_of_faces(self) -> NDArray[np.int32]:
         """(m,) the triangle that represents each face of the shape, the thinnest one in it; -1 where there is none."""
-        samples = self.chosen.samples
         if self.triangles is self.shape.triangles:
             return np.arange(len(self.triangles), dtype=np.int32)
-        inside = face_of_triangles(self.triangles, self.at_edge, samples.faces)
+        inside = face_of_triangles(self.triangles, self.at_edge, self.surface.faces)
         return thinnest_of_faces(
             self.shape, self.points, self.triangles, self.of_triangles, self.at_edge, inside
         )
@@ -160,6 +169,7 @@ class Measurement:
             self.lengths,
             self.measured,
             self.points,
+            self.chosen.samples.points,
             self.shape.points,
         )
         return sum(x.nbytes for x in arrays) + 40 * len(self.triangles)

@@ -19,6 +19,7 @@ from ..samples.noise import noise_of
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.surface_normals import SurfaceNormals, measured_surface, surface_normals, unit
 from ..settings import Between, Edges, Noise, SamplingMode, Settings, ThicknessSettings
+from .bounded_lengths import MeasuredSurface, bounded
 from .close_walls import close_walls
 from .measurement import UNKNOWN, Measurement
 
@@ -61,19 +62,26 @@ def measure_thickness(
     surface = measured_surface(shape, chosen)
     known = surface_normals(shape, chosen, surface, settings.sharp_angle)
     lengths, measured = _lengths(chosen, known, wanted, begun.progress)
+    walls = close_walls(shape, chosen, lengths, wanted.between)
+    plain = MeasuredSurface(
+        points=chosen.samples.points,
+        triangles=surface,
+        lengths=lengths,
+        at_edge=known.at_edge,
+        faces=chosen.samples.faces,
+        at_most=np.full(len(surface), np.inf),
+    )
     found = Measurement(
         shape=shape,
         chosen=chosen,
         settings=wanted,
-        triangles=surface,
-        lengths=lengths,
+        surface=bounded(shape, chosen, plain, walls, wanted.edges),
         measured=measured,
-        at_edge=known.at_edge,
         normals=known.source,
         noise=_noise(chosen, surface, known),
         warnings=(),
         seconds=begun.seconds,
-        walls=close_walls(shape, chosen, lengths, wanted.between),
+        walls=walls,
         key=key_of(
             "thickness", chosen.samples.key, astuple(settings), astuple(replace(wanted, limit=0.0))
         ),

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from .measurement import Measurement
 
 
-_CELLS = 20
-
-
 @dataclass(frozen=True)
 class Patch:
     """A connected thin part of the surface.
@@ -49,7 +46,7 @@ class ThinParts:
     ----------
     limit : float
     patches : tuple of Patch
-        First the patches of the measured surface, the thinnest first; then those of walls that it misses, likewise.
+        The thinnest first.
     patch_of_triangles : (f,) int32
         The patch of each triangle of the measured surface; -1 where there is none.
     patch_of_faces : (m,) int32
@@ -78,7 +75,8 @@ def find_thin_parts(
     found : Measurement
     limit : float
     minimum_patch : float, optional
-        The smallest patch that counts, in percent of the area; by default that of the measurement.
+        The smallest patch that counts, in percent of the area; by default that of the measurement. Patches of walls
+        that only rays found count whatever their size.
     """
     least = found.settings.minimum_patch if minimum_patch is None else minimum_patch
     thin = found.of_triangles < limit - found.slack
@@ -87,46 +85,21 @@ def find_thin_parts(
     total = float(found.areas.sum())
     count = int(numbers.max(initial=-1)) + 1
     all_areas = np.bincount(numbers[thin], found.areas[thin], count).astype(np.float64)
-    numbers, areas = _kept(numbers, all_areas, least / 100.0 * total)
+    large = all_areas >= least / 100.0 * total
+    large[numbers[thin & (found.surface.at_most < limit - found.slack)]] = True
+    numbers, areas = _kept(numbers, all_areas, large)
     numbers, patches = _described(found, numbers, areas)
     faces = found.triangle_of_faces
     of_faces = np.where(faces >= 0, numbers[faces], -1).astype(np.int32) if len(numbers) else faces
-    missed = _missed(found, limit, total)
-    area = float(areas.sum()) + sum(patch.area for patch in missed)
+    area = float(areas.sum())
     share = min(1.0, area / total) if total > 0.0 else 0.0
-    return ThinParts(limit, (*patches, *missed), numbers, of_faces, area, share)
-
-
-def _missed(found: Measurement, limit: float, total: float) -> tuple[Patch, ...]:
-    """Patches of walls that the measured surface misses, whatever their size, the thinnest first.
-
-    Places in one cell of a grid, a twentieth of the shape wide, are one patch.
-    """
-    walls = found.walls
-    thin = np.flatnonzero(walls.distance < limit - found.slack)
-    if not len(thin):
-        return ()
-    size = float(np.ptp(found.shape.points, axis=0).max()) / _CELLS
-    cells = np.floor(walls.points[thin] / size).astype(np.int64)
-    _, cell = np.unique(cells, axis=0, return_inverse=True)
-    cell = cell.reshape(-1)
-    area = np.bincount(cell, walls.share[thin]) * total
-    by_value = np.lexsort((thin, walls.distance[thin]))
-    _, first = np.unique(cell[by_value], return_index=True)
-    patches = []
-    for rank in sorted(first.tolist()):
-        row, place = thin[by_value[rank]], cell[by_value[rank]]
-        x, y, z = walls.points[row].tolist()
-        length = float(walls.distance[row])
-        patches.append(Patch((x, y, z), float(area[place]), length, length))
-    return tuple(patches)
+    return ThinParts(limit, patches, numbers, of_faces, area, share)
 
 
 def _kept(
-    numbers: NDArray[np.int32], areas: NDArray[np.float64], least: float
+    numbers: NDArray[np.int32], areas: NDArray[np.float64], large: NDArray[np.bool_]
 ) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-    """Drop the patches that are smaller than `least`."""
-    large = areas >= least
+    """Drop the patches that are not large."""
     renumbered = np.append(np.where(large, np.cumsum(large) - 1, -1), -1)
     return renumbered[numbers].astype(np.int32), areas[large]
 

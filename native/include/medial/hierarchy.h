@@ -30,11 +30,13 @@ struct LevelOptions {
 
 // A level is a mesh of polygons, edges without a facet, and single vertices.
 struct Level {
-  Column<Vec3> vertices;          // (v) in order of first use
-  Column<double> radius;          // (v) radius of the ball, the empty one unless relaxed
-  Column<Vec3> exact;             // (v) the place on the Voronoi diagram that it represents
+  Column<Vec3> vertices;  // (v) in order of first use
+  Column<double> radius;  // (v) radius of the ball, the empty one unless relaxed
+  // Each vertex represents a vertex of the hierarchy, which is a Voronoi vertex inside the solid: a
+  // new vertex of a wire the nearest one along it, so neighbours may represent the same one.
+  Column<int32_t> vertex_of;      // (v) id in the hierarchy
+  Column<Vec3> exact;             // (v) its place
   Column<double> exact_radius;    // (v) of the empty ball there
-  Column<int32_t> vertex_of;      // (v) id in the hierarchy, or the nearest along the wire
   Column<int32_t> face_offsets;   // (f + 1)
   Column<int32_t> face_vertices;  // convex, counter-clockwise about p -> q, lowest id first
   Column<Edge> generators;        // (f) input rows p < q; the facets are in their order

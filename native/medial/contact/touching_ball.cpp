@@ -5,6 +5,7 @@ namespace medial {
 namespace {
 
 constexpr int kBallSteps = 16;
+constexpr int kPatience = 4;  // steps after which each has to halve the inequality
 // Directions to walls that differ by less than about 5 degrees do not determine a place.
 constexpr double kSameDirection = 0.08;
 constexpr double kRounding = 1e-15;  // of the radius
@@ -71,12 +72,16 @@ double inequality(const Feet& feet) {
 TouchingBall touching_ball(const Faces& faces, std::span<int32_t> walls, const Vec3& start) {
   Vec3 centre = start;
   Feet feet = feet_of(faces, walls, centre);
+  double before = HUGE_VAL;
   for (int i = 0; i < kBallSteps; ++i) {
     const Vec3 step = step_of(feet);
     if (!(length(step) > kRounding * feet.foot[0].distance)) break;
     centre = centre + step;
     feet = feet_of(faces, walls, centre);
-    if (inequality(feet) <= 4 * kRounding * feet.foot[0].distance) break;
+    const double unequal = inequality(feet);
+    if (unequal <= 4 * kRounding * feet.foot[0].distance) break;
+    if (i >= kPatience && unequal > 0.5 * before) break;  // no ball touches all of the walls
+    before = unequal;
   }
   double least = HUGE_VAL;
   for (size_t i = 0; i < feet.count; ++i) least = std::min(least, feet.foot[i].distance);

@@ -13,6 +13,7 @@ constexpr double kExact = 1e-10;      // the largest difference between a radius
 constexpr double kFarthestMove = 2;   // that a vertex moves to touch walls
 constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in a crease
 constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
+constexpr double kSameFoot = 0.08;    // between unit directions to feet that are one
 constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
 constexpr int kRounds = 12;           // of steps that unfold facets
 // A smooth rim is looked for where a ball touches two places that are seen under less than 84
@@ -20,7 +21,9 @@ constexpr int kRounds = 12;           // of steps that unfold facets
 constexpr double kMostOpen = 0.45;   // the squared sine of half the angle
 constexpr double kFarOut = 0.8;      // of the way to the rim that balls are tried on
 constexpr double kFarthestRim = 12;  // from the last vertex to the rim
+constexpr double kBent = 0.2;  // the largest deviation from a line, as a share of the openness
 constexpr int kRimSteps = 8;
+constexpr int kBisections = 40;  // of the way to the last ball that touches two places
 constexpr double kSameCrease = 0.85;  // the cosine between creases of one direction
 
 // Holds the walls that a ball touches, by triangles of the mesh.
@@ -59,6 +62,7 @@ class CrispMaker {
           if (!facets_at_[v].empty()) place(static_cast<int32_t>(v));
         },
         256);
+    end_fillets();
     reach_corners();
     unfold();
     return std::move(made_);
@@ -340,20 +344,82 @@ class CrispMaker {
   }
 
   // Returns how far the openness of the balls after some steps lets the rim be; infinite if it does
-  // not fall.
+  // not fall, or not linearly. At the rim of a fillet it drops at once where the balls of the
+  // fillet have their common centre.
   double distance_to_rim(const Touch& inner, const Vec3& step, int steps) const {
     Walls walls = inner.walls;
     Vec3 position = inner.position;
     const double first = openness(inner.away);
     double products = 0, squares = 0;
+    std::vector<std::array<double, 2>> lost;  // how far, and how much of the openness
     for (int i = 0; i < steps; ++i) {
       const TouchingBall ball = touching_ball(samples_.faces(), walls.all(), position + step);
       position = ball.centre;
       const double along = distance(position, inner.position);
-      products += along * (first - openness(ball.away));
+      lost.push_back({along, first - openness(ball.away)});
+      products += along * lost.back()[1];
       squares += along * along;
     }
-    return products > 0 ? first * squares / products : HUGE_VAL;
+    if (!(products > 0)) return HUGE_VAL;
+    const double slope = products / squares;
+    const bool straight = std::all_of(lost.begin(), lost.end(), [&](const auto& at) {
+      return std::abs(at[1] - slope * at[0]) < kBent * first;
+    });
+    return straight ? first / slope : HUGE_VAL;
+  }
+
+  // --- rims of fillets
+
+  // Vertices beyond the last ball that touches two places go back to that ball. It lies between
+  // them and a neighbour that has found its place, as at a fillet, all of whose balls have one
+  // centre.
+  void end_fillets() {
+    const auto beyond =
+        parallel_append<int32_t>(complex_.vertices(), run_, [&](int64_t v, auto& out, int) {
+          if (on_rim_[v] && made_.place[v] == Placing::refused) {
+            out.push_back(static_cast<int32_t>(v));
+          }
+        });
+    std::vector<Touch> found(beyond.size());
+    parallel_for(
+        static_cast<int64_t>(beyond.size()), run_,
+        [&](int64_t i) { found[i] = last_ball(beyond[i]); }, 64);
+    for (size_t i = 0; i < beyond.size(); ++i) {
+      if (!(found[i].radius > 0)) continue;
+      take(beyond[i], found[i]);
+      made_.place[beyond[i]] = Placing::touching;
+    }
+  }
+
+  Touch last_ball(int32_t v) const {
+    const int32_t inner = placed_neighbour(v);
+    if (inner < 0 || walls_[inner].count != 2) return {};
+    Touch last;
+    double low = 0, high = 1;
+    for (int i = 0; i < kBisections; ++i) {
+      const double share = 0.5 * (low + high);
+      const Vec3 start = (1 - share) * made_.position[inner] + share * complex_.position[v];
+      const Touch ball = touch(v, walls_[inner], start);
+      const bool ends = !(ball.radius > 0) || ball.walls.count != 2;
+      (ends ? high : low) = share;
+      if (!ends) last = ball;
+    }
+    return last;
+  }
+
+  // Returns the nearest neighbour of a vertex that touches walls, or -1.
+  int32_t placed_neighbour(int32_t v) const {
+    int32_t best = -1;
+    const auto away = [&](int32_t other) {
+      return distance(complex_.position[other], complex_.position[v]);
+    };
+    for (const int32_t f : facets_at_[v]) {
+      for (const Corner& c : complex_.ring(f)) {
+        if (made_.place[c.vertex] != Placing::touching) continue;
+        if (best < 0 || away(c.vertex) < away(best)) best = c.vertex;
+      }
+    }
+    return best;
   }
 
   // Returns the squared sine of half the angle between the directions to the first two feet.
@@ -375,12 +441,21 @@ class CrispMaker {
       const TouchingBall ball = touching_ball(samples_.faces(), walls.all(), start);
       if (!(ball.unequal <= tolerance)) return {};
       if (!(distance(ball.centre, complex_.position[v]) <= kFarthestMove * spacing)) return {};
+      if (!touches_twice(ball, walls.count)) return {};
       const auto nearer = samples_.faces().nearer(ball.centre, ball.radius - tolerance);
       if (!nearer) return {ball.centre, ball.radius, walls, ball.away};
       if (!walls.add(nearer->triangle)) break;
       start = ball.centre;
     }
     return {};
+  }
+
+  // Returns whether the feet are not all in one place, as they are beyond the rim of a sheet.
+  static bool touches_twice(const TouchingBall& ball, size_t walls) {
+    for (size_t i = 1; i < walls; ++i) {
+      if (distance(ball.away[i], ball.away[0]) > kSameFoot) return true;
+    }
+    return false;
   }
 
   // --- folds

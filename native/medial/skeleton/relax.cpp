@@ -79,6 +79,7 @@ class Rewirer {
       if (number == 0) number = left++;
     }
     old_exact_ = level_.exact;
+    old_exact_radius_ = level_.exact_radius;
     old_vertex_of_ = level_.vertex_of;
     keep(level_.vertices);
     keep(level_.radius);
@@ -122,16 +123,16 @@ class Rewirer {
     return vertex;
   }
 
+  // A new vertex stands for the nearest old one along the wire. Places between two old vertices may
+  // lie outside of the solid even where both of these are inside.
   int32_t add(const Chain& chain, const Curve& curve, size_t k) {
-    const auto at = std::min(static_cast<size_t>(curve.at[k]), chain.size() - 1);
-    const double share = curve.at[k] - static_cast<double>(at);
-    const int32_t a = chain.vertices[at], b = chain.vertices[at + 1];
-    const Vec3 exact = old_exact_[a] + share * (old_exact_[b] - old_exact_[a]);
+    const auto nearest = static_cast<size_t>(std::lround(curve.at[k]));
+    const int32_t old = chain.vertices[std::min(nearest, chain.size())];
     level_.vertices.push_back(curve.canal[k].centre);
     level_.radius.push_back(curve.canal[k].radius);
-    level_.exact.push_back(exact);
-    level_.exact_radius.push_back(h_.samples.nearest(exact).distance);
-    level_.vertex_of.push_back(old_vertex_of_[share < 0.5 ? a : b]);
+    level_.exact.push_back(old_exact_[old]);
+    level_.exact_radius.push_back(old_exact_radius_[old]);
+    level_.vertex_of.push_back(old_vertex_of_[old]);
     return static_cast<int32_t>(level_.vertices.size()) - 1;
   }
 
@@ -141,6 +142,7 @@ class Rewirer {
   const std::vector<Curve>& curves_;
   std::vector<int32_t> number_;  // per old vertex: its new number, or -1 if it is removed
   Column<Vec3> old_exact_;
+  Column<double> old_exact_radius_;
   Column<int32_t> old_vertex_of_, old_edge_of_;
 };
 

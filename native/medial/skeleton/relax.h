@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Makes a level look smooth: rims are smoothed, and wires are divided anew and fitted to the
-// samples. Its topology and its facets do not change; `exact` has the corresponding places on the
+// samples. Its topology and its facets do not change; `exact` has the corresponding vertices of the
 // exact level.
 #pragma once
 
