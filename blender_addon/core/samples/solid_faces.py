@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import SidesFrom
-from .patches import sharp_angle_of
+from .sharp_angle import sharp_angle_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..settings import Settings
     from .shape import Shape
+
 
 @dataclass(frozen=True, eq=False)
 class SolidFaces:
