@@ -144,9 +144,9 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     ----------
     computation : Computation
     **thresholds
-        `form`, `simplify`, `erode`, `limb`, `theta`, `rho`, `rule`, `criteria` and `limit_set` of
+        `form`, `simplify`, `erode`, `limb`, `crisp`, `theta`, `rho`, `rule`, `criteria` and `limit_set` of
         `Settings`; what is not given stays as it was. Forms are milliseconds, too, once the hierarchy was computed
-        for `theta`, `rho`, `rule` and `criteria`.
+        for `crisp`, `theta`, `rho`, `rule` and `criteria`.
 
     Raises
     ------

@@ -266,7 +266,7 @@ VOCABULARY = {"types.h", "errors.h", "progress.h", "options.h"}
 PUBLIC = {
     "medial_mesh.h": {"axis", "rivals"},
     "watertight_surface.h": {"cocone"},
-    "faces.h": {"contact"},
+    "faces.h": {"contact", "skeleton"},
     "hierarchy.h": {"skeleton"},
     "sphere_mesh.h": {"reduce"},
     "thickness.h": {"thickness"},
