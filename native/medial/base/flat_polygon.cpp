@@ -7,11 +7,12 @@
 namespace medial {
 namespace {
 
+constexpr double kRoundingOfTurn = 1e-9;  // the sine of a turn
 constexpr double kRoundingOfArea = 1e-12;  // as a share of the product of the lengths
 
 FlatPoint from(const FlatPoint& a, const FlatPoint& b) { return {b.x - a.x, b.y - a.y}; }
 double cross(const FlatPoint& a, const FlatPoint& b) { return a.x * b.y - a.y * b.x; }
-double length(const FlatPoint& a) { return std::hypot(a.x, a.y); }
+double length(const FlatPoint& a) { return std::sqrt(a.x * a.x + a.y * a.y); }
 
 // Returns on which side of a line through two points a third one lies: 1 left, -1 right, 0 unclear.
 int side(const FlatPoint& a, const FlatPoint& b, const FlatPoint& c) {
@@ -34,6 +35,30 @@ bool is_turned_over(std::span<const FlatPoint> corners) {
     size += length(a) * length(b);
   }
   return area < -kRoundingOfArea * size;
+}
+
+bool has_dent(std::span<const FlatPoint> corners, double sine) {
+  const size_t n = corners.size();
+  for (size_t i = 0; i < n; ++i) {
+    const FlatPoint in = from(corners[i], corners[(i + 1) % n]);
+    const FlatPoint out = from(corners[(i + 1) % n], corners[(i + 2) % n]);
+    if (cross(in, out) < -sine * length(in) * length(out)) return true;
+  }
+  return false;
+}
+
+bool turns_back(std::span<const FlatPoint> corners) {
+  const size_t n = corners.size();
+  for (size_t i = 0; i < n; ++i) {
+    const FlatPoint in = from(corners[i], corners[(i + 1) % n]);
+    const FlatPoint out = from(corners[(i + 1) % n], corners[(i + 2) % n]);
+    const double lengths = length(in) * length(out);
+    if (in.x * out.x + in.y * out.y < 0 && cross(in, out) <= kRoundingOfTurn * lengths &&
+        lengths > 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool crosses_itself(std::span<const FlatPoint> corners) {

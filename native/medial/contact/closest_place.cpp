@@ -5,7 +5,7 @@ namespace medial {
 namespace {
 
 constexpr int kPatchSteps = 24;
-constexpr double kPatchPrecision = 1e-11;  // in barycentric coordinates; the distance then has no error
+constexpr double kPatchPrecision = 1e-9;  // in barycentric coordinates; squared in the distance
 constexpr int kMostHalvings = 8;
 
 struct Parameters {

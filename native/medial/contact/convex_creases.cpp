@@ -81,9 +81,8 @@ std::optional<PlaceOnCrease> ConvexCreases::nearer(const Vec3& from, double than
   if (segments_.empty()) return best;
   double within = than;
   visit_nearest(
-      nodes_, 0,
-      [&](const Node& node) { return std::sqrt(medial::squared_distance(node.box, from)); },
-      [&] { return within; },
+      nodes_, 0, [&](const Node& node) { return medial::squared_distance(node.box, from); },
+      [&] { return within * within; },
       [&](const Node& leaf) {
         for (int32_t i = leaf.begin; i < leaf.end; ++i) {
           const PlaceOnCrease place = place_on(segments_[i], from);

@@ -128,24 +128,29 @@ Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
   const Triangle& t = mesh_.triangles[triangle];
   const Vec3 &p = mesh_.points[t[0]], &q = mesh_.points[t[1]], &r = mesh_.points[t[2]];
   Foot foot{triangle, closest_on_flat(p, q, r, from), {}, 0};
-  if (bulge_.empty() || bulge_[triangle] == 0) {
-    foot.point = p + foot.at.b * (q - p) + foot.at.c * (r - p);
-    // The height over the plane has a smaller error than the difference of two places.
-    const bool inside = foot.at.a > 0 && foot.at.b > 0 && foot.at.c > 0;
-    foot.distance = inside && mesh_.normal[triangle] != Vec3{}
-                        ? std::abs(dot(from - p, mesh_.normal[triangle]))
-                        : medial::distance(from, foot.point);
-  } else {
-    const Patch patch = surface_->patch(triangle);
-    foot.at = closest_on_patch(patch, foot.at, from);
-    foot.point = patch.point(foot.at);
-    foot.distance = medial::distance(from, foot.point);
-  }
+  if (is_curved(triangle)) return foot_on_patch(triangle, foot.at, from);
+  foot.point = p + foot.at.b * (q - p) + foot.at.c * (r - p);
+  // The height over the plane has a smaller error than the difference of two places.
+  const bool inside = foot.at.a > 0 && foot.at.b > 0 && foot.at.c > 0;
+  foot.distance = inside && mesh_.normal[triangle] != Vec3{}
+                      ? std::abs(dot(from - p, mesh_.normal[triangle]))
+                      : medial::distance(from, foot.point);
   return foot;
 }
 
-Foot Faces::descend(int32_t triangle, const Vec3& from) const {
-  Foot foot = foot_on(triangle, from);
+Foot Faces::foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3& from) const {
+  const Patch patch = surface_->patch(triangle);
+  const Barycentric at = closest_on_patch(patch, start, from);
+  const Vec3 point = patch.point(at);
+  return {triangle, at, point, medial::distance(from, point)};
+}
+
+Foot Faces::descend_again(const Foot& before, const Vec3& from) const {
+  if (!is_curved(before.triangle)) return descend(before.triangle, from);
+  return descend(foot_on_patch(before.triangle, before.at, from), from);
+}
+
+Foot Faces::descend(Foot foot, const Vec3& from) const {
   for (int i = 0; i < kMostWalked; ++i) {
     const Foot next = best_neighbour(foot, from);
     if (!(next.distance < foot.distance)) break;
@@ -184,14 +189,13 @@ std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {
   std::optional<Foot> best;
   double within = than;
   visit_nearest(
-      nodes_, 0,
-      [&](const Node& node) { return std::sqrt(medial::squared_distance(node.box, from)); },
-      [&] { return within; },
+      nodes_, 0, [&](const Node& node) { return medial::squared_distance(node.box, from); },
+      [&] { return within * within; },
       [&](const Node& leaf) {
         for (int32_t i = leaf.begin; i < leaf.end; ++i) {
           const int32_t t = order_[i];
           const Triangle& c = mesh_.triangles[t];
-          if (!bulge_.empty() && bulge_[t] > 0) {
+          if (is_curved(t)) {
             const Vec3 &p = mesh_.points[c[0]], &q = mesh_.points[c[1]], &r = mesh_.points[c[2]];
             const Barycentric at = closest_on_flat(p, q, r, from);
             const Vec3 flat = p + at.b * (q - p) + at.c * (r - p);

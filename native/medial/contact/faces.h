@@ -47,7 +47,11 @@ class Faces {
   // Returns the foot on one triangle.
   Foot foot_on(int32_t triangle, const Vec3& from) const;
   // Walks from a triangle to neighbours of the same wall while they are nearer.
-  Foot descend(int32_t triangle, const Vec3& from) const;
+  Foot descend(int32_t triangle, const Vec3& from) const {
+    return descend(foot_on(triangle, from), from);
+  }
+  // Does the same from the foot of a point close by.
+  Foot descend_again(const Foot& before, const Vec3& from) const;
   // Returns the nearest place of all faces if it is nearer than a distance.
   std::optional<Foot> nearer(const Vec3& from, double than) const;
 
@@ -62,7 +66,10 @@ class Faces {
   void find_fans();
   void build_tree_of_faces();
   uint8_t separation(const MeshEdge& edge) const;
+  Foot descend(Foot foot, const Vec3& from) const;
   Foot best_neighbour(const Foot& foot, const Vec3& from) const;
+  bool is_curved(int32_t triangle) const { return !bulge_.empty() && bulge_[triangle] > 0; }
+  Foot foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3& from) const;
 
   TriangleMesh mesh_;
   Creases creases_;

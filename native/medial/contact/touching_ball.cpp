@@ -8,7 +8,7 @@ constexpr int kBallSteps = 16;
 constexpr int kPatience = 4;  // steps after which each has to halve the inequality
 // Directions to walls that differ by less than about 5 degrees do not determine a place.
 constexpr double kSameDirection = 0.08;
-constexpr double kRounding = 1e-15;  // of the radius
+constexpr double kRounding = 2e-15;  // of the radius
 
 struct Feet {
   std::array<Foot, kMostContacts> foot;
@@ -16,15 +16,24 @@ struct Feet {
   size_t count = 0;
 };
 
-Feet feet_of(const Faces& faces, std::span<int32_t> walls, const Vec3& centre) {
+void set_foot(Feet& feet, size_t i, const Foot& foot, const Vec3& centre) {
+  feet.foot[i] = foot;
+  feet.away[i] = normalized(centre - foot.point);
+}
+
+Feet feet_of(const Faces& faces, std::span<const int32_t> walls, const Vec3& centre) {
   Feet feet;
   feet.count = walls.size();
   for (size_t i = 0; i < walls.size(); ++i) {
-    feet.foot[i] = faces.descend(walls[i], centre);
-    walls[i] = feet.foot[i].triangle;
-    feet.away[i] = normalized(centre - feet.foot[i].point);
+    set_foot(feet, i, faces.descend(walls[i], centre), centre);
   }
   return feet;
+}
+
+void move_feet(const Faces& faces, const Vec3& centre, Feet& feet) {
+  for (size_t i = 0; i < feet.count; ++i) {
+    set_foot(feet, i, faces.descend_again(feet.foot[i], centre), centre);
+  }
 }
 
 // Returns the shortest step that makes all distances equal to that of the first wall, to first
@@ -77,12 +86,13 @@ TouchingBall touching_ball(const Faces& faces, std::span<int32_t> walls, const V
     const Vec3 step = step_of(feet);
     if (!(length(step) > kRounding * feet.foot[0].distance)) break;
     centre = centre + step;
-    feet = feet_of(faces, walls, centre);
+    move_feet(faces, centre, feet);
     const double unequal = inequality(feet);
     if (unequal <= 4 * kRounding * feet.foot[0].distance) break;
     if (i >= kPatience && unequal > 0.5 * before) break;  // no ball touches all of the walls
     before = unequal;
   }
+  for (size_t i = 0; i < walls.size(); ++i) walls[i] = feet.foot[i].triangle;
   double least = HUGE_VAL;
   for (size_t i = 0; i < feet.count; ++i) least = std::min(least, feet.foot[i].distance);
   return {centre, least, inequality(feet), feet.away};

@@ -15,14 +15,17 @@ constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in 
 constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
 constexpr double kSameFoot = 0.08;    // between unit directions to feet that are one
 constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
-constexpr int kRounds = 12;           // of steps that unfold facets
+constexpr int kRounds = 40;           // of steps that unfold facets
+constexpr int kOwnRounds = 3;         // of these, the rounds without the neighbours
+constexpr int kDentRounds = 12;       // of these, the rounds that mend deep dents, too
+constexpr double kDeepDent = 0.25;    // the sine of the turn
 // A smooth rim is looked for where a ball touches two places that are seen under less than 84
 // degrees.
 constexpr double kMostOpen = 0.45;   // the squared sine of half the angle
 constexpr double kFarOut = 0.8;      // of the way to the rim that balls are tried on
 constexpr double kFarthestRim = 12;  // from the last vertex to the rim
-constexpr double kBent = 0.2;  // the largest deviation from a line, as a share of the openness
-constexpr int kRimSteps = 8;
+constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
+constexpr int kRimSteps = 6;
 constexpr int kBisections = 40;  // of the way to the last ball that touches two places
 constexpr double kSameCrease = 0.85;  // the cosine between creases of one direction
 
@@ -64,19 +67,21 @@ class CrispMaker {
         256);
     end_fillets();
     reach_corners();
+    join_seams();
     unfold();
     return std::move(made_);
   }
 
  private:
-  static bool in_k1(const Thickness& value) {
-    return value.sheet > 0 && value.spacings > 0 && value.erosion > 0;
+  // Facets of K1 that noise of the samples may have caused keep their places.
+  static bool is_certain(const Thickness& value) {
+    return value.sheet > 0 && value.spacings > 1 && value.erosion > 0;
   }
 
   // Lists the facets of K1 at each vertex, and counts those at each edge.
   void find_facets(std::span<const Thickness> facets) {
     for (int32_t f = 0; f < complex_.facets(); ++f) {
-      if (in_k1(facets[f])) facets_.push_back(f);
+      if (is_certain(facets[f])) facets_.push_back(f);
     }
     facets_at_.offsets = array<int64_t>(complex_.cell.size() + 1, 0, run_);
     edge_uses_ = array<uint8_t>(complex_.ends.size(), 0, run_);
@@ -336,7 +341,7 @@ class CrispMaker {
     const double spacing = spacing_at(v);
     const Vec3 outward = -normalized(inner.away[0] + inner.away[1]);
     double reach = distance_to_rim(inner, 0.25 * spacing * outward, 1);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 2; ++i) {
       if (!(reach < kFarthestRim * spacing)) return;
       reach = distance_to_rim(inner, (kFarOut * reach / kRimSteps) * outward, kRimSteps);
     }
@@ -458,15 +463,80 @@ class CrispMaker {
     return false;
   }
 
+  // --- seams
+
+  // A vertex may reach a seam without being on one: the sheet of the samples goes on a little where
+  // that of the faces ends. It follows the nearest neighbour that is on the seam, or else the order
+  // along the seam would be lost.
+  void join_seams() {
+    follows_ = array<int32_t>(complex_.cell.size(), -1, run_);
+    parallel_for(complex_.vertices(), run_, [&](int64_t id) {
+      const auto v = static_cast<int32_t>(id);
+      if (reaches_seam(v) && !is_on_seam(v)) follows_[v] = neighbour_on_seam(v);
+    });
+    for (int32_t v = 0; v < complex_.vertices(); ++v) {
+      if (follows_[v] >= 0) followers_.push_back(v);
+    }
+    follow();
+  }
+
+  void follow() {
+    for (const int32_t v : followers_) {
+      made_.position[v] = made_.position[follows_[v]];
+      made_.radius[v] = made_.radius[follows_[v]];
+    }
+  }
+
+  bool reaches_seam(int32_t v) const {
+    return made_.place[v] == Placing::touching && walls_[v].count >= 3;
+  }
+
+  bool is_on_seam(int32_t v) const {
+    bool found = false;
+    for_edges(v, [&](const Corner& c, int32_t) { found |= edge_uses_[c.edge] == 3; });
+    return found;
+  }
+
+  int32_t neighbour_on_seam(int32_t v) const {
+    int32_t best = -1;
+    const auto away = [&](int32_t other) {
+      return distance(complex_.position[other], complex_.position[v]);
+    };
+    for_edges(v, [&](const Corner&, int32_t other) {
+      if (!reaches_seam(other) || !is_on_seam(other)) return;
+      if (best < 0 || away(other) < away(best) || (away(other) == away(best) && other < best)) {
+        best = other;
+      }
+    });
+    return best;
+  }
+
+  // Calls found(corner, other) for the edges of each facet at a vertex, where `corner` names the
+  // edge and `other` is its other end.
+  template <typename Found>
+  void for_edges(int32_t v, const Found& found) const {
+    for (const int32_t f : facets_at_[v]) {
+      const auto ring = complex_.ring(f);
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const size_t next = (i + 1) % ring.size();
+        if (ring[i].vertex == v) found(ring[i], ring[next].vertex);
+        if (ring[next].vertex == v) found(ring[i], ring[i].vertex);
+      }
+    }
+  }
+
   // --- folds
 
   // Facets fold where places that nearly coincide changed their order. Their vertices take steps
   // towards the middle of their neighbours, along the seam or crease that they are on.
   void unfold() {
+    std::vector<int32_t> suspects = facets_;
     for (int round = 0; round < kRounds; ++round) {
       throw_if_cancelled(run_.progress);
-      const std::vector<int32_t> vertices = folded_vertices();
+      std::vector<int32_t> vertices = folded_vertices(suspects, round < kDentRounds);
       if (vertices.empty()) return;
+      if (round >= kOwnRounds) vertices = with_neighbours(vertices);
+      suspects = facets_round(vertices);
       std::vector<Touch> found(vertices.size());
       parallel_for(
           static_cast<int64_t>(vertices.size()), run_,
@@ -479,24 +549,53 @@ class CrispMaker {
           take(v, found[i]);
         }
       }
+      follow();
     }
   }
 
-  // Returns the vertices of folded facets of K1, ascending.
-  std::vector<int32_t> folded_vertices() const {
+  // Returns the vertices of folded facets out of some, and of dented ones if wanted, ascending.
+  std::vector<int32_t> folded_vertices(std::span<const int32_t> suspects, bool dented) const {
     auto vertices = parallel_append<int32_t>(
-        static_cast<int64_t>(facets_.size()), run_, [&](int64_t i, auto& out, int) {
-          if (!is_folded(facets_[i])) return;
-          for (const Corner& c : complex_.ring(facets_[i])) out.push_back(c.vertex);
+        static_cast<int64_t>(suspects.size()), run_, [&](int64_t i, auto& out, int) {
+          if (!is_folded(suspects[i], dented)) return;
+          for (const Corner& c : complex_.ring(suspects[i])) out.push_back(c.vertex);
         });
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_out(vertices);
     return vertices;
   }
 
-  // Returns whether a facet is turned over, or its boundary crosses itself, as seen along the line
-  // between its samples. A facet at a reflex rim may be dented.
-  bool is_folded(int32_t facet) const {
+  std::vector<int32_t> with_neighbours(std::span<const int32_t> vertices) const {
+    std::vector<int32_t> all;
+    for (const int32_t v : vertices) {
+      for (const int32_t f : facets_at_[v]) {
+        for (const Corner& c : complex_.ring(f)) all.push_back(c.vertex);
+      }
+    }
+    sort_out(all);
+    return all;
+  }
+
+  // Returns the facets at some vertices, and at those that follow them.
+  std::vector<int32_t> facets_round(std::span<const int32_t> vertices) const {
+    std::vector<int32_t> all;
+    for (const int32_t v : vertices) all.insert(all.end(), facets_at_[v].begin(), facets_at_[v].end());
+    for (const int32_t v : followers_) {
+      if (!std::binary_search(vertices.begin(), vertices.end(), follows_[v])) continue;
+      all.insert(all.end(), facets_at_[v].begin(), facets_at_[v].end());
+    }
+    sort_out(all);
+    return all;
+  }
+
+  static void sort_out(std::vector<int32_t>& ids) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  }
+
+  // Returns whether a facet is turned over, or its boundary runs back or crosses itself, as seen
+  // along the line between its samples; if `dented`, also whether it has a deep dent. A facet at
+  // the rim of a hole has a slight one.
+  bool is_folded(int32_t facet, bool dented) const {
     const auto ring = complex_.ring(facet);
     const auto& [p, q] = complex_.generators[facet];
     const auto [right, up] = across(normalized(samples_.point(q) - samples_.point(p)));
@@ -506,14 +605,16 @@ class CrispMaker {
       const Vec3 at = made_.position[c.vertex] - origin;
       corners.push_back({dot(at, right), dot(at, up)});
     }
-    return is_turned_over(corners) || crosses_itself(corners);
+    return is_turned_over(corners) || turns_back(corners) || crosses_itself(corners) ||
+           (dented && has_dent(corners, kDeepDent));
   }
 
   // Returns the new place of a vertex half way to the middle of its neighbours.
   Touch step_of(int32_t v) const {
     const Vec3& here = made_.position[v];
     const Placing place = made_.place[v];
-    if (place != Placing::crease && place != Placing::touching) return {here};
+    const bool moves = place == Placing::crease || place == Placing::touching;
+    if (!moves || follows_[v] >= 0) return {here};
     const auto middle = middle_of_neighbours(v, place);
     if (!middle) return {here};
     const Vec3 start = 0.5 * here + 0.5 * *middle;
@@ -533,14 +634,7 @@ class CrispMaker {
       sum = sum + made_.position[other];
       ++count;
     };
-    for (const int32_t f : facets_at_[v]) {
-      const auto ring = complex_.ring(f);
-      for (size_t i = 0; i < ring.size(); ++i) {
-        const size_t next = (i + 1) % ring.size();
-        if (ring[i].vertex == v) take(ring[i], ring[next].vertex);
-        if (ring[next].vertex == v) take(ring[i], ring[i].vertex);
-      }
-    }
+    for_edges(v, take);
     if (count == 0) return {};
     return (1.0 / count) * sum;
   }
@@ -557,15 +651,17 @@ class CrispMaker {
   const SamplesOnFaces& samples_;
   std::span<const double> sine_;
   Run run_;
-  std::vector<int32_t> facets_;  // of K1
-  Csr<int32_t> facets_at_;    // per vertex: the facets of K1 at it
-  Array<uint8_t> edge_uses_;  // per edge: the facets of K1 at it; 3 means three or more
+  std::vector<int32_t> facets_;  // those that get places
+  Csr<int32_t> facets_at_;    // per vertex: the facets at it
+  Array<uint8_t> edge_uses_;  // per edge: the facets at it; 3 means three or more
   Array<uint8_t> on_rim_;     // per vertex
   std::vector<Hidden> hidden_;
   PointTree corners_;
   std::vector<Vec3> corner_points_;
   CrispPlaces made_;
   Array<Walls> walls_;  // per vertex: what its ball touches
+  Array<int32_t> follows_;  // per vertex: the vertex in whose place it is, or -1
+  std::vector<int32_t> followers_;
 };
 
 }  // namespace

@@ -25,8 +25,8 @@ struct CrispPlaces {
   Array<Placing> place;    // (v)
 };
 
-// Returns the places of the vertices of a complex. `values` say which facets are in K1; `selected`
-// tells for each shrunk facet whether it was selected. The distance to the faces was verified for
+// Returns the places of the vertices of a complex, at facets that are thicker than one spacing;
+// `facets` has the values of all. `selected` tells for each shrunk facet whether it was selected. The distance to the faces was verified for
 // every vertex that moved.
 CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& triangulation,
                          const SamplesOnFaces& samples, std::span<const Thickness> facets,
