@@ -32,6 +32,11 @@ class SolidFaces:
     shape: Shape
     face: NDArray[np.int32]
 
+    @property
+    def arrays(self) -> tuple[NDArray[Any], ...]:
+        """What these faces keep in memory."""
+        return self.shape.points, self.shape.triangles, self.face
+
     def options(self, settings: Settings) -> tuple[float, bool]:
         """Return the sharp angle and whether the faces approximate a smooth surface."""
         return sharp_angle_of(self.shape, settings), settings.smooth
