@@ -9,6 +9,7 @@ import medial_axis
 import numpy as np
 import pytest
 from medial_axis import cli
+from medial_axis.core.axis.axis_warnings import axis_warnings
 from medial_axis.core.axis.compute import compute_axis, refilter, refiltered_topology
 from medial_axis.core.axis.levels import hierarchy_of
 from medial_axis.core.axis.topology import betti_words
@@ -293,6 +294,17 @@ def test_crisp_switches_without_another_analysis():
         axis = refilter(found[True].key, replace(found[True].settings, crisp=crisp))
         assert same_axis(axis, found[crisp].axis), crisp
         assert same_axis(medial_axis.extract(found[not crisp], crisp=crisp), axis), crisp
+
+
+@pytest.mark.parametrize(("share", "warned"), [(0.2, False), (0.3, True)])
+def test_many_refused_places_are_a_warning(share, warned):
+    found, shape = computed(SHAPES["box"][0]), SHAPES["box"][0]
+    place = np.full(len(found.axis.vertices), 2, np.int32)
+    place[: int(share * len(place))] = 1
+    axis = replace(found.axis, level=replace(found.axis.level, place=place))
+    said = list(axis_warnings(shape, found.settings, found.chosen, axis))
+    assert any("30 % of the vertices no ball fits" in warning for warning in said) == warned
+    assert len(said) == warned
 
 
 @pytest.mark.parametrize("name", ["sharp_angle", "smooth"])

@@ -34,7 +34,7 @@ class SolidFaces:
 
     @property
     def arrays(self) -> tuple[NDArray[Any], ...]:
-        """What these faces keep in memory."""
+        """The arrays that these faces keep in memory."""
         return self.shape.points, self.shape.triangles, self.face
 
     def options(self, settings: Settings) -> tuple[float, bool]:
