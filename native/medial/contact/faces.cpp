@@ -198,8 +198,9 @@ std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {
           if (is_curved(t)) {
             const Vec3 &p = mesh_.points[c[0]], &q = mesh_.points[c[1]], &r = mesh_.points[c[2]];
             const Barycentric at = closest_on_flat(p, q, r, from);
-            const Vec3 flat = p + at.b * (q - p) + at.c * (r - p);
-            if (medial::distance(flat, from) - bulge_[t] >= within) continue;
+            const Vec3 away = from - (p + at.b * (q - p) + at.c * (r - p));
+            if (length(away) - bulge_[t] >= within) continue;
+            if (surface_->patch(t).least_distance(from, normalized(away)) >= within) continue;
           }
           const Foot foot = foot_on(t, from);
           const bool first = best && foot.distance == within && foot.triangle < best->triangle;

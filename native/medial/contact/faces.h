@@ -40,6 +40,7 @@ class Faces {
   // Returns whether an edge is sharp, and the solid is convex there.
   bool is_convex_crease(int32_t edge) const { return separates_[edge] == kConvex; }
 
+  bool is_curved(int32_t triangle) const { return !bulge_.empty() && bulge_[triangle] > 0; }
   Vec3 point(int32_t triangle, const Barycentric& at) const;
   Vec3 normal(int32_t triangle, const Barycentric& at) const {
     return surface_->normal(triangle, at);
@@ -68,7 +69,6 @@ class Faces {
   uint8_t separation(const MeshEdge& edge) const;
   Foot descend(Foot foot, const Vec3& from) const;
   Foot best_neighbour(const Foot& foot, const Vec3& from) const;
-  bool is_curved(int32_t triangle) const { return !bulge_.empty() && bulge_[triangle] > 0; }
   Foot foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3& from) const;
 
   TriangleMesh mesh_;

@@ -8,7 +8,7 @@ constexpr int kBallSteps = 16;
 constexpr int kPatience = 4;  // steps after which each has to halve the inequality
 // Directions to walls that differ by less than about 5 degrees do not determine a place.
 constexpr double kSameDirection = 0.08;
-constexpr double kRounding = 2e-15;  // of the radius
+constexpr double kRounding = 2e-14;  // of the radius
 
 struct Feet {
   std::array<Foot, kMostContacts> foot;
@@ -88,7 +88,7 @@ TouchingBall touching_ball(const Faces& faces, std::span<int32_t> walls, const V
     centre = centre + step;
     move_feet(faces, centre, feet);
     const double unequal = inequality(feet);
-    if (unequal <= 4 * kRounding * feet.foot[0].distance) break;
+    if (unequal <= kRounding * feet.foot[0].distance) break;
     if (i >= kPatience && unequal > 0.5 * before) break;  // no ball touches all of the walls
     before = unequal;
   }

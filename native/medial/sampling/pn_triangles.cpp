@@ -86,6 +86,19 @@ double Patch::bulge() const {
   return most;
 }
 
+// The control points hold the patch between them.
+double Patch::least_distance(const Vec3& from, const Vec3& direction) const {
+  double least = HUGE_VAL;
+  const auto take = [&](const Vec3& control) {
+    least = std::min(least, dot(from - control, direction));
+  };
+  for (const Vec3& corner : corners_) take(corner);
+  if (flat_) return least;
+  for (const Vec3& handle : handles_) take(handle);
+  take(centre_);
+  return least;
+}
+
 Box Patch::box() const {
   Box box;
   for (const Vec3& corner : corners_) box.add(corner);

@@ -29,6 +29,9 @@ class Patch {
   PatchExpansion expansion(const Barycentric& at) const;
   // Returns how far the patch is at most from its flat triangle.
   double bulge() const;
+  // Returns a lower bound of the distance from a point to the patch: how far the patch is from it
+  // at least along a unit direction from the patch to the point.
+  double least_distance(const Vec3& from, const Vec3& direction) const;
   // Returns a box that holds the patch.
   Box box() const;
 

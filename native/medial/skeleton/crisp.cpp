@@ -15,9 +15,9 @@ constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in 
 constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
 constexpr double kSameFoot = 0.08;    // between unit directions to feet that are one
 constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
-constexpr int kRounds = 40;           // of steps that unfold facets
+constexpr int kRounds = 24;           // of steps that unfold facets
 constexpr int kOwnRounds = 3;         // of these, the rounds without the neighbours
-constexpr int kDentRounds = 12;       // of these, the rounds that mend deep dents, too
+constexpr int kDentRounds = 6;       // of these, the rounds that mend deep dents, too
 constexpr double kDeepDent = 0.25;    // the sine of the turn
 // A smooth rim is looked for where a ball touches two places that are seen under less than 84
 // degrees.
@@ -25,7 +25,7 @@ constexpr double kMostOpen = 0.45;   // the squared sine of half the angle
 constexpr double kFarOut = 0.8;      // of the way to the rim that balls are tried on
 constexpr double kFarthestRim = 12;  // from the last vertex to the rim
 constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
-constexpr int kRimSteps = 6;
+constexpr int kRimSteps = 4;
 constexpr int kBisections = 40;  // of the way to the last ball that touches two places
 constexpr double kSameCrease = 0.85;  // the cosine between creases of one direction
 
@@ -293,12 +293,14 @@ class CrispMaker {
   }
 
   // Returns the triangle of the nearest foot of the samples of a group, or -1 if one has no face.
+  // On a curved wall all samples have the same foot, to which the ball will roll.
   int32_t nearest_wall(int32_t v, const Groups& groups, size_t group) const {
     Foot best;
     for (size_t i = 0; i < groups.samples.size(); ++i) {
       if (groups.group[i] != group) continue;
       const int32_t t = samples_.triangle(groups.samples[i]);
       if (t < 0) return -1;
+      if (samples_.faces().is_curved(t)) return t;
       const Foot foot = samples_.faces().descend(t, complex_.position[v]);
       if (foot.distance < best.distance) best = foot;
     }
