@@ -64,8 +64,10 @@ class LevelValues:
     def places(self) -> str:
         """A sentence about the places of the vertices."""
         crisp, balls = int(np.count_nonzero(self.is_crisp)), len(self.place)
-        if crisp in (0, balls):
-            return f"All balls end at the {'faces' if crisp else 'samples'}"
+        if not crisp:
+            return "All balls end at the samples"
+        if crisp == balls:
+            return "All balls end at the faces"
         return f"{crisp:,} of {balls:,} balls end at the faces, the others at the samples"
 
 
