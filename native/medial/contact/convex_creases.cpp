@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/convex_creases.h"
 
+#include <map>
+
+#include "base/point_tree.h"
+#include "base/union_find.h"
+
 namespace medial {
 namespace {
 
 constexpr int32_t kLeafOfCreases = 4;
+constexpr double kBendsApart = 8;    // spacings between the bends of a line that is meant so
+constexpr double kLeastPatch = 100;  // squares of the spacing
 constexpr int kCreaseSteps = 16;
 constexpr double kCreasePrecision = 1e-12;  // as a share of the edge
 
@@ -14,22 +21,49 @@ Barycentric along(const Triangle& t, const Edge& ends, double share) {
   return {at[0], at[1], at[2]};
 }
 
+double area_of(const TriangleMesh& mesh, int32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return 0.5 * length(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
+}
+
+// Joins patches below an area to the neighbour with the longest common border, in one pass.
+void join_small(const TriangleMesh& mesh, std::span<const MeshEdge> edges,
+                std::span<const int32_t> creases, double least, std::vector<int32_t>& patch) {
+  std::vector<double> area(patch.size(), 0);
+  for (size_t t = 0; t < patch.size(); ++t) area[patch[t]] += area_of(mesh, static_cast<int32_t>(t));
+  std::map<Edge, double> border;  // from a small patch to any other one
+  for (const int32_t e : creases) {
+    const int32_t a = patch[edges[e].triangles[0]], b = patch[edges[e].triangles[1]];
+    const double size = distance(mesh.points[edges[e].ends[0]], mesh.points[edges[e].ends[1]]);
+    if (a == b) continue;
+    if (area[a] < least) border[{a, b}] += size;
+    if (area[b] < least) border[{b, a}] += size;
+  }
+  std::map<int32_t, std::pair<double, int32_t>> longest;
+  for (const auto& [pair, size] : border) {
+    auto& best = longest[pair[0]];
+    if (size > best.first) best = {size, pair[1]};
+  }
+  UnionFind joined(patch.size());
+  for (const auto& [small, best] : longest) joined.unite(small, best.second);
+  for (int32_t& p : patch) p = joined.find(p);
+}
+
 }  // namespace
 
-ConvexCreases::ConvexCreases(const Faces& faces)
+ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
     : faces_(faces),
       corner_(faces.mesh().points.size(), 0),
-      on_crease_(faces.mesh().points.size(), 0) {
+      divides_(faces.creases().edges.size(), 0) {
   const auto& edges = faces.creases().edges;
   for (size_t e = 0; e < edges.size(); ++e) {
     if (!faces.is_convex_crease(static_cast<int32_t>(e))) continue;
     segments_.push_back(static_cast<int32_t>(e));
-    for (const int32_t end : edges[e].ends) {
-      on_crease_[end] = 1;
-      corner_[end] = faces.creases().corner[end];
-    }
+    for (const int32_t end : edges[e].ends) corner_[end] = faces.creases().corner[end];
   }
   if (segments_.empty()) return;
+  find_corners(spacing);
+  find_patches(spacing);
   const auto box = [&](int32_t e) {
     Box around = {};
     for (const int32_t t : edges[e].triangles) {
@@ -54,6 +88,51 @@ ConvexCreases::ConvexCreases(const Faces& faces)
     });
   };
   build_tree(nodes_, 0, static_cast<int32_t>(segments_.size()), kLeafOfCreases, describe, split);
+}
+
+// A bend that has another one close by is part of a zigzag. Where three creases meet is a corner in
+// any case.
+void ConvexCreases::find_corners(double spacing) {
+  std::vector<int32_t> creases_at(corner_.size(), 0);
+  for (const MeshEdge& edge : faces_.creases().edges) {
+    if (edge.crease == Crease::none) continue;
+    for (const int32_t end : edge.ends) ++creases_at[end];
+  }
+  std::vector<int32_t> bends;
+  std::vector<Vec3> places;
+  for (size_t v = 0; v < corner_.size(); ++v) {
+    if (!corner_[v] || creases_at[v] != 2) continue;
+    bends.push_back(static_cast<int32_t>(v));
+    places.push_back(faces_.mesh().points[v]);
+  }
+  const PointTree tree = PointTree::sorted(places, {});
+  std::vector<Neighbour> near;
+  for (size_t i = 0; i < bends.size(); ++i) {
+    tree.find(places[i], 2, near);
+    if (near.size() == 2 && near[1].distance < kBendsApart * spacing) corner_[bends[i]] = kJagged;
+  }
+}
+
+bool ConvexCreases::is_jagged(int32_t edge) const {
+  const Edge& ends = faces_.creases().edges[edge].ends;
+  return corner_[ends[0]] == kJagged || corner_[ends[1]] == kJagged;
+}
+
+void ConvexCreases::find_patches(double spacing) {
+  const auto& mesh = faces_.mesh();
+  const auto& edges = faces_.creases().edges;
+  UnionFind patches(mesh.triangles.size());
+  for (size_t e = 0; e < edges.size(); ++e) {
+    if (!faces_.separates(static_cast<int32_t>(e))) {
+      patches.unite(edges[e].triangles[0], edges[e].triangles[1]);
+    }
+  }
+  const auto representatives = std::move(patches).representatives();
+  std::vector<int32_t> patch(representatives.begin(), representatives.end());
+  join_small(mesh, edges, segments_, kLeastPatch * spacing * spacing, patch);
+  for (const int32_t e : segments_) {
+    divides_[e] = patch[edges[e].triangles[0]] != patch[edges[e].triangles[1]];
+  }
 }
 
 // Divides the chord and improves the place on the curved edge by secants.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sharp convex edges of the faces, which the medial axis reaches with balls of radius 0.
+// The sharp convex edges of the faces, which the medial axis reaches with balls of radius 0. They
+// divide the faces into patches. On a coarse mesh of a smooth body edges are sharp here and there
+// without dividing anything; zigzags of short edges stand for a smooth line.
 #pragma once
 
 #include "contact/faces.h"
@@ -16,27 +18,36 @@ struct PlaceOnCrease {
 // Its const members may be called from several threads.
 class ConvexCreases {
  public:
-  // The faces must outlive this object.
-  explicit ConvexCreases(const Faces& faces);
+  // The faces must outlive this object. Patches of less than about a hundred squares of `spacing`,
+  // a length of the samples, belong to the neighbour with the longest common border, and bends
+  // closer to each other than a few spacings are no corners.
+  ConvexCreases(const Faces& faces, double spacing);
 
   bool empty() const { return segments_.empty(); }
   // Returns the nearest place of the creases if it is nearer than a distance.
   std::optional<PlaceOnCrease> nearer(const Vec3& from, double than) const;
   // Returns whether a vertex of the mesh is an end or a bend of convex creases.
-  bool is_corner(int32_t vertex) const { return corner_[vertex] != 0; }
-  // Returns whether some convex crease ends at a vertex or passes it.
-  bool is_on_crease(int32_t vertex) const { return on_crease_[vertex] != 0; }
+  bool is_corner(int32_t vertex) const { return corner_[vertex] == kCorner; }
+  // Returns whether an edge is part of a zigzag.
+  bool is_jagged(int32_t edge) const;
+  // Returns whether the two sides of an edge are different patches.
+  bool divides(int32_t edge) const { return divides_[edge] != 0; }
 
  private:
   struct Node : TreeNode {
     Box box;
   };
 
+  static constexpr uint8_t kCorner = 1, kJagged = 2;
+
+  void find_corners(double spacing);
+  void find_patches(double spacing);
   PlaceOnCrease place_on(int32_t edge, const Vec3& from) const;
 
   const Faces& faces_;
   std::vector<int32_t> segments_;  // edges of the mesh, leaf after leaf
-  std::vector<uint8_t> corner_, on_crease_;
+  std::vector<uint8_t> corner_;   // per vertex
+  std::vector<uint8_t> divides_;  // per edge
   std::vector<Node> nodes_;
 };
 

@@ -169,8 +169,9 @@ class CrispMaker {
     if (!nearest) return false;
     made_.position[v] = nearest->point;
     made_.radius[v] = 0;
-    made_.place[v] = Placing::crease;
-    if (at_corner) onto_corner(v, kNearCrease * spacing);
+    const bool jagged = samples_.creases().is_jagged(nearest->edge);
+    made_.place[v] = jagged ? Placing::rim : Placing::crease;
+    if (at_corner && !jagged) onto_corner(v, kNearCrease * spacing);
     return true;
   }
 

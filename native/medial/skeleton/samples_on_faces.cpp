@@ -17,12 +17,20 @@ Vec3 apex(const Vec3& p, const Vec3& n, const Vec3& q, const Vec3& m, const Vec3
          ((to_q - cosine * to_p) / determinant) * m;
 }
 
+double middle_of(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  if (sorted.empty()) return 0;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
 }  // namespace
 
 SamplesOnFaces::SamplesOnFaces(const FacesInput& input, const Faces& faces, const Samples& samples,
                                std::span<const double> spacing, const Run& run)
     : faces_(faces),
-      creases_(faces),
+      creases_(faces, middle_of(spacing)),
       samples_(samples),
       spacing_(spacing),
       most_alike_(std::cos(input.sharp_angle)),
@@ -40,7 +48,8 @@ void SamplesOnFaces::place(int32_t s, int32_t triangle) {
   triangle_[s] = triangle;
   const Foot foot = faces_.foot_on(triangle, point);
   normals_[s][0] = faces_.normal(triangle, foot.at);
-  on_crease_[s] = creases_.nearer(point, kOnCrease * spacing_[s]).has_value();
+  const auto crease = creases_.nearer(point, kOnCrease * spacing_[s]);
+  on_crease_[s] = crease && creases_.divides(crease->edge);
   const double coordinates[3] = {foot.at.a, foot.at.b, foot.at.c};
   for (int i = 0; i < 3; ++i) {
     const int32_t e = faces_.edge_of(triangle, (i + 1) % 3);
@@ -82,7 +91,8 @@ CreaseMark SamplesOnFaces::mark(const Edge& samples) const {
   const auto& [p, q] = samples;
   if (on_crease_[p] != on_crease_[q]) return CreaseMark::at_crease;
   const Vec3 middle = 0.5 * point(p) + 0.5 * point(q);
-  return crease_between(samples, middle) ? CreaseMark::into_crease : CreaseMark::none;
+  const auto crease = crease_between(samples, middle);
+  return crease && creases_.divides(crease->edge) ? CreaseMark::into_crease : CreaseMark::none;
 }
 
 std::vector<CreaseMark> crease_marks(const SamplesOnFaces& samples, const Edges& edges,
