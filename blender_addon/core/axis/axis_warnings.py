@@ -14,9 +14,9 @@ from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..severe import Severe
 from .medial_axis import MedialAxis
 
-# A larger share of vertices at which no ball fits between the faces causes a warning. Scans with rough faces stay below
-# 0.16.
-_MANY_REFUSED = 0.25
+# A larger share of vertices at which no ball fits between the faces causes a warning. Scans with rough faces have up to
+# 0.25.
+_MANY_REFUSED = 0.4
 
 
 def axis_warnings(
