@@ -56,7 +56,7 @@ from .core.settings import (
 from .core.solid import ball_cover, reconstruction
 from .core.solid.ball_cover import BallCover, Balls
 from .core.solid.reconstruction import Reconstruction
-from .core.solid.reduce import reduce_axis
+from .core.solid.reduce import reduce_axis, reducible
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -144,9 +144,9 @@ def extract(computation: Computation, **thresholds: Any) -> MedialAxis:
     ----------
     computation : Computation
     **thresholds
-        `form`, `simplify`, `erode`, `limb`, `theta`, `rho`, `rule`, `criteria` and `limit_set` of
+        `form`, `simplify`, `erode`, `limb`, `crisp`, `theta`, `rho`, `rule`, `criteria` and `limit_set` of
         `Settings`; what is not given stays as it was. Forms are milliseconds, too, once the hierarchy was computed
-        for `theta`, `rho`, `rule` and `criteria`.
+        for `crisp`, `theta`, `rho`, `rule` and `criteria`.
 
     Raises
     ------
@@ -206,7 +206,7 @@ def reduce(
     Parameters
     ----------
     found : MedialAxis or Computation
-        Of the inside.
+        Of the inside. Of a computation the axis without crisp places is reduced, which gives better solids.
     vertices : int
         That are wanted at most. Where nothing more can go without changing the topology, more stay.
     progress : Progress, optional
@@ -220,8 +220,10 @@ def reduce(
     ------
     NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
     """
-    axis = found.axis if isinstance(found, Computation) else found
-    return reduce_axis(axis, vertices, progress)
+    if not isinstance(found, Computation):
+        return reduce_axis(found, vertices, progress)
+    whole = axis.extract_axis(found, reducible(found.settings))
+    return reduce_axis(whole, vertices, progress)
 
 
 def reconstruct(points: ArrayLike, *, progress: Progress | None = None) -> Reconstruction:

@@ -82,6 +82,7 @@ _TWO_INTS = (
 _LEVEL = (
     Attribute("ma_exact", "exact", "POINT", "FLOAT_VECTOR", np.float32),
     Attribute("ma_exact_radius", "exact_radius", "POINT", "FLOAT", np.float32),
+    Attribute("ma_place", "place", "POINT", "INT", np.int32),
     Attribute("ma_sheet", "sheet", "FACE", "FLOAT", np.float32),
     Attribute("ma_erosion", "erosion", "FACE", "FLOAT", np.float32),
     Attribute("ma_limb", "limb", "EDGE", "FLOAT", np.float32),

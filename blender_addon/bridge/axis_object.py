@@ -58,8 +58,12 @@ ONLY_RATIO = "ma_only_ratio"
 ONLY_ANGLE = "ma_only_angle"
 BETTI = "ma_betti"  # pieces, loops and cavities; only of clean forms and curves
 TOPOLOGY = "ma_topology"  # the same in a sentence
+PLACES = "ma_places"  # a sentence: where balls end; only of clean forms and curves
+REFUSED = "ma_refused"  # vertices at which no ball fits the faces
 # The whole axis, its own master.
 ALL = Look(within=0.0)
+# The values of options that earlier versions did not have.
+_EARLIER = {"form": Form.PUBLISHED, "crisp": False}
 
 
 RESULT = Product(SUFFIX, (ANALYSIS,))
@@ -122,13 +126,13 @@ def radius_range(result: bpy.types.Object) -> tuple[float, float]:
 
 
 def settings_of(result: bpy.types.Object) -> Settings:
-    """The settings that a result was made with; those of earlier versions, which had no forms, are as published.
+    """The settings that a result was made with; earlier versions had neither forms nor crisp places.
 
     A property that someone changed to what is no value of its option counts as if it were not there.
     """
     values = {}
     for name, option in OPTIONS.items():
-        earlier = Form.PUBLISHED if name == "form" else option.default
+        earlier = _EARLIER.get(name, option.default)
         try:
             values[name] = _value_of(option, result.get(f"ma_{name}", earlier))
         except (KeyError, TypeError, ValueError):
@@ -203,10 +207,7 @@ def _remember_shown(
     result[HIDDEN] = whole.facets - axis.facets
     result[PIECES] = len(np.unique(pieces(axis))) if axis.level is None else axis.level.betti[0]
     result[ONLY_RATIO], result[ONLY_ANGLE] = _only(axis, settings)
-    if axis.level is not None:
-        result[BETTI] = axis.level.betti
-    elif BETTI in result:
-        del result[BETTI]
+    _remember_level(result, axis)
     result[RADIUS_MIN] = float(axis.radius.min())
     result[RADIUS_MAX] = float(axis.radius.max())
     start, end = colours_of_radii(axis.radius)
@@ -214,6 +215,16 @@ def _remember_shown(
     remember_colours(result, RADIUS.name if by_radius else "", start, end)
     remember_structure(result, axis)
     result.update_tag()
+
+
+def _remember_level(result: bpy.types.Object, axis: MedialAxis) -> None:
+    """Stores what only a clean form or a curve has."""
+    level = axis.level
+    if level is not None:
+        result[BETTI], result[PLACES], result[REFUSED] = level.betti, level.places, level.refused
+        return
+    for name in (BETTI, PLACES, REFUSED):
+        result.pop(name, None)
 
 
 def _only(axis: MedialAxis, settings: Settings) -> tuple[float, float]:

@@ -119,12 +119,17 @@ def applies_to_form(name: str, form: Form) -> bool:
     return name != "limit_set" or form is Form.PUBLISHED
 
 
-def applies(name: str, sampling: SamplingMode, spacing: float) -> bool:
-    """Whether an option of the sampling changes anything for a choice of Sampling and a Spacing."""
+def applies(
+    name: str, sampling: SamplingMode, spacing: float, of_faces: tuple[str, ...] = ()
+) -> bool:
+    """Whether an option of the sampling changes anything for a choice of Sampling and a Spacing.
+
+    `of_faces` are the options that matter for Vertices, too (`Settings.options_of_faces`).
+    """
     if name == "epsilon" or name not in SAMPLING_OPTIONS:
         return True
     if sampling is SamplingMode.VERTICES:
-        return False
+        return name in of_faces
     if name == "samples":
         return spacing == 0.0
     return name != "budget" or sampling is not SamplingMode.SURFACE
@@ -180,6 +185,12 @@ class Settings(Options):
         limits=(0.0, 100.0),
         soft_maximum=20.0,
         unit="%",
+    )
+    crisp: bool = switch(
+        "Crisp",
+        "Balls touch the faces themselves, and sheets reach the sharp edges; off: balls touch the "
+        "samples of the faces. It matters only where the faces decide what is inside",
+        default=True,
     )
     theta: float = number(
         "Theta",
@@ -238,12 +249,6 @@ class Settings(Options):
                 "walls, which Tight Cocone fills; faces are ignored",
             ),
         },
-    )
-    crisp: bool = switch(
-        "Crisp",
-        "Every vertex of the axis is where the ball touches the faces themselves, and sheets reach "
-        "the sharp edges; off: it is where the ball touches the samples. Only closed faces give crisp places",
-        default=True,
     )
     rule: Rule = choice(
         "Rule",
@@ -359,6 +364,22 @@ class Settings(Options):
     def form_of_side(self) -> Form:
         """The form that the result has: only the inner axis has a clean form or a curve."""
         return self.form if self.side in (Side.AUTOMATIC, Side.INNER) else Form.PUBLISHED
+
+    @property
+    def crisp_is_possible(self) -> bool:
+        """Whether Crisp can change anything: the axis is a level, and the faces may decide what is inside."""
+        of_faces = self.sides in (SidesFrom.AUTOMATIC, SidesFrom.SURFACE)
+        return of_faces and self.form_of_side is not Form.PUBLISHED
+
+    @property
+    def options_of_faces(self) -> tuple[str, ...]:
+        """The options of the sampling that say what the faces are, if the form of the axis depends on that.
+
+        Crisp places are on the smooth surface and at its sharp edges; these also divide the sheets of a clean form.
+        """
+        if self.crisp and self.crisp_is_possible:
+            return ("sharp_angle", "smooth")
+        return ("sharp_angle",) if self.form_of_side is Form.CLEAN else ()
 
     def with_side(self) -> Settings:
         """The same with a side that is not AUTOMATIC."""

@@ -58,7 +58,8 @@ class OBJECT_OT_medial_axis_balls(
         self.layout.use_property_split = True
         for name in (*BALL_OPTIONS, "parent", "sides", "sampling"):
             self.layout.prop(self, name)
-        draw_sampling(self.layout.box().column(), self)
+        of_faces = settings_from(self).options_of_faces  # balls are those of a clean form
+        draw_sampling(self.layout.box().column(), self, of_faces)
 
     def work(self, shape):
         wanted = settings_from(self, BallSettings)

@@ -81,9 +81,11 @@ def draw_details(context, layout, result):
             "Vertices": f"{len(result.data.vertices):,}",
             "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
             "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
+            "Not Crisp": f"{result.get(axis_object.REFUSED, 0):,}",
         },
     )
-    for name in (output_object.SAMPLED, output_object.DENSITY, axis_object.INSIDE):
+    sentences = (output_object.SAMPLED, output_object.DENSITY, axis_object.INSIDE)
+    for name in (*sentences, axis_object.PLACES):
         if sentence := result.get(name):
             draw_wrapped(context, layout, sentence, "INFO")
     for warning in result.get(output_object.WARNINGS, "").splitlines():

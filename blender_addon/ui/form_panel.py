@@ -2,6 +2,7 @@
 """The rows of the panel that choose the form of the axis."""
 
 from ..core.settings import Form, applies_to_form
+from .properties import settings_from
 
 _SLIDERS = ("simplify", "erode", "limb")
 
@@ -14,9 +15,12 @@ def draw_form(layout, panel):
 
 
 def draw_more_of_form(layout, panel):
-    """The other sliders of the form."""
+    """The other sliders of the form, and whether its places are crisp."""
     for name in _that_apply(panel)[1:]:
         layout.prop(panel, name, slider=True)
+    row = layout.row()
+    row.active = settings_from(panel).crisp_is_possible
+    row.prop(panel, "crisp")
 
 
 def _that_apply(panel):

@@ -46,13 +46,15 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        form = Form[self.form]
+        form, settings = Form[self.form], settings_from(self)
         for name in OPTIONS:
             if name not in SAMPLING_OPTIONS:
                 row = self.layout.row()
                 row.active = applies_to_form(name, form)
+                if name == "crisp":
+                    row.active = settings.crisp_is_possible
                 row.prop(self, name)
-        draw_sampling(self.layout.box().column(), self)
+        draw_sampling(self.layout.box().column(), self, settings.options_of_faces)
 
     def work(self, shape):
         return partial(compute_axis, shape, settings_from(self), limit=memory_limit())

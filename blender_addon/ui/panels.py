@@ -19,7 +19,14 @@ from .figures import (
 from .form_panel import draw_form, draw_more_of_form
 from .guide import draw_guide
 from .presets import VIEW3D_PT_medial_axis_presets
-from .properties import copy_settings, draw_sampling, shown_report, shown_result, shown_surface
+from .properties import (
+    copy_settings,
+    draw_sampling,
+    settings_from,
+    shown_report,
+    shown_result,
+    shown_surface,
+)
 from .selected_sources import has_faces, obstacle, sources
 from .show import shows_colours
 from .tab import MAIN, Closed, Inside, Tab, settings_column
@@ -67,7 +74,8 @@ class VIEW3D_PT_medial_axis_sampling(Closed, bpy.types.Panel):
 
     def draw(self, context):
         settings = context.scene.medial_axis
-        draw_sampling(settings_column(self.layout), settings)
+        of_faces = settings_from(settings).options_of_faces
+        draw_sampling(settings_column(self.layout), settings, of_faces)
         if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
             button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
             copy_settings(settings, button)

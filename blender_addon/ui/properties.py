@@ -80,12 +80,15 @@ class SamplingProperties:
     """The options of the sampling, which all operators have that compute from a surface."""
 
 
-def draw_sampling(layout, properties):
-    """Draw the options of the sampling; those that do not matter for the chosen Sampling are grey."""
+def draw_sampling(layout, properties, of_faces=()):
+    """Draw the options of the sampling; those that do not matter for the chosen Sampling are grey.
+
+    `of_faces` are the options that matter for Vertices, too.
+    """
     chosen = SamplingMode[properties.sampling]
     for name in SAMPLING_OPTIONS:
         row = layout.row()
-        row.active = applies(name, chosen, properties.spacing)
+        row.active = applies(name, chosen, properties.spacing, of_faces)
         row.prop(properties, name)
 
 

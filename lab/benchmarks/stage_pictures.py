@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The drawings of the stages of the collapse for docs/hierarchy_theory.md, as SVG.
+"""The drawings of the stages of the collapse for docs/hierarchy_theory.md, and of crisp places, as SVG.
 
     python3 lab/benchmarks/stage_pictures.py [--output docs/pictures]
 
 Fringe: a solid of the plane, where all is a dimension lower: Voronoi edges in the place of facets. Fire and wires: the
-flat sheet of a slab, seen from above, and its curve.
+flat sheet of a slab, seen from above, and its curve. Crisp: the ends of the sheets of a box.
 """
 
 import argparse
@@ -18,6 +18,7 @@ from scipy.spatial import Voronoi
 
 medial = _module.load()
 
+from support import crisp_solids  # noqa: E402
 from support.shapes import SHAPES  # noqa: E402
 
 SCALE = 330.0
@@ -151,12 +152,56 @@ def wires() -> str:
     return picture("Stage 3: the wires", 590, parts, legend)
 
 
+# --- crisp places
+
+# Where the axes of the solid point on the page, in pixels.
+OBLIQUE = np.array([(105.0, 42.0), (88.0, -50.0), (0.0, -130.0)])
+
+
+def ends_of_sheets(crisp: bool, middle: tuple[float, float]) -> list[str]:
+    """The edges of a box, the seams of its axis, and the rims."""
+    import medial_axis
+    from medial_axis.core.axis.structure import RIM, SEAM
+
+    points, triangles = crisp_solids.solid("box").mesh
+    found = medial_axis.compute(points, triangles, sampling="surface", samples=600, crisp=crisp)
+    axis, structure = found.axis, found.axis.structure
+    low, high = points.min(axis=0), points.max(axis=0)
+    centre, size = (low + high) / 2, high - low
+    page = lambda places: (np.asarray(places) - centre) @ OBLIQUE + middle
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    near = [(a, b) for a in range(8) for b in range(a) if abs(corners[a] - corners[b]).sum() == 1]
+    parts = []
+    for ends, colour, width in (
+        ([low + corners[list(pair)] * size for pair in near], PALE, 5),
+        (axis.vertices[structure.facet_edges[structure.seam == SEAM]], INK, 1.5),
+        (axis.vertices[structure.facet_edges[structure.seam >= RIM]], RED, 1.5),
+    ):
+        lines = "".join(path(page(segment)) for segment in ends)
+        parts.append(
+            f'<path d="{lines}" fill="none" stroke="{colour}" stroke-width="{width}" '
+            'stroke-linecap="round"/>'
+        )
+    return parts
+
+
+def crisp() -> str:
+    parts = [*ends_of_sheets(False, (190.0, 160.0)), *ends_of_sheets(True, (570.0, 160.0))]
+    legend = [
+        (PALE, "the edges of a box"),
+        (INK, "seams of its axis: left where balls end at the samples, right where they end at the faces"),
+        (RED, "where the sheets end: left half a spacing before the edges, right on them"),
+    ]
+    return picture("Crisp places", 400, parts, legend)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     default = Path(__file__).resolve().parents[2] / "docs" / "pictures"
     parser.add_argument("--output", type=Path, default=default)
     output = parser.parse_args().output
-    for name, draw in (("fringe", fringe), ("fire", fire), ("wires", wires)):
+    drawings = {"fringe": fringe, "fire": fire, "wires": wires, "crisp": crisp}
+    for name, draw in drawings.items():
         (output / f"stage_{name}.svg").write_text(draw(), encoding="utf-8")
 
 

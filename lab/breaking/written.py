@@ -107,6 +107,7 @@ def _made_up(random: Random) -> MedialAxis:
         erosion=floats(faces),
         limb=floats(len(edges)),
         betti=tuple(random.integers(0, 99, 3).tolist()),
+        place=random.integers(0, 6, points).astype(np.int32),
     )
     return replace(axis, level=level)
 

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PICTURES = ROOT / "docs" / "pictures"
 NAMES = {
     "algorithm_pictures": ("cell", "theta_rho", "peeling"),
-    "stage_pictures": ("stage_fringe", "stage_fire", "stage_wires"),
+    "stage_pictures": ("stage_fringe", "stage_fire", "stage_wires", "stage_crisp"),
     "section_pictures": (
         "stage_sampling",
         "stage_delaunay",

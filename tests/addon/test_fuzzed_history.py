@@ -22,6 +22,7 @@ CHOICES = {
     "criteria": ("ANGLE_OR_RATIO", "ANGLE", "RATIO"),
     "simplify": (0.0, 2.0),
     "limb": (0.0, 4.0, 10.0),
+    "crisp": (True, False),
 }
 ANALYSED = {
     "sampling": ("VERTICES", "SURFACE", "SURFACE"),
@@ -29,6 +30,8 @@ ANALYSED = {
     "side": ("INNER", "AUTOMATIC"),
     "sides": ("AUTOMATIC", "SURFACE", "TIGHT_COCONE"),
     "seed": (0, 3),
+    "sharp_angle": (0.5, 2.0),
+    "smooth": (True, False),
 }
 OTHERS = ("medial_axis_thickness", "medial_axis_skeleton", "medial_axis_sampling_report")
 

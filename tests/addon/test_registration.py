@@ -23,7 +23,7 @@ SAMPLING = (
     "seed",
 )
 OPTIONS = (
-    *("form", "simplify", "erode", "limb"),
+    *("form", "simplify", "erode", "limb", "crisp"),
     *("theta", "rho", "side", "sides", "rule", "criteria", "limit_set"),
     *SAMPLING,
 )
@@ -177,6 +177,9 @@ def test_what_does_not_apply_is_grey():
     others = set(of) - {"epsilon", "budget"}
     assert all(of[name] == faces | {"SURFACE"} for name in others)
     assert not settings.applies("samples", settings.SamplingMode.SURFACE, 1.0)
+    vertices = settings.SamplingMode.VERTICES
+    assert settings.applies("smooth", vertices, 0.0, settings.Settings().options_of_faces)
+    assert not settings.applies("seed", vertices, 0.0, settings.Settings().options_of_faces)
     assert {"sampling", *of} == set(SAMPLING)
 
 

@@ -204,7 +204,8 @@ def test_ply_has_parts_and_kinds(boxed, tmp_path):
     content = export_axis(boxed, tmp_path / "a.ply").read_bytes()
     header, body = content.split(b"end_header\n", 1)
     assert b"property int part\n" in header and b"property int kind\n" in header
-    vertex = np.dtype([("place", "<f8", 3), ("radius", "<f8"), ("kind", "<i4")])
+    numbers = [("kind", "<i4"), ("place", "<i4")]
+    vertex = np.dtype([("at", "<f8", 3), ("radius", "<f8"), *numbers])
     rows = np.frombuffer(body, vertex, len(boxed.vertices))
     assert np.array_equal(rows["kind"], boxed.structure.kind)
 

@@ -16,6 +16,7 @@ from medial_axis.core.settings import (
     SKELETON_OPTIONS,
     THICKNESS_OPTIONS,
     BallSettings,
+    Criteria,
     Form,
     SamplingMode,
     Settings,
@@ -145,6 +146,7 @@ STARTS = (
     replace(FEW, sampling=SamplingMode.VERTICES, form=Form.PUBLISHED),
     replace(FEW, sampling=SamplingMode.SURFACE, form=Form.CURVE),
     replace(FEW, sampling=SamplingMode.ADAPTIVE, form=Form.CLEAN),
+    replace(FEW, sampling=SamplingMode.VERTICES, form=Form.PUBLISHED, criteria=Criteria.ANGLE),
 )
 
 

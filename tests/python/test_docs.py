@@ -230,6 +230,7 @@ STAGES = (
     "stage_tight_cocone",
     "stage_selection",
     "hierarchy",
+    "stage_crisp",
     "skeleton",
     "thickness",
     "balls",

@@ -68,12 +68,13 @@ def clean_axis(seed=2):
     shown = np.concatenate([sheet.vertices, rng.normal(size=(7, 3))])
     edges = np.array([[0, first], *((i, i + 1) for i in range(first, first + 5))], np.int32)
     level = LevelValues(
-        exact=np.add(shown, (0.25, 0.5, 0.125)),
+        exact=np.add(shown, (1 / 256, 1 / 128, 1 / 512)),
         exact_radius=rng.random(len(shown)),
         sheet=rng.random(sheet.facets).astype(np.float32),
         erosion=rng.random(sheet.facets).astype(np.float32),
         limb=np.array([*rng.random(5), np.inf], np.float32),
         betti=(2, 0, 0),
+        place=rng.integers(0, 6, len(shown)).astype(np.int32),
     )
     radius = rng.random(len(shown))
     return dataclasses.replace(sheet, vertices=shown, radius=radius, edges=edges, level=level)
@@ -97,7 +98,7 @@ AXES = {
     "curve": curve_axis(),
     "empty": EMPTY,
 }
-LEVEL_FIELDS = ("sheet", "erosion", "limb")
+LEVEL_FIELDS = ("sheet", "erosion", "limb", "place")
 
 
 @pytest.fixture(params=AXES)
@@ -131,11 +132,12 @@ def polygons_of(axis):
 
 
 def balls(axis):
-    """(v, 4) the exact centres and radii."""
-    known = axis.level
-    return np.column_stack(
-        [known.exact, known.exact_radius] if known else [axis.vertices, axis.radius]
-    )
+    """(v, 4) centres and radii: shown ones where balls end at faces or there is no level, else those at samples."""
+    shown, level = np.column_stack([axis.vertices, axis.radius]), axis.level
+    if level is None:
+        return shown
+    at_samples = np.column_stack([level.exact, level.exact_radius])
+    return np.where((level.place >= 2)[:, None], shown, at_samples)
 
 
 def lone_vertices(axis):
@@ -144,7 +146,7 @@ def lone_vertices(axis):
 
 
 def read_ply(path):
-    """vertices (v, 4); per face: corners, theta, rho, side, p, q, and the floats of a level; edges, as records."""
+    """vertices, as records; per face: corners, theta, rho, side, p, q, and the floats of a level; edges, as records."""
     data = Path(path).read_bytes()
     head, body = data.split(b"end_header\n", 1)
     lines = head.decode("ascii").splitlines()
@@ -154,8 +156,9 @@ def read_ply(path):
     )
     floats = lines.count("property float sheet") + lines.count("property float erosion")
     width = {"uchar": "u1", "int": "<i4"}[next(line for line in lines if "list" in line).split()[2]]
-    vertices = np.frombuffer(body, "<f8", vertex_count * 4).reshape(-1, 4)
-    at, faces = vertex_count * 32, []
+    place = [("place", "<i4")] if "property int place" in lines else []
+    vertices = np.frombuffer(body, [("ball", "<f8", 4), *place], vertex_count)
+    at, faces = vertices.nbytes, []
     for _ in range(face_count):
         count = int(np.frombuffer(body, width, 1, at)[0])
         at += np.dtype(width).itemsize
@@ -243,7 +246,8 @@ def test_ply_holds_polygons_and_all_attributes(axis, tmp_path):
     vertices, faces, edges = read_ply(export_axis(axis, tmp_path / "a.ply"))
     assert np.array_equal(edges["ends"], axis.edges)
     assert axis.level is None or np.array_equal(edges["limb"], axis.level.limb)
-    assert np.array_equal(vertices, np.column_stack([axis.vertices, axis.radius]))
+    assert np.array_equal(vertices["ball"], np.column_stack([axis.vertices, axis.radius]))
+    assert axis.level is None or np.array_equal(vertices["place"], axis.level.place)
     assert len(faces) == len(axis.theta)
     for i, (face, polygon) in enumerate(zip(faces, polygons_of(axis))):
         corners, theta, rho, side, p, q, *known = face
@@ -271,7 +275,8 @@ def test_obj_holds_polygons(axis, tmp_path):
     faces = [[int(x) - 1 for x in line.split()[1:]] for line in lines if line.startswith("f ")]
     edges = [[int(x) - 1 for x in line.split()[1:]] for line in lines if line.startswith("l ")]
     alone = [int(line.split()[1]) - 1 for line in lines if line.startswith("p ")]
-    assert len(lines) == len(vertices) + len(faces) + len(edges) + len(alone)
+    comments = 0 if axis.level is None else 1
+    assert len(lines) == comments + len(vertices) + len(faces) + len(edges) + len(alone)
     assert (edges, alone) == (axis.edges.tolist(), lone_vertices(axis))
     assert np.array_equal(np.reshape(vertices, (-1, 3)), axis.vertices)
     assert faces == [polygon.tolist() for polygon in polygons_of(axis)]
@@ -313,6 +318,37 @@ def test_npz_comes_back(axis, tmp_path):
     assert (again.level is None) == (axis.level is None)
     for name in () if axis.level is None else (*LEVEL_FIELDS, "exact", "exact_radius", "betti"):
         assert np.array_equal(getattr(again.level, name), getattr(axis.level, name)), name
+
+
+def test_npz_of_a_version_without_crisp_places_is_read(tmp_path):
+    clean = AXES["clean"]
+    with np.load(export_axis(clean, tmp_path / "a.npz")) as arrays:
+        kept = {name: array for name, array in arrays.items() if name != "place"}
+    np.savez(tmp_path / "old.npz", **kept)
+    level = load_axis(tmp_path / "old.npz").level
+    assert np.array_equal(level.exact, clean.level.exact) and not level.place.any()
+
+
+@pytest.mark.parametrize(
+    ("place", "words"),
+    [
+        ([0, 1, 0, 1], "All balls end at the samples"),
+        ([2, 3, 4, 5], "All balls end at the faces"),
+        ([0, 1, 2, 5], "2 of 4 balls end at the faces, the others at the samples"),
+    ],
+)
+@pytest.mark.parametrize("triangles", [False, True])
+def test_files_say_where_balls_end(place, words, triangles, tmp_path):
+    grid, place = grid_of_quads(2), np.array(place, np.int32)
+    values, none = np.ones(1, np.float32), np.ones(0, np.float32)
+    level = LevelValues(grid.vertices, grid.radius, values, values, none, (1, 0, 0), place)
+    axis = dataclasses.replace(grid, level=level)
+    for name, mark in (("a.ply", "comment"), ("a.obj", "#")):
+        text = export_axis(axis, tmp_path / name, triangles=triangles).read_bytes()
+        assert f"{mark} {words}".encode() in text.splitlines()
+        plain = export_axis(grid, tmp_path / name, triangles=triangles).read_bytes()
+        assert b"balls end" not in plain
+    assert level.refused == np.count_nonzero(place == 1)
 
 
 def test_npz_of_a_version_without_forms_is_read(tmp_path):
@@ -368,7 +404,8 @@ def test_even_scale_scales_radii(name, tmp_path):
     vertices, _, _ = read_ma(export_axis(axis, tmp_path / "a.ma", twice))
     assert np.allclose(vertices, 2 * balls(axis), rtol=1e-15)
     vertices, _, _ = read_ply(export_axis(axis, tmp_path / "a.ply", twice))
-    assert np.allclose(vertices, 2 * np.column_stack([axis.vertices, axis.radius]), rtol=1e-15)
+    shown = np.column_stack([axis.vertices, axis.radius])
+    assert np.allclose(vertices["ball"], 2 * shown, rtol=1e-15)
 
 
 def test_mirror_turns_polygons_round(tmp_path):

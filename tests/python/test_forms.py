@@ -2,13 +2,16 @@
 """Forms of the axis without Blender: which settings act, what is cached, what is said of the topology, files."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import medial_axis
 import numpy as np
 import pytest
 from medial_axis import cli
+from medial_axis.core.axis.axis_warnings import axis_warnings
 from medial_axis.core.axis.compute import compute_axis, refilter, refiltered_topology
+from medial_axis.core.axis.levels import hierarchy_of
 from medial_axis.core.axis.topology import betti_words
 from medial_axis.core.machine.cache import CACHE
 from medial_axis.core.samples.levels import Levels
@@ -20,6 +23,7 @@ from medial_axis.core.settings import (
     SamplingMode,
     Settings,
     Side,
+    SidesFrom,
     applies_to_form,
 )
 from support.meshes import icosphere, torus
@@ -172,15 +176,15 @@ def test_forms_of_one_computation_share_one_analysis_and_one_hierarchy():
     shape = SHAPES["box"][0]
     found = computed(shape)
     samples, before = found.chosen.samples, CACHE.analyses
-    hierarchy = samples.levels.hierarchy(samples.analysis, found.settings, None)
+    hierarchy = hierarchy_of(samples, found.settings, None)
     curve = medial_axis.extract(found, form="curve", limb=1.0)
     assert curve.facets == 0 and len(curve.edges) > 0
-    assert samples.levels.hierarchy(samples.analysis, found.settings, None) is hierarchy
+    assert hierarchy_of(samples, found.settings, None) is hierarchy
     again = computed(shape, erode=2.0)
     assert again.chosen.samples.levels is samples.levels and CACHE.analyses == before
     assert same_axis(again.axis, medial_axis.extract(found, erode=2.0))
     medial_axis.extract(found, theta=1.0)
-    assert samples.levels.hierarchy(samples.analysis, found.settings, None) is not hierarchy
+    assert hierarchy_of(samples, found.settings, None) is not hierarchy
 
 
 class Replaced(Levels):
@@ -230,13 +234,91 @@ def test_other_sides_are_as_published_and_said(side, form):
 
 def test_what_applies_to_a_form():
     acts = {
-        form: {name for name in ("simplify", "erode", "limb", "limit_set", "theta")
+        form: {name for name in ("simplify", "erode", "limb", "crisp", "limit_set", "theta")
                if applies_to_form(name, form)}
         for form in Form
     }  # fmt: skip
-    assert acts[Form.CLEAN] == {"simplify", "erode", "limb", "theta"}
+    assert acts[Form.CLEAN] == {"simplify", "erode", "limb", "crisp", "theta"}
     assert acts[Form.PUBLISHED] == {"limit_set", "theta"}
-    assert acts[Form.CURVE] == {"limb", "theta"}
+    assert acts[Form.CURVE] == {"limb", "crisp", "theta"}
+
+
+@pytest.mark.parametrize(
+    ("chosen", "possible", "of_faces"),
+    [
+        ({}, True, ("sharp_angle", "smooth")),
+        ({"crisp": False}, True, ("sharp_angle",)),
+        ({"form": Form.CURVE}, True, ("sharp_angle", "smooth")),
+        ({"form": Form.CURVE, "crisp": False}, True, ()),
+        ({"form": Form.PUBLISHED}, False, ()),
+        ({"side": Side.OUTER}, False, ()),
+        ({"sides": SidesFrom.SURFACE}, True, ("sharp_angle", "smooth")),
+        ({"sides": SidesFrom.NORMALS}, False, ("sharp_angle",)),
+        ({"sides": SidesFrom.TIGHT_COCONE}, False, ("sharp_angle",)),
+        ({"sides": SidesFrom.POLES}, False, ("sharp_angle",)),
+    ],
+)
+def test_where_crisp_matters(chosen, possible, of_faces):
+    settings = Settings(**chosen)
+    assert settings.crisp_is_possible == possible
+    assert settings.options_of_faces == of_faces
+
+
+def test_without_faces_crisp_changes_nothing():
+    cloud = Shape(np.asarray(TORUS[0], float), NONE)
+    on, off = (compute_axis(cloud, Settings(crisp=crisp)).axis for crisp in (True, False))
+    assert same_axis(on, off) and not on.level.place.any()
+
+
+@pytest.mark.parametrize("form", [Form.CLEAN, Form.CURVE])
+def test_normals_that_decide_leave_nothing_crisp(form):
+    points, faces = (np.asarray(x) for x in BALL)
+    shape = Shape(points * (3.0, 2.0, 1.0), faces.astype(np.int32), points * (1 / 3, 1 / 2, 1))
+    settings = Settings(form=form, sides=SidesFrom.NORMALS, sampling=SamplingMode.VERTICES)
+    on, off = (compute_axis(shape, replace(settings, crisp=x)).axis for x in (True, False))
+    assert same_axis(on, off) and not on.level.place.any()
+
+
+def test_crisp_of_an_axis_as_published_changes_nothing():
+    on, off = (computed(SHAPES["box"][0], form=Form.PUBLISHED, crisp=x).axis for x in (True, False))
+    assert same_axis(on, off)
+
+
+def test_crisp_switches_without_another_analysis():
+    """The slider shows what a computation with these settings gives, whichever way it was switched before."""
+    found = {crisp: computed(SHAPES["box"][0], crisp=crisp) for crisp in (True, False)}
+    assert found[True].key == found[False].key
+    assert found[True].axis.level.is_crisp.mean() > 0.99
+    assert not found[False].axis.level.is_crisp.any()
+    for crisp in (True, False, True):
+        axis = refilter(found[True].key, replace(found[True].settings, crisp=crisp))
+        assert same_axis(axis, found[crisp].axis), crisp
+        assert same_axis(medial_axis.extract(found[not crisp], crisp=crisp), axis), crisp
+
+
+@pytest.mark.parametrize(("share", "warned"), [(0.35, False), (0.45, True)])
+def test_many_refused_places_are_a_warning(share, warned):
+    found, shape = computed(SHAPES["box"][0]), SHAPES["box"][0]
+    place = np.full(len(found.axis.vertices), 2, np.int32)
+    place[: int(share * len(place))] = 1
+    axis = replace(found.axis, level=replace(found.axis.level, place=place))
+    said = list(axis_warnings(shape, found.settings, found.chosen, axis))
+    assert any("45 % of the vertices no ball fits" in warning for warning in said) == warned
+    assert len(said) == warned
+
+
+@pytest.mark.parametrize("name", ["sharp_angle", "smooth"])
+def test_vertices_are_computed_again_for_other_faces(name):
+    """Crisp places of vertices depend on what the faces are; each computation has its own."""
+    stretched = Shape(np.asarray(BALL[0]) * (3.0, 2.0, 1.0), np.asarray(BALL[1], np.int32))
+    others = {"sharp_angle": 0.05, "smooth": False}
+    settings = Settings(sampling=SamplingMode.VERTICES, sides=SidesFrom.SURFACE)
+    changed = replace(settings, **{name: others[name]})
+    first, second = (compute_axis(stretched, wanted).axis for wanted in (settings, changed))
+    assert not np.array_equal(first.vertices, second.vertices)
+    CACHE.clear()
+    assert same_axis(compute_axis(stretched, changed).axis, second)
+    assert same_axis(compute_axis(stretched, settings).axis, first)
 
 
 def test_points_of_a_thinned_cloud_are_named_by_their_rows_in_the_whole():
@@ -262,6 +344,9 @@ def test_words_of_the_command_line(tmp_path, capsys, monkeypatch):
         reports[form] = json.loads(capsys.readouterr().out)
     assert [reports[form]["form"] for form in reports] == list(reports)
     assert reports["clean"]["betti"] == reports["curve"]["betti"] == [1, 1, 0]
+    assert reports["clean"]["places"] == "All balls end at the samples"  # a curve is fitted
+    assert reports["clean"]["refused"] == 0 and reports["published"]["refused"] is None
+    assert reports["clean"]["settings"]["crisp"] is True
     assert reports["published"]["betti"] is None and reports["published"]["topology"] == ""
     assert reports["clean"]["topology"] == "1 piece, 1 loop, no cavity, as the solid"
     assert reports["clean"]["edges"] > 0 == reports["clean"]["facets"]

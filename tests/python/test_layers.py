@@ -242,8 +242,9 @@ MAY_INCLUDE = {
     "thickness": {"base", "delaunay", "inside", "axis"},
     "balls": {"base", "inside"},
     "cocone": {"base", "delaunay", "inside", "axis"},
-    "skeleton": {"base", "delaunay", "inside", "axis"},
     "sampling": {"base", "inside"},
+    "contact": {"base", "sampling"},
+    "skeleton": {"base", "delaunay", "inside", "axis", "contact"},
     "structure": {"base"},
     "reduce": {"base"},
     ".": {
@@ -265,6 +266,7 @@ VOCABULARY = {"types.h", "errors.h", "progress.h", "options.h"}
 PUBLIC = {
     "medial_mesh.h": {"axis", "rivals"},
     "watertight_surface.h": {"cocone"},
+    "faces.h": {"contact", "skeleton"},
     "hierarchy.h": {"skeleton"},
     "sphere_mesh.h": {"reduce"},
     "thickness.h": {"thickness"},

@@ -6,12 +6,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..samples.chosen import ChosenSamples
+from ..samples.density import percent
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.shape import Shape
 from ..samples.sides import cocone_warnings, look_inward
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..severe import Severe
 from .medial_axis import MedialAxis
+
+# A larger share of vertices at which no ball fits between the faces causes a warning. Scans with rough faces have up to
+# 0.25.
+_MANY_REFUSED = 0.4
 
 
 def axis_warnings(
@@ -36,6 +41,18 @@ def axis_warnings(
         )
     elif axis.is_empty:
         yield _why_empty(shape, settings, chosen, axis)
+    yield from _refused(axis)
+
+
+def _refused(axis: MedialAxis) -> Iterator[str]:
+    """Warn where crisp places were refused so often that the faces cannot be those of the solid."""
+    level = axis.level
+    if level is not None and level.refused > _MANY_REFUSED * len(level.place):
+        yield (
+            f"at {percent(level.refused / len(level.place))} of the vertices no ball fits between the faces, so "
+            "balls end at the samples there: faces that overlap or bound nothing, or walls that are "
+            "closer than the samples"
+        )
 
 
 def _open_surface(chosen: ChosenSamples) -> str:

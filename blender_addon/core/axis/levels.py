@@ -18,6 +18,8 @@ from .medial_axis import LevelValues, MedialAxis
 from .structure import structure_of
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ..machine.progress import Progress
     from ..samples.analysed import AnalysedSamples
 
@@ -76,9 +78,19 @@ def extract_level(
             erosion=100 * level.erosion,
             limb=100 * level.limb,
             betti=level.betti,
+            place=_placing(level, hierarchy, settings),
         ),
         structure=structure_of(level, samples) if len(level.facet_of) else None,
     )
+
+
+def _placing(level: Any, hierarchy: Any, settings: Settings) -> NDArray[np.int32]:
+    """(v,) `LevelValues.place`: vertices that are on no facet are fitted to the samples."""
+    place = np.zeros(len(level.vertices), np.int32)
+    if settings.crisp and len(hierarchy.place):
+        facets = np.unique(level.face_vertices)
+        place[facets] = hierarchy.place[level.vertex_of[facets]]
+    return place
 
 
 def _wanted(settings: Settings) -> dict[str, Any]:

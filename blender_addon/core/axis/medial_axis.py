@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from .structure import Structure
 
 
+# Values of `LevelValues.place`. A vertex is on the Voronoi diagram because no faces are known there, or because the ball
+# of the faces was not empty or too far away; or it is where the ball touches the faces, on a smooth rim, on a sharp
+# convex edge or in a corner.
+VORONOI, REFUSED, TOUCHING, ON_RIM, ON_CREASE, IN_CORNER = range(6)
+
+
 @dataclass(frozen=True, eq=False)
 class LevelValues:
     """The values of an axis that is a level of a hierarchy (docs/hierarchy.md).
@@ -21,7 +27,8 @@ class LevelValues:
     Parameters
     ----------
     exact : (v, 3) float64
-        The Voronoi vertices; `MedialAxis.vertices` are moved from them where that shows rims and curves better.
+        The Voronoi vertices; `MedialAxis.vertices` are moved from them to where balls touch the faces, and where that
+        shows rims and curves better.
     exact_radius : (v,) float64
         The radius of the empty ball round each Voronoi vertex.
     sheet, erosion : (f,) float32
@@ -30,6 +37,9 @@ class LevelValues:
         The largest Limbs at which the edge stays, in percent of the diagonal; infinite: always.
     betti : tuple of int
         Pieces, loops and cavities, counted on this level.
+    place : (v,) int32
+        How each vertex was placed: VORONOI, REFUSED, TOUCHING, ON_RIM, ON_CREASE or IN_CORNER. Without crisp places,
+        and on curves, all are VORONOI.
     """
 
     exact: NDArray[np.float64]
@@ -38,6 +48,27 @@ class LevelValues:
     erosion: NDArray[np.float32]
     limb: NDArray[np.float32]
     betti: tuple[int, int, int]
+    place: NDArray[np.int32]
+
+    @property
+    def is_crisp(self) -> NDArray[np.bool_]:
+        """(v,) whether the ball of each vertex ends at the faces; else it ends at the samples."""
+        return self.place >= TOUCHING
+
+    @property
+    def refused(self) -> int:
+        """The number of vertices that stayed on the Voronoi diagram because no ball fits the faces there."""
+        return int(np.count_nonzero(self.place == REFUSED))
+
+    @property
+    def places(self) -> str:
+        """A sentence about the places of the vertices."""
+        crisp, balls = int(np.count_nonzero(self.is_crisp)), len(self.place)
+        if not crisp:
+            return "All balls end at the samples"
+        if crisp == balls:
+            return "All balls end at the faces"
+        return f"{crisp:,} of {balls:,} balls end at the faces, the others at the samples"
 
 
 def no_edges() -> NDArray[np.int32]:

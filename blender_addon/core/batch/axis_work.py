@@ -17,7 +17,7 @@ from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..samples.shape import Shape
 from ..settings import Settings
-from ..solid.reduce import reduced
+from ..solid.reduce import reducible, reduced
 from .option_words import as_words
 
 
@@ -39,7 +39,10 @@ class AxisWork:
     vertices: int = 0
 
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Computation:
-        found = compute_axis(shape, self.settings, progress, limit)
+        settings = self.settings
+        if self.vertices > 0:
+            settings = reducible(settings)
+        found = compute_axis(shape, settings, progress, limit)
         return reduced(found, self.vertices, progress) if self._reduces(found) else found
 
     def _reduces(self, found: Computation) -> bool:
@@ -69,6 +72,8 @@ class AxisWork:
             "form": as_words(found.settings)["form"],
             "topology": found.topology,
             "betti": None if axis.level is None else list(axis.level.betti),
+            "places": None if axis.level is None else axis.level.places,
+            "refused": None if axis.level is None else axis.level.refused,
             "structure": None if axis.structure is None else summary_of(axis.structure),
             "facets": axis.facets,
             "edges": len(axis.edges),

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convert a medial axis to the named arrays of an `.npz` file, and back.
 
-Files of arrays are for computing, so `vertices` and `radius` are the exact balls there; the displayed places and radii
-are stored separately as `shown` and `shown_radius`.
+Files of arrays are for computing, so `vertices` and `radius` are the Voronoi vertices and their balls there; the
+displayed places and radii are stored separately as `shown` and `shown_radius`.
 """
 
 from __future__ import annotations
@@ -23,22 +23,26 @@ if TYPE_CHECKING:
 NAMES = tuple(
     name for name in MedialAxis.__dataclass_fields__ if name not in ("level", "structure")
 )
-LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti")
+LEVEL_NAMES = ("shown", "shown_radius", "sheet", "erosion", "limb", "betti", "place")
 # Only axes whose structure is known have these.
 STRUCTURE_NAMES = FIELDS
 
 
 def exact_balls(axis: MedialAxis) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the exact Voronoi vertices of the axis, (v, 3), and the radii of their empty balls, (v,)."""
-    if axis.level is None:
+    """Return balls of the axis that end at the faces where these are known, else at the samples: (v, 3) and (v,)."""
+    if (level := axis.level) is None:
         return axis.vertices, axis.radius
-    return axis.level.exact, axis.level.exact_radius
+    crisp = level.is_crisp
+    return (
+        np.where(crisp[:, None], axis.vertices, level.exact),
+        np.where(crisp, axis.radius, level.exact_radius),
+    )
 
 
 def as_arrays(axis: MedialAxis) -> dict[str, NDArray]:
     arrays = {name: np.asarray(getattr(axis, name)) for name in NAMES}
     if (level := axis.level) is not None:
-        arrays["vertices"], arrays["radius"] = exact_balls(axis)
+        arrays["vertices"], arrays["radius"] = level.exact, level.exact_radius
         arrays |= {"shown": axis.vertices, "shown_radius": axis.radius}
         arrays |= {name: np.asarray(getattr(level, name)) for name in LEVEL_NAMES[2:]}
     if (structure := axis.structure) is not None:
@@ -47,7 +51,7 @@ def as_arrays(axis: MedialAxis) -> dict[str, NDArray]:
 
 
 def from_arrays(arrays: Mapping[str, NDArray]) -> MedialAxis:
-    """Return the axis from the arrays of `as_arrays`; files of earlier versions have no `edges`."""
+    """Return the axis from the arrays of `as_arrays`; files of earlier versions have no `edges` and no `place`."""
     fields: dict[str, Any] = {name: arrays[name] for name in NAMES if name != "edges"}
     fields |= {name: int(arrays[name]) for name in ("unbounded", "zero_area")}
     fields["edges"] = arrays.get("edges", no_edges())
@@ -58,6 +62,7 @@ def from_arrays(arrays: Mapping[str, NDArray]) -> MedialAxis:
         exact=arrays["vertices"],
         exact_radius=arrays["radius"],
         betti=(pieces, loops, cavities),
+        place=arrays.get("place", np.zeros(len(arrays["radius"]), np.int32)),
         **{name: arrays[name] for name in ("sheet", "erosion", "limb")},
     )
     fields |= {"vertices": arrays["shown"], "radius": arrays["shown_radius"], "level": level}

@@ -22,9 +22,9 @@ def load_axis(path: str | os.PathLike) -> MedialAxis:
     ReadError
     """
     arrays = read_arrays(path, (*NAMES, *LEVEL_NAMES, *STRUCTURE_NAMES))
-    wanted = set(NAMES) - {"edges"}  # files of earlier versions have none
+    wanted = set(NAMES) - {"edges"}  # files of earlier versions have none, and no `place`
     if "shown" in arrays:
-        wanted |= set(LEVEL_NAMES)
+        wanted |= set(LEVEL_NAMES) - {"place"}
     if "part" in arrays:
         wanted |= set(STRUCTURE_NAMES)
     missing = sorted(wanted - set(arrays))
@@ -63,6 +63,7 @@ def _fit(arrays: dict[str, np.ndarray]) -> bool:
     if "shown" in arrays:
         shapes |= {"shown": (points, 3), "shown_radius": (points,), "limb": (len(edges),)}
         shapes |= {"sheet": (faces,), "erosion": (faces,), "betti": (3,)}
+        shapes |= {"place": (points,)} if "place" in arrays else {}
     if "part" in arrays:
         shapes |= _shapes_of_structure(arrays, points, faces)
     if points == 0 or any(arrays[name].shape != shape for name, shape in shapes.items()):

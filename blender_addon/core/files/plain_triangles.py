@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _HEADER = """ply
 format ascii 1.0
 comment medial axis: radius of the empty ball per vertex, angles in radians
-element vertex {vertices}
+{comment}element vertex {vertices}
 property double x
 property double y
 property double z
@@ -57,6 +57,11 @@ def left_out(axis: Any) -> str:
     )
 
 
+def comment_of(axis: Any, mark: str) -> str:
+    """Return a line after a mark that says which places the vertices of a level have; "" for an axis as published."""
+    return "" if axis.level is None else f"{mark} {axis.level.places}\n"
+
+
 def lone_vertices(axis: Any) -> NDArray[np.intp]:
     """Return the vertices without a facet and without an edge, (k,)."""
     alone = np.ones(len(axis.vertices), bool)
@@ -73,7 +78,9 @@ def write_lines(axis: Any, stream: BinaryIO) -> None:
 def write_ply(axis: Any, stream: BinaryIO) -> None:
     _require_facets(axis)
     triangles, facet = _triangles(axis)
-    header = _HEADER.format(vertices=len(axis.vertices), triangles=len(triangles))
+    header = _HEADER.format(
+        comment=comment_of(axis, "comment"), vertices=len(axis.vertices), triangles=len(triangles)
+    )
     stream.write(header.encode("ascii"))
     write_rows(stream, "%.17g %.17g %.17g %.17g\n", axis.vertices, axis.radius)
     values = (getattr(axis, name)[facet] for name in ("theta", "rho", "side", "generators"))
@@ -82,6 +89,7 @@ def write_ply(axis: Any, stream: BinaryIO) -> None:
 
 
 def write_obj(axis: Any, stream: BinaryIO) -> None:
+    stream.write(comment_of(axis, "#").encode("ascii"))
     write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
     write_rows(stream, "f %d %d %d\n", _triangles(axis)[0] + 1)  # OBJ counts from 1
     write_lines(axis, stream)

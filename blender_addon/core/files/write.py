@@ -169,6 +169,7 @@ def _edges(
 
 
 def _write_obj(axis: MedialAxis, stream: BinaryIO) -> None:
+    stream.write(plain_triangles.comment_of(axis, "#").encode("ascii"))
     _write_rows(stream, "v %.17g %.17g %.17g\n", axis.vertices)
     _write_polygons(
         stream,
@@ -200,11 +201,12 @@ def _write_ply(axis: MedialAxis, stream: BinaryIO) -> None:
     of_vertices = ""
     if axis.structure is not None:
         of_faces, of_vertices = of_faces + "property int part\n", "property int kind\n"
+    of_vertices += "property int place\n" if known else ""
     of_edges = _ply_floats("limb") if known else ""
     header = f"""ply
 format binary_little_endian 1.0
 comment medial axis: radius of the empty ball per vertex, angles in radians
-element vertex {len(axis.vertices)}
+{plain_triangles.comment_of(axis, "comment")}element vertex {len(axis.vertices)}
 property double x
 property double y
 property double z
@@ -232,10 +234,14 @@ def _ply_vertices(axis: MedialAxis) -> NDArray:
     fields: list[tuple[Any, ...]] = [("place", "<f8", (3,)), ("radius", "<f8")]
     if axis.structure is not None:
         fields.append(("kind", "<i4"))
+    if axis.level is not None:
+        fields.append(("placing", "<i4"))
     rows = np.empty(len(axis.vertices), fields)
     rows["place"], rows["radius"] = axis.vertices, axis.radius
     if axis.structure is not None:
         rows["kind"] = axis.structure.kind
+    if axis.level is not None:
+        rows["placing"] = axis.level.place
     return rows
 
 

@@ -150,5 +150,7 @@ class AnalysedSamples:
         more: tuple[NDArray, ...] = ()
         if walls:
             more = (walls.points, walls.distance, walls.spacing, walls.area, walls.faces)
-        arrays = [x for x in (*own, *others, *more) if x is not None]
+        solid = () if self.solid is None else self.solid.arrays
+        kept = {id(x): x for x in (*own, *others, *more, *solid) if x is not None}
+        arrays = kept.values()
         return int(self.analysis.bytes) + self.levels.bytes + sum(x.nbytes for x in arrays)

@@ -11,8 +11,8 @@ from ..machine.beside import Beside
 from ..settings import SidesFrom
 from .analysed import AnalysedSamples, Request, Sides
 from .density import LOOKED_AT, estimate
-from .solid_faces import solid_faces
 from .patches import patches_of
+from .solid_faces import solid_faces
 from .surface_samples import apart_of
 from .walls import Places, Walls, find_walls, middles_of_faces
 

@@ -23,8 +23,8 @@ from .chosen import Begun, ChosenSamples
 from .closing_samples import close_openings
 from .density import percent
 from .effort import EFFORT
-from .patches import sharp_angle_of
 from .sample_spacing import FirstPass, first_pass, next_amount
+from .sharp_angle import sharp_angle_of
 from .sides import decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows

@@ -52,8 +52,8 @@ class Levels:
         ------
         OutOfMemoryError, Cancelled
         """
-        thresholds = (settings.theta, settings.rho, settings.rule, settings.criteria)
-        thresholds += () if solid is None else solid.options(settings)
+        faces = () if solid is None else solid.options(settings)
+        thresholds = (settings.theta, settings.rho, settings.rule, settings.criteria, *faces)
         newest = self._newest
         if newest is not None and newest[0] == thresholds:
             return newest[1]

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from ..machine import native
+from .sharp_angle import sharp_angle_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -15,15 +15,6 @@ if TYPE_CHECKING:
     from ..settings import Settings
     from .shape import Shape
     from .surface_samples import FaceSamples
-
-# Edges are sharp from this multiple of the angle on: tubes of twelve sides are round, and bent ones have 30.1 degrees.
-_CLEARLY = 1.01
-
-
-def sharp_angle_of(shape: Shape, settings: Settings) -> float:
-    """Return the angle in radians from which edges of the shape are sharp."""
-    wider = 2.0 if shape.shaded_smooth else _CLEARLY
-    return min(wider * settings.sharp_angle, math.pi)
 
 
 def patches_of(

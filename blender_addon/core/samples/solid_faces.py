@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import SidesFrom
-from .patches import sharp_angle_of
+from .sharp_angle import sharp_angle_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..settings import Settings
     from .shape import Shape
+
 
 @dataclass(frozen=True, eq=False)
 class SolidFaces:
@@ -30,6 +31,11 @@ class SolidFaces:
 
     shape: Shape
     face: NDArray[np.int32]
+
+    @property
+    def arrays(self) -> tuple[NDArray[Any], ...]:
+        """The arrays that these faces keep in memory."""
+        return self.shape.points, self.shape.triangles, self.face
 
     def options(self, settings: Settings) -> tuple[float, bool]:
         """Return the sharp angle and whether the faces approximate a smooth surface."""

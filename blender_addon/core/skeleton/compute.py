@@ -144,8 +144,8 @@ def _net(
 def _curve(
     samples: AnalysedSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
 ) -> tuple[Any, Any]:
-    """Return the level without sheets, and its hierarchy."""
-    hierarchy = hierarchy_of(samples, settings, progress.part(0.9))
+    """Return the level without sheets, and its hierarchy; curves are fitted to samples, so no place is crisp."""
+    hierarchy = hierarchy_of(samples, replace(settings, crisp=False), progress.part(0.9))
     with native.own_errors():
         level = hierarchy.extract(
             sheet=math.inf, limb=wanted.limb, relaxed=True, progress=progress.part()

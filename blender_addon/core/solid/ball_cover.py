@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -113,11 +113,12 @@ def cover_by_balls(
     progress.until(_AXIS)
     hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
     progress.until(1.0)
+    centres, radii = _balls(hierarchy)
     points, triangles = _surface(shape, chosen)
     with native.own_errors() as module:
         found = module.cover_by_balls(
-            hierarchy.vertices,
-            hierarchy.radius,
+            centres,
+            radii,
             points,
             triangles,
             count=wanted.count,
@@ -125,7 +126,7 @@ def cover_by_balls(
             progress=progress.part(),
         )
     balls = Balls(
-        centres=hierarchy.vertices[found.chosen],
+        centres=centres[found.chosen],
         radii=found.radii,
         mode=wanted.mode,
         covered=1.0 if wanted.mode is CoverMode.AROUND else float(found.covered[-1]),
@@ -141,6 +142,13 @@ def cover_by_balls(
         warnings=tuple(sampling_warnings(shape, chosen)),
         seconds=begun.seconds,
     )
+
+
+def _balls(hierarchy: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the balls of a `_medial.Hierarchy`: those that end at the faces, if it has any."""
+    if len(hierarchy.place):
+        return hierarchy.crisp_vertices, hierarchy.crisp_radius
+    return hierarchy.vertices, hierarchy.radius
 
 
 def _surface(shape: Shape, chosen: ChosenSamples) -> tuple[NDArray[np.float64], NDArray[np.int32]]:

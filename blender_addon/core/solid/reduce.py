@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from ..axis.compute import Computation
     from ..samples.shape import Shape
+    from ..settings import Settings
 
 _INNER = 1  # value of `_medial.Side`
 _SPACING = 1 / 400  # the distance of points on the solid, as a share of the diagonal
@@ -75,6 +76,11 @@ def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = Non
             *whole.arrays, vertices, progress=progress and progress.part()
         )
     return _as_axis(SphereMesh(*found))
+
+
+def reducible(settings: Settings) -> Settings:
+    """Return the settings of an axis that reduces well: slabs that taper to an edge of the solid collapse badly."""
+    return replace(settings, crisp=False)
 
 
 def reduced(found: Computation, vertices: int, progress: Progress | None = None) -> Computation:
