@@ -51,8 +51,8 @@ void require_valid(const FacesInput& faces, size_t points) {
   const auto count = static_cast<int64_t>(faces.triangles.size());
   for (const int32_t face : faces.face) {
     if (face >= -1 && face < count) continue;
-    throw InvalidInputError("Expected faces of points below " + std::to_string(count) +
-                            ", found " + std::to_string(face) + "; name rows of the triangles.");
+    throw InvalidInputError("Expected faces of points below " + std::to_string(count) + ", found " +
+                            std::to_string(face) + "; name rows of the triangles.");
   }
 }
 

@@ -235,8 +235,7 @@ void bind_analysis(py::module_& m) {
           docs::MedialAnalysis_hierarchy, py::arg("theta") = paper.theta,
           py::arg("rho") = paper.rho, py::arg("rule") = paper.rule,
           py::arg("criteria") = paper.criteria, py::arg("side") = Side::inner, py::kw_only(),
-          py::arg("bodies") = py::none(), py::arg("faces") = nullptr,
-          py::arg("progress") = nullptr)
+          py::arg("bodies") = py::none(), py::arg("faces") = nullptr, py::arg("progress") = nullptr)
       .def(
           "select",
           [](const MedialAnalysis& a, double theta, double rho, Side side, Rule rule,

@@ -172,8 +172,7 @@ void bind_hierarchy(py::module_& m) {
                              }),
                              docs::Hierarchy_crisp_radius)
       .def_property_readonly(
-          "place",
-          [](const Hierarchy& h) { return numbers_of(h.parts().crisp.place); },
+          "place", [](const Hierarchy& h) { return numbers_of(h.parts().crisp.place); },
           docs::Hierarchy_place)
       .def_property_readonly("edges", part_property<int32_t>([](const Hierarchy& h) -> auto& {
                                return h.parts().complex.ends;

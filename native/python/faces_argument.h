@@ -22,8 +22,7 @@ class FacesArgument {
         smooth_(smooth) {}
 
   FacesInput input() const {
-    return {vertices_.span(), triangles_.span(),   face_,
-            sharp_angle_,     sharp_edges_.span(), smooth_};
+    return {vertices_.span(), triangles_.span(), face_, sharp_angle_, sharp_edges_.span(), smooth_};
   }
 
  private:

@@ -7,7 +7,7 @@
 namespace medial {
 namespace {
 
-constexpr double kRoundingOfTurn = 1e-9;  // the sine of a turn
+constexpr double kRoundingOfTurn = 1e-9;   // the sine of a turn
 constexpr double kRoundingOfArea = 1e-12;  // as a share of the product of the lengths
 
 FlatPoint from(const FlatPoint& a, const FlatPoint& b) { return {b.x - a.x, b.y - a.y}; }

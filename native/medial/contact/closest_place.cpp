@@ -136,8 +136,8 @@ class Walk {
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings, scale *= 0.5) {
       at_ = {before.b + scale * step.b, before.c + scale * step.c};
       for (int side = 0; side < 3; ++side) {
-        on_[side] = (before_on[side] && !(change(step, side) > 0)) ||
-                    (halvings == 0 && side == stop);
+        on_[side] =
+            (before_on[side] && !(change(step, side) > 0)) || (halvings == 0 && side == stop);
       }
       settle();
       const Expansion next = expansion(at_);

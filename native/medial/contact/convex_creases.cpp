@@ -30,7 +30,8 @@ double area_of(const TriangleMesh& mesh, int32_t triangle) {
 void join_small(const TriangleMesh& mesh, std::span<const MeshEdge> edges,
                 std::span<const int32_t> creases, double least, std::vector<int32_t>& patch) {
   std::vector<double> area(patch.size(), 0);
-  for (size_t t = 0; t < patch.size(); ++t) area[patch[t]] += area_of(mesh, static_cast<int32_t>(t));
+  for (size_t t = 0; t < patch.size(); ++t)
+    area[patch[t]] += area_of(mesh, static_cast<int32_t>(t));
   std::map<Edge, double> border;  // from a small patch to any other one
   for (const int32_t e : creases) {
     const int32_t a = patch[edges[e].triangles[0]], b = patch[edges[e].triangles[1]];

@@ -46,8 +46,8 @@ class ConvexCreases {
 
   const Faces& faces_;
   std::vector<int32_t> segments_;  // edges of the mesh, leaf after leaf
-  std::vector<uint8_t> corner_;   // per vertex
-  std::vector<uint8_t> divides_;  // per edge
+  std::vector<uint8_t> corner_;    // per vertex
+  std::vector<uint8_t> divides_;   // per edge
   std::vector<Node> nodes_;
 };
 

@@ -62,6 +62,17 @@ Faces::Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run&
   build_tree_of_faces();
 }
 
+size_t Faces::bytes() const {
+  const auto size_of = [](const auto&... arrays) {
+    return (... + (arrays.size() * sizeof(arrays[0])));
+  };
+  return size_of(mesh_.points, mesh_.row, mesh_.triangles, mesh_.source, mesh_.normal,
+                 mesh_.fans.items, mesh_.fans.offsets, creases_.edges, creases_.first_edge,
+                 creases_.at, creases_.corner, triangle_of_, edge_of_, separates_, fan_of_, bulge_,
+                 order_, nodes_) +
+         surface_->bytes();
+}
+
 void Faces::find_edges() {
   separates_.reserve(creases_.edges.size());
   for (const MeshEdge& edge : creases_.edges) separates_.push_back(separation(edge));

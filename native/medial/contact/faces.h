@@ -29,6 +29,7 @@ class Faces {
   Faces& operator=(const Faces&) = delete;
 
   const TriangleMesh& mesh() const { return mesh_; }
+  size_t bytes() const;
   const Creases& creases() const { return creases_; }
   // Returns the triangle of the mesh for a row of the input, or -1 if it was left out.
   int32_t triangle_of(int32_t row) const { return row < 0 ? -1 : triangle_of_[row]; }

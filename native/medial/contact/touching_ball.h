@@ -12,7 +12,7 @@ inline constexpr size_t kMostContacts = 4;
 struct TouchingBall {
   Vec3 centre;
   double radius = 0;
-  double unequal = HUGE_VAL;  // the largest difference of the distances to the walls
+  double unequal = HUGE_VAL;               // the largest difference of the distances to the walls
   std::array<Vec3, kMostContacts> away{};  // the unit directions from the feet to the centre
 };
 

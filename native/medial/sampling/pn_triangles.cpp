@@ -126,6 +126,11 @@ CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, b
                [&](int64_t e) { handles_[e] = handles_of(creases.edges[e]); });
 }
 
+size_t CurvedSurface::bytes() const {
+  return fan_normals_.size() * sizeof(Vec3) + handles_.size() * sizeof(Handles) +
+         (fan_of_.size() + edge_of_.size()) * sizeof(Triangle);
+}
+
 void CurvedSurface::add_normals(const Creases& creases) {
   UnionFind corners(3 * mesh_.triangles.size());
   for (const MeshEdge& edge : creases.edges) {

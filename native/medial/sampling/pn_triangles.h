@@ -48,6 +48,7 @@ class CurvedSurface {
   CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth, const Run& run);
 
   bool smooth() const { return !handles_.empty(); }
+  size_t bytes() const;
   const TriangleMesh& mesh() const { return mesh_; }
   Patch patch(int32_t triangle) const;
   Vec3 point(int32_t triangle, const Barycentric& at) const { return patch(triangle).point(at); }

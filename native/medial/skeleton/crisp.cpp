@@ -10,28 +10,28 @@ namespace medial {
 namespace {
 
 // All lengths are in holes between the samples, as in samples_on_faces.cpp.
-constexpr double kExact = 1e-10;      // the largest difference between a radius and the distance
-constexpr double kFarthestMove = 2;   // that a vertex moves to touch walls
-constexpr double kNearCrease = 8;     // the largest ball of a rim that ends in a crease
-constexpr double kNearAccident = 3.5;   // the same of one that may be no crease
-constexpr double kNearCorner = 2.5;   // from the end of a rim to a corner of the solid
-constexpr double kSameFoot = 0.08;    // between unit directions to feet that are one
-constexpr int kMoreWalls = 4;         // attempts to add a wall that the ball sticks out of
-constexpr int kRounds = 24;           // of steps that unfold facets
-constexpr int kOwnRounds = 3;         // of these, the rounds without the neighbours
-constexpr int kDentRounds = 6;       // of these, the rounds that mend deep dents, too
-constexpr double kDeepDent = 0.25;    // the sine of the turn
+constexpr double kExact = 1e-10;       // the largest difference between a radius and the distance
+constexpr double kFarthestMove = 2;    // that a vertex moves to touch walls
+constexpr double kNearCrease = 8;      // the largest ball of a rim that ends in a crease
+constexpr double kNearAccident = 3.5;  // the same of one that may be no crease
+constexpr double kNearCorner = 2.5;    // from the end of a rim to a corner of the solid
+constexpr double kSameFoot = 0.08;     // between unit directions to feet that are one
+constexpr int kMoreWalls = 4;          // attempts to add a wall that the ball sticks out of
+constexpr int kRounds = 24;            // of steps that unfold facets
+constexpr int kOwnRounds = 3;          // of these, the rounds without the neighbours
+constexpr int kDentRounds = 6;         // of these, the rounds that mend deep dents, too
+constexpr double kDeepDent = 0.25;     // the sine of the turn
 // A smooth rim is looked for where a ball touches two places that are seen under less than 84
 // degrees.
-constexpr double kMostOpen = 0.45;   // the squared sine of half the angle
-constexpr double kFarOut = 0.8;      // of the way to the rim that balls are tried on
-constexpr double kFarthestRim = 0.5;       // from the last vertex to the rim, in radii
+constexpr double kMostOpen = 0.45;          // the squared sine of half the angle
+constexpr double kFarOut = 0.8;             // of the way to the rim that balls are tried on
+constexpr double kFarthestRim = 0.5;        // from the last vertex to the rim, in radii
 constexpr double kLongerThanBeside = 1.25;  // of the way of a vertex to that of its neighbours
 constexpr int kRimRounds = 3;
 constexpr double kCertainRim = 0.85;  // of the vertices of a rim must have found it
 constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
 constexpr int kRimSteps = 4;
-constexpr int kBisections = 40;  // of the way to the last ball that touches two places
+constexpr int kBisections = 40;       // of the way to the last ball that touches two places
 constexpr double kSameCrease = 0.85;  // the cosine between creases of one direction
 
 // Holds the walls that a ball touches, by triangles of the mesh.
@@ -140,9 +140,13 @@ class CrispMaker {
 
   void place(int32_t v) {
     if (on_rim_[v] && onto_crease(v)) return;
-    const Walls walls = walls_at(v);
-    if (walls.count < 2) return;
-    const Touch found = touch(v, walls, complex_.position[v]);
+    Touch found;
+    for (const bool thorough : {false, true}) {
+      const Walls walls = walls_at(v, thorough);
+      if (walls.count < 2) return;
+      found = touch(v, walls, complex_.position[v]);
+      if (found.radius > 0) break;
+    }
     made_.place[v] = found.radius > 0 ? Placing::touching : Placing::refused;
     if (!(found.radius > 0)) return;
     take(v, found);
@@ -235,13 +239,14 @@ class CrispMaker {
 
   // --- balls that touch walls
 
-  // Returns the walls of a vertex: its samples are of one wall where no facet of K1 separates them.
-  Walls walls_at(int32_t v) const {
+  // Returns the walls of a vertex: its samples are of one wall where no facet separates them. On a
+  // curved wall all samples mostly have one foot, so the first one will do unless `thorough`.
+  Walls walls_at(int32_t v, bool thorough) const {
     const Groups groups = groups_at(v);
     Walls walls;
     for (size_t g = 0; g < groups.samples.size(); ++g) {
       if (groups.group[g] != g) continue;
-      const int32_t t = nearest_wall(v, groups, g);
+      const int32_t t = nearest_wall(v, groups, g, thorough);
       if (t < 0) return {};
       if (!walls.add(t)) break;
     }
@@ -308,14 +313,13 @@ class CrispMaker {
   }
 
   // Returns the triangle of the nearest foot of the samples of a group, or -1 if one has no face.
-  // On a curved wall all samples have the same foot, to which the ball will roll.
-  int32_t nearest_wall(int32_t v, const Groups& groups, size_t group) const {
+  int32_t nearest_wall(int32_t v, const Groups& groups, size_t group, bool thorough) const {
     Foot best;
     for (size_t i = 0; i < groups.samples.size(); ++i) {
       if (groups.group[i] != group) continue;
       const int32_t t = samples_.triangle(groups.samples[i]);
       if (t < 0) return -1;
-      if (samples_.faces().is_curved(t)) return t;
+      if (!thorough && samples_.faces().is_curved(t)) return t;
       const Foot foot = samples_.faces().descend(t, complex_.position[v]);
       if (foot.distance < best.distance) best = foot;
     }
@@ -376,8 +380,7 @@ class CrispMaker {
     leave_doubtful_rims();
     parallel_for(complex_.vertices(), run_, [&](int64_t v) {
       if (rim_[v].reach > 0) {
-        end_on_rim(static_cast<int32_t>(v),
-                   made_.position[v] + rim_[v].reach * rim_[v].outward);
+        end_on_rim(static_cast<int32_t>(v), made_.position[v] + rim_[v].reach * rim_[v].outward);
       }
     });
   }
@@ -619,11 +622,12 @@ class CrispMaker {
 
   // Returns the vertices of folded facets out of some, and of dented ones if wanted, ascending.
   std::vector<int32_t> folded_vertices(std::span<const int32_t> suspects, bool dented) const {
-    auto vertices = parallel_append<int32_t>(
-        static_cast<int64_t>(suspects.size()), run_, [&](int64_t i, auto& out, int) {
-          if (!is_folded(suspects[i], dented)) return;
-          for (const Corner& c : complex_.ring(suspects[i])) out.push_back(c.vertex);
-        });
+    auto vertices = parallel_append<int32_t>(static_cast<int64_t>(suspects.size()), run_,
+                                             [&](int64_t i, auto& out, int) {
+                                               if (!is_folded(suspects[i], dented)) return;
+                                               for (const Corner& c : complex_.ring(suspects[i]))
+                                                 out.push_back(c.vertex);
+                                             });
     sort_out(vertices);
     return vertices;
   }
@@ -642,7 +646,8 @@ class CrispMaker {
   // Returns the facets at some vertices, and at those that follow them.
   std::vector<int32_t> facets_round(std::span<const int32_t> vertices) const {
     std::vector<int32_t> all;
-    for (const int32_t v : vertices) all.insert(all.end(), facets_at_[v].begin(), facets_at_[v].end());
+    for (const int32_t v : vertices)
+      all.insert(all.end(), facets_at_[v].begin(), facets_at_[v].end());
     for (const int32_t v : followers_) {
       if (!std::binary_search(vertices.begin(), vertices.end(), follows_[v])) continue;
       all.insert(all.end(), facets_at_[v].begin(), facets_at_[v].end());
@@ -716,9 +721,9 @@ class CrispMaker {
   std::span<const double> sine_;
   Run run_;
   std::vector<int32_t> facets_;  // those that get places
-  Csr<int32_t> facets_at_;    // per vertex: the facets at it
-  Array<uint8_t> edge_uses_;  // per edge: the facets at it; 3 means three or more
-  Array<uint8_t> on_rim_;     // per vertex
+  Csr<int32_t> facets_at_;       // per vertex: the facets at it
+  Array<uint8_t> edge_uses_;     // per edge: the facets at it; 3 means three or more
+  Array<uint8_t> on_rim_;        // per vertex
   std::vector<Hidden> hidden_;
   PointTree corners_;
   std::vector<Vec3> corner_points_;

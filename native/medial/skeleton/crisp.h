@@ -22,12 +22,12 @@ enum class Placing : uint8_t {
 struct CrispPlaces {
   Array<Vec3> position;  // (v)
   Array<double> radius;  // (v) the distance to the faces, unless `place` is voronoi or refused
-  Array<Placing> place;    // (v)
+  Array<Placing> place;  // (v)
 };
 
 // Returns the places of the vertices of a complex, at facets that are thicker than one spacing;
-// `facets` has the values of all. `selected` tells for each shrunk facet whether it was selected. The distance to the faces was verified for
-// every vertex that moved.
+// `facets` has the values of all. `selected` tells for each shrunk facet whether it was selected.
+// The distance to the faces was verified for every vertex that moved.
 CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& triangulation,
                          const SamplesOnFaces& samples, std::span<const Thickness> facets,
                          std::span<const double> sine, std::span<const uint8_t> selected,

@@ -217,8 +217,8 @@ size_t Hierarchy::bytes() const {
   const InnerComplex& c = p.complex;
   return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
                  c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row, p.outside,
-                 p.sine, p.rho) +
-         p.samples.bytes();
+                 p.sine, p.rho, p.crisp.position, p.crisp.radius, p.crisp.place) +
+         p.samples.bytes() + (p.faces ? p.faces->bytes() : 0);
 }
 const Timings& Hierarchy::timings() const { return parts_->timings; }
 

@@ -17,8 +17,8 @@ struct Hierarchy::Parts {
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
   Values values;
-  Array<float> limb;        // per vertex
-  Array<double> sine, rho;  // per facet, as in Significance
+  Array<float> limb;                   // per vertex
+  Array<double> sine, rho;             // per facet, as in Significance
   std::unique_ptr<const Faces> faces;  // null if there are none
   CrispPlaces crisp;                   // empty without faces
   PointTree samples;

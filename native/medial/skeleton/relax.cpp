@@ -21,11 +21,9 @@ void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samp
 
 // Returns the rims without those at vertices that lie on creases.
 std::vector<Edge> rims_to_smooth(const Level& level, std::span<const Edge> rims,
-                                   const CrispPlaces& crisp) {
+                                 const CrispPlaces& crisp) {
   std::vector<Edge> off;
-  const auto is_free = [&](int32_t v) {
-    return crisp.place[level.vertex_of[v]] < Placing::crease;
-  };
+  const auto is_free = [&](int32_t v) { return crisp.place[level.vertex_of[v]] < Placing::crease; };
   for (const Edge& rim : rims) {
     if (is_free(rim[0]) && is_free(rim[1])) off.push_back(rim);
   }

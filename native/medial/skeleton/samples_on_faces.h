@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the samples of an analysis lie on the faces, and which pairs of them lie on the two sides of
-// a sharp convex edge.
+// Where the samples of an analysis lie on the faces, and which pairs of them lie on the two sides
+// of a sharp convex edge.
 #pragma once
 
 #include "axis/selection.h"
@@ -14,8 +14,8 @@ enum class CreaseMark : uint8_t { none, into_crease, at_crease };
 
 class SamplesOnFaces {
  public:
-  // The arguments must outlive this object; `spacing` is per sample. Throws InvalidInputError unless
-  // there is a face, or -1, per row of the samples.
+  // The arguments must outlive this object; `spacing` is per sample. Throws InvalidInputError
+  // unless there is a face, or -1, per row of the samples.
   SamplesOnFaces(const FacesInput& input, const Faces& faces, const Samples& samples,
                  std::span<const double> spacing, const Run& run);
 
