@@ -189,7 +189,10 @@ def crisp() -> str:
     parts = [*ends_of_sheets(False, (190.0, 160.0)), *ends_of_sheets(True, (570.0, 160.0))]
     legend = [
         (PALE, "the edges of a box"),
-        (INK, "seams of its axis: left where balls end at the samples, right where they end at the faces"),
+        (
+            INK,
+            "seams of its axis: left where balls end at the samples, right where they end at the faces",
+        ),
         (RED, "where the sheets end: left half a spacing before the edges, right on them"),
     ]
     return picture("Crisp places", 400, parts, legend)

@@ -17,7 +17,7 @@ from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..samples.shape import Shape
 from ..settings import Settings
-from ..solid.reduce import reducible, reduced
+from ..solid.reduce import reduced, reducible
 from .option_words import as_words
 
 

@@ -343,7 +343,7 @@ class CrispMaker {
   struct Touch {
     Vec3 position;
     double radius = 0;  // 0: there is no empty ball that touches the walls
-    Walls walls;
+    Walls walls{};
     std::array<Vec3, kMostContacts> away{};  // unit directions from the feet
   };
 

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Crisp places: the feet of points on faces, balls that touch walls, creases, and the axis of a
+// box.
+#include <gtest/gtest.h>
+#include <medial/analysis.h>
+#include <medial/sampling.h>
+
+#include <numeric>
+#include <random>
+
+#include "base/flat_polygon.h"
+#include "contact/closest_place.h"
+#include "contact/convex_creases.h"
+#include "contact/touching_ball.h"
+#include "shapes.h"
+#include "skeleton/level.h"
+
+namespace medial {
+namespace {
+
+constexpr double kSharp = 0.53;
+
+// A box of 3 by 2 by 1 with outward faces.
+test::Mesh box() {
+  test::Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.push_back({3.0 * (i & 1), 2.0 * (i >> 1 & 1), 1.0 * (i >> 2 & 1)});
+  }
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+// A patch over a triangle, bent by its handles.
+Patch bent_patch() {
+  return {{0, 0, 0},
+          {1, 0, 0},
+          {0, 1, 0},
+          {Vec3{0.3, 0, 0.1}, Vec3{0.7, 0, 0.1}, Vec3{0.7, 0.3, 0.2}, Vec3{0.3, 0.7, 0.2},
+           Vec3{0, 0.7, 0.1}, Vec3{0, 0.3, 0.1}}};
+}
+
+TEST(Patch, ExpansionHasTheDerivativesOfThePoint) {
+  const Patch patch = bent_patch();
+  const Barycentric at{0.5, 0.3, 0.2};
+  const double step = 1e-4;
+  const PatchExpansion e = patch.expansion(at);
+  const auto point = [&](double b, double c) { return patch.point({1 - b - c, b, c}); };
+  const auto near = [](const Vec3& a, const Vec3& b) { return distance(a, b) < 1e-6; };
+  EXPECT_TRUE(near(e.point, point(0.3, 0.2)));
+  EXPECT_TRUE(near(e.b, (0.5 / step) * (point(0.3 + step, 0.2) - point(0.3 - step, 0.2))));
+  EXPECT_TRUE(near(e.c, (0.5 / step) * (point(0.3, 0.2 + step) - point(0.3, 0.2 - step))));
+  const Vec3 middle = point(0.3, 0.2);
+  const double square = 1 / (step * step);
+  EXPECT_TRUE(near(e.bb, square * (point(0.3 + step, 0.2) + point(0.3 - step, 0.2) - 2 * middle)));
+  EXPECT_TRUE(near(e.cc, square * (point(0.3, 0.2 + step) + point(0.3, 0.2 - step) - 2 * middle)));
+  const Vec3 mixed =
+      (0.25 * square) * (point(0.3 + step, 0.2 + step) - point(0.3 + step, 0.2 - step) -
+                         point(0.3 - step, 0.2 + step) + point(0.3 - step, 0.2 - step));
+  EXPECT_TRUE(near(e.bc, mixed));
+}
+
+TEST(ClosestPlace, OfAPatchIsNearerThanAnyOtherPlace) {
+  const Patch patch = bent_patch();
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 x{2 * unit(random) - 0.5, 2 * unit(random) - 0.5, 0.3 * unit(random) - 0.4};
+    const Barycentric start = closest_on_flat({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, x);
+    const double found = distance(patch.point(closest_on_patch(patch, start, x)), x);
+    double best = HUGE_VAL;
+    for (int i = 0; i <= 60; ++i) {
+      for (int j = 0; i + j <= 60; ++j) {
+        best = std::min(best, distance(patch.point({1 - (i + j) / 60.0, i / 60.0, j / 60.0}), x));
+      }
+    }
+    EXPECT_LE(found, best + 1e-12) << trial;
+  }
+}
+
+TEST(ClosestPlace, OnASideHasAZeroCoordinate) {
+  const Barycentric at = closest_on_flat({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1, 0});
+  EXPECT_EQ(at.c, 0);
+  const Barycentric corner = closest_on_patch(bent_patch(), {1, 0, 0}, {-1, -1, 0});
+  EXPECT_EQ(corner.a, 1);
+}
+
+TEST(Faces, ABallRollsOffOnFaceButNotOverAConvexEdge) {
+  const test::Mesh mesh = box();
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  // From the bottom the foot of a place near a side wall stays on the bottom.
+  const Foot bottom = faces.descend(0, {2.9, 1, 0.4});
+  EXPECT_DOUBLE_EQ(bottom.distance, 0.4);
+  const auto nearest = faces.nearer({2.9, 1, 0.4}, HUGE_VAL);
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(nearest->distance, 0.1, 1e-15);
+  EXPECT_FALSE(faces.nearer({2.9, 1, 0.4}, 0.09));
+}
+
+TEST(TouchingBall, TouchesTwoThreeAndFourWalls) {
+  const test::Mesh mesh = box();
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  std::array<int32_t, 4> walls{0, 2, 4, 8};  // bottom, top, front, left
+  const auto ball = [&](size_t count, const Vec3& start) {
+    return touching_ball(faces, {walls.data(), count}, start);
+  };
+  const TouchingBall two = ball(2, {1.3, 0.9, 0.45});
+  EXPECT_NEAR(two.centre.z, 0.5, 1e-15);
+  EXPECT_DOUBLE_EQ(two.centre.x, 1.3);  // it moves the shortest way
+  const TouchingBall three = ball(3, {1.3, 0.6, 0.45});
+  EXPECT_NEAR(three.centre.y, 0.5, 1e-15);
+  const TouchingBall four = ball(4, {0.6, 0.6, 0.45});
+  EXPECT_LT(distance(four.centre, {0.5, 0.5, 0.5}), 1e-15);
+  EXPECT_LT(four.unequal, 1e-15);
+}
+
+TEST(ConvexCreases, OfABoxDivideItAndHaveEightCorners) {
+  const test::Mesh mesh = box();
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const ConvexCreases creases(faces, 0.05);
+  for (int32_t v = 0; v < 8; ++v) EXPECT_TRUE(creases.is_corner(v)) << v;
+  const auto place = creases.nearer({1.5, 0.1, 0.2}, HUGE_VAL);
+  ASSERT_TRUE(place);
+  EXPECT_TRUE(creases.divides(place->edge));
+  EXPECT_FALSE(creases.is_jagged(place->edge));
+  EXPECT_LT(distance(place->point, {1.5, 0, 0}), 1e-15);
+}
+
+TEST(ConvexCreases, OfPatchesBelowTheSpacingDivideNothing) {
+  const test::Mesh mesh = box();
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const ConvexCreases creases(faces, 1);
+  const auto place = creases.nearer({1.5, 0.1, 0.2}, HUGE_VAL);
+  ASSERT_TRUE(place);
+  EXPECT_FALSE(creases.divides(place->edge));
+}
+
+TEST(FlatPolygon, TellsFoldsFromDents) {
+  const std::vector<FlatPoint> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  EXPECT_FALSE(is_turned_over(square) || turns_back(square) || crosses_itself(square));
+  const std::vector<FlatPoint> over{{0, 0}, {0, 1}, {1, 1}, {1, 0}};
+  EXPECT_TRUE(is_turned_over(over));
+  const std::vector<FlatPoint> bow{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+  EXPECT_TRUE(crosses_itself(bow));
+  const std::vector<FlatPoint> back{{0, 0}, {1, 0}, {0.5, 0}, {0.5, 1}};
+  EXPECT_TRUE(turns_back(back));
+  const std::vector<FlatPoint> dented{{0, 0}, {0.5, 0.4}, {1, 0}, {1, 1}, {0, 1}};
+  EXPECT_TRUE(has_dent(dented, 0.25));
+  EXPECT_FALSE(is_turned_over(dented) || turns_back(dented) || crosses_itself(dented));
+}
+
+struct CrispBox {
+  SurfaceSamples samples;
+  std::optional<Hierarchy> hierarchy;
+
+  explicit CrispBox(int threads) {
+    const test::Mesh mesh = box();
+    samples = sample_surface(mesh.vertices, mesh.triangles, {.count = 1500, .smooth = true});
+    const MedialAnalysis analysis({samples.points, mesh.triangles, samples.normals, mesh.vertices},
+                                  {.threads = threads});
+    const FacesInput faces{mesh.vertices, mesh.triangles, samples.triangle, kSharp, {}, true};
+    hierarchy.emplace(analysis.hierarchy({}, Side::inner, 1, nullptr, &faces));
+  }
+  Level level() const {
+    return hierarchy->extract({.spacings = 1, .round_limbs = true, .relaxed = true, .crisp = true});
+  }
+};
+
+// Returns the two least distances from a place in the box to its six faces.
+std::array<double, 2> two_nearest(const Vec3& p) {
+  std::array<double, 6> away{p.x, 3 - p.x, p.y, 2 - p.y, p.z, 1 - p.z};
+  std::sort(away.begin(), away.end());
+  return {away[0], away[1]};
+}
+
+TEST(Crisp, EveryVertexOfABoxIsOnItsAxis) {
+  const Level level = CrispBox(2).level();
+  for (size_t v = 0; v < level.vertices.size(); ++v) {
+    const auto [first, second] = two_nearest(level.vertices[v]);
+    EXPECT_NEAR(first, second, 1e-14) << v;
+    EXPECT_NEAR(level.radius[v], first, 1e-14) << v;
+  }
+}
+
+TEST(Crisp, EveryCornerOfABoxIsReached) {
+  const Level level = CrispBox(2).level();
+  for (const Vec3& corner : box().vertices) {
+    EXPECT_TRUE(std::any_of(level.vertices.begin(), level.vertices.end(),
+                            [&](const Vec3& v) { return v == corner; }));
+  }
+}
+
+TEST(Crisp, CellsAndExactPlacesAreThoseOfTheHierarchy) {
+  const CrispBox made(2);
+  const Level crisp = made.level(),
+              plain = made.hierarchy->extract({.spacings = 1, .round_limbs = true});
+  EXPECT_EQ(crisp.face_vertices, plain.face_vertices);
+  EXPECT_EQ(crisp.exact, plain.vertices);
+  EXPECT_EQ(crisp.betti, plain.betti);
+}
+
+TEST(Crisp, IsTheSameForEveryThreadCount) {
+  const Level one = CrispBox(1).level(), three = CrispBox(3).level();
+  EXPECT_EQ(one.vertices, three.vertices);
+  EXPECT_EQ(one.radius, three.radius);
+}
+
+TEST(Crisp, RefusesFacesThatAreNotOnePerPoint) {
+  const CrispBox made(1);
+  const test::Mesh mesh = box();
+  const MedialAnalysis analysis(
+      {made.samples.points, mesh.triangles, made.samples.normals, mesh.vertices});
+  const std::vector<int32_t> few(3, 0), wrong(made.samples.points.size(), 99);
+  const FacesInput missing{mesh.vertices, mesh.triangles, few},
+      unknown{mesh.vertices, mesh.triangles, wrong};
+  EXPECT_THROW(analysis.hierarchy({}, Side::inner, 1, nullptr, &missing), InvalidInputError);
+  EXPECT_THROW(analysis.hierarchy({}, Side::inner, 1, nullptr, &unknown), InvalidInputError);
+}
+
+}  // namespace
+}  // namespace medial
