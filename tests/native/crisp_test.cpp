@@ -7,8 +7,10 @@
 
 #include <numeric>
 #include <random>
+#include <thread>
 
 #include "base/flat_polygon.h"
+#include "base/thread.h"
 #include "contact/closest_place.h"
 #include "contact/convex_creases.h"
 #include "contact/touching_ball.h"
@@ -203,6 +205,23 @@ TEST(Crisp, IsTheSameForEveryThreadCount) {
   const Level one = CrispBox(1).level(), three = CrispBox(3).level();
   EXPECT_EQ(one.vertices, three.vertices);
   EXPECT_EQ(one.radius, three.radius);
+}
+
+TEST(Crisp, IsCancelledFromAnotherThread) {
+  const test::Mesh mesh = test::torus(60, 30);
+  const auto samples =
+      sample_surface(mesh.vertices, mesh.triangles, {.count = 8000, .smooth = true});
+  const MedialAnalysis analysis({samples.points, mesh.triangles, samples.normals, mesh.vertices},
+                                {.threads = 2});
+  const FacesInput faces{mesh.vertices, mesh.triangles, samples.triangle, kSharp, {}, true};
+  Progress progress;
+  std::atomic<bool> ended{false};
+  const Thread watcher([&] {
+    while (progress.stage() != std::string("Crisp places") && !ended) std::this_thread::yield();
+    progress.cancel();
+  });
+  EXPECT_THROW(analysis.hierarchy({}, Side::inner, 1, &progress, &faces), Cancelled);
+  ended = true;
 }
 
 TEST(Crisp, RefusesFacesThatAreNotOnePerPoint) {

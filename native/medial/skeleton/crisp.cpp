@@ -52,7 +52,12 @@ class CrispMaker {
   CrispMaker(const InnerComplex& complex, const Triangulation& t, const SamplesOnFaces& samples,
              std::span<const Thickness> facets, std::span<const double> sine,
              std::span<const uint8_t> selected, const Run& run)
-      : complex_(complex), t_(t), samples_(samples), sine_(sine), run_(run) {
+      : complex_(complex),
+        t_(t),
+        samples_(samples),
+        sine_(sine),
+        run_{run.threads, nullptr, run.arena},
+        progress_(run.progress) {
     find_facets(facets);
     find_rims();
     find_hidden(selected);
@@ -66,7 +71,7 @@ class CrispMaker {
     walls_ = array<Walls>(complex_.cell.size(), Walls{}, run_);
     rim_ = array<SmoothRim>(complex_.cell.size(), SmoothRim{}, run_);
     parallel_for(
-        complex_.vertices(), run_,
+        complex_.vertices(), {run_.threads, progress_, run_.arena},
         [&](int64_t v) {
           if (!facets_at_[v].empty()) place(static_cast<int32_t>(v));
         },
@@ -599,7 +604,7 @@ class CrispMaker {
   void unfold() {
     std::vector<int32_t> suspects = facets_;
     for (int round = 0; round < kRounds; ++round) {
-      throw_if_cancelled(run_.progress);
+      throw_if_cancelled(progress_);
       std::vector<int32_t> vertices = folded_vertices(suspects, round < kDentRounds);
       if (vertices.empty()) return;
       if (round >= kOwnRounds) vertices = with_neighbours(vertices);
@@ -720,6 +725,7 @@ class CrispMaker {
   const SamplesOnFaces& samples_;
   std::span<const double> sine_;
   Run run_;
+  Progress* progress_;
   std::vector<int32_t> facets_;  // those that get places
   Csr<int32_t> facets_at_;       // per vertex: the facets at it
   Array<uint8_t> edge_uses_;     // per edge: the facets at it; 3 means three or more

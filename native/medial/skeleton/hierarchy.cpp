@@ -121,7 +121,7 @@ void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeigh
     burning = {};
     watch.lap("wires");
   }
-  begin_stage(run.progress, "Values", 0.8, 1);
+  begin_stage(run.progress, "Values", 0.8, 0.85);
   release(run.arena);
   together([&] { made.limb = kept(limb_values(complex, collapse, wires, alone)); },
            [&] {
@@ -192,8 +192,9 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   if (on_faces) {
     std::vector<uint8_t> selected;
     for (const ShrunkFacet& s : made.complex.shrunk) selected.push_back(weight.selected(s.dual));
+    begin_stage(run.progress, "Crisp places", 0.85, 1);
     made.crisp = crisp_places(made.complex, facets.triangulation, *on_faces, made.values.facet,
-                              made.sine, selected, {run.threads, nullptr, run.arena});
+                              made.sine, selected, run);
     watch.lap("crisp");
   }
   made.complex.dual = {};  // these indices mean nothing without the analysis
