@@ -71,7 +71,25 @@ class Criteria:
 
 @final
 class Faces:
-    """The faces on which the samples of an analysis lie. A hierarchy takes exact places from them."""
+    """The faces on which the samples of an analysis lie. A hierarchy takes exact places from them.
+
+    The arrays are kept, without a copy where their types are right.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        Outward.
+    face : (n,) int32
+        The triangle on which each point of the analysis lies, or -1 for none.
+    sharp_angle, sharp_edges, smooth
+        As in `sample_surface`.
+
+    Raises
+    ------
+    InvalidInputError
+        The rows are checked when a hierarchy is made.
+    """
 
     def __init__(
         self,
@@ -82,24 +100,7 @@ class Faces:
         sharp_angle: float = ...,
         sharp_edges: NDArray[np.int32] | None = None,
         smooth: bool = False,
-    ) -> None:
-        """Keeps the arrays, without a copy where their types are right.
-
-        Parameters
-        ----------
-        vertices : (v, 3) float64
-        triangles : (m, 3) int32
-            Outward.
-        face : (n,) int32
-            The triangle on which each point of the analysis lies, or -1 for none.
-        sharp_angle, sharp_edges, smooth
-            As in `sample_surface`.
-
-        Raises
-        ------
-        InvalidInputError
-            The rows are checked when a hierarchy is made.
-        """
+    ) -> None: ...
 
 @final
 class Progress:

@@ -50,7 +50,7 @@ Vec3 Patch::point(const Barycentric& at) const {
 // first ones quadratic.
 PatchExpansion Patch::expansion(const Barycentric& at) const {
   const auto& [p, q, r] = corners_;
-  const auto& [a, b, c] = at;
+  const double a = at.a, b = at.b, c = at.c;
   if (flat_) return {p + b * (q - p) + c * (r - p), q - p, r - p, {}, {}, {}};
   const auto& [pq, qp, qr, rq, rp, pr] = handles_;
   // the quadratic patches of the differences towards q and towards r, named by their corners

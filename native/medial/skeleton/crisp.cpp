@@ -3,6 +3,7 @@
 
 #include "base/atomic.h"
 #include "base/flat_polygon.h"
+#include "base/point_tree.h"
 #include "base/union_find.h"
 #include "contact/touching_ball.h"
 
