@@ -184,23 +184,71 @@ def test_a_missing_polygon_is_noticed():
 def test_a_polygon_that_turns_the_other_way_is_folded(row):
     across = axis_of_box().across.copy()
     across[row] *= -1
-    folds = crisp_measures.folded(replace(axis_of_box(), across=across))
+    folds = replace(axis_of_box(), across=across).rings().folded()
     assert np.flatnonzero(folds).tolist() == [row]
 
 
-def test_a_concave_polygon_is_folded():
+def test_a_concave_polygon_is_dented_and_not_folded():
     """A corner of the middle rectangle moves to where the rectangle becomes a dart; three neighbours stay convex."""
-    folds = crisp_measures.folded(moved(11, (-0.8, -0.4, 0.0)))
-    assert folds[0]
+    rings = moved(11, (-0.8, -0.4, 0.0)).rings()
+    assert rings.dented()[0] and not rings.folded()[0]
+
+
+def flat_polygon(places, turned=0):
+    """One polygon, turned round at random, which is meant to run counter-clockwise about its direction."""
+    places = np.array(places, float)
+    frame = crisp_solids.inputs.rotation(turned)
+    return replace(
+        output_of(places[:3] @ np.eye(2, 3), [[0, 1, 2]], np.array([[0, 0, 1.0]])),
+        vertices=places @ np.eye(2, 3) @ frame.T,
+        face_offsets=np.array([0, len(places)]),
+        face_vertices=np.arange(len(places)),
+        across=frame[:, 2:].T,
+    ).rings()
+
+
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+FOLDED = {
+    "turned over": SQUARE[::-1],
+    "a bow tie": [(0, 0), (2, 0), (0.5, 1), (1.5, 1)],
+    "two sides cross, the area is positive": [(0, 0), (3, 0), (3, 2), (2.9, -0.5), (0, 2)],
+    "out and back along a line": [(0, 0), (1, 0), (2, 0), (1, 0), (1, 1), (0, 1)],
+    "a side runs back beside the last one": [(0, 0), (2, 0), (1, 0.0), (1, 1), (0, 1)],
+    "a spike inwards": [(0, 0), (1, 0), (0.5, 0.3), (1, 0.1), (1, 1), (0, 1)],
+}
+DENTED = {
+    "the rim of a hole": [(0, 0), (0.5, 0.01), (1, 0), (1, 1), (0, 1)],
+    "a dart": [(0, 0), (1, 0.7), (2, 0), (1, 2)],
+    "a right angle": [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)],
+}
+
+
+@pytest.mark.parametrize("turned", range(3))
+@pytest.mark.parametrize("shape", FOLDED)
+def test_folds(shape, turned):
+    rings = flat_polygon(FOLDED[shape], turned)
+    assert rings.folded().all() and not rings.dented().any()
+
+
+@pytest.mark.parametrize("turned", range(3))
+@pytest.mark.parametrize("shape", DENTED)
+def test_dents_are_no_folds(shape, turned):
+    rings = flat_polygon(DENTED[shape], turned)
+    assert rings.dented().all() and not rings.folded().any()
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-15])
-def test_straight_corners_and_short_edges_are_no_folds(noise):
-    x = np.array([(0, 0), (0.5, 0), (1, 0), (1, 1e-13), (1, 1), (0, 1)])
-    vertices = np.column_stack((x, np.zeros(6))) + noise * np.random.default_rng(0).normal(
-        size=(6, 3)
-    )
-    assert not crisp_measures.folded(output_of(vertices, [list(range(6))], np.array([[0, 0, 1.0]])))
+@pytest.mark.parametrize("shape", ["square", "short sides", "a point"])
+def test_straight_corners_and_short_sides_are_neither(shape, noise):
+    places = {
+        "square": SQUARE,
+        "short sides": [(0, 0), (0.5, 0), (1, 0), (1, 1e-13), (1, 1), (0, 1), (0, 1)],
+        "a point": [(0, 0), (0, 0), (0, 0), (1, 0), (1, 1)],
+    }[shape]
+    for turned in range(5):
+        moves = noise * np.random.default_rng(turned).normal(size=(len(places), 2))
+        rings = flat_polygon(places + moves, turned)
+        assert not rings.folded().any() and not rings.dented().any()
 
 
 def test_wires_and_single_vertices_are_output():
