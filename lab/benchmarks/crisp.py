@@ -26,6 +26,7 @@ HEADER += [
     "area - 1",
     "folds",
     "dents",
+    "lines",
     "crossings",
     "pieces, Euler",
     "s",
@@ -57,6 +58,7 @@ def cells(found: crisp_measures.Found) -> list[str]:
         "" if found.area is None else f"{found.area:.1e}",
         str(found.folds),
         str(found.dents),
+        str(found.lines),
         str(found.crossings),
         "{}, {}".format(*found.betti),
     ]

@@ -237,6 +237,13 @@ def test_dents_are_no_folds(shape, turned):
     assert rings.dented().all() and not rings.folded().any()
 
 
+@pytest.mark.parametrize("turned", range(3))
+@pytest.mark.parametrize("at", [(0, 0.5, 2, 1), (0, 0, 1), (0, 1e-20, -3), (0, 0, 0)])
+def test_polygons_on_a_line_are_neither(at, turned):
+    rings = flat_polygon([(x, 0.3 * x) for x in at], turned)
+    assert rings.lines().all() and not rings.folded().any() and not rings.dented().any()
+
+
 @pytest.mark.parametrize("noise", [0.0, 1e-15])
 @pytest.mark.parametrize("shape", ["square", "short sides", "a point"])
 def test_straight_corners_and_short_sides_are_neither(shape, noise):
@@ -248,7 +255,7 @@ def test_straight_corners_and_short_sides_are_neither(shape, noise):
     for turned in range(5):
         moves = noise * np.random.default_rng(turned).normal(size=(len(places), 2))
         rings = flat_polygon(places + moves, turned)
-        assert not rings.folded().any() and not rings.dented().any()
+        assert not (rings.folded() | rings.dented() | rings.lines()).any()
 
 
 def test_wires_and_single_vertices_are_output():

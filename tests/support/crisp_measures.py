@@ -101,13 +101,14 @@ class Found:
     area: float | None  # of the exact area, less 1
     folds: int
     dents: int  # facets with a concave corner that are no folds
+    lines: int  # facets without area
     crossings: int
     betti: tuple[int, int]  # components and Euler characteristic
 
 
 def measured(solid: Solid, output: Output, samples: int) -> Found:
     size, cells = solid.diagonal, output.cells()
-    area = facet_area(output)
+    area, rings = facet_area(output), output.rings()
     return Found(
         samples=samples,
         facets=len(output.across),
@@ -118,8 +119,9 @@ def measured(solid: Solid, output: Output, samples: int) -> Found:
         gap=gap(solid, cells, solid.spacing(samples)),
         rim=rim_length(output) / solid.rim,
         area=None if solid.area is None else area / solid.area - 1.0,
-        folds=int(output.rings().folded().sum()),
-        dents=int(output.rings().dented().sum()),
+        folds=int(rings.folded().sum()),
+        dents=int(rings.dented().sum()),
+        lines=int(rings.lines().sum()),
         crossings=len(crossing_pairs(output.vertices, output.triangles)),
         betti=betti_of_mesh(output),
     )

@@ -2,7 +2,8 @@
 """Folded and dented polygons of an axis, seen along the line between their two samples.
 
 A Voronoi facet is convex and turns counter-clockwise about that line. A facet at the rim of a round hole has a concave
-corner once its vertices are on the rim, so a concave corner is a dent and not yet a fold.
+corner once its vertices are on the rim, so a concave corner is a dent and not yet a fold. A facet that was pulled onto
+a seam or a crease is a line: it covers nothing, and has no turn.
 """
 
 from collections.abc import Callable, Iterator
@@ -29,11 +30,15 @@ class Rings:
 
     def folded(self) -> Marks:
         """(f,) polygons that are turned over, run back along themselves or cross themselves."""
-        return self._marked(lambda at: self._turned_over(at) | self._back(at) | self._crossed(at))
+        return self._marked(self._is_folded)
 
     def dented(self) -> Marks:
-        """(f,) polygons with a concave corner that are not folded."""
-        return self._marked(lambda at: self._turns_right(at).any(axis=1)) & ~self.folded()
+        """(f,) polygons with a concave corner that are neither folded nor lines."""
+        return self._marked(self._is_dented)
+
+    def lines(self) -> Marks:
+        """(f,) polygons all of whose corners are on one line, or at one point."""
+        return self._marked(self._is_line)
 
     def _marked(self, test: Callable[[Array], Marks]) -> Marks:
         found = np.zeros(len(self._across), bool)
@@ -53,6 +58,21 @@ class Rings:
                 rows,
                 np.stack([np.einsum("nki,ni->nk", places, axis) for axis in (right, up)], axis=2),
             )
+
+    def _is_folded(self, at: Array) -> Marks:
+        found = self._turned_over(at) | self._back(at) | self._crossed(at)
+        return found & ~self._is_line(at)
+
+    def _is_dented(self, at: Array) -> Marks:
+        right = self._turns_right(at).any(axis=1)
+        return right & ~self._is_folded(at) & ~self._is_line(at)
+
+    def _is_line(self, at: Array) -> Marks:
+        rows = np.arange(len(at))
+        chord = at[rows, np.argmax(_length(at), axis=1)]  # the first corner is the origin
+        length = np.maximum(_length(chord), np.finfo(float).tiny)
+        heights = np.abs(_cross(chord[:, None], at)).max(axis=1) / length
+        return heights <= TURN * length + self._room
 
     def _turned_over(self, at: Array) -> Marks:
         a, b = at[:, 1:-1], at[:, 2:]
