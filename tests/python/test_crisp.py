@@ -66,6 +66,15 @@ def test_distance_to_the_axis_is_that_to_its_nearest_point(name):
     assert far.sum() > 20 and np.median(found[far] / wanted[far]) == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.parametrize("name", ["box", "wedge", "blunt", "bracket"])
+def test_places_just_beyond_convex_edges_are_as_far_off(name):
+    """In all directions; those inside are nearer to the bisector or to the edge, whichever is nearest."""
+    solid, rng = crisp_solids.solid(name), np.random.default_rng(0)
+    moves = 3e-8 * rng.normal(size=solid.edges.shape)
+    off = crisp_measures.off_axis(solid, solid.edges + moves)
+    assert np.all(off <= 1.01 * np.linalg.norm(moves, axis=1))
+
+
 def test_a_shared_foot_is_one_contact():
     """Just off the reflex edge of a bracket the nearest points of its two faces are nearly one."""
     solid = crisp_solids.solid("bracket")

@@ -113,7 +113,7 @@ def measured(solid: Solid, output: Output, samples: int) -> Found:
         samples=samples,
         facets=len(output.across),
         vertices=len(output.vertices),
-        err=Spread.of(solid.off_axis(output.vertices) / size),
+        err=Spread.of(off_axis(solid, output.vertices) / size),
         ball=Spread.of(np.abs(output.radius - solid.distance(output.vertices)) / size),
         cov=Spread.of(distance.to_triangles(solid.centres(BALLS), cells) / size),
         gap=gap(solid, cells, solid.spacing(samples)),
@@ -125,6 +125,14 @@ def measured(solid: Solid, output: Output, samples: int) -> Found:
         crossings=len(crossing_pairs(output.vertices, output.triangles)),
         betti=betti_of_mesh(output),
     )
+
+
+def off_axis(solid: Solid, x: Array) -> Array:
+    """(n,) Straight edges are known, where rounded places a little beyond them have no nearest face."""
+    off = solid.off_axis(x)
+    if len(solid.straight_edges) == 0:
+        return off
+    return np.minimum(off, distance.to_triangles(x, solid.straight_edges))
 
 
 def gap(solid: Solid, cells: Array, spacing: float) -> Spread | None:
