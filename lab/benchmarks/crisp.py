@@ -25,6 +25,8 @@ HEADER += [
     "rim",
     "area - 1",
     "folds",
+    "dents",
+    "lines",
     "crossings",
     "pieces, Euler",
     "s",
@@ -55,6 +57,8 @@ def cells(found: crisp_measures.Found) -> list[str]:
         f"{found.rim:.3f}",
         "" if found.area is None else f"{found.area:.1e}",
         str(found.folds),
+        str(found.dents),
+        str(found.lines),
         str(found.crossings),
         "{}, {}".format(*found.betti),
     ]

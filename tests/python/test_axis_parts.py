@@ -57,9 +57,9 @@ def test_counts_are_those_of_the_shape(name, count, seed):
     assert tuple(counts_of(axis_of(make(), count, seed).structure).values()) == expected
 
 
-@pytest.mark.parametrize("name", ["box", "holed plate"])
-def test_numbers_do_not_depend_on_the_samples(name):
-    """The same number is the same sheet: its patches, its neighbours, its seams, and nearly its area."""
+@pytest.mark.parametrize(("name", "room"), [("box", 1e-9), ("holed plate", 2e-3)])
+def test_numbers_do_not_depend_on_the_samples(name, room):
+    """The same number is the same sheet: its patches, its neighbours, its seams, and its area, on flat faces exactly."""
     first, *others = (
         rows_of(axis_of(SHAPES[name][0](), count, seed).structure)
         for count, seed in ((4000, 0), (10000, 1), (7000, 2))
@@ -68,7 +68,7 @@ def test_numbers_do_not_depend_on_the_samples(name):
     for other in others:
         for one, two in zip(first, other, strict=True):
             assert [one[name] for name in same] == [two[name] for name in same]
-            assert one["area"] == pytest.approx(two["area"], rel=0.3)  # rims end before the edges
+            assert one["area"] == pytest.approx(two["area"], rel=room)
 
 
 def test_sheets_cover_the_axis_and_agree_with_their_patches(boxed):

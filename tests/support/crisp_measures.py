@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import distance
 from .crisp_solids import Solid
 from .crossing_triangles import crossing_pairs
+from .folds import Rings
 from .levels import betti_of_mesh
 
 Array = NDArray[np.float64]
@@ -68,6 +69,9 @@ class Output:
         after[self.face_offsets[1:] - 1] = self.face_offsets[:-1]
         return after
 
+    def rings(self) -> Rings:
+        return Rings(self.vertices, self.face_offsets, self.face_vertices, self.across)
+
 
 @dataclass(frozen=True)
 class Spread:
@@ -96,27 +100,39 @@ class Found:
     rim: float  # of the exact length
     area: float | None  # of the exact area, less 1
     folds: int
+    dents: int  # facets with a concave corner that are no folds
+    lines: int  # facets without area
     crossings: int
     betti: tuple[int, int]  # components and Euler characteristic
 
 
 def measured(solid: Solid, output: Output, samples: int) -> Found:
     size, cells = solid.diagonal, output.cells()
-    area = facet_area(output)
+    area, rings = facet_area(output), output.rings()
     return Found(
         samples=samples,
         facets=len(output.across),
         vertices=len(output.vertices),
-        err=Spread.of(solid.off_axis(output.vertices) / size),
+        err=Spread.of(off_axis(solid, output.vertices) / size),
         ball=Spread.of(np.abs(output.radius - solid.distance(output.vertices)) / size),
         cov=Spread.of(distance.to_triangles(solid.centres(BALLS), cells) / size),
         gap=gap(solid, cells, solid.spacing(samples)),
         rim=rim_length(output) / solid.rim,
         area=None if solid.area is None else area / solid.area - 1.0,
-        folds=int(folded(output).sum()),
+        folds=int(rings.folded().sum()),
+        dents=int(rings.dented().sum()),
+        lines=int(rings.lines().sum()),
         crossings=len(crossing_pairs(output.vertices, output.triangles)),
         betti=betti_of_mesh(output),
     )
+
+
+def off_axis(solid: Solid, x: Array) -> Array:
+    """(n,) Straight edges are known, where rounded places a little beyond them have no nearest face."""
+    off = solid.off_axis(x)
+    if len(solid.straight_edges) == 0:
+        return off
+    return np.minimum(off, distance.to_triangles(x, solid.straight_edges))
 
 
 def gap(solid: Solid, cells: Array, spacing: float) -> Spread | None:
@@ -142,22 +158,6 @@ def rim_length(output: Output) -> float:
 def facet_area(output: Output) -> float:
     a, b, c = output.vertices[output.triangles].transpose(1, 0, 2)
     return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
-
-
-def folded(output: Output) -> NDArray[np.bool_]:
-    """(f,) polygons that turn right at a corner, seen along the line between their samples, by more than rounding."""
-    places, after = output.vertices[output.face_vertices], output.following()
-    along = places[after] - places
-    length = np.linalg.norm(along, axis=1)
-    of = np.repeat(np.arange(len(output.across)), np.diff(output.face_offsets))
-    turn = np.empty(len(places))
-    turn[after] = np.einsum("ij,ij->i", np.cross(along, along[after]), output.across[of][after])
-    room = np.empty(len(places))
-    size = np.linalg.norm(np.ptp(output.vertices, axis=0)) if len(places) else 0.0
-    room[after] = 1e-9 * length * length[after] + 1e-14 * size * (length + length[after])
-    found = np.zeros(len(output.across), bool)
-    np.logical_or.at(found, of, turn < -room)
-    return found
 
 
 def output_of(computation: Any, frame: Array, exact: bool = False) -> Output:

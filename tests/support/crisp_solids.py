@@ -53,6 +53,21 @@ class Solid:
     def surface(self) -> float:
         return resampled.area(self.mesh)
 
+    @cached_property
+    def straight_edges(self) -> Array:
+        """(k, 3, 3) convex edges of the mesh on the exact faces, as triangles of two corners."""
+        points, triangles = self.mesh
+        sides = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+        order = np.lexsort(np.sort(sides, axis=1).T)
+        one, two = order.reshape(-1, 2).T
+        a, b, c = points[triangles].transpose(1, 0, 2)
+        normals = np.cross(b - a, c - a)
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        over = points[triangles[two // 3]].mean(axis=1) - points[sides[one, 0]]
+        convex = np.einsum("ij,ij->i", normals[one // 3], over) < -SAME * self.diagonal
+        exact = self.distance(points[sides[one]].mean(axis=1)) < TINY * self.diagonal
+        return points[sides[one]][:, [0, 1, 1]][convex & exact]
+
     def spacing(self, count: int) -> float:
         return resampled.spacing(self.surface, count)
 
