@@ -20,14 +20,14 @@ RINGS, ROUND = 320, 600
 def wavy(side):
     """A ball with waves: (n, 3) places, and the corners and sizes of its faces: quads, and a cap at both ends.
 
-    For the outer side the waves are short, so that most of the samples have an outer facet.
+    Where the outer side is wanted the waves are short, so that most of the samples have an outer facet.
     """
     up = np.cos(np.linspace(0.02, np.pi - 0.02, RINGS))[:, None]
     angle = np.linspace(0.0, 2 * np.pi, ROUND, endpoint=False)
     flat = np.sqrt(1 - up * up)
     x, y, z = flat * np.cos(angle), flat * np.sin(angle), up + 0 * angle
     waves = 0.25 * np.sin(5 * x) * np.cos(4 * y)
-    if side == "OUTER":
+    if side != "INNER":
         waves = 0.3 * np.sin(8 * x + 1) * np.sin(8 * y + 2) * np.sin(8 * z + 3)
     places = ((1 + waves) * (x, y, z)).reshape(3, -1).T
     ring, step = np.divmod(np.arange((RINGS - 1) * ROUND), ROUND)

@@ -551,7 +551,7 @@ def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side):
     shape = ball(rings=316)
     sphere = shape.points / np.linalg.norm(shape.points, axis=1)[:, None]
     waves = 1 + 0.25 * np.sin(5 * sphere[:, 0]) * np.cos(4 * sphere[:, 1])
-    if side == "outer":
+    if side != "inner":
         waves = 1 + 0.3 * np.sin(8 * sphere + (1, 2, 3)).prod(axis=1)
     arrays = {"points": shape.points * waves[:, None], "triangles": shape.triangles}
     if not faces:
