@@ -47,7 +47,8 @@ def told(random: Random, folder: Path) -> None:
     )
     at = f"{len(points):,} points, {faces=}, {side}, {form}, {suffix}: {found / said:.3f} of {said:,}"
     print(f"memory {at}", flush=True)
-    assert code == 0, at
+    nothing_outside = side == "outer" and "no facet passes" in done.stderr
+    assert code == 0 or (code == 1 and nothing_outside), (at, done.stderr[-300:])
     assert found <= 1.15 * said + SMALL, at
     assert side != "inner" or 0.85 * said - SMALL <= found, at
 
