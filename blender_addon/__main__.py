@@ -52,8 +52,9 @@ def package() -> str:
 
 
 def main() -> int:
+    few_addresses = importlib.import_module(f"{package()}.core.machine.few_addresses")
     if "bpy" not in sys.modules:
-        importlib.import_module(f"{package()}.core.machine.few_addresses").share_one_heap()
+        few_addresses.share_one_heap()
     try:
         cli = importlib.import_module(f"{package()}.cli")
     except ModuleNotFoundError as error:
@@ -66,6 +67,11 @@ def main() -> int:
         return 1
     if cli.inside_blender():
         return cli.run()
+    try:
+        few_addresses.reserve_matrices()
+    except MemoryError as error:
+        print(f"medial_axis: {error}", file=sys.stderr)
+        return 1
     code: int = cli.main(sys.argv[1:])
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)  # what is done is done

@@ -15,7 +15,7 @@ from test_memory import PEAK, ball
 
 from .inside import ROOT, Random
 from .outside import _no_traceback, _run, _shapes, environment
-from .written import WORKS
+from .written import ENDED, WORKS
 
 MEGABYTE = 1 << 20
 SMALL = (
@@ -25,7 +25,11 @@ NOBODY = 61_234  # who has no processes, so that a limit of them is one of threa
 
 
 def told(random: Random, folder: Path) -> None:
-    """The forecast is within 15 % of the peak, but for the memory of any process; the solids have no symmetry."""
+    """The forecast is within 15 % of the peak, but for the memory of any process; the solids have no symmetry.
+
+    Where the outer side is wanted it may be too high: how many facets lie there depends on the hollows of a solid (a
+    convex one has none), and only the analysis knows.
+    """
     points, triangles = _solid(random)
     faces, side = bool(random.integers(0, 2)), str(random.choice(["inner", "both", "outer"]))
     form = str(random.choice(["published", "clean"])) if side == "inner" else "published"
@@ -43,15 +47,17 @@ def told(random: Random, folder: Path) -> None:
     )
     at = f"{len(points):,} points, {faces=}, {side}, {form}, {suffix}: {found / said:.3f} of {said:,}"
     print(f"memory {at}", flush=True)
-    assert code == 0, at
-    assert 0.85 * said - SMALL <= found <= 1.15 * said + SMALL, at
+    nothing_outside = side == "outer" and "no facet passes" in done.stderr
+    assert code == 0 or (code == 1 and nothing_outside), (at, done.stderr[-300:])
+    assert found <= 1.15 * said + SMALL, at
+    assert side != "inner" or 0.85 * said - SMALL <= found, at
 
 
 def _solid(random: Random) -> tuple[np.ndarray, np.ndarray]:
-    """An ellipsoid with waves on it, of 20,000 to 250,000 vertices."""
+    """An ellipsoid with waves on it, long or short, of 20,000 to 250,000 vertices."""
     shape = ball(rings=int(10.0 ** random.uniform(2.0, 2.55)))
     sphere = shape.points / np.linalg.norm(shape.points, axis=1)[:, None]
-    phase, many = random.uniform(0, 6, 3), random.integers(2, 9, 3)
+    phase, many = random.uniform(0, 6, 3), random.integers(2, 13, 3)
     waves = 1 + random.uniform(0.05, 0.3) * np.sin(many * sphere + phase).prod(axis=1)
     size = 10.0 ** random.uniform(-3, 3) * random.uniform(0.3, 1, 3)
     return sphere * waves[:, None] * size, shape.triangles
@@ -83,7 +89,7 @@ def few_threads(random: Random, folder: Path) -> None:
 
 
 def _limited(random: Random, folder: Path, limit, what: str) -> None:
-    """A result with exit code 0, or 1 or 3 and one sentence, and then no file at all."""
+    """A result with exit code 0 or 6, or 1 or 3 and one sentence, and then no file at all."""
     (name,) = _shapes(folder, random, 1, int(10 ** random.uniform(2, 4.3)))
     command = str(random.choice(sorted(WORKS)))
     words, suffixes = WORKS[command]
@@ -97,10 +103,10 @@ def _limited(random: Random, folder: Path, limit, what: str) -> None:
         return  # NumPy itself does not load in so little
     at = (what, command, output, code, err.decode(errors="replace")[-400:])
     _no_traceback(err)
-    assert code in (0, 1, 3), at
+    assert code in (*ENDED, 1, 3), at
     (folder / name).unlink()
     there = {path.name for path in folder.iterdir()}
-    if code == 0:
+    if code in ENDED:
         assert output in there and there <= {output, f"{output}.json"}, (at, there)
         return
     assert err.startswith(b"medial_axis: "), at

@@ -17,13 +17,19 @@ import numpy as np
 RINGS, ROUND = 320, 600
 
 
-def wavy():
-    """A ball with waves: (n, 3) places, and the corners and sizes of its faces: quads, and a cap at both ends."""
+def wavy(side):
+    """A ball with waves: (n, 3) places, and the corners and sizes of its faces: quads, and a cap at both ends.
+
+    Where the outer side is wanted the waves are short, so that most of the samples have an outer facet.
+    """
     up = np.cos(np.linspace(0.02, np.pi - 0.02, RINGS))[:, None]
     angle = np.linspace(0.0, 2 * np.pi, ROUND, endpoint=False)
     flat = np.sqrt(1 - up * up)
     x, y, z = flat * np.cos(angle), flat * np.sin(angle), up + 0 * angle
-    places = ((1 + 0.25 * np.sin(5 * x) * np.cos(4 * y)) * (x, y, z)).reshape(3, -1).T
+    waves = 0.25 * np.sin(5 * x) * np.cos(4 * y)
+    if side != "INNER":
+        waves = 0.3 * np.sin(8 * x + 1) * np.sin(8 * y + 2) * np.sin(8 * z + 3)
+    places = ((1 + waves) * (x, y, z)).reshape(3, -1).T
     ring, step = np.divmod(np.arange((RINGS - 1) * ROUND), ROUND)
     here, on = ring * ROUND + step, ring * ROUND + (step + 1) % ROUND
     quads = np.column_stack((here, here + ROUND, on + ROUND, on)).ravel()
@@ -31,11 +37,11 @@ def wavy():
     return places, np.concatenate((quads, *caps)), np.append(np.full(len(here), 4), [ROUND, ROUND])
 
 
-def link(faces):
+def link(faces, side):
     """The only object, active and selected. Made without lists, whose memory would stay and be used again."""
     bpy.data.batch_remove(list(bpy.data.objects))
     mesh = bpy.data.meshes.new("Wavy")
-    places, corners, sizes = wavy()
+    places, corners, sizes = wavy(side)
     mesh.vertices.add(len(places))
     mesh.vertices.foreach_set("co", places.astype(np.float32).ravel())
     if faces:
@@ -66,7 +72,7 @@ def main():
     importlib.import_module(f"{module}.core.machine.native").load()
     memory = importlib.import_module(f"{module}.core.machine.memory_limit")
     settings = importlib.import_module(f"{module}.core.settings")
-    points = link(faces == "faces")
+    points = link(faces == "faces", side)
     Path("/proc/self/clear_refs").write_text("5")
     before = resident("VmRSS")
     bpy.ops.object.medial_axis("EXEC_DEFAULT", sampling="VERTICES", side=side, form=form)

@@ -201,6 +201,8 @@ def test_other_thresholds_of_what_was_thinned_are_found_in_the_cache(tight):
         ("faces", "OUTER", "PUBLISHED"),
         ("faces", "BOTH", "PUBLISHED"),
         ("bare", "INNER", "CLEAN"),
+        ("bare", "OUTER", "PUBLISHED"),
+        ("bare", "BOTH", "PUBLISHED"),
     ],
 )
 def test_the_peak_is_what_was_told(faces, side, form):

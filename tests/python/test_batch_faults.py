@@ -242,9 +242,7 @@ def test_standard_streams_that_are_closed(folder, program, closed):  # noqa: F81
     ("megabytes", "axes"), [(348, (1, 0.8, 0.6)), (409, (1, 0.8, 0.6)), (320, (1, 1, 1))]
 )
 def test_little_address_space_has_an_end(folder, program, megabytes, axes):  # noqa: F811
-    """OpenBLAS asks again and again for what it does not get; we do not call it for frames that change nothing.
-
-    A thread for which glibc has no heap maps pages for every number of the exact predicates, of which a ball takes
+    """A thread for which glibc has no heap maps pages for every number of the exact predicates, of which a ball takes
     most; all threads share one.
     """
     rows = np.random.default_rng(1).normal(size=(15_000, 3))
@@ -257,6 +255,29 @@ def test_little_address_space_has_an_end(folder, program, megabytes, axes):  # n
     if done.returncode == -11 or "OpenBLAS" in done.stderr:
         pytest.skip("NumPy itself does not load in so little")
     assert "Traceback" not in done.stderr and done.returncode in (cli.DONE, cli.FAILED)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")
+@pytest.mark.parametrize("threads", [None, "1"])
+@pytest.mark.parametrize("megabytes", [100, 180, 252, 330])
+def test_products_of_matrices_in_little_address_space(folder, program, megabytes, threads):  # noqa: F811
+    """OpenBLAS would ask forever for its buffer of 128 MB, while NumPy is loaded or at the first product."""
+    rows = np.random.default_rng(1).normal(size=(9000, 3))
+    np.save("many.npy", rows / np.linalg.norm(rows, axis=1)[:, None] * (1, 1, 0.2))
+    environment = {**program.environment, "OPENBLAS_NUM_THREADS": threads}
+    if threads is None:
+        del environment["OPENBLAS_NUM_THREADS"]
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+
+    command = [sys.executable, "-m", "medial_axis", "skeleton", "many.npy", "many.swc"]
+    options = {"env": environment, "preexec_fn": limit, "timeout": 60}
+    done = subprocess.run(command, capture_output=True, text=True, **options)
+    if done.returncode == -11 or "failed to map" in done.stderr:
+        pytest.skip("NumPy itself does not load in so little")
+    assert done.returncode in (cli.DONE, cli.FAILED), done.stderr
+    assert done.returncode == cli.DONE or ": Expected " in done.stderr
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits of Linux")

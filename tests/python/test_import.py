@@ -216,6 +216,19 @@ def test_line_numbers_in_a_later_piece(refuse, monkeypatch):
     refuse("a.xyz", "1 2 3\n# comment\n\n" * 50 + "1 2\n", "in line 151 of 'a.xyz', .* found 2")
 
 
+@pytest.mark.parametrize("name", ["a.xyz", "a.off"])
+@pytest.mark.parametrize("huge", [2.0, 1e154, 1e155, 1e200, 1e308])
+@pytest.mark.filterwarnings("error")
+def test_columns_of_any_size_that_are_no_normals(read, refuse, name, huge):
+    """The square of such a number is none, and no warning of NumPy says so."""
+    columns = NORMALS * [[1], [1], [huge]]
+    if name == "a.xyz":
+        assert_points(read(name, rows(THREE, columns)))
+        return
+    colours = np.full((3, 4), 255)
+    refuse(name, "NCOFF\n3 0 0\n" + rows(THREE, columns, colours), "Expected normals of length 1")
+
+
 def test_xyzn_without_normals(refuse):
     refuse("a.xyzn", rows(THREE), "x y z nx ny nz, at least 6 numbers, in line 1 .* found 3")
 

@@ -196,12 +196,15 @@ def test_free_memory_of_control_groups(tmp_path, line, folder, names, dropped):
 def test_threads_share_one_heap_where_addresses_are_limited(monkeypatch, limited, calls):
     import resource  # there is none on Windows
 
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "0")  # so that it is as before after this test
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS")
     found, limit = [], 1 << 32 if limited else resource.RLIM_INFINITY
     library = SimpleNamespace(mallopt=lambda option, value: found.append((option, value)))
     monkeypatch.setattr(few_addresses.ctypes, "CDLL", lambda name: library)
     monkeypatch.setattr(resource, "getrlimit", lambda kind: (limit, limit))
     few_addresses.share_one_heap()
     assert found == calls
+    assert os.environ.get("OPENBLAS_NUM_THREADS") == ("1" if limited else None)
 
 
 # --- what an analysis needs
@@ -544,10 +547,12 @@ print(code, peak() - before)
     ],
 )
 def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side):
-    """Within 15 %, on a shape without symmetry."""
+    """Within 15 %, on a shape without symmetry; most of the samples have a facet on each side that is wanted."""
     shape = ball(rings=316)
     sphere = shape.points / np.linalg.norm(shape.points, axis=1)[:, None]
     waves = 1 + 0.25 * np.sin(5 * sphere[:, 0]) * np.cos(4 * sphere[:, 1])
+    if side != "inner":
+        waves = 1 + 0.3 * np.sin(8 * sphere + (1, 2, 3)).prod(axis=1)
     arrays = {"points": shape.points * waves[:, None], "triangles": shape.triangles}
     if not faces:
         del arrays["triangles"]

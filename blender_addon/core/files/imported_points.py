@@ -115,6 +115,8 @@ def are_normals(vectors: NDArray[np.float64]) -> bool:
 
     At least one component must be negative, as on every closed surface and in no colour.
     """
+    if (np.abs(vectors) > 2.0).any():  # squares of large numbers are infinite
+        return False
     lengths = np.linalg.norm(vectors, axis=1)
     unit = np.abs(lengths - 1.0) <= 0.01
     return bool((unit | (lengths == 0.0)).all() and (vectors < 0.0).any())
