@@ -376,7 +376,7 @@ class Bars:
     crossings: int = 0  # more than without crisp places
 
 
-# What holds today where the bars do not. docs/lab/crisp.md says why; whoever cures one takes its line away.
+# These bounds hold today where the bars do not. docs/lab/crisp.md says why; whoever cures one takes its line away.
 OPEN: dict[tuple[str, int], dict[str, float]] = {
     ("blunt", 4_000): {"area": 5e-6, "folds": 2},
     ("bracket", 4_000): {"folds": 2},
