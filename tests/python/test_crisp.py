@@ -381,10 +381,10 @@ OPEN: dict[tuple[str, int], dict[str, float]] = {
     ("blunt", 4_000): {"area": 5e-6, "folds": 2},
     ("bracket", 4_000): {"folds": 2},
     ("profile", 4_000): {"folds": 2},
-    ("plate", 4_000): {"cov_99": 3e-4, "folds": 3},
-    ("plate", 20_000): {"folds": 5},
+    ("plate", 4_000): {"cov_99": 3e-4, "folds": 8},
+    ("plate", 20_000): {"folds": 10},
     ("cylinder", 4_000): {"cov": 3e-3, "cov_99": 3e-4, "folds": 8, "crossings": 20},
-    ("cylinder", 20_000): {"err": 1e-3, "folds": 15, "crossings": 40},
+    ("cylinder", 20_000): {"err": 1e-3, "folds": 40, "crossings": 120},
     ("cone", 4_000): {"err": 5e-3, "cov": 0.03, "gap": 2.5, "folds": 5},
     ("cone", 20_000): {"err": 3e-3, "cov": 5e-3, "gap": 2.5, "folds": 5, "crossings": 5},
     ("stadium", 4_000): {"err": 5e-3, "err_99": 5e-4, "cov": 1e-3, "cov_99": 3e-4}
