@@ -59,7 +59,7 @@ def test_counts_are_those_of_the_shape(name, count, seed):
 
 @pytest.mark.parametrize(("name", "room"), [("box", 1e-9), ("holed plate", 2e-3)])
 def test_numbers_do_not_depend_on_the_samples(name, room):
-    """The same number is the same sheet: its patches, its neighbours, its seams, and its area, on flat faces exactly."""
+    """The same number is the same sheet: its patches, its neighbours, its seams and its area, on flat faces exactly."""
     first, *others = (
         rows_of(axis_of(SHAPES[name][0](), count, seed).structure)
         for count, seed in ((4000, 0), (10000, 1), (7000, 2))
