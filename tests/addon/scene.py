@@ -122,6 +122,15 @@ def world_positions(thing):
     return positions(thing.data) @ matrix[:3, :3].T + matrix[:3, 3]
 
 
+def radii_are_sound(mesh):
+    """Radii are positive, and 0 only on the rims of crisp sheets that end on sharp edges and corners."""
+    radius = attribute(mesh, "ma_radius")
+    ends = radius == 0
+    return (radius >= 0).all() and (
+        not ends.any() or (attribute(mesh, "ma_place")[ends] >= 3).all()
+    )
+
+
 def attribute(mesh, name):
     """The values of an attribute, (n,) or (n, 2)."""
     found = mesh.attributes[name]

@@ -19,6 +19,7 @@ from scene import (
     on_ellipsoid,
     opened,
     positions,
+    radii_are_sound,
     reports,
     result_of,
     scan,
@@ -55,7 +56,7 @@ def sound(result):
     assert np.isfinite(positions(mesh)).all()
     for name in ("ma_radius", "ma_theta", "ma_rho"):
         assert np.isfinite(attribute(mesh, name)).all()
-    assert (attribute(mesh, "ma_radius") > 0).all()
+    assert radii_are_sound(mesh)
 
 
 def winding(points, mesh):
@@ -112,7 +113,7 @@ def test_factory_solids(kind):
     radius = attribute(result.data, "ma_radius")
     assert radius.max() == pytest.approx(largest, rel=rounding)
     inside = depth(positions(result.data))
-    assert inside.min() > 0.0
+    assert inside.min() > -1e-6 * largest  # sheets end on the edges
     # A ball round a point of the axis touches the surface: its radius is the depth.
     assert np.abs(inside - radius).max() < rounding * largest
     assert set(attribute(result.data, "ma_side")) <= {1}
@@ -130,7 +131,7 @@ def test_box_turned_in_float32(turn):
     bpy.ops.object.transform_apply()
     result = click()
     sound(result)
-    assert in_box(positions(result.data) @ back.T).min() > 0.0
+    assert in_box(positions(result.data) @ back.T).min() > -1e-6
 
 
 def test_axis_of_a_torus_is_its_circle():
@@ -152,7 +153,8 @@ def test_suzanne_as_she_is():
     assert result["ma_sampling"] != "VERTICES"
     assert "the surface is open at 42 edges" in result["ma_warnings"]
     corners, where = positions(monkey.data), positions(result.data)
-    assert (where > corners.min(axis=0)).all() and (where < corners.max(axis=0)).all()
+    low, high = corners.min(axis=0) - 1e-6, corners.max(axis=0) + 1e-6  # sheets end on sharp edges
+    assert (where > low).all() and (where < high).all()
     assert 0.4 < attribute(result.data, "ma_radius").max() < 0.8
 
 
@@ -181,7 +183,7 @@ def test_text_with_a_depth():
     sound(result)
     assert result["ma_sampling"] != "VERTICES" and result["ma_source"] == text
     assert "left out" not in result["ma_warnings"]  # sharp as the tips of letters may be
-    assert np.abs(positions(result.data)[:, 2]).max() < 0.1
+    assert np.abs(positions(result.data)[:, 2]).max() < 0.1 + 1e-6  # sheets end on the edges
     assert attribute(result.data, "ma_radius").max() < 0.1
 
 
@@ -431,6 +433,7 @@ def test_epsilon_is_only_counted_again():
 
 def test_sliders_work_on_samples():
     bpy.ops.mesh.primitive_cube_add()
+    bpy.context.scene.medial_axis.crisp = False  # with it sheets lead into the edges at any Theta
     result = click(sampling="SURFACE", samples=3_000)
     count, facets = analyses(), len(result.data.polygons)
     panel = bpy.context.scene.medial_axis

@@ -54,6 +54,7 @@ def analyse_vertices(request: Request, sides: Sides, share: float) -> AnalysedSa
         epsilon = request.settings.epsilon
         density = estimate(analysis, points, no_edges, 0.0, epsilon, most=LOOKED_AT)
     walls, by_faces = beside.result()
+    by_surface = sides.source is SidesFrom.SURFACE
     return AnalysedSamples(
         points=points,
         kinds=None,
@@ -64,7 +65,7 @@ def analyse_vertices(request: Request, sides: Sides, share: float) -> AnalysedSa
         rows=shape.rows,
         by_faces=by_faces,
         solid=solid_faces(shape, sides.source),
-        patches=patches_of(shape, request.settings),
+        patches=patches_of(shape, request.settings) if by_surface else None,
     )
 
 

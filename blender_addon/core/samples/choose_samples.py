@@ -160,7 +160,7 @@ def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
     sides = resolve_sides(request.settings.sides, shape.triangles, request.gaps, shape.normals)
     used = used_by_sides(sides.source, shape.triangles, shape.normals)
     edges = (shape.triangles, sharp_angle_of(shape, request.settings), shape.sharp_edges)
-    divided = edges if len(shape.triangles) else None
+    divided = edges if sides.source is SidesFrom.SURFACE else None
     key = key_of(request.bounding_sphere, sides.source, shape.points, shape.rows, used, divided)
     samples = CACHE.get(key)
     if samples is None:

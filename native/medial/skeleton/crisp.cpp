@@ -69,6 +69,7 @@ class CrispMaker {
     made_.position = {complex_.position.begin(), complex_.position.end()};
     made_.radius = {complex_.radius.begin(), complex_.radius.end()};
     made_.place = Array<Placing>(complex_.cell.size(), Placing::voronoi);
+    made_.reach = samples_.reach();
     walls_ = array<Walls>(complex_.cell.size(), Walls{}, run_);
     rim_ = array<SmoothRim>(complex_.cell.size(), SmoothRim{}, run_);
     parallel_for(
@@ -507,6 +508,7 @@ class CrispMaker {
 
   void end_on_rim(int32_t v, const Vec3& position) {
     const auto foot = samples_.faces().nearer(position, HUGE_VAL);
+    if (!samples_.are_near(foot->point)) return;
     made_.position[v] = position;
     made_.radius[v] = foot->distance;
     made_.place[v] = Placing::rim;
@@ -521,11 +523,23 @@ class CrispMaker {
       if (!(distance(ball.centre, complex_.position[v]) <= kFarthestMove * spacing)) return {};
       if (!touches_twice(ball, walls.count)) return {};
       const auto nearer = samples_.faces().nearer(ball.centre, ball.radius - tolerance);
-      if (!nearer) return {ball.centre, ball.radius, walls, ball.away};
-      if (!walls.add(nearer->triangle)) break;
+      if (!nearer) {
+        if (!touches_samples(ball, walls.count)) return {};
+        return {ball.centre, ball.radius, walls, ball.away};
+      }
+      if (!samples_.are_near(nearer->point) || !walls.add(nearer->triangle)) break;
       start = ball.centre;
     }
     return {};
+  }
+
+  // Returns whether there are samples near all feet: a ball may have rolled to a face inside the
+  // solid, which bounds nothing.
+  bool touches_samples(const TouchingBall& ball, size_t walls) const {
+    for (size_t i = 0; i < walls; ++i) {
+      if (!samples_.are_near(ball.centre - ball.radius * ball.away[i])) return false;
+    }
+    return true;
   }
 
   // Returns whether the feet are not all in one place, as they are beyond the rim of a sheet.

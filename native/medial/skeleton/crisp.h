@@ -23,6 +23,7 @@ struct CrispPlaces {
   Array<Vec3> position;  // (v)
   Array<double> radius;  // (v) the distance to the faces, unless `place` is voronoi or refused
   Array<Placing> place;  // (v)
+  double reach = 0;      // the distance within which a sample is near a place of the faces
 };
 
 // Returns the places of the vertices of a complex, at facets that are thicker than one spacing;

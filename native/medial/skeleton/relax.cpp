@@ -30,14 +30,18 @@ std::vector<Edge> rims_to_smooth(const Level& level, std::span<const Edge> rims,
   return off;
 }
 
-// Does the same at crisp places, where balls end at the faces.
-void smooth_crisp_rims(Level& level, std::span<const Edge> rims, const Faces& faces,
+// Does the same at crisp places, where balls end at the faces. A vertex whose place was refused
+// still ends at the samples: there may be faces that do not bound the solid.
+void smooth_crisp_rims(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h,
                        const Run& run) {
   const auto moved =
       relax_rims({level.face_offsets, level.face_vertices}, rims, level.vertices, run);
   parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
-    const auto foot = faces.nearer(level.vertices[moved[i]], HUGE_VAL);
-    level.radius[moved[i]] = foot->distance;
+    const int32_t v = moved[i];
+    const auto foot = h.faces->nearer(level.vertices[v], HUGE_VAL);
+    const bool crisp = h.crisp.place[level.vertex_of[v]] >= Placing::touching &&
+                       h.samples.nearest(foot->point).distance <= h.crisp.reach;
+    level.radius[v] = crisp ? foot->distance : h.samples.nearest(level.vertices[v]).distance;
   });
 }
 
@@ -151,7 +155,7 @@ void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, 
   const Run quiet{run.threads, nullptr, run.arena};
   begin_stage(run.progress, "Rims", 0.6, 0.7);
   if (crisp) {
-    smooth_crisp_rims(level, rims_to_smooth(level, rims, h.crisp), *h.faces, quiet);
+    smooth_crisp_rims(level, rims_to_smooth(level, rims, h.crisp), h, quiet);
   } else {
     smooth_rims(level, rims, h.samples, quiet);
   }

@@ -7,6 +7,7 @@ namespace {
 // All lengths are in holes: the largest circumradius in the umbrella of a sample, about 0.6 of the
 // distance between samples of blue noise.
 constexpr double kOnCrease = 1e-6;  // from a sample that lies on a crease to that crease
+constexpr double kNearSamples = 6;  // from a place of the faces to a sample, at most
 constexpr double kReach = 1.5;      // from where two tangent planes meet to a crease
 
 // Returns the point nearest to `at` in which two planes meet.
@@ -33,6 +34,8 @@ SamplesOnFaces::SamplesOnFaces(const FacesInput& input, const Faces& faces, cons
       creases_(faces, middle_of(spacing)),
       samples_(samples),
       spacing_(spacing),
+      tree_(std::span(samples.points.data(), samples.row.size())),
+      reach_(kNearSamples * middle_of(spacing)),
       most_alike_(std::cos(input.sharp_angle)),
       triangle_(samples.row.size(), -1),
       normals_(samples.row.size()),
@@ -57,6 +60,10 @@ void SamplesOnFaces::place(int32_t s, int32_t triangle) {
     if (coordinates[i] > kOnCrease || edge.crease != Crease::sharp || faces_.separates(e)) continue;
     normals_[s][1] = faces_.mesh().normal[edge.triangles[edge.triangles[0] == triangle]];
   }
+}
+
+bool SamplesOnFaces::are_near(const Vec3& place) const {
+  return tree_.nearest(place, reach_).distance <= reach_;
 }
 
 std::optional<PlaceOnCrease> SamplesOnFaces::crease_between(const Edge& samples,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "axis/selection.h"
+#include "base/point_tree.h"
 #include "contact/convex_creases.h"
 #include "delaunay/samples.h"
 
@@ -33,6 +34,11 @@ class SamplesOnFaces {
   // the place of this sample.
   std::optional<PlaceOnCrease> crease_between(const Edge& samples, const Vec3& at) const;
   CreaseMark mark(const Edge& samples) const;
+  // Returns whether a sample is near a place of the faces. Where none is, the faces do not bound
+  // the solid: they are inside it, or doubled.
+  bool are_near(const Vec3& place) const;
+  // Returns the distance within which a sample is near.
+  double reach() const { return reach_; }
 
  private:
   void place(int32_t sample, int32_t triangle);
@@ -43,6 +49,8 @@ class SamplesOnFaces {
   ConvexCreases creases_;
   const Samples& samples_;
   std::span<const double> spacing_;
+  PointTree tree_;
+  double reach_ = 0;
   double most_alike_ = 0;  // the cosine of the sharp angle
   std::vector<int32_t> triangle_;
   std::vector<std::array<Vec3, 2>> normals_;  // on a reflex edge those of both sides; else one
