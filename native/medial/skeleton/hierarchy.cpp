@@ -196,6 +196,8 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
     made.crisp = crisp_places(made.complex, facets.triangulation, *on_faces, made.values.facet,
                               made.sine, selected, run);
     watch.lap("crisp");
+  } else {
+    begin_stage(run.progress, "Values", 0.85, 1);
   }
   made.complex.dual = {};  // these indices mean nothing without the analysis
   watch.lap("values");
