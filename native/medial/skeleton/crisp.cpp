@@ -128,9 +128,11 @@ class CrispMaker {
     for (size_t i = 0; i < complex_.shrunk.size(); ++i) {
       if (!selected[i]) continue;
       const ShrunkFacet& s = complex_.shrunk[i];
-      hidden_.push_back({s.vertex, s.generators});
+      hidden_.push_back({s.vertex, s.generators[0], s.generators[1]});
       if (s.edge < 0) continue;
-      for (const int32_t v : complex_.ends[s.edge]) hidden_.push_back({v, s.generators});
+      for (const int32_t v : complex_.ends[s.edge]) {
+        hidden_.push_back({v, s.generators[0], s.generators[1]});
+      }
     }
     std::sort(hidden_.begin(), hidden_.end());
   }
@@ -312,9 +314,9 @@ class CrispMaker {
     for (const int32_t f : facets_at_[v]) {
       if (is_pair(complex_.generators[f])) return true;
     }
-    auto next = std::lower_bound(hidden_.begin(), hidden_.end(), Hidden{v, {-1, -1}});
-    for (; next != hidden_.end() && next->vertex == v; ++next) {
-      if (is_pair(next->generators)) return true;
+    auto next = std::lower_bound(hidden_.begin(), hidden_.end(), Hidden{v, -1, -1});
+    for (; next != hidden_.end() && (*next)[0] == v; ++next) {
+      if (is_pair({(*next)[1], (*next)[2]})) return true;
     }
     return false;
   }
@@ -728,12 +730,8 @@ class CrispMaker {
     return (1.0 / count) * sum;
   }
 
-  struct Hidden {
-    int32_t vertex;
-    Edge generators;
-
-    friend auto operator<=>(const Hidden&, const Hidden&) = default;
-  };
+  // A vertex, and two samples that a facet without area separates there.
+  using Hidden = std::array<int32_t, 3>;
 
   const InnerComplex& complex_;
   const Triangulation& t_;
