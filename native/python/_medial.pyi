@@ -1203,6 +1203,49 @@ def solid_betti(
     triangles : (m, 3) int32
     """
 
+def outward_faces(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> tuple[NDArray[np.int32], NDArray[np.uint8], int, int]:
+    """Faces as those of a solid: whichever way they were drawn, they look outward.
+
+    Faces that are closed, consistent and outward are returned as they are. Otherwise faces are made consistent where
+    two meet at an edge, and each of these patches is turned such that it looks to the side from which more rays escape
+    (Takayama, Jacobson, Kavan & Sorkine-Hornung 2014); an open patch whose faces agree only if nearly all rays say so.
+    Patches for which rays do not decide keep the side of most of
+    their faces, or are turned where most of the others are; where their own faces differ, they look to where rays meet
+    an even number of faces. One of several equal faces stays, or none of an even number where this leaves fewer edges
+    open; no reading leaves more edges open than the faces as they were given. Rows with the same coordinates are one. The result does not depend on the threads.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+    progress : Progress, optional
+    threads : int, optional
+        0 means all.
+
+    Returns
+    -------
+    triangles : (m, 3) int32
+        Faces that repeat another one have three times the same row, those that repeat a corner are as given; both count
+        for nothing in every stage.
+    reading : (m,) uint8
+        0 as given, 1 turned, 2 left out because it repeats another face, 3 left out because it repeats a corner.
+    patches : int
+        The number of patches.
+    unseen : int
+        The number of patches for which rays do not decide.
+
+    Raises
+    ------
+    InvalidInputError
+        A corner is not below n, or a coordinate is not finite.
+    """
+
 def polygon_edges(
     face_offsets: NDArray[np.int32], face_vertices: NDArray[np.int32], vertices: int
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

@@ -9,6 +9,7 @@
 #include "delaunay/samples.h"
 #include "docstrings.h"
 #include "inside/buried.h"
+#include "inside/outward_faces.h"
 #include "inside/solid_betti.h"
 #include "inside/surface.h"
 #include "inside/walls.h"
@@ -40,6 +41,22 @@ py::object betti_of_solid(const py::object& points, const py::object& triangles)
   }();
   if (!betti) return py::none();
   return py::make_tuple((*betti)[0], (*betti)[1], (*betti)[2]);
+}
+
+py::tuple faces_of_solid(const py::object& points, const py::object& triangles, Progress* progress,
+                         int threads) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  const Run run{thread_count(thread_argument(threads)), progress};
+  OutwardFaces found = [&, row_span = rows.span(), face_span = faces.span()] {
+    const py::gil_scoped_release release;
+    return outward_faces(row_span, face_span, run);
+  }();
+  std::vector<uint8_t> reading;
+  reading.reserve(found.reading.size());
+  for (const FaceReading one : found.reading) reading.push_back(static_cast<uint8_t>(one));
+  return py::make_tuple(array_of<int32_t>(std::move(found.triangles)),
+                        array_of<uint8_t>(std::move(reading)), found.patches, found.unseen);
 }
 
 py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& face_vertices,
@@ -154,6 +171,8 @@ py::array distances_of_walls(const py::object& points, const py::object& normals
 void bind_surfaces(py::module_& m) {
   m.def("open_edges", &count_open_edges, docs::open_edges, py::arg("points"), py::arg("triangles"));
   m.def("solid_betti", &betti_of_solid, docs::solid_betti, py::arg("points"), py::arg("triangles"));
+  m.def("outward_faces", &faces_of_solid, docs::outward_faces, py::arg("points"),
+        py::arg("triangles"), py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);
   m.def("polygon_edges", &edges_of_polygons, docs::polygon_edges, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));
   m.def("polygon_triangles", &triangles_of_polygons, docs::polygon_triangles, py::arg("points"),

@@ -121,7 +121,7 @@ def compute_axis(
         limit = limit.used(output="")  # a curve is small in every format
     share = 1.0 if form is Form.PUBLISHED else _ANALYSIS
     begun = begin(shape, settings, progress, limit, share)
-    chosen = begun.chosen
+    shape, chosen = begun.shape, begun.chosen
     settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling, form=form)
     axis = extract(chosen.samples, settings, begun.progress)
     return Computation(

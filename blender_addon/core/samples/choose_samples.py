@@ -23,6 +23,7 @@ from .chosen import Begun, ChosenSamples
 from .closing_samples import close_openings
 from .density import percent
 from .effort import EFFORT
+from .outward_faces import outward_shape
 from .sample_spacing import FirstPass, first_pass, next_amount
 from .sharp_angle import sharp_angle_of
 from .sides import decided, resolve_sides, resolve_sides_of_samples
@@ -44,7 +45,7 @@ def begin(
     limit: MemoryLimit,
     share: float = 1.0,
 ) -> Begun:
-    """Begin a computation: choose and analyse the samples of a shape.
+    """Begin a computation: turn the faces of a shape outward, choose samples and analyse them.
 
     Parameters
     ----------
@@ -63,9 +64,10 @@ def begin(
     start = time.perf_counter()
     progress = progress or Progress()
     progress.until(share)
+    shape = outward_shape(shape)
     chosen = choose_samples(shape, settings, progress, limit)
     progress.until(1.0)
-    return Begun(chosen, progress, start)
+    return Begun(shape, chosen, progress, start)
 
 
 def choose_samples(

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from ..machine.progress import Progress
     from ..settings import SamplingMode
     from .analysed import AnalysedSamples, Sides
+    from .shape import Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +66,8 @@ class Begun:
 
     Parameters
     ----------
+    shape : Shape
+        With faces that look outward.
     chosen : ChosenSamples
     progress : Progress
         For the rest of the work.
@@ -72,6 +75,7 @@ class Begun:
         The time of `time.perf_counter` at which the computation began.
     """
 
+    shape: Shape
     chosen: ChosenSamples
     progress: Progress
     start: float

@@ -78,7 +78,7 @@ def report_sampling(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     begun = begin(shape, settings.with_side(), progress, limit)
-    chosen = begun.chosen
+    shape, chosen = begun.shape, begun.chosen
     samples, density = chosen.samples, _of_all(chosen.samples)
     rows = sample_of_row(samples.points, samples.analysis.samples)
     return SamplingReport(

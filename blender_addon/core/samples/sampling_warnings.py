@@ -11,6 +11,8 @@ import numpy as np
 from ..settings import SamplingMode
 from ..severe import Severe
 from .density import percent
+from .nearness import same_place
+from .outward_faces import are_left_out, reading_warnings
 
 if TYPE_CHECKING:
     from .chosen import ChosenSamples
@@ -24,6 +26,7 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
     samples, density = chosen.samples, chosen.samples.density
     if chosen.thinned:
         yield chosen.thinned
+    yield from reading_warnings(shape)
     if loose := _loose_vertices(shape, chosen):
         yield (
             f"{loose:,} vertices without a face were left out; choose Sampling Vertices to use them"
@@ -61,4 +64,7 @@ def _loose_vertices(shape: Shape, chosen: ChosenSamples) -> int:
     """Count the vertices that belong to no face, where faces were sampled; 0 for curves and texts."""
     if chosen.sampling is SamplingMode.VERTICES or not shape.of_samples:
         return 0
-    return len(shape.points) - len(np.unique(shape.triangles))
+    if not are_left_out(shape).any():
+        return len(shape.points) - len(np.unique(shape.triangles))
+    place = same_place(shape.points)  # the corners of a face that was left out are those of another
+    return len(np.unique(place)) - len(np.unique(place[shape.triangles]))

@@ -37,6 +37,8 @@ class Shape:
         The points are meant as samples, unlike the vertices of curves, texts and metaballs.
     rows : (n,) int32 or None
         The rows that the points have in a larger cloud; None where there is no larger cloud.
+    reading : (m,) uint8 or None
+        How `outward_faces.outward_shape` read each triangle; None before.
     """
 
     points: NDArray[np.float64]
@@ -47,6 +49,7 @@ class Shape:
     shaded_smooth: bool = False
     of_samples: bool = True
     rows: NDArray[np.int32] | None = None
+    reading: NDArray[np.uint8] | None = None
 
     @cached_property
     def volume(self) -> float:

@@ -84,12 +84,14 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
         return Sides(wanted, "as chosen")
     if gaps == 0:
         return Sides(SidesFrom.SURFACE, "the faces are closed")
-    if _turned(shape.points, shape.triangles) > _TURNED:
-        reason = f"the mesh is open at {gaps:,} edges, and its faces are turned either way"
-        return Sides(SidesFrom.TIGHT_COCONE, reason)
     if bounding_share(shape, spacing) >= _BOUNDING:
         reason = f"the winding number of the faces, for the mesh is open at {gaps:,} edges"
         return Sides(SidesFrom.SURFACE, reason)
+    if _turned(shape.points, shape.triangles) > _TURNED:
+        reason = (
+            f"the mesh is open at {gaps:,} edges, and its faces cannot be turned to the same side"
+        )
+        return Sides(SidesFrom.TIGHT_COCONE, reason)
     return Sides(SidesFrom.NORMALS, f"those of the faces, for the mesh is open at {gaps:,} edges")
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import SidesFrom
+from .outward_faces import are_left_out
 from .sharp_angle import sharp_angle_of
 
 if TYPE_CHECKING:
@@ -75,6 +76,7 @@ def solid_faces(
 def _face_of_vertex(shape: Shape) -> NDArray[np.int32]:
     """(n,) the first triangle at each vertex, or -1."""
     face = np.full(len(shape.points), -1, np.int32)
-    rows = np.repeat(np.arange(len(shape.triangles), dtype=np.int32), 3)
-    face[shape.triangles.ravel()[::-1]] = rows[::-1]  # the last assignment counts
+    kept = np.flatnonzero(~are_left_out(shape)).astype(np.int32)
+    rows = np.repeat(kept, 3)
+    face[shape.triangles[kept].ravel()[::-1]] = rows[::-1]  # the last assignment counts
     return face

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..machine import native
 from ..settings import SamplingMode, SidesFrom
+from .outward_faces import are_left_out
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -75,7 +76,10 @@ def surface_normals(
 
 def _are_corners(shape: Shape, chosen: ChosenSamples) -> bool:
     of_faces = chosen.sides.source is SidesFrom.SURFACE
-    return chosen.sampling is SamplingMode.VERTICES and of_faces and shape.rows is None
+    all_faces = not are_left_out(shape).any()
+    return (
+        chosen.sampling is SamplingMode.VERTICES and of_faces and all_faces and shape.rows is None
+    )
 
 
 def _of_triangles(

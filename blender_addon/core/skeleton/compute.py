@@ -16,6 +16,7 @@ from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.nearness import nearest
+from ..samples.outward_faces import reading_warnings
 from ..settings import Settings, Side, SkeletonSettings
 from .centre import centre_of_mass
 from .ends import end_limbs
@@ -111,7 +112,10 @@ def compute_skeleton(
         loops=loops,
         mirrored=mirrored,
         chosen=chosen,
-        warnings=tuple(skeleton_warnings(chosen, loops, sheets)),
+        warnings=(
+            *reading_warnings(begun.shape),
+            *skeleton_warnings(chosen, loops, sheets),
+        ),
         seconds=begun.seconds,
     )
 

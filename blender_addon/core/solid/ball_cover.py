@@ -109,7 +109,7 @@ def cover_by_balls(
     settings = replace(settings, side=Side.INNER)
     limit = limit.used(faces=len(shape.triangles) > 0, side=Side.INNER, levels=True)
     begun = begin(shape, settings, progress, limit, _ANALYSIS)
-    chosen, progress = begun.chosen, begun.progress
+    shape, chosen, progress = begun.shape, begun.chosen, begun.progress
     progress.until(_AXIS)
     hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
     progress.until(1.0)

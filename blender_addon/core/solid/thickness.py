@@ -58,7 +58,7 @@ def measure_thickness(
     """
     settings = replace(settings, side=wanted.side)
     begun = begin(shape, settings, progress, limit)
-    chosen = begun.chosen
+    shape, chosen = begun.shape, begun.chosen
     surface = measured_surface(shape, chosen)
     known = surface_normals(shape, chosen, surface, settings.sharp_angle)
     lengths, measured = _lengths(chosen, known, wanted, begun.progress)

@@ -58,6 +58,20 @@ std::optional<int> crossing(const Corners& t, const Vec3& origin, const Vec3& di
   return leaves ? 1 : -1;
 }
 
+// Returns where a line meets a triangle, in floating point.
+std::optional<RayCrossings::Hit> where_met(const Corners& t, const Vec3& origin,
+                                           const Vec3& direction) {
+  const Vec3 a = t.a - origin, b = t.b - origin, c = t.c - origin;
+  const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)),
+               w = dot(direction, cross(a, b)), flux = u + v + w;
+  const bool leaves = u >= 0 && v >= 0 && w >= 0, enters = u <= 0 && v <= 0 && w <= 0;
+  if (leaves == enters) return std::nullopt;
+  const Vec3 normal = cross(t.b - t.a, t.c - t.a);
+  const double size = length(normal);
+  if (!(size > 0)) return std::nullopt;
+  return RayCrossings::Hit{dot(a, normal) / flux, flux / size};
+}
+
 }  // namespace
 
 RayCrossings::RayCrossings(std::vector<Corners> triangles, const Progress* progress)
@@ -114,18 +128,24 @@ void RayCrossings::hits(const Vec3& origin, const Vec3& direction, double reach,
                         std::vector<Hit>& found) const {
   found.clear();
   visit(origin, direction, reach, [&](const Corners& t) {
-    const Vec3 a = t.a - origin, b = t.b - origin, c = t.c - origin;
-    const double u = dot(direction, cross(b, c)), v = dot(direction, cross(c, a)),
-                 w = dot(direction, cross(a, b)), flux = u + v + w;
-    const bool leaves = u >= 0 && v >= 0 && w >= 0, enters = u <= 0 && v <= 0 && w <= 0;
-    if (leaves == enters) return true;
-    const Vec3 normal = cross(t.b - t.a, t.c - t.a);
-    const double at = dot(a, normal) / flux, size = length(normal);
+    const auto hit = where_met(t, origin, direction);
+    if (!hit) return true;
     // A face that is entered where the ray starts is the face on which it starts.
-    const double start = enters ? 0x1p-20 * reach : 0;
-    if (at > start && at <= reach && size > 0) found.push_back({at, flux / size});
+    const double start = hit->cosine < 0 ? 0x1p-20 * reach : 0;
+    if (hit->at > start && hit->at <= reach) found.push_back(*hit);
     return true;
   });
+}
+
+int64_t RayCrossings::met(const Vec3& origin, const Vec3& direction, double start,
+                          int64_t most) const {
+  int64_t count = 0;
+  visit(origin, direction, HUGE_VAL, [&](const Corners& t) {
+    const auto hit = where_met(t, origin, direction);
+    count += hit && hit->at > start ? 1 : 0;
+    return count < most;
+  });
+  return count;
 }
 
 }  // namespace medial

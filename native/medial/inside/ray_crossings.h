@@ -28,6 +28,8 @@ class RayCrossings {
   // Finds all triangles that the ray meets up to `reach`, in no order. The triangle on which the
   // ray starts, against its normal, is omitted.
   void hits(const Vec3& origin, const Vec3& direction, double reach, std::vector<Hit>& found) const;
+  // Returns how many triangles the ray meets farther away than `start`, but stops at `most`.
+  int64_t met(const Vec3& origin, const Vec3& direction, double start, int64_t most) const;
   std::span<const Corners> triangles() const { return corners_; }
 
  private:

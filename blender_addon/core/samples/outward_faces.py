@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces that are read as those of a solid, whichever way they were drawn (docs/stage_inside.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine import native
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .shape import Shape
+
+TURNED, REPEATED, WITHOUT_CORNERS = 1, 2, 3  # values of `Shape.reading`; 0 as given
+
+
+def outward_shape(shape: Shape) -> Shape:
+    """Return a shape whose faces look outward, and say in `Shape.reading` what was done.
+
+    Rows of points and triangles stay the same. A triangle that repeats another one gets three times the same
+    corner, so it counts for nothing in every stage. Faces that are closed, consistent and outward are not touched.
+
+    Raises
+    ------
+    InvalidInputError
+        A corner is no row of the points, or a coordinate is not finite.
+    """
+    if not len(shape.triangles) or shape.reading is not None:
+        return shape
+    with native.own_errors() as module:
+        triangles, reading, _, _ = module.outward_faces(shape.points, shape.triangles)
+    if not reading.any():
+        return replace(shape, reading=reading)
+    return replace(shape, triangles=triangles, reading=reading)
+
+
+def reading_counts(shape: Shape) -> dict[str, int]:
+    """Return how many faces were read the other way round, and how many were left out and why."""
+    reading = np.zeros(0, np.uint8) if shape.reading is None else shape.reading
+    counts = np.bincount(reading, minlength=4)
+    return {
+        "turned": int(counts[TURNED]),
+        "repeated": int(counts[REPEATED]),
+        "without_corners": int(counts[WITHOUT_CORNERS]),
+    }
+
+
+def are_left_out(shape: Shape) -> NDArray[np.bool_]:
+    """(m,) the triangles that count for nothing."""
+    if shape.reading is None:
+        return np.zeros(len(shape.triangles), bool)
+    return shape.reading >= REPEATED
+
+
+def reading_warnings(shape: Shape) -> Iterator[str]:
+    """Say what was read in another way than it was given, a sentence each."""
+    counts, faces = reading_counts(shape), len(shape.triangles)
+    if turned := counts["turned"]:
+        yield (
+            f"{turned:,} of {faces:,} faces looked inward and were read the other way round; "
+            "the mesh itself is as it was"
+        )
+    if repeated := counts["repeated"]:
+        yield f"{repeated:,} of {faces:,} faces lie on another face with the same corners and were left out"

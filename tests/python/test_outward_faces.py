@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces are read as those of a solid, whichever way they were drawn: random flips, whole parts, doubled faces, soups."""
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.samples.outward_faces import outward_shape, reading_counts
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
+from support import messy
+
+TURNED, REPEATED, WITHOUT_CORNERS = 1, 2, 3
+
+
+def cube(corner=(0.0, 0.0, 0.0), size=1.0):
+    ends = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    triangles = [corners for a, b, c, d in quads for corners in ((a, b, c), (a, c, d))]
+    return np.asarray(corner) + size * ends, np.array(triangles, np.int32)
+
+
+def grid(count):
+    x, y = np.meshgrid(np.linspace(0, 1, count), np.linspace(0, 1, count), indexing="ij")
+    points = np.column_stack((x.ravel(), y.ravel(), np.zeros(count * count)))
+    at = np.arange(count * count).reshape(count, count)
+    a, b, c, d = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
+    halves = (np.stack(corners, -1).reshape(-1, 3) for corners in ((a, b, c), (a, c, d)))
+    return points, np.concatenate(list(halves)).astype(np.int32)
+
+
+def joined(*meshes):
+    first = np.cumsum([0, *(len(points) for points, _ in meshes)])
+    points = np.concatenate([points for points, _ in meshes])
+    triangles = [mesh[1] + start for mesh, start in zip(meshes, first, strict=False)]
+    return points, np.concatenate(triangles).astype(np.int32)
+
+
+def inward(mesh):
+    return mesh[0], np.ascontiguousarray(mesh[1][:, [0, 2, 1]])
+
+
+def flipped(mesh, share, seed=0):
+    rows = np.random.default_rng(seed).random(len(mesh[1])) < share
+    triangles = mesh[1].copy()
+    triangles[rows] = triangles[rows][:, [0, 2, 1]]
+    return (mesh[0], triangles), rows
+
+
+SOLIDS = {
+    "box": cube(),
+    "cavity": joined(cube(), inward(cube((0.3, 0.3, 0.3), 0.4))),
+    "parts": joined(cube(), cube((3, 0, 0)), cube((0, 3, 0), 0.2)),
+    "overlap": joined(cube(), cube((0.5, 0.5, 0.5))),
+    "solid in a solid": joined(cube(), cube((0.3, 0.3, 0.3), 0.4)),
+}
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_what_looks_outward_is_untouched(medial, name):
+    mesh = SOLIDS[name]
+    triangles, reading, _, _ = medial.outward_faces(*mesh)
+    assert np.array_equal(triangles, mesh[1]) and not reading.any()
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_all_faces_inward(medial, name):
+    triangles, reading, _, _ = medial.outward_faces(*inward(SOLIDS[name]))
+    assert np.array_equal(triangles, SOLIDS[name][1]) and (reading == TURNED).all()
+
+
+@pytest.mark.parametrize("share", [0.01, 0.1, 0.5])
+@pytest.mark.parametrize("name", ["box", "cavity", "parts", "overlap"])
+def test_random_flips(medial, name, share):
+    for seed in range(5):
+        mesh, rows = flipped(SOLIDS[name], share, seed)
+        triangles, reading, _, _ = medial.outward_faces(*mesh)
+        assert np.array_equal(triangles, SOLIDS[name][1]), seed
+        assert np.array_equal(reading == TURNED, rows), seed
+
+
+@pytest.mark.oracle
+@pytest.mark.parametrize("share", [0.01, 0.1, 0.5, 1.0])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "3holes.off",
+        "dilo.off",
+        "engine_parts.ply",
+        "hand_closed.obj",
+        "knot1.off",
+        "rocker-arm.off",
+    ],
+)
+def test_random_flips_of_real_meshes(medial, data_file, name, share):
+    clean = messy.load(name, data_file)
+    mesh, rows = flipped(clean, share)
+    triangles, reading, _, _ = medial.outward_faces(*mesh)
+    assert np.array_equal(triangles, clean[1]) and np.array_equal(reading == TURNED, rows)
+
+
+@pytest.mark.parametrize("part", range(3))
+def test_a_part_that_looks_inward(medial, part):
+    mesh, rows = SOLIDS["parts"], np.zeros(36, bool)
+    rows[12 * part : 12 * part + 12] = True
+    turned = mesh[1].copy()
+    turned[rows] = turned[rows][:, [0, 2, 1]]
+    triangles, reading, patches, unseen = medial.outward_faces(mesh[0], turned)
+    assert np.array_equal(triangles, mesh[1]) and np.array_equal(reading == TURNED, rows)
+    assert (patches, unseen) == (3, 0)
+
+
+@pytest.mark.parametrize("again", [[0, 1, 2], [0, 2, 1], [2, 0, 1]])
+def test_doubled_faces(medial, again):
+    points, triangles = cube()
+    both = np.concatenate((triangles, triangles[:, again]))
+    read, reading, _, _ = medial.outward_faces(points, both)
+    assert np.array_equal(read[:12], triangles)
+    assert (reading[:12] == 0).all() and (reading[12:] == REPEATED).all()
+    assert (read[12:] == read[12:, :1]).all()
+
+
+def test_a_wall_between_two_rooms_drawn_from_both_sides(medial):
+    """Two boxes share a wall, of which each has its own faces: they bound one solid as they are."""
+    mesh = joined(cube(), cube((1, 0, 0)))
+    triangles, reading, _, _ = medial.outward_faces(*mesh)
+    assert medial.open_edges(mesh[0], triangles) == 0
+    assert (reading != TURNED).all()
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5])
+def test_faces_cut_apart(medial, share):
+    """Every face has corners of its own; equal coordinates are one place."""
+    points, triangles = SOLIDS["cavity"]
+    apart = points[triangles].reshape(-1, 3)
+    rows = np.arange(len(apart), dtype=np.int32).reshape(-1, 3)
+    mesh, _ = flipped((apart, rows), share)
+    assert np.array_equal(medial.outward_faces(*mesh)[0], rows)
+
+
+@pytest.mark.parametrize("look", [lambda mesh: mesh, inward])
+def test_an_open_box(medial, look):
+    points, triangles = cube()
+    clean = points, triangles[2:]
+    assert np.array_equal(medial.outward_faces(*look(clean))[0], clean[1])
+
+
+def test_a_sheet_keeps_the_side_of_most_of_its_faces(medial):
+    points, triangles = grid(12)
+    mesh, rows = flipped((points, triangles), 0.2)
+    read, reading, _, unseen = medial.outward_faces(*mesh)
+    assert np.array_equal(read, triangles) and np.array_equal(reading == TURNED, rows)
+    assert unseen == 1
+
+
+def test_faces_that_repeat_a_corner(medial):
+    points, triangles = inward(cube())
+    more = np.concatenate((triangles, [[3, 3, 5]])).astype(np.int32)
+    read, reading, _, _ = medial.outward_faces(points, more)
+    assert reading[12] == WITHOUT_CORNERS and read[12].tolist() == [3, 3, 5]
+    assert np.array_equal(read[:12], cube()[1])
+
+
+def test_size_place_and_turn_do_not_matter(medial):
+    mesh, _ = flipped(SOLIDS["cavity"], 0.5)
+    expected = medial.outward_faces(*mesh)
+    rotation = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+    for scale, move in ((1e-9, 0.0), (1e9, 0.0), (1.0, 1e4)):
+        points = scale * (mesh[0] @ (rotation * np.sign(np.linalg.det(rotation))).T) + move
+        assert np.array_equal(medial.outward_faces(points, mesh[1])[0], expected[0])
+
+
+@pytest.mark.parametrize("threads", [1, 2, 7])
+def test_thread_count_changes_nothing(medial, threads):
+    mesh, _ = flipped(SOLIDS["overlap"], 0.5)
+    some, all_ = medial.outward_faces(*mesh, threads=threads), medial.outward_faces(*mesh)
+    assert all(np.array_equal(a, b) for a, b in zip(some, all_, strict=True))
+
+
+def test_bad_faces_are_refused(medial):
+    points, triangles = cube()
+    with pytest.raises(medial.InvalidInputError, match="corners below 8, found 9"):
+        medial.outward_faces(points, np.array([[0, 1, 9]], np.int32))
+    with pytest.raises(medial.InvalidInputError, match="finite"):
+        medial.outward_faces(np.where(points > 0, np.nan, points), triangles)
+
+
+def test_nothing_of_nothing(medial):
+    triangles, reading, patches, _ = medial.outward_faces(
+        np.zeros((0, 3)), np.zeros((0, 3), np.int32)
+    )
+    assert (len(triangles), len(reading), patches) == (0, 0, 0)
+
+
+# --- in the product
+
+
+def compute(mesh, **options):
+    settings = Settings(**{"sampling": SamplingMode.VERTICES, **options})
+    return compute_axis(Shape(*mesh), settings)
+
+
+@pytest.mark.parametrize("share", [0.01, 0.5, 1.0])
+def test_the_axis_is_that_of_the_clean_mesh(data_file, share):
+    clean = messy.load("3holes.off", data_file)
+    expected, found = compute(clean), compute(flipped(clean, share)[0])
+    for name in ("vertices", "radius", "face_offsets", "face_vertices", "edges"):
+        assert np.array_equal(getattr(found.axis, name), getattr(expected.axis, name)), name
+    looked = int((flipped(clean, share)[1]).sum())
+    assert f"{looked:,} of 7,200 faces looked inward" in " ".join(found.warnings)
+    assert not any("looked inward" in text for text in expected.warnings)
+
+
+def test_samples_of_turned_faces(data_file):
+    clean = messy.load("knot1.off", data_file)
+    expected = compute(clean, sampling=SamplingMode.SURFACE)
+    found = compute(flipped(clean, 0.5)[0], sampling=SamplingMode.SURFACE)
+    assert found.topology == expected.topology
+    assert np.array_equal(found.axis.vertices, expected.axis.vertices)
+
+
+def test_a_shape_says_how_it_was_read():
+    shape = Shape(*inward(cube()))
+    read = outward_shape(shape)
+    assert reading_counts(read) == {"turned": 12, "repeated": 0, "without_corners": 0}
+    assert shape.reading is None and outward_shape(read) is read
+
+
+def test_faces_turned_either_way_need_no_tight_cocone():
+    mesh, _ = flipped(messy.MADE["open box"](), 0.3)
+    found = compute(mesh, sampling=SamplingMode.SURFACE)
+    assert found.sides.source is SidesFrom.SURFACE
+
+
+def test_bad_rows_are_one_sentence():
+    with pytest.raises(InvalidInputError, match="finite"):
+        compute((np.full((8, 3), np.nan), cube()[1]))
