@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces are read as those of a solid, whichever way they were drawn: random flips, whole parts, doubled faces, soups."""
+"""Faces are read as those of a solid, whichever way they look: random flips, whole parts, doubled faces, soups."""
 
 import numpy as np
 import pytest

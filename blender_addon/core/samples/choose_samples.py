@@ -129,6 +129,8 @@ def _choose(request: Request) -> ChosenSamples:
 
 def _whichever_is_dense(request: Request) -> ChosenSamples:
     """Choose the vertices if they are dense enough and enclose a volume, or if samples would be no denser."""
+    if request.gaps and _by_open_faces(request):
+        return _samples_of_faces(request, "the mesh is open, and samples close its openings")
     try:
         chosen = _vertices(request, "dense enough", 0.2)
     except DegenerateInputError:  # the faces may span a volume all the same
@@ -159,7 +161,7 @@ def _whichever_is_dense(request: Request) -> ChosenSamples:
 def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
     """Choose the vertices of the shape; their analysis is a `share` of the remaining work."""
     shape = request.shape
-    sides = resolve_sides(request.settings.sides, shape.triangles, request.gaps, shape.normals)
+    sides = _sides_of_vertices(request)
     used = used_by_sides(sides.source, shape.triangles, shape.normals)
     edges = (shape.triangles, sharp_angle_of(shape, request.settings), shape.sharp_edges)
     divided = edges if sides.source is SidesFrom.SURFACE else None
@@ -170,6 +172,23 @@ def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
     samples, sides = _judged(request, samples), decided(sides, samples.analysis)
     reason = _vertices_reason(request, why)
     return ChosenSamples(samples, SamplingMode.VERTICES, reason, sides, request.gaps)
+
+
+def _by_open_faces(request: Request) -> bool:
+    """Whether open faces decide what is inside, unless they are a sheet: no other source was chosen or given."""
+    shape, wanted = request.shape, request.settings.sides
+    given = shape.normals is not None and bool(shape.normals.any())
+    return wanted is SidesFrom.AUTOMATIC and request.gaps > 0 and not given
+
+
+def _sides_of_vertices(request: Request) -> Sides:
+    shape, settings = request.shape, request.settings
+    if len(shape.triangles) and _by_open_faces(request):
+        spacing = first_pass(shape, settings).spacing
+        sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, spacing)
+        if sides.source is SidesFrom.SURFACE:
+            return sides
+    return resolve_sides(settings.sides, shape.triangles, request.gaps, shape.normals)
 
 
 def _vertices_reason(request: Request, why: str) -> str:
