@@ -80,11 +80,6 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
             f"all {axis.zero_area:,} facets that pass the conditions are points or lines, as in an "
             "exact ball; choose Form Clean to see them"
         )
-    if closed and settings.side is Side.INNER and shape.volume < 0:
-        return (
-            "no facet lies inside because the faces point inward; recalculate their normals "
-            "(Mesh > Normals > Recalculate Outside) and compute again"
-        )
     if settings.sides is SidesFrom.TIGHT_COCONE and settings.side is Side.INNER:
         return (
             "no facet lies inside the surface that Tight Cocone closed; the axis of an open scan "
