@@ -66,8 +66,8 @@ MUTATIONS = (
     ),
     _bug(
         "samples/choose_samples.py",
-        'names = ("sharp_angle", "smooth", "keep_vertices", "seed")',
-        'names = ("sharp_angle", "smooth", "keep_vertices")',
+        'for name in ("smooth", "keep_vertices", "seed")}',
+        'for name in ("smooth", "keep_vertices")}',
         "the seed does not reach the sampling",
         "test_cache.py",
     ),

@@ -35,12 +35,12 @@ GERMAN_TAB = (13, 270)
 SAMPLING, SKELETON, THICKNESS = (185, 206), (150, 258), (150, 284)
 RESULT, REBUILD = (
     (150, 283),
-    (150, 387),
+    (150, 413),
 )  # where there is a result; the second, when the first is closed
 REPORT = (102, 419)
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 384), (102, 410)
 MEASURE_THICKNESS = (102, 432)
-REBUILD_SOLID = (102, 417)
+REBUILD_SOLID = (102, 443)
 
 
 # --- hands and eyes
