@@ -60,6 +60,7 @@ BETTI = "ma_betti"  # pieces, loops and cavities; only of clean forms and curves
 TOPOLOGY = "ma_topology"  # the same in a sentence
 PLACES = "ma_places"  # a sentence: where balls end; only of clean forms and curves
 REFUSED = "ma_refused"  # vertices at which no ball fits the faces
+TURNED = "ma_turned"  # triangles of the source that looked inward and were read the other way round
 # The whole axis, its own master.
 ALL = Look(within=0.0)
 # The values of options that earlier versions did not have.
@@ -101,6 +102,7 @@ def write_result(
     show_wires(result, axis)
     result[BOX] = box
     _remember(result, source, computation)
+    result[TURNED] = computation.turned
     _remember_shown(result, computation.axis, axis, settings, look)
     return result
 

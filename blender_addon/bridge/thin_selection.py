@@ -51,12 +51,12 @@ def select_thin(thing: bpy.types.Object, near: tuple[float, ...] | None = None) 
         Only those that are connected to the thin face next to this place, in the object's own frame; where no face
         is thin, that face alone which is next to it.
     """
-    with _in_object_mode(thing):
+    with in_object_mode(thing):
         mesh = thing.data
         wanted = _thin(mesh)
         if near is not None:
             wanted = _connected(mesh, wanted, np.array(near))
-        _set_selection(mesh, wanted)
+        set_selection(mesh, wanted)
         mesh.update()
     return int(np.count_nonzero(wanted))
 
@@ -86,7 +86,7 @@ def _connected(
     return wanted
 
 
-def _set_selection(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
+def set_selection(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
     """Faces, and the edges and vertices that they have, so that any select mode shows the same."""
     starts, sizes = read_spans(mesh)
     of_corner = np.empty(len(mesh.loops), bool)
@@ -104,7 +104,7 @@ def _set_selection(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
 
 
 @contextmanager
-def _in_object_mode(thing: bpy.types.Object) -> Iterator[None]:
+def in_object_mode(thing: bpy.types.Object) -> Iterator[None]:
     """Edit mode is left meanwhile, for there Blender shows no attributes; faces are what is selected in it."""
     editing = thing.mode == "EDIT"
     if editing:

@@ -13,6 +13,7 @@ from ..core.axis.verdict import Light
 from ..core.samples.density import percent
 from . import manual
 from .guide import WHY
+from .inward_faces import draw_inward_faces
 from .legend import draw_legend, light
 from .properties import copy_settings, needs_analysis
 from .show import shows_colours
@@ -90,6 +91,7 @@ def draw_details(context, layout, result):
             draw_wrapped(context, layout, sentence, "INFO")
     for warning in result.get(output_object.WARNINGS, "").splitlines():
         draw_wrapped(context, layout, warning, "ERROR")
+    draw_inward_faces(layout, result)
 
 
 def draw_report_details(context, layout, report):

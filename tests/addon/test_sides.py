@@ -63,7 +63,11 @@ def open_oriented():
     ("make", "sides", "sentence"),
     [
         (ellipsoid, "SURFACE", "Inside from Surface: the faces are closed"),
-        (opened, "TIGHT_COCONE", "Inside from Tight Cocone: the mesh is open at {} edges"),
+        (
+            opened,
+            "SURFACE",
+            "Inside from Surface: the winding number of the faces, for the mesh is open at {} edges",
+        ),
         (
             scan,
             "TIGHT_COCONE",

@@ -12,6 +12,7 @@ from ..machine.cache import CACHE
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
+from ..samples.outward_faces import reading_counts
 from ..samples.shape import Shape
 from ..settings import Form, Settings
 from .axis_warnings import axis_warnings
@@ -48,6 +49,8 @@ class Computation(OfChosenSamples):
         A sentence about the numbers of pieces, loops and cavities of the axis, and whether the faces agree. For an
         axis as published it is empty, or explains why the axis has no other form.
     seconds : float
+    turned : int
+        The number of faces that looked inward and were read the other way round.
     """
 
     axis: MedialAxis
@@ -56,6 +59,7 @@ class Computation(OfChosenSamples):
     warnings: tuple[str, ...]
     topology: str
     seconds: float
+    turned: int = 0
 
     @property
     def sides(self) -> Sides:
@@ -131,6 +135,7 @@ def compute_axis(
         warnings=tuple(axis_warnings(shape, settings, chosen, axis)),
         topology=topology_sentence(axis, wanted, chosen.samples),
         seconds=begun.seconds,
+        turned=reading_counts(shape)["turned"],
     )
 
 

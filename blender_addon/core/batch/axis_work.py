@@ -85,4 +85,5 @@ class AxisWork:
             "density": str(found.density),
             "missed": found.missed,
             "inside": str(found.sides),
+            "turned_faces": found.turned,
         }
