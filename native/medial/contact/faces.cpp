@@ -14,27 +14,6 @@ constexpr int32_t kLeafOfTree = 4;
 // A patch that bulges by less than this share of its size is flat: only rounding bent it.
 constexpr double kFlat = 1e-12;
 
-int corner_of(const Triangle& t, int32_t vertex) {
-  return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
-}
-
-std::vector<Edge> edges_of_points(std::span<const Edge> rows, const FacesInput& input,
-                                  const TriangleMesh& mesh) {
-  std::vector<int32_t> point(input.vertices.size(), -1);
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      point[input.triangles[mesh.source[i]][k]] = mesh.triangles[i][k];
-    }
-  }
-  std::vector<Edge> edges;
-  for (const auto& [p, q] : rows) {
-    if (point[p] >= 0 && point[q] >= 0 && point[p] != point[q]) {
-      edges.push_back({point[p], point[q]});
-    }
-  }
-  return edges;
-}
-
 float rounded_up(double value) { return std::nextafter(static_cast<float>(value), HUGE_VALF); }
 
 }  // namespace
@@ -42,7 +21,8 @@ float rounded_up(double value) { return std::nextafter(static_cast<float>(value)
 Faces::Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run)
     : mesh_(make_mesh(vertices, input.triangles, run)),
       creases_(find_creases(mesh_, input.sharp_angle,
-                            edges_of_points(input.sharp_edges, input, mesh_), false, run)),
+                            marked_edges(vertices, input.sharp_edges, mesh_, input.triangles),
+                            false, run)),
       triangle_of_(input.triangles.size(), -1) {
   surface_.emplace(mesh_, creases_, input.smooth, run);
   for (size_t t = 0; t < mesh_.source.size(); ++t) {
@@ -139,7 +119,7 @@ Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
   const Triangle& t = mesh_.triangles[triangle];
   const Vec3 &p = mesh_.points[t[0]], &q = mesh_.points[t[1]], &r = mesh_.points[t[2]];
   Foot foot{triangle, closest_on_flat(p, q, r, from), {}, 0};
-  if (is_curved(triangle)) return foot_on_patch(triangle, foot.at, from);
+  if (is_curved(triangle)) return foot_on_patch(surface_->patch(triangle), triangle, foot.at, from);
   foot.point = p + foot.at.b * (q - p) + foot.at.c * (r - p);
   // The height over the plane has a smaller error than the difference of two places.
   const bool inside = foot.at.a > 0 && foot.at.b > 0 && foot.at.c > 0;
@@ -149,8 +129,8 @@ Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
   return foot;
 }
 
-Foot Faces::foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3& from) const {
-  const Patch patch = surface_->patch(triangle);
+Foot Faces::foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
+                          const Vec3& from) {
   const Barycentric at = closest_on_patch(patch, start, from);
   const Vec3 point = patch.point(at);
   return {triangle, at, point, medial::distance(from, point)};
@@ -158,7 +138,8 @@ Foot Faces::foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3
 
 Foot Faces::descend_again(const Foot& before, const Vec3& from) const {
   if (!is_curved(before.triangle)) return descend(before.triangle, from);
-  return descend(foot_on_patch(before.triangle, before.at, from), from);
+  const Patch patch = surface_->patch(before.triangle);
+  return descend(foot_on_patch(patch, before.triangle, before.at, from), from);
 }
 
 Foot Faces::descend(Foot foot, const Vec3& from) const {
@@ -197,31 +178,22 @@ Foot Faces::best_neighbour(const Foot& foot, const Vec3& from) const {
 }
 
 std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {
-  std::optional<Foot> best;
-  double within = than;
-  visit_nearest(
-      nodes_, 0, [&](const Node& node) { return medial::squared_distance(node.box, from); },
-      [&] { return within * within; },
-      [&](const Node& leaf) {
-        for (int32_t i = leaf.begin; i < leaf.end; ++i) {
-          const int32_t t = order_[i];
-          const Triangle& c = mesh_.triangles[t];
-          if (is_curved(t)) {
-            const Vec3 &p = mesh_.points[c[0]], &q = mesh_.points[c[1]], &r = mesh_.points[c[2]];
-            const Barycentric at = closest_on_flat(p, q, r, from);
-            const Vec3 away = from - (p + at.b * (q - p) + at.c * (r - p));
-            if (length(away) - bulge_[t] >= within) continue;
-            if (surface_->patch(t).least_distance(from, normalized(away)) >= within) continue;
-          }
-          const Foot foot = foot_on(t, from);
-          const bool first = best && foot.distance == within && foot.triangle < best->triangle;
-          if (foot.distance < within || first) {
-            best = foot;
-            within = foot.distance;
-          }
-        }
-      });
-  return best;
+  return nearest_place<Foot>(
+      nodes_, order_, than, [&](const Node& node) { return squared_distance(node.box, from); },
+      [&](int32_t triangle, double within) { return foot_within(triangle, from, within); });
+}
+
+// Returns the foot on a triangle, or nothing if it is certain that none is nearer than a distance.
+std::optional<Foot> Faces::foot_within(int32_t triangle, const Vec3& from, double within) const {
+  if (!is_curved(triangle)) return foot_on(triangle, from);
+  const Triangle& t = mesh_.triangles[triangle];
+  const Vec3 &p = mesh_.points[t[0]], &q = mesh_.points[t[1]], &r = mesh_.points[t[2]];
+  const Barycentric at = closest_on_flat(p, q, r, from);
+  const Vec3 away = from - (p + at.b * (q - p) + at.c * (r - p));
+  if (length(away) - bulge_[triangle] >= within) return {};
+  const Patch patch = surface_->patch(triangle);
+  if (patch.least_distance(from, normalized(away)) >= within) return {};
+  return foot_on_patch(patch, triangle, at, from);
 }
 
 }  // namespace medial

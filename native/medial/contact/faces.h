@@ -70,7 +70,9 @@ class Faces {
   uint8_t separation(const MeshEdge& edge) const;
   Foot descend(Foot foot, const Vec3& from) const;
   Foot best_neighbour(const Foot& foot, const Vec3& from) const;
-  Foot foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3& from) const;
+  std::optional<Foot> foot_within(int32_t triangle, const Vec3& from, double within) const;
+  static Foot foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
+                            const Vec3& from);
 
   TriangleMesh mesh_;
   Creases creases_;

@@ -11,10 +11,6 @@ namespace {
 // Sides closer than about 6 degrees do not determine the direction of their edge.
 constexpr double kParallel = 0.1;
 
-int corner_of(const Triangle& t, int32_t vertex) {
-  return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
-}
-
 // Returns a third of the chord, made tangent to both sides. Its length is not kept; neither is it
 // with one side.
 Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
@@ -28,6 +24,12 @@ Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
 }
 
 }  // namespace
+
+Barycentric place_on_edge(const Triangle& t, const Edge& ends, double share) {
+  std::array<double, 3> at{};
+  for (int i = 0; i < 3; ++i) at[i] = t[i] == ends[0] ? 1 - share : t[i] == ends[1] ? share : 0;
+  return {at[0], at[1], at[2]};
+}
 
 // The control point in the middle is a quarter of the handles minus a sixth of the corners.
 Patch::Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles)

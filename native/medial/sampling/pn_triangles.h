@@ -11,6 +11,10 @@ struct Barycentric {
   double a, b, c;
 };
 
+// Returns the place on the edge of a triangle between two of its corners, a share of the way from
+// the first one.
+Barycentric place_on_edge(const Triangle& t, const Edge& ends, double share);
+
 // Holds a point of a patch, and its first and second derivatives by the coordinates b and c, where
 // a is 1 - b - c.
 struct PatchExpansion {
