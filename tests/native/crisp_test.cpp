@@ -13,6 +13,7 @@
 #include "base/thread.h"
 #include "contact/closest_place.h"
 #include "contact/convex_creases.h"
+#include "contact/least_distance.h"
 #include "contact/touching_ball.h"
 #include "shapes.h"
 #include "skeleton/level.h"
@@ -46,7 +47,7 @@ TEST(Patch, ExpansionHasTheDerivativesOfThePoint) {
   const Patch patch = bent_patch();
   const Barycentric at{0.5, 0.3, 0.2};
   const double step = 1e-4;
-  const PatchExpansion e = patch.expansion(at);
+  const PatchExpansion e = patch.polynomial({}).expansion(at.b, at.c);
   const auto point = [&](double b, double c) { return patch.point({1 - b - c, b, c}); };
   const auto near = [](const Vec3& a, const Vec3& b) { return distance(a, b) < 1e-6; };
   EXPECT_TRUE(near(e.point, point(0.3, 0.2)));
@@ -60,6 +61,40 @@ TEST(Patch, ExpansionHasTheDerivativesOfThePoint) {
       (0.25 * square) * (point(0.3 + step, 0.2 + step) - point(0.3 + step, 0.2 - step) -
                          point(0.3 - step, 0.2 + step) + point(0.3 - step, 0.2 - step));
   EXPECT_TRUE(near(e.bc, mixed));
+}
+
+TEST(Patch, IsNowhereNearerThanItsLeastDistance) {
+  const Patch patch = bent_patch();
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 x{4 * unit(random) - 2, 4 * unit(random) - 2, 4 * unit(random) - 2};
+    double best = HUGE_VAL;
+    for (int i = 0; i <= 30; ++i) {
+      for (int j = 0; i + j <= 30; ++j) {
+        const Vec3 at = patch.point({1 - (i + j) / 30.0, i / 30.0, j / 30.0});
+        best = std::min(best, squared_length(at - x));
+      }
+    }
+    EXPECT_LE(least_squared_distance(patch, x), best + 1e-14) << trial;
+    EXPECT_GE(least_squared_distance(patch, x), best - 0.15) << trial;
+  }
+}
+
+TEST(OrientedBox, HoldsItsPointsAndFitsThem) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const Vec3 normal = normalized({1, 2, 3}), along = across(normal)[0];
+  std::vector<Vec3> points;
+  for (int i = 0; i < 50; ++i) {
+    points.push_back((5 + 2 * unit(random)) * along + unit(random) * cross(normal, along));
+  }
+  const OrientedBox box = oriented_box(2 * normal, points);
+  for (const Vec3& p : points) EXPECT_LT(squared_distance(box, p), 1e-28);
+  EXPECT_LT(box.half[0], 1e-14);
+  EXPECT_LT(box.half[1], 1.2);
+  EXPECT_NEAR(squared_distance(box, box.centre + 3 * normal), 9, 1e-12);
+  EXPECT_GT(dot(box.longest_axis(), box.longest_axis()), 0.99);
 }
 
 TEST(ClosestPlace, OfAPatchIsNearerThanAnyOtherPlace) {

@@ -281,6 +281,8 @@ TEST(PointTree, FindsWhatALookAtAllFinds) {
       const auto least = std::min_element(far.begin(), far.end());
       EXPECT_EQ(tree.nearest(query).id, least - far.begin());
       EXPECT_DOUBLE_EQ(tree.nearest(query).distance, *least);
+      EXPECT_TRUE(tree.has_within(query, 1.001 * *least));
+      EXPECT_FALSE(tree.has_within(query, 0.999 * *least));
       std::sort(far.begin(), far.end());
       EXPECT_DOUBLE_EQ(tree.reach(query, 5), far[std::min(4, count - 1)]);
     }

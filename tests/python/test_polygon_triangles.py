@@ -139,16 +139,51 @@ def test_repeated_corners_and_spikes_leave_the_region_as_it_is():
     assert areas.min() >= 0 and areas.sum() == pytest.approx(10.0)
 
 
+@pytest.mark.parametrize("start", range(6))
+def test_a_dent_beside_a_repeated_corner(start):
+    """The third corner lies on the last side; where the list of corners begins makes no difference."""
+    outline = np.roll([(0, 0), (0, 0), (3, 1), (12, -2), (15, 1), (9, 3)], start, axis=0)
+    points = flat(outline)
+    assert np.abs(signed_areas(points, cut(points))).sum() == abs(area_of(points, np.arange(6)))
+
+
+@pytest.mark.parametrize(
+    "outline",
+    [
+        [(0, 0), (2, 0), (0, 0), (1, 1)],
+        [(0, 0), (2, 0), (1, 0), (1, 1)],
+        [(1, 1), (0, 0), (2, 0), (1, 0)],
+        [(0, 0), (0, 0), (2, 0), (1, 1)],
+        [(0, 0), (1, 0), (2, 0), (1, 1)],
+        [(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)],
+        [(0, 0), (8, 0), (4, 0), (6, 0), (8, 8), (2, 0), (0, 8)],
+    ],
+    ids=[
+        "two spikes of a quad",
+        "spike of a quad",
+        "another corner first",
+        "repeated",
+        "straight",
+        "touching",
+        "folded side",
+    ],
+)
+@pytest.mark.parametrize("start", range(4))
+def test_polygons_that_touch_themselves_have_no_more_than_their_area(outline, start):
+    points = flat(np.roll(outline, start, axis=0))
+    areas, whole = signed_areas(points, cut(points)), area_of(points, np.arange(len(points)))
+    assert np.abs(areas).sum() == abs(whole)
+
+
 @pytest.mark.parametrize(
     "outline",
     [
         [(0, 0), (2, 2), (2, 0), (0, 2), (-1, 1)],
         [(0, 0)] * 6,
         [(i, i) for i in range(7)],
-        [(0, 0), (4, 0), (4, 4), (2, 0), (0, 4)],
         [(0, 0), (1e308, 0), (-1e308, 1), (0, 2), (-1, 1)],
     ],
-    ids=["crossing", "one place", "one line", "touching", "too large"],
+    ids=["crossing", "one place", "one line", "too large"],
 )
 def test_what_bounds_no_region_still_has_its_boundary(outline):
     cut(flat(outline))
@@ -210,6 +245,58 @@ def test_fuzzed_simple_polygons(seed):
     areas = signed_areas(points, cut(points))
     assert areas.min() > 0
     assert areas.sum() == pytest.approx(area_of(points, np.arange(len(points))))
+
+
+STEP = 32
+
+
+def degenerate(random):
+    """(n, 2) whole numbers: an outline that was repeatedly given another corner without any area.
+
+    Such a corner repeats its neighbour, lies on a side, or is the tip of a spike: one that leads out of a corner, lies
+    in the side before it, or goes beyond the end of that side. The outlines are wide enough for all of them.
+    """
+    ring = [STEP * np.array(p) for p in OUTLINES[random.choice(["L", "M", "straight", "spiral"])]]
+    ring = np.roll(ring, random.integers(len(ring)), axis=0)[:: random.choice([1, -1])]
+    for _ in range(random.integers(1, 9)):
+        i = int(random.integers(len(ring)))
+        here, after = ring[i], ring[(i + 1) % len(ring)]
+        share = random.integers(1, 4)
+        between = here + share * ((after - here) // 4)
+        beyond = after + np.sign(after - here) * ((abs(after - here) > 0).sum() == 1)
+        tips = [
+            [here],
+            [between] if ((after - here) % 4 == 0).all() else [here],
+            [here + random.integers(-1, 2, 2), here],
+            [between, here] if ((after - here) % 4 == 0).all() else [here],
+            [beyond],
+        ]
+        ring = np.insert(ring, i + 1, tips[random.integers(len(tips))], axis=0)
+    return np.roll(ring, random.integers(len(ring)), axis=0).astype(float)
+
+
+@pytest.mark.parametrize("seed", repeats(20))
+def test_fuzzed_polygons_without_crossings_have_no_more_than_their_area(seed):
+    random = np.random.default_rng([seed, 17])
+    for _ in range(50):
+        points = flat(degenerate(random))
+        areas, whole = signed_areas(points, cut(points)), area_of(points, np.arange(len(points)))
+        assert np.abs(areas).sum() == abs(whole), points[:, :2].tolist()
+
+
+@pytest.mark.parametrize("seed", repeats(20))
+def test_rounding_of_turned_polygons_adds_no_area(seed):
+    """Corners without area lie off their sides by rounding, so that the polygon crosses itself by as little."""
+    random = np.random.default_rng([seed, 18])
+    for _ in range(50):
+        outline = flat(degenerate(random))
+        whole = abs(area_of(outline, np.arange(len(outline))))
+        points = outline @ np.linalg.qr(random.normal(size=(3, 3)))[0] + random.normal(size=3)
+        ring = np.arange(len(points), dtype=np.int32)
+        triangles = polygon_triangles(points, np.array([0, len(ring)], np.int32), ring)
+        a, b, c = (points[triangles[:, i]] for i in range(3))
+        area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+        assert area == pytest.approx(whole, rel=1e-9), outline[:, :2].tolist()
 
 
 def test_an_obj_cylinder_with_caps_of_many_corners(tmp_path):

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "base/vec3.h"
@@ -46,21 +48,50 @@ int32_t split_in_middle(std::vector<Item>& items, int32_t begin, int32_t end, co
   return middle;
 }
 
-// Visits leaves, the nearer child first, except where `bound`, a lower bound of the distance to the
-// items of a node, is above `best()`, the least distance so far.
+// Visits the leaves under a node, the nearer child first, except where `bound`, a lower bound of
+// the distance to the items of a node, is above `best()`, the least distance so far.
 template <typename Node, typename Bound, typename Best, typename Visit>
 void visit_nearest(const std::vector<Node>& nodes, int32_t id, const Bound& bound, const Best& best,
                    const Visit& visit) {
   const Node& node = nodes[id];
-  if (bound(node) > best()) return;
   if (node.is_leaf()) {
     visit(node);
     return;
   }
   int32_t near = id + 1, far = node.right;
-  if (bound(nodes[far]) < bound(nodes[near])) std::swap(near, far);
-  visit_nearest(nodes, near, bound, best, visit);
-  visit_nearest(nodes, far, bound, best, visit);
+  double to_near = bound(nodes[near]), to_far = bound(nodes[far]);
+  if (to_far < to_near) {
+    std::swap(near, far);
+    std::swap(to_near, to_far);
+  }
+  if (!(to_near > best())) visit_nearest(nodes, near, bound, best, visit);
+  if (!(to_far > best())) visit_nearest(nodes, far, bound, best, visit);
+}
+
+// Returns the nearest place of the items of a tree if it is nearer than a distance; of equally near
+// ones that of the lowest item. `bound` returns a lower bound of the squared distance to the items
+// of a node, `place_on` the place on an item, or nothing if it cannot be nearer than a distance.
+template <typename Place, typename Node, typename Bound, typename PlaceOn>
+std::optional<Place> nearest_place(const std::vector<Node>& nodes, std::span<const int32_t> items,
+                                   double than, const Bound& bound, const PlaceOn& place_on) {
+  std::optional<Place> best;
+  int32_t best_item = -1;
+  double within = than;
+  const auto visit = [&](const Node& leaf) {
+    for (int32_t i = leaf.begin; i < leaf.end; ++i) {
+      const std::optional<Place> place = place_on(items[i], within);
+      if (!place) continue;
+      const bool first = best && place->distance == within && items[i] < best_item;
+      if (!(place->distance < within || first)) continue;
+      best = place;
+      best_item = items[i];
+      within = place->distance;
+    }
+  };
+  if (nodes.empty()) return best;
+  visit_nearest(
+      nodes, 0, bound, [&] { return within * within; }, visit);
+  return best;
 }
 
 }  // namespace medial

@@ -15,6 +15,15 @@ struct NearestOne {
   void meet(const Neighbour& point) { best = std::min(best, point); }
 };
 
+// Ends at the first point that is near enough.
+struct AnyWithin {
+  double squared;
+  bool found = false;
+
+  double bound() const { return found ? -1 : squared; }
+  void meet(const Neighbour& point) { found |= point.distance <= squared; }
+};
+
 struct NearestFew {
   size_t count;
   std::vector<Neighbour>& heap;  // by squared distances, the farthest first
@@ -106,6 +115,12 @@ Neighbour PointTree::nearest(const Vec3& query, double within) const {
   // The known distance may be wrong in its last bits.
   if (one.best.id == size()) return nearest(query);
   return {std::sqrt(one.best.distance), one.best.id};
+}
+
+bool PointTree::has_within(const Vec3& query, double distance) const {
+  AnyWithin any{distance * distance};
+  search(query, any);
+  return any.found;
 }
 
 double PointTree::reach(const Vec3& query, size_t count) const {

@@ -40,6 +40,8 @@ class PointTree {
   Neighbour nearest(const Vec3& query) const;
   // Does the same, but faster, if some point is known to lie within this distance.
   Neighbour nearest(const Vec3& query, double within) const;
+  // Returns whether a point lies within a distance.
+  bool has_within(const Vec3& query, double distance) const;
   // Returns the distance that holds the `count` nearest points, those at the query included, or all
   // points if there are fewer.
   double reach(const Vec3& query, size_t count) const;

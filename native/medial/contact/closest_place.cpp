@@ -5,13 +5,14 @@ namespace medial {
 namespace {
 
 constexpr int kPatchSteps = 24;
-constexpr double kPatchPrecision = 1e-9;  // in barycentric coordinates; squared in the distance
+// In barycentric coordinates: a step this short leaves an error of about its square, which is
+// squared again in the distance.
+constexpr double kLastStep = 1e-5;
+constexpr double kNoStep = 1e-9;
 constexpr int kMostHalvings = 8;
 
 struct Parameters {
   double b = 0, c = 0;
-
-  Barycentric barycentric() const { return {1 - b - c, b, c}; }
 };
 
 // The value and the derivatives of half the squared distance.
@@ -19,14 +20,13 @@ struct Expansion {
   double value = 0, b = 0, c = 0, bb = 0, bc = 0, cc = 0;
 };
 
-Expansion expand(const PatchExpansion& s, const Vec3& x) {
-  const Vec3 away = s.point - x;
-  return {0.5 * squared_length(away),
-          dot(away, s.b),
-          dot(away, s.c),
-          squared_length(s.b) + dot(away, s.bb),
-          dot(s.b, s.c) + dot(away, s.bc),
-          squared_length(s.c) + dot(away, s.cc)};
+Expansion expand(const PatchExpansion& s) {
+  return {0.5 * squared_length(s.point),
+          dot(s.point, s.b),
+          dot(s.point, s.c),
+          squared_length(s.b) + dot(s.point, s.bb),
+          dot(s.b, s.c) + dot(s.point, s.bc),
+          squared_length(s.c) + dot(s.point, s.cc)};
 }
 
 // The directions along the sides of the triangle of parameters, where a, b or c is 0.
@@ -101,7 +101,9 @@ std::pair<double, int> room(const Parameters& at, const Parameters& step, const 
 class Walk {
  public:
   Walk(const Patch& patch, const Barycentric& start, const Vec3& x)
-      : patch_(patch), x_(x), at_{start.b, start.c}, on_{start.a <= 0, start.b <= 0, start.c <= 0} {
+      : patch_(patch.polynomial(x)),
+        at_{start.b, start.c},
+        on_{start.a <= 0, start.b <= 0, start.c <= 0} {
     settle();
     here_ = expansion(at_);
   }
@@ -113,9 +115,7 @@ class Walk {
   }
 
  private:
-  Expansion expansion(const Parameters& at) const {
-    return expand(patch_.expansion(at.barycentric()), x_);
-  }
+  Expansion expansion(const Parameters& at) const { return expand(patch_.expansion(at.b, at.c)); }
 
   // Puts the place exactly on the sides that it is on.
   void settle() {
@@ -126,20 +126,31 @@ class Walk {
     if (on_[0] && !on_[1] && !on_[2]) at_.c = 1 - at_.b;
   }
 
+  // Goes a step, which ends on the side `stop`, or on none if that is -1.
+  void go(const Parameters& step, int stop) {
+    at_ = {at_.b + step.b, at_.c + step.c};
+    for (int side = 0; side < 3; ++side) {
+      on_[side] = (on_[side] && !(change(step, side) > 0)) || side == stop;
+    }
+    settle();
+  }
+
   bool step() {
     const Parameters step = allowed_step(here_, on_);
-    if (std::abs(step.b) + std::abs(step.c) < kPatchPrecision) return false;
+    const double length = std::abs(step.b) + std::abs(step.c);
+    if (length < kNoStep) return false;
     const auto [share, stop] = room(at_, step, on_);
+    if (length < kLastStep && stop < 0) {
+      go(step, -1);
+      return false;
+    }
     const OnSides before_on = on_;
     const Parameters before = at_;
     double scale = share;
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings, scale *= 0.5) {
-      at_ = {before.b + scale * step.b, before.c + scale * step.c};
-      for (int side = 0; side < 3; ++side) {
-        on_[side] =
-            (before_on[side] && !(change(step, side) > 0)) || (halvings == 0 && side == stop);
-      }
-      settle();
+      at_ = before;
+      on_ = before_on;
+      go({scale * step.b, scale * step.c}, halvings == 0 ? stop : -1);
       const Expansion next = expansion(at_);
       if (next.value <= here_.value) {
         here_ = next;
@@ -151,8 +162,7 @@ class Walk {
     return false;
   }
 
-  const Patch& patch_;
-  Vec3 x_;
+  PatchPolynomial patch_;  // relative to the point
   Parameters at_;
   OnSides on_;
   Expansion here_;

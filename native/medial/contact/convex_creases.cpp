@@ -15,12 +15,6 @@ constexpr double kLeastPatch = 100;  // squares of the spacing
 constexpr int kCreaseSteps = 16;
 constexpr double kCreasePrecision = 1e-12;  // as a share of the edge
 
-Barycentric along(const Triangle& t, const Edge& ends, double share) {
-  std::array<double, 3> at{};
-  for (int i = 0; i < 3; ++i) at[i] = t[i] == ends[0] ? 1 - share : t[i] == ends[1] ? share : 0;
-  return {at[0], at[1], at[2]};
-}
-
 double area_of(const TriangleMesh& mesh, int32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   return 0.5 * length(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
@@ -69,7 +63,8 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
     Box around = {};
     for (const int32_t t : edges[e].triangles) {
       for (int i = 0; i <= 3; ++i) {
-        around.add(faces.point(t, along(faces.mesh().triangles[t], edges[e].ends, i / 3.0)));
+        around.add(
+            faces.point(t, place_on_edge(faces.mesh().triangles[t], edges[e].ends, i / 3.0)));
       }
     }
     return around;
@@ -141,7 +136,9 @@ PlaceOnCrease ConvexCreases::place_on(int32_t edge, const Vec3& from) const {
   const MeshEdge& e = faces_.creases().edges[edge];
   const int32_t t = e.triangles[0];
   const Triangle& corners = faces_.mesh().triangles[t];
-  const auto point = [&](double share) { return faces_.point(t, along(corners, e.ends, share)); };
+  const auto point = [&](double share) {
+    return faces_.point(t, place_on_edge(corners, e.ends, share));
+  };
   const Vec3 first = faces_.mesh().points[e.ends[0]],
              chord = faces_.mesh().points[e.ends[1]] - first;
   const double squared = squared_length(chord);
@@ -157,23 +154,9 @@ PlaceOnCrease ConvexCreases::place_on(int32_t edge, const Vec3& from) const {
 }
 
 std::optional<PlaceOnCrease> ConvexCreases::nearer(const Vec3& from, double than) const {
-  std::optional<PlaceOnCrease> best;
-  if (segments_.empty()) return best;
-  double within = than;
-  visit_nearest(
-      nodes_, 0, [&](const Node& node) { return medial::squared_distance(node.box, from); },
-      [&] { return within * within; },
-      [&](const Node& leaf) {
-        for (int32_t i = leaf.begin; i < leaf.end; ++i) {
-          const PlaceOnCrease place = place_on(segments_[i], from);
-          const bool first = best && place.distance == within && place.edge < best->edge;
-          if (place.distance < within || first) {
-            best = place;
-            within = place.distance;
-          }
-        }
-      });
-  return best;
+  return nearest_place<PlaceOnCrease>(
+      nodes_, segments_, than, [&](const Node& node) { return squared_distance(node.box, from); },
+      [&](int32_t edge, double) { return std::optional(place_on(edge, from)); });
 }
 
 }  // namespace medial

@@ -5,35 +5,16 @@
 
 #include "base/union_find.h"
 #include "contact/closest_place.h"
+#include "contact/least_distance.h"
 
 namespace medial {
 namespace {
 
 constexpr int kMostWalked = 1 << 12;  // triangles of one walk
-constexpr int32_t kLeafOfTree = 4;
+constexpr int32_t kLeafOfTree = 1;
+constexpr size_t kFew = 8;  // triangles whose box holds their control points
 // A patch that bulges by less than this share of its size is flat: only rounding bent it.
 constexpr double kFlat = 1e-12;
-
-int corner_of(const Triangle& t, int32_t vertex) {
-  return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
-}
-
-std::vector<Edge> edges_of_points(std::span<const Edge> rows, const FacesInput& input,
-                                  const TriangleMesh& mesh) {
-  std::vector<int32_t> point(input.vertices.size(), -1);
-  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      point[input.triangles[mesh.source[i]][k]] = mesh.triangles[i][k];
-    }
-  }
-  std::vector<Edge> edges;
-  for (const auto& [p, q] : rows) {
-    if (point[p] >= 0 && point[q] >= 0 && point[p] != point[q]) {
-      edges.push_back({point[p], point[q]});
-    }
-  }
-  return edges;
-}
 
 float rounded_up(double value) { return std::nextafter(static_cast<float>(value), HUGE_VALF); }
 
@@ -42,7 +23,8 @@ float rounded_up(double value) { return std::nextafter(static_cast<float>(value)
 Faces::Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run)
     : mesh_(make_mesh(vertices, input.triangles, run)),
       creases_(find_creases(mesh_, input.sharp_angle,
-                            edges_of_points(input.sharp_edges, input, mesh_), false, run)),
+                            marked_edges(vertices, input.sharp_edges, mesh_, input.triangles),
+                            false, run)),
       triangle_of_(input.triangles.size(), -1) {
   surface_.emplace(mesh_, creases_, input.smooth, run);
   for (size_t t = 0; t < mesh_.source.size(); ++t) {
@@ -113,22 +95,43 @@ void Faces::find_fans() {
 void Faces::build_tree_of_faces() {
   order_.resize(mesh_.triangles.size());
   std::iota(order_.begin(), order_.end(), 0);
-  std::vector<Box> boxes;
-  boxes.reserve(order_.size());
-  for (const int32_t t : order_) boxes.push_back(surface_->patch(t).box());
+  std::vector<Vec3> controls;
   const auto describe = [&](Node& node) {
-    for (int32_t i = node.begin; i < node.end; ++i) {
-      node.box.add(boxes[order_[i]].low);
-      node.box.add(boxes[order_[i]].high);
-    }
+    node.box = box_round({order_.data() + node.begin, order_.data() + node.end}, controls);
   };
   const auto split = [&](const Node& node) {
-    const int axis = longest_axis(node.box.extent());
-    return split_in_middle(order_, node.begin, node.end, [&, axis](int32_t t) {
-      return std::pair(coordinate(boxes[t].low, axis) + coordinate(boxes[t].high, axis), t);
-    });
+    const auto key = [&, axis = node.box.longest_axis()](int32_t t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      return std::pair(dot(axis, mesh_.points[a] + mesh_.points[b] + mesh_.points[c]), t);
+    };
+    return split_in_middle(order_, node.begin, node.end, key);
   };
   build_tree(nodes_, 0, static_cast<int32_t>(order_.size()), kLeafOfTree, describe, split);
+}
+
+// Returns a box that lies flat on some triangles. It holds the control points of a few, and the
+// corners of many with room for the largest bulge. The memory of `controls` is used again.
+OrientedBox Faces::box_round(std::span<const int32_t> triangles,
+                             std::vector<Vec3>& controls) const {
+  const bool few = triangles.size() <= kFew;
+  Vec3 normal;
+  double bulge = 0;
+  controls.clear();
+  for (const int32_t t : triangles) {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const Vec3 &p = mesh_.points[a], &q = mesh_.points[b], &r = mesh_.points[c];
+    normal = normal + cross(q - p, r - p);
+    if (few) {
+      const Patch patch = surface_->patch(t);
+      controls.insert(controls.end(), patch.controls().begin(), patch.controls().end());
+    } else {
+      controls.insert(controls.end(), {p, q, r});
+      if (is_curved(t)) bulge = std::max<double>(bulge, bulge_[t]);
+    }
+  }
+  OrientedBox box = oriented_box(normal, controls);
+  for (double& half : box.half) half += bulge;
+  return box;
 }
 
 Vec3 Faces::point(int32_t triangle, const Barycentric& at) const {
@@ -139,7 +142,7 @@ Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
   const Triangle& t = mesh_.triangles[triangle];
   const Vec3 &p = mesh_.points[t[0]], &q = mesh_.points[t[1]], &r = mesh_.points[t[2]];
   Foot foot{triangle, closest_on_flat(p, q, r, from), {}, 0};
-  if (is_curved(triangle)) return foot_on_patch(triangle, foot.at, from);
+  if (is_curved(triangle)) return foot_on_patch(surface_->patch(triangle), triangle, foot.at, from);
   foot.point = p + foot.at.b * (q - p) + foot.at.c * (r - p);
   // The height over the plane has a smaller error than the difference of two places.
   const bool inside = foot.at.a > 0 && foot.at.b > 0 && foot.at.c > 0;
@@ -149,8 +152,8 @@ Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
   return foot;
 }
 
-Foot Faces::foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3& from) const {
-  const Patch patch = surface_->patch(triangle);
+Foot Faces::foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
+                          const Vec3& from) {
   const Barycentric at = closest_on_patch(patch, start, from);
   const Vec3 point = patch.point(at);
   return {triangle, at, point, medial::distance(from, point)};
@@ -158,7 +161,8 @@ Foot Faces::foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3
 
 Foot Faces::descend_again(const Foot& before, const Vec3& from) const {
   if (!is_curved(before.triangle)) return descend(before.triangle, from);
-  return descend(foot_on_patch(before.triangle, before.at, from), from);
+  const Patch patch = surface_->patch(before.triangle);
+  return descend(foot_on_patch(patch, before.triangle, before.at, from), from);
 }
 
 Foot Faces::descend(Foot foot, const Vec3& from) const {
@@ -197,31 +201,20 @@ Foot Faces::best_neighbour(const Foot& foot, const Vec3& from) const {
 }
 
 std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {
-  std::optional<Foot> best;
-  double within = than;
-  visit_nearest(
-      nodes_, 0, [&](const Node& node) { return medial::squared_distance(node.box, from); },
-      [&] { return within * within; },
-      [&](const Node& leaf) {
-        for (int32_t i = leaf.begin; i < leaf.end; ++i) {
-          const int32_t t = order_[i];
-          const Triangle& c = mesh_.triangles[t];
-          if (is_curved(t)) {
-            const Vec3 &p = mesh_.points[c[0]], &q = mesh_.points[c[1]], &r = mesh_.points[c[2]];
-            const Barycentric at = closest_on_flat(p, q, r, from);
-            const Vec3 away = from - (p + at.b * (q - p) + at.c * (r - p));
-            if (length(away) - bulge_[t] >= within) continue;
-            if (surface_->patch(t).least_distance(from, normalized(away)) >= within) continue;
-          }
-          const Foot foot = foot_on(t, from);
-          const bool first = best && foot.distance == within && foot.triangle < best->triangle;
-          if (foot.distance < within || first) {
-            best = foot;
-            within = foot.distance;
-          }
-        }
-      });
-  return best;
+  return nearest_place<Foot>(
+      nodes_, order_, than,
+      [&](const Node& node) { return medial::squared_distance(node.box, from); },
+      [&](int32_t triangle, double within) { return foot_within(triangle, from, within); });
+}
+
+// Returns the foot on a triangle, or nothing if it is certain that none is nearer than a distance.
+std::optional<Foot> Faces::foot_within(int32_t triangle, const Vec3& from, double within) const {
+  if (!is_curved(triangle)) return foot_on(triangle, from);
+  const Patch patch = surface_->patch(triangle);
+  if (least_squared_distance(patch, from) >= within * within) return {};
+  const auto corners = patch.controls();
+  return foot_on_patch(patch, triangle, closest_on_flat(corners[0], corners[1], corners[2], from),
+                       from);
 }
 
 }  // namespace medial

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/box_tree.h"
+#include "base/oriented_box.h"
 #include "sampling/pn_triangles.h"
 
 namespace medial {
@@ -61,16 +62,19 @@ class Faces {
   static constexpr uint8_t kConvex = 2;
 
   struct Node : TreeNode {
-    Box box;
+    OrientedBox box;
   };
 
   void find_edges();
   void find_fans();
   void build_tree_of_faces();
+  OrientedBox box_round(std::span<const int32_t> triangles, std::vector<Vec3>& controls) const;
   uint8_t separation(const MeshEdge& edge) const;
   Foot descend(Foot foot, const Vec3& from) const;
   Foot best_neighbour(const Foot& foot, const Vec3& from) const;
-  Foot foot_on_patch(int32_t triangle, const Barycentric& start, const Vec3& from) const;
+  std::optional<Foot> foot_within(int32_t triangle, const Vec3& from, double within) const;
+  static Foot foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
+                            const Vec3& from);
 
   TriangleMesh mesh_;
   Creases creases_;

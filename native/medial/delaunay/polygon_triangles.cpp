@@ -36,6 +36,11 @@ using Plane = CGAL::Constrained_Delaunay_triangulation_2<
 
 using Ring = std::vector<int32_t>;  // places of corners in the polygon
 
+// More corners would take too long, because the time grows with their cube.
+constexpr size_t kMostForLeastArea = 64;
+// The weight of a squared length relative to an area: above rounding, and below all that counts.
+constexpr double kShortDiagonals = 1e-13;
+
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
@@ -135,7 +140,7 @@ Ring without_spikes(const Places& places, std::vector<Triangle>& cut) {
   while (ring.size() - first > 3) {
     if (same(ring.back(), ring[first]) || same(ring[ring.size() - 2], ring[first])) {
       cut_last(ring[first]);
-    } else if (same(ring.back(), ring[first + 1])) {
+    } else if (same(ring[first], ring[first + 1]) || same(ring.back(), ring[first + 1])) {
       cut.push_back({ring.back(), ring[first], ring[first + 1]});
       ++first;
     } else {
@@ -302,18 +307,83 @@ void cut_every_other_corner(Ring ring, std::vector<Triangle>& cut) {
   }
 }
 
-bool is_convex_at_first_diagonal(std::span<const Vec3> corners) {
+double doubled_area(const Point2& p, const Point2& q, const Point2& r) {
+  return std::abs((q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x()));
+}
+
+double squared(const Point2& p, const Point2& q) {
+  return (q.x() - p.x()) * (q.x() - p.x()) + (q.y() - p.y()) * (q.y() - p.y());
+}
+
+// Cuts a ring such that the areas of all triangles have the least sum. If the ring bounds a region,
+// though it touches itself or crosses itself by rounding, this sum is the area of the region. Of
+// equal sums the one with short diagonals is taken.
+class LeastArea {
+ public:
+  LeastArea(std::span<const Point2> points, const Ring& ring)
+      : points_(points), ring_(ring), size_(static_cast<int32_t>(ring.size())) {
+    best_.resize(ring.size() * ring.size());
+    for (int32_t length = 2; length < size_; ++length) {
+      for (int32_t i = 0; i + length < size_; ++i) best_at(i, i + length) = best(i, i + length);
+    }
+  }
+
+  void cut(std::vector<Triangle>& triangles) const { cut(0, size_ - 1, triangles); }
+
+ private:
+  struct Best {
+    double cost = 0;
+    int32_t tip = -1;
+  };
+
+  Best& best_at(int32_t i, int32_t j) { return best_[static_cast<size_t>(i) * ring_.size() + j]; }
+  const Best& best_at(int32_t i, int32_t j) const {
+    return best_[static_cast<size_t>(i) * ring_.size() + j];
+  }
+
+  // Returns how the part of the ring between two of its corners is cut best.
+  Best best(int32_t i, int32_t j) const {
+    const Point2 &p = points_[ring_[i]], &q = points_[ring_[j]];
+    Best found{HUGE_VAL};
+    for (int32_t tip = i + 1; tip < j; ++tip) {
+      const double cost =
+          best_at(i, tip).cost + best_at(tip, j).cost + doubled_area(p, points_[ring_[tip]], q);
+      if (cost < found.cost) found = {cost, tip};
+    }
+    found.cost += kShortDiagonals * squared(p, q);
+    return found;
+  }
+
+  void cut(int32_t i, int32_t j, std::vector<Triangle>& triangles) const {
+    if (j - i < 2) return;
+    const int32_t tip = best_at(i, j).tip;
+    triangles.push_back({ring_[i], ring_[tip], ring_[j]});
+    cut(i, tip, triangles);
+    cut(tip, j, triangles);
+  }
+
+  std::span<const Point2> points_;
+  const Ring& ring_;
+  int32_t size_;
+  std::vector<Best> best_;  // per first corner and last corner of a part
+};
+
+// Returns whether a quad is cut from its first corner to its third. Where it is not convex there,
+// it is cut the other way, if that way has less area; rounding must not decide this.
+bool is_cut_at_first_diagonal(std::span<const Vec3> corners) {
   int exponent = 0;
   const auto p = around_origin(corners, exponent);
-  return dot(cross(p[1], p[2]), cross(p[3], p[2])) < 0;
+  const Vec3 a = cross(p[1], p[2]), b = cross(p[3], p[2]);
+  if (!(dot(a, b) > 0)) return true;
+  return length(a) + length(b) <=
+         length(cross(p[1], p[3])) + length(cross(p[1] - p[2], p[3] - p[2]));
 }
 
 // Returns triangles of places in the polygon.
 std::vector<Triangle> triangles_of(std::span<const Vec3> corners) {
   if (corners.size() == 3) return {{0, 1, 2}};
   if (corners.size() == 4) {
-    if (has_an_extent(corners) && is_convex_at_first_diagonal(corners))
-      return {{0, 1, 2}, {0, 2, 3}};
+    if (has_an_extent(corners) && is_cut_at_first_diagonal(corners)) return {{0, 1, 2}, {0, 2, 3}};
     return {{0, 1, 3}, {1, 2, 3}};
   }
   std::vector<Triangle> cut;
@@ -328,6 +398,8 @@ std::vector<Triangle> triangles_of(std::span<const Vec3> corners) {
   const Ring ring = without_spikes(places, cut);
   if (const auto inside = region(corners, points, ring, places)) {
     cut.insert(cut.end(), inside->begin(), inside->end());
+  } else if (ring.size() <= kMostForLeastArea) {
+    LeastArea(points, ring).cut(cut);
   } else {
     cut_every_other_corner(ring, cut);
   }

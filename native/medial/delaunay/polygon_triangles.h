@@ -17,8 +17,9 @@ namespace medial {
 // A triangle stays. A quad is cut from its first corner to its third, as in Blender, or, if it is
 // not convex there, from its second to its fourth. A larger polygon gets its constrained Delaunay
 // triangulation in the projection along the axis nearest to its normal; it may touch itself, as
-// where a bridge joins a hole to its rim. A polygon that crosses itself bounds no region: every
-// other corner of it is cut off, repeatedly.
+// where a bridge joins a hole to its rim. If corners lie on other sides, or the polygon crosses
+// itself, the sum of all areas is made as small as possible, up to 64 corners; beyond, every other
+// corner is cut off, repeatedly.
 //
 // Throws InvalidInputError for invalid polygons, and for corners whose coordinates are not finite.
 std::vector<Triangle> polygon_triangles(std::span<const Vec3> points,

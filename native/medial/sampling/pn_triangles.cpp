@@ -11,10 +11,6 @@ namespace {
 // Sides closer than about 6 degrees do not determine the direction of their edge.
 constexpr double kParallel = 0.1;
 
-int corner_of(const Triangle& t, int32_t vertex) {
-  return t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
-}
-
 // Returns a third of the chord, made tangent to both sides. Its length is not kept; neither is it
 // with one side.
 Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
@@ -29,82 +25,73 @@ Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
 
 }  // namespace
 
+Barycentric place_on_edge(const Triangle& t, const Edge& ends, double share) {
+  std::array<double, 3> at{};
+  for (int i = 0; i < 3; ++i) at[i] = t[i] == ends[0] ? 1 - share : t[i] == ends[1] ? share : 0;
+  return {at[0], at[1], at[2]};
+}
+
 // The control point in the middle is a quarter of the handles minus a sixth of the corners.
 Patch::Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles)
-    : corners_{p, q, r}, flat_(false), handles_(handles), centre_((-1.0 / 6) * (p + q + r)) {
-  for (const Vec3& handle : handles) centre_ = centre_ + 0.25 * handle;
+    : controls_{p, q, r}, flat_(false) {
+  Vec3 centre = (-1.0 / 6) * (p + q + r);
+  for (const Vec3& handle : handles) centre = centre + 0.25 * handle;
+  std::copy(handles.begin(), handles.end(), controls_.begin() + 3);
+  controls_[9] = centre;
 }
 
 Vec3 Patch::point(const Barycentric& at) const {
-  const auto& [p, q, r] = corners_;
+  const auto& [p, q, r, pq, qp, qr, rq, rp, pr, centre] = controls_;
   const auto& [a, b, c] = at;
   if (flat_) return p + b * (q - p) + c * (r - p);
-  const auto& [pq, qp, qr, rq, rp, pr] = handles_;
   const Vec3 corners = a * a * a * p + b * b * b * q + c * c * c * r;
   const Vec3 edges =
       a * b * (a * pq + b * qp) + b * c * (b * qr + c * rq) + c * a * (c * rp + a * pr);
-  return corners + 3 * edges + 6 * a * b * c * centre_;
+  return corners + 3 * edges + 6 * a * b * c * centre;
 }
 
-// The second derivatives of a cubic in Bernstein form are linear in its second differences, its
-// first ones quadratic.
-PatchExpansion Patch::expansion(const Barycentric& at) const {
-  const auto& [p, q, r] = corners_;
-  const double a = at.a, b = at.b, c = at.c;
-  if (flat_) return {p + b * (q - p) + c * (r - p), q - p, r - p, {}, {}, {}};
-  const auto& [pq, qp, qr, rq, rp, pr] = handles_;
-  // the quadratic patches of the differences towards q and towards r, named by their corners
-  const auto quadratic = [&](const Vec3& aa, const Vec3& ab, const Vec3& ac, const Vec3& bb,
-                             const Vec3& bc, const Vec3& cc) {
-    return a * a * aa + b * b * bb + c * c * cc + 2 * (a * b * ab + a * c * ac + b * c * bc);
-  };
-  const auto linear = [&](const Vec3& x, const Vec3& y, const Vec3& z) {
-    return 6 * (a * x + b * y + c * z);
-  };
-  const std::array<Vec3, 6> to_q{pq - p, qp - pq, centre_ - pr, q - qp, qr - centre_, rq - rp};
-  const std::array<Vec3, 6> to_r{pr - p, centre_ - pq, rp - pr, qr - qp, rq - centre_, r - rp};
-  return {point(at),
-          3 * quadratic(to_q[0], to_q[1], to_q[2], to_q[3], to_q[4], to_q[5]),
-          3 * quadratic(to_r[0], to_r[1], to_r[2], to_r[3], to_r[4], to_r[5]),
-          linear(to_q[1] - to_q[0], to_q[3] - to_q[1], to_q[4] - to_q[2]),
-          linear(to_q[2] - to_q[0], to_q[4] - to_q[1], to_q[5] - to_q[2]),
-          linear(to_r[2] - to_r[0], to_r[4] - to_r[1], to_r[5] - to_r[2])};
+// The coefficients are differences of the control points towards q and towards r.
+PatchPolynomial Patch::polynomial(const Vec3& origin) const {
+  const auto& [p, q, r, pq, qp, qr, rq, rp, pr, centre] = controls_;
+  if (flat_) return PatchPolynomial({p - origin, q - p, r - p});
+  const Vec3 b = pq - p, c = pr - p, bb = qp - pq - b, bc = centre - pq - c, cc = rp - pr - c;
+  return PatchPolynomial({p - origin, 3 * b, 3 * c, 3 * bb, 6 * bc, 3 * cc,
+                          (q - qp) - (qp - pq) - bb, 3 * ((qr - centre) - (qp - pq) - bc),
+                          3 * ((rq - centre) - (rp - pr) - bc), (r - rp) - (rp - pr) - cc});
+}
+
+PatchExpansion PatchPolynomial::expansion(double b, double c) const {
+  const auto& [one, kb, kc, kbb, kbc, kcc, kbbb, kbbc, kbcc, kccc] = of_;
+  const Vec3 bbb = b * kbbb, bbc = b * kbbc, bcc = c * kbcc, ccc = c * kccc;
+  const Vec3 bb = kbb + bbb + c * kbbc, cc = kcc + ccc + b * kbcc;
+  return {one + b * (kb + b * bb) + c * (kc + c * cc) + b * c * kbc,
+          kb + b * (2 * bb + bbb) + c * (kbc + bcc),
+          kc + c * (2 * cc + ccc) + b * (kbc + bbc),
+          2 * (bb + 2 * bbb),
+          kbc + 2 * (bbc + bcc),
+          2 * (cc + 2 * ccc)};
 }
 
 // A patch is a mean of its control points, its flat triangle the same mean of those of a flat one.
 double Patch::bulge() const {
   if (flat_) return 0;
-  const auto& [p, q, r] = corners_;
-  const std::array<Vec3, 6> flat{(1.0 / 3) * (2 * p + q), (1.0 / 3) * (p + 2 * q),
-                                 (1.0 / 3) * (2 * q + r), (1.0 / 3) * (q + 2 * r),
-                                 (1.0 / 3) * (2 * r + p), (1.0 / 3) * (r + 2 * p)};
-  double most = distance(centre_, (1.0 / 3) * (p + q + r));
-  for (size_t i = 0; i < flat.size(); ++i) {
-    // the handles are pq, qp, qr, rq, rp, pr
-    most = std::max(most, distance(handles_[i], flat[i]));
-  }
-  return most;
-}
-
-// The control points hold the patch between them.
-double Patch::least_distance(const Vec3& from, const Vec3& direction) const {
-  double least = HUGE_VAL;
-  const auto take = [&](const Vec3& control) {
-    least = std::min(least, dot(from - control, direction));
+  const auto& [p, q, r, pq, qp, qr, rq, rp, pr, centre] = controls_;
+  double most = distance(centre, (1.0 / 3) * (p + q + r));
+  const auto take = [&](const Vec3& handle, const Vec3& near, const Vec3& far) {
+    most = std::max(most, distance(handle, (1.0 / 3) * (2 * near + far)));
   };
-  for (const Vec3& corner : corners_) take(corner);
-  if (flat_) return least;
-  for (const Vec3& handle : handles_) take(handle);
-  take(centre_);
-  return least;
+  take(pq, p, q);
+  take(qp, q, p);
+  take(qr, q, r);
+  take(rq, r, q);
+  take(rp, r, p);
+  take(pr, p, r);
+  return most;
 }
 
 Box Patch::box() const {
   Box box;
-  for (const Vec3& corner : corners_) box.add(corner);
-  if (flat_) return box;
-  for (const Vec3& handle : handles_) box.add(handle);
-  box.add(centre_);
+  for (const Vec3& control : controls()) box.add(control);
   return box;
 }
 

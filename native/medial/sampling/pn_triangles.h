@@ -3,6 +3,8 @@
 // Mitchell 2001), which are cubic patches through the vertices with their normals.
 #pragma once
 
+#include <span>
+
 #include "sampling/creases.h"
 
 namespace medial {
@@ -11,35 +13,51 @@ struct Barycentric {
   double a, b, c;
 };
 
+// Returns the place on the edge of a triangle between two of its corners, a share of the way from
+// the first one.
+Barycentric place_on_edge(const Triangle& t, const Edge& ends, double share);
+
 // Holds a point of a patch, and its first and second derivatives by the coordinates b and c, where
 // a is 1 - b - c.
 struct PatchExpansion {
   Vec3 point, b, c, bb, bc, cc;
 };
 
+// A patch as a polynomial in b and c, which is fast to evaluate.
+class PatchPolynomial {
+ public:
+  // The coefficients of 1, b, c, bb, bc, cc, bbb, bbc, bcc, ccc.
+  using Coefficients = std::array<Vec3, 10>;
+
+  explicit PatchPolynomial(const Coefficients& of) : of_(of) {}
+  PatchExpansion expansion(double b, double c) const;
+
+ private:
+  Coefficients of_;
+};
+
 // A patch is a flat or cubic triangle.
 class Patch {
  public:
-  Patch(const Vec3& p, const Vec3& q, const Vec3& r) : corners_{p, q, r} {}
+  Patch(const Vec3& p, const Vec3& q, const Vec3& r) : controls_{p, q, r} {}
   // The handles are the inner control points of the edges: pq, qp, qr, rq, rp, pr, named by the
   // nearer corner first.
   Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles);
 
   Vec3 point(const Barycentric& at) const;
-  PatchExpansion expansion(const Barycentric& at) const;
+  // Returns the patch relative to an origin.
+  PatchPolynomial polynomial(const Vec3& origin) const;
+  // Returns the control points, which hold the patch between them: the corners, and of a cubic
+  // patch the handles and the one in the middle.
+  std::span<const Vec3> controls() const { return {controls_.data(), flat_ ? size_t{3} : 10}; }
   // Returns how far the patch is at most from its flat triangle.
   double bulge() const;
-  // Returns a lower bound of the distance from a point to the patch: how far the patch is from it
-  // at least along a unit direction from the patch to the point.
-  double least_distance(const Vec3& from, const Vec3& direction) const;
   // Returns a box that holds the patch.
   Box box() const;
 
  private:
-  std::array<Vec3, 3> corners_;
+  std::array<Vec3, 10> controls_;  // the corners, the handles, and the one in the middle
   bool flat_ = true;
-  std::array<Vec3, 6> handles_;
-  Vec3 centre_;
 };
 
 class CurvedSurface {

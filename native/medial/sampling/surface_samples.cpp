@@ -72,20 +72,13 @@ Model::Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles
   }
 }
 
-// Returns the barycentric coordinates of a place on the edge between two corners of a triangle.
-Barycentric along(const Triangle& t, int32_t from, int32_t to, double share) {
-  std::array<double, 3> at{};
-  for (int i = 0; i < 3; ++i) at[i] = t[i] == from ? 1 - share : t[i] == to ? share : 0;
-  return {at[0], at[1], at[2]};
-}
-
 // Returns the mean normal of the triangles at an edge.
 Vec3 edge_normal(const Model& model, const MeshEdge& edge, double share) {
   Vec3 sum;
   for (const int32_t t : model.mesh.fans[edge.ends[0]]) {
     const Triangle& corners = model.mesh.triangles[t];
     if (std::find(corners.begin(), corners.end(), edge.ends[1]) == corners.end()) continue;
-    sum = sum + model.surface->normal(t, along(corners, edge.ends[0], edge.ends[1], share));
+    sum = sum + model.surface->normal(t, place_on_edge(corners, edge.ends, share));
   }
   return normalized(sum);
 }
@@ -99,7 +92,7 @@ FixedSample at_vertex(const Model& model, int32_t p, const Spacing& spacing) {
                                                            : SampleKind::boundary;
   return {kind,
           t,
-          along(model.mesh.triangles[t], p, -1, 0),
+          place_on_edge(model.mesh.triangles[t], {p, -1}, 0),
           model.mesh.points[p],
           normalized(model.mesh.normal_sum(p)),
           kDisk * spacing(model.mesh.points[p])};
@@ -108,7 +101,7 @@ FixedSample at_vertex(const Model& model, int32_t p, const Spacing& spacing) {
 FixedSample on_edge(const Model& model, const MeshEdge& edge, double share,
                     const Spacing& spacing) {
   const int32_t t = edge.triangles[0];
-  const Barycentric at = along(model.mesh.triangles[t], edge.ends[0], edge.ends[1], share);
+  const Barycentric at = place_on_edge(model.mesh.triangles[t], edge.ends, share);
   const Vec3 point = model.surface->point(t, at);
   const auto kind = edge.crease == Crease::sharp ? SampleKind::sharp : SampleKind::boundary;
   return {kind, t, at, point, edge_normal(model, edge, share), kDisk * spacing(point)};
@@ -142,8 +135,8 @@ Polyline measured(const Model& model, std::span<const ChainLink> chain, const Sp
     for (int i = 0; i <= steps; ++i) {
       const double walked = static_cast<double>(i) / steps;
       const double share = link.reversed ? 1 - walked : walked;
-      const Vec3 here = model.surface->point(edge.triangles[0],
-                                             along(corners, edge.ends[0], edge.ends[1], share));
+      const Vec3 here =
+          model.surface->point(edge.triangles[0], place_on_edge(corners, edge.ends, share));
       if (i > 0) passed += distance(before, here) / spacing(0.5 * before + 0.5 * here);
       line.knots.push_back({link.edge, share, passed});
       before = here;
@@ -212,7 +205,7 @@ std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, do
   const MeshEdge& edge = model.creases.edges[place.edge];
   if (edge.crease != Crease::sharp || !edge.manifold) return {};
   const Barycentric middle =
-      along(model.mesh.triangles[edge.triangles[0]], edge.ends[0], edge.ends[1], place.share);
+      place_on_edge(model.mesh.triangles[edge.triangles[0]], edge.ends, place.share);
   const double away = spacings * spacing(model.surface->point(edge.triangles[0], middle));
   const auto on_side = [&](int32_t triangle) -> std::optional<FixedSample> {
     const auto found = walk_from_edge(model.mesh, model.creases, edge, triangle, place.share, away);
