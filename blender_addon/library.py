@@ -56,7 +56,7 @@ from .core.settings import (
 from .core.solid import ball_cover, reconstruction
 from .core.solid.ball_cover import BallCover, Balls
 from .core.solid.reconstruction import Reconstruction
-from .core.solid.reduce import reduce_axis, reducible
+from .core.solid.reduce import reduce_axis
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -201,12 +201,12 @@ def cover_by_balls(
 def reduce(
     found: MedialAxis | Computation, vertices: int, *, progress: Progress | None = None
 ) -> MedialAxis:
-    """A small medial mesh: the same solid with few vertices, as triangles and edges of the same topology.
+    """A small medial mesh: the same solid with few vertices, as polygons and edges of the same topology.
 
     Parameters
     ----------
     found : MedialAxis or Computation
-        Of the inside. Of a computation the axis without crisp places is reduced, which gives better solids.
+        Of the inside.
     vertices : int
         That are wanted at most. Where nothing more can go without changing the topology, more stay.
     progress : Progress, optional
@@ -214,15 +214,14 @@ def reduce(
     Returns
     -------
     axis : MedialAxis
-        Its facets are triangles without samples of their own: `generators` are -1, `theta` and `rho` infinite.
+        Its facets are triangles, and polygons where a crisp sheet is flat. They have no samples of their own:
+        `generators` are -1, `theta` and `rho` infinite.
 
     Raises
     ------
     NativeModuleError, InvalidInputError, OutOfMemoryError, Cancelled
     """
-    if not isinstance(found, Computation):
-        return reduce_axis(found, vertices, progress)
-    whole = axis.extract_axis(found, reducible(found.settings))
+    whole = found.axis if isinstance(found, Computation) else found
     return reduce_axis(whole, vertices, progress)
 
 

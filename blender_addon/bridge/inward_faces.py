@@ -10,8 +10,8 @@ import numpy as np
 
 from ..core.samples.outward_faces import TURNED, outward_shape
 from ..core.samples.shape import Shape
-from .mesh_arrays import read_loop_triangles, read_positions
-from .thin_selection import in_object_mode, set_selection
+from .mesh_arrays import read_loop_triangles, read_positions, select_faces
+from .thin_selection import in_object_mode
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,8 +27,7 @@ def select_inward(thing: bpy.types.Object) -> int:
     """
     with in_object_mode(thing):
         wanted = inward_polygons(thing.data)
-        set_selection(thing.data, wanted)
-        thing.data.update()
+        select_faces(thing.data, wanted)
     return int(np.count_nonzero(wanted))
 
 

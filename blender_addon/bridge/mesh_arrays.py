@@ -81,3 +81,23 @@ def _read_unsigned(
     values = np.empty(each * len(elements), np.uint32)
     elements.foreach_get(name, values)
     return values.view(np.int32)
+
+
+def select_faces(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
+    """Select the faces that (m,) bool marks and nothing else, with their edges and vertices.
+
+    So every select mode shows the same.
+    """
+    starts, sizes = read_spans(mesh)
+    of_corner = np.zeros(len(mesh.loops), bool)
+    for start, size in zip(starts[wanted].tolist(), sizes[wanted].tolist(), strict=True):
+        of_corner[start : start + size] = True
+    for elements, at in (
+        (mesh.vertices, read_corners(mesh)),
+        (mesh.edges, read_corner_edges(mesh)),
+    ):
+        flags = np.zeros(len(elements), bool)
+        flags[at[of_corner]] = True
+        elements.foreach_set("select", flags)
+    mesh.polygons.foreach_set("select", wanted)
+    mesh.update()

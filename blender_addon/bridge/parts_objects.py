@@ -13,7 +13,7 @@ from .. import __version__
 from ..core.axis.turning import with_facets_turned
 from ..core.errors import InvalidInputError
 from .attributes import PART, RADIUS, Attribute
-from .mesh_arrays import read_corner_edges, read_corners, read_spans
+from .mesh_arrays import select_faces
 from .output_object import SOURCE, VERSION, is_gone
 from .read_axis import read_axis
 from .write_mesh import new_mesh
@@ -54,7 +54,7 @@ def select_part(thing: bpy.types.Object, number: int, extend: bool) -> int:
         selected = np.empty(len(mesh.polygons), bool)
         mesh.polygons.foreach_get("select", selected)
         wanted |= selected
-    _select(mesh, wanted)
+    select_faces(mesh, wanted)
     return int(np.count_nonzero(_parts(mesh) == number))
 
 
@@ -64,23 +64,6 @@ def _parts(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
     if found is not None and (found.domain, found.data_type) == ("FACE", "INT"):
         found.data.foreach_get("value", part)
     return part
-
-
-def _select(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
-    """Select faces and what they consist of, so that every select mode shows the same."""
-    starts, sizes = read_spans(mesh)
-    of_corner = np.zeros(len(mesh.loops), bool)
-    for start, size in zip(starts[wanted].tolist(), sizes[wanted].tolist(), strict=True):
-        of_corner[start : start + size] = True
-    for elements, at in (
-        (mesh.vertices, read_corners(mesh)),
-        (mesh.edges, read_corner_edges(mesh)),
-    ):
-        flags = np.zeros(len(elements), bool)
-        flags[at[of_corner]] = True
-        elements.foreach_set("select", flags)
-    mesh.polygons.foreach_set("select", wanted)
-    mesh.update()
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..core.machine.native import own_errors
 from .attributes import read_vectors
-from .mesh_arrays import read_corner_edges, read_corners, read_loop_triangles, read_spans
+from .mesh_arrays import read_loop_triangles, select_faces
 from .thickness_object import LEAST, MINIMUM, PLACES, THIN
 
 if TYPE_CHECKING:
@@ -56,8 +56,7 @@ def select_thin(thing: bpy.types.Object, near: tuple[float, ...] | None = None) 
         wanted = _thin(mesh)
         if near is not None:
             wanted = _connected(mesh, wanted, np.array(near))
-        set_selection(mesh, wanted)
-        mesh.update()
+        select_faces(mesh, wanted)
     return int(np.count_nonzero(wanted))
 
 
@@ -84,23 +83,6 @@ def _connected(
             patches = module.patches(triangles, thin[polygons], len(mesh.vertices))
         wanted[polygons[patches == patches[np.flatnonzero(polygons == start)[0]]]] = True
     return wanted
-
-
-def set_selection(mesh: bpy.types.Mesh, wanted: NDArray[np.bool_]) -> None:
-    """Faces, and the edges and vertices that they have, so that any select mode shows the same."""
-    starts, sizes = read_spans(mesh)
-    of_corner = np.empty(len(mesh.loops), bool)
-    of_corner[:] = False
-    for start, size in zip(starts[wanted].tolist(), sizes[wanted].tolist(), strict=True):
-        of_corner[start : start + size] = True
-    for elements, at in (
-        (mesh.vertices, read_corners(mesh)),
-        (mesh.edges, read_corner_edges(mesh)),
-    ):
-        flags = np.zeros(len(elements), bool)
-        flags[at[of_corner]] = True
-        elements.foreach_set("select", flags)
-    mesh.polygons.foreach_set("select", wanted)
 
 
 @contextmanager

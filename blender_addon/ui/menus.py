@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Entries in Blender's menus; being there is also what lets F3 find an operator."""
 
-import bpy
-
 from ..core.settings import THICKNESS_OPTIONS
+from .object_menus import object_menus
 from .properties import copy_settings
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
 
@@ -25,15 +24,11 @@ def _compute(self, context):
         copy_all(context, self.layout.operator(operator, icon=icon))
 
 
-def _menus():
-    return (bpy.types.VIEW3D_MT_object, bpy.types.VIEW3D_MT_object_context_menu)
-
-
 def register():
-    for menu in _menus():
+    for menu in object_menus():
         menu.append(_compute)
 
 
 def unregister():
-    for menu in _menus():
+    for menu in object_menus():
         menu.remove(_compute)

@@ -9,6 +9,7 @@ from ..bridge.output_object import is_gone
 from ..bridge.parts_objects import part_of_active_face, select_part, separate_parts
 from ..bridge.structure_object import counts_on
 from ..core.errors import MedialAxisError
+from .object_menus import register_with_entry, unregister_with_entry
 from .tab import Closed, settings_column
 from .translation import say
 
@@ -127,19 +128,9 @@ def _menu(self, _context):
     self.layout.operator("object.medial_axis_separate_parts", icon="OUTLINER_COLLECTION")
 
 
-def _menus():
-    return (bpy.types.VIEW3D_MT_object, bpy.types.VIEW3D_MT_object_context_menu)
-
-
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    for menu in _menus():
-        menu.append(_menu)
+    register_with_entry(CLASSES, _menu)
 
 
 def unregister():
-    for menu in _menus():
-        menu.remove(_menu)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    unregister_with_entry(CLASSES, _menu)

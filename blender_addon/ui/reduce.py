@@ -17,6 +17,7 @@ from ..core.solid.reduce import reduce_axis, reduced_difference
 from ..core.solid.solid_difference import PointDifference
 from . import current_job
 from .compute_operator import ComputeOperator
+from .object_menus import register_with_entry, unregister_with_entry
 from .translation import say
 
 
@@ -49,7 +50,7 @@ class OBJECT_OT_medial_axis_reduce(ComputeOperator, bpy.types.Operator):
     bl_idname = "object.medial_axis_reduce"
     bl_label = "Reduce to Few Vertices"
     bl_description = (
-        "Make a small medial mesh of the medial axis: triangles and edges between few balls, "
+        "Make a small medial mesh of the medial axis: faces and edges between few balls, "
         "with the same topology and nearly the same solid"
     )
     bl_options = {"REGISTER", "UNDO"}
@@ -91,7 +92,7 @@ class OBJECT_OT_medial_axis_reduce(ComputeOperator, bpy.types.Operator):
 
     def summary(self, found):
         axis, away = found.axis, found.difference
-        known = f"{len(axis.vertices):,} vertices, {axis.facets:,} triangles, edges alone {len(axis.edges):,}"
+        known = f"{len(axis.vertices):,} vertices, {axis.facets:,} faces, edges alone {len(axis.edges):,}"
         if away is None:
             return known
         return (
@@ -123,19 +124,9 @@ def _menu(self, _context):
 CLASSES = (OBJECT_OT_medial_axis_reduce,)
 
 
-def _menus():
-    return (bpy.types.VIEW3D_MT_object, bpy.types.VIEW3D_MT_object_context_menu)
-
-
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    for menu in _menus():
-        menu.append(_menu)
+    register_with_entry(CLASSES, _menu)
 
 
 def unregister():
-    for menu in _menus():
-        menu.remove(_menu)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    unregister_with_entry(CLASSES, _menu)

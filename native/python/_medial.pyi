@@ -1368,6 +1368,72 @@ def reduce_sphere_mesh(
     InvalidInputError, Cancelled
     """
 
+def reduce_sheets(
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    part: NDArray[np.int32],
+    nodes: NDArray[np.int32],
+    wanted: int,
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> (
+    tuple[
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+    ]
+    | None
+):
+    """The same sheets with fewer spheres: `(vertices, radius, row, face_offsets, face_vertices, part, edges)`.
+
+    Nodes stay. Spheres on the border of a sheet merge along it, those of radius 0 to where one of them was; spheres
+    inside a sheet merge as in `reduce_sphere_mesh`. Those that may move are fitted. What is straight or flat keeps no
+    sphere that changes nothing, however many are wanted. Triangles of a sheet in one plane become polygons, each with
+    one border; a flat sheet with a hole is two of them or more. The homotopy type stays. None if fewer spheres are
+    wanted than there are nodes and bent borders: `reduce_sphere_mesh` makes a better solid of so few.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    radius : (v,) float64
+    triangles : (t, 3) int32
+    edges : (w, 2) int32
+        Those without a triangle; others are passed over.
+    part : (t,) int32
+        The sheet of each triangle.
+    nodes : (n,) int32
+        Rows of vertices.
+    wanted : int
+        Number of spheres.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Returns
+    -------
+    vertices : (w, 3) float64
+    radius : (w,) float64
+    row : (w,) int32
+        The row of the given sphere that it is; -1 where it was moved.
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+    part : (f,) int32
+        The sheet of each polygon, ascending.
+    edges : (e, 2) int32
+        Those on no polygon.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
 def solid_distances(
     queries: NDArray[np.float64],
     vertices: NDArray[np.float64],

@@ -49,6 +49,28 @@ py::tuple reduced(const py::object& vertices, const py::object& radius, const py
       array_of<int32_t>(std::move(result.triangles)), array_of<int32_t>(std::move(result.wires)));
 }
 
+py::object sheets(const py::object& vertices, const py::object& radius, const py::object& triangles,
+                  const py::object& edges, const py::object& part, const py::object& nodes,
+                  int64_t wanted, Progress* progress, int threads) {
+  const SphereMesh mesh = sphere_mesh(vertices, radius, triangles, edges);
+  const SheetLabels labels{column_of<int32_t>(part, "part", "(t,) int32"),
+                           column_of<int32_t>(nodes, "nodes", "(n,) int32")};
+  const auto most = static_cast<int32_t>(std::clamp<int64_t>(wanted, 0, INT_MAX));
+  const ReduceOptions options{most, thread_argument(threads)};
+  std::optional<SheetMesh> found;
+  {
+    const py::gil_scoped_release release;
+    found = reduce_sheets(mesh, labels, options, progress);
+  }
+  if (!found) return py::none();
+  SheetMesh& result = *found;
+  return py::make_tuple(
+      array_of<double>(std::move(result.vertices)), array_of<double>(std::move(result.radius)),
+      array_of<int32_t>(std::move(result.row)), array_of<int32_t>(std::move(result.face_offsets)),
+      array_of<int32_t>(std::move(result.face_vertices)), array_of<int32_t>(std::move(result.part)),
+      array_of<int32_t>(std::move(result.wires)));
+}
+
 py::array distances(const py::object& queries, const py::object& vertices, const py::object& radius,
                     const py::object& triangles, const py::object& edges, Progress* progress,
                     int threads) {
@@ -82,6 +104,9 @@ void bind_reduce(py::module_& m) {
   m.def("reduce_sphere_mesh", &reduced, docs::reduce_sphere_mesh, py::arg("vertices"),
         py::arg("radius"), py::arg("triangles"), py::arg("edges"), py::arg("wanted"), py::kw_only(),
         py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("reduce_sheets", &sheets, docs::reduce_sheets, py::arg("vertices"), py::arg("radius"),
+        py::arg("triangles"), py::arg("edges"), py::arg("part"), py::arg("nodes"),
+        py::arg("wanted"), py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);
   m.def("solid_distances", &distances, docs::solid_distances, py::arg("queries"),
         py::arg("vertices"), py::arg("radius"), py::arg("triangles"), py::arg("edges"),
         py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);

@@ -12,10 +12,12 @@ from scene import (
     compute,
     contents,
     ellipsoid,
+    link,
     positions,
     reports,
     result_of,
     select,
+    triangles_of,
 )
 from test_nodes import evaluated, volume
 
@@ -107,3 +109,28 @@ def test_without_an_axis_it_says_so():
     assert not bpy.ops.object.medial_axis_reduce.poll()
     with pytest.raises(RuntimeError, match="Select a medial axis"):
         bpy.ops.object.medial_axis_reduce()
+
+
+def box():
+    corners = [(x, y, z) for x in (-1, 1) for y in (-0.7, 0.7) for z in (-0.4, 0.4)]
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return link("Box", corners, faces)
+
+
+def faces_of(mesh):
+    return [tuple(polygon.vertices) for polygon in mesh.polygons]
+
+
+def test_a_box_is_thirteen_polygons_as_the_library_makes_them():
+    source = box()
+    compute(form="CLEAN", side="INNER", sampling="SURFACE", samples=3000)
+    made = reduce(source, 100)
+    assert (len(made.data.vertices), len(made.data.polygons)) == (12, 13)
+    assert not made.data.validate(verbose=True)
+    points, triangles = positions(source.data).astype(float), triangles_of(source.data)
+    found = addon("library").compute(points, triangles, sampling="surface", samples=3000)
+    small = addon("library").reduce(found, 100)
+    assert np.array_equal(positions(made.data), small.vertices.astype(np.float32))
+    assert np.array_equal(attribute(made.data, "ma_radius"), small.radius.astype(np.float32))
+    corners = np.split(small.face_vertices, small.face_offsets[1:-1])
+    assert faces_of(made.data) == [tuple(face.tolist()) for face in corners]

@@ -122,7 +122,7 @@ TEST(Reduce, CollapsesTurnNoTriangleOver) {
   const SphereComplex complex(sheet);
   const auto places = tangent_places(sheet, complex, {});
   for (const int32_t wanted : {260, 200, 150, 100, 60}) {
-    const SphereMesh small = collapse_edges(sheet, complex, places, wanted, {}).mesh;
+    const SphereMesh small = collapse_edges(sheet, complex, places, wanted, {})->mesh;
     for (const auto& [a, b, c] : small.triangles) {
       const Vec3 u = small.vertices[b] - small.vertices[a],
                  v = small.vertices[c] - small.vertices[a];

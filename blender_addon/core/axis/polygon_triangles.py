@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The polygons of a surface as triangles without new vertices; files and meshes in Blender give the same triangles."""
+"""Polygons as triangles without new vertices; files and meshes in Blender give the same triangles."""
 
 from __future__ import annotations
 
@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine import native
+from .facet_triangles import triangulate_facets
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from .medial_axis import MedialAxis
 
 
 def polygon_triangles(
@@ -38,3 +41,14 @@ def polygon_triangles(
         return face_vertices.reshape(-1, 3)
     with native.own_errors() as module:
         return np.asarray(module.polygon_triangles(points, face_offsets, face_vertices))
+
+
+def axis_triangles(axis: MedialAxis) -> NDArray[np.int32]:
+    """(c - 2 f, 3) int32 the triangles of facet after facet, each turning as its facet does.
+
+    Polygons of a small medial mesh, which have no generators, need not be convex.
+    """
+    polygons = axis.face_offsets, axis.face_vertices
+    if (axis.generators < 0).any():
+        return polygon_triangles(np.ascontiguousarray(axis.vertices), *polygons)
+    return triangulate_facets(axis.vertices, *polygons)

@@ -17,7 +17,7 @@ from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..samples.shape import Shape
 from ..settings import Settings
-from ..solid.reduce import reduced, reducible
+from ..solid.reduce import reduced
 from .option_words import as_words
 
 
@@ -39,10 +39,7 @@ class AxisWork:
     vertices: int = 0
 
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Computation:
-        settings = self.settings
-        if self.vertices > 0:
-            settings = reducible(settings)
-        found = compute_axis(shape, settings, progress, limit)
+        found = compute_axis(shape, self.settings, progress, limit)
         return reduced(found, self.vertices, progress) if self._reduces(found) else found
 
     def _reduces(self, found: Computation) -> bool:

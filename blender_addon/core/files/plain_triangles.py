@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from ..axis.facet_triangles import triangulate_facets
+from ..axis.polygon_triangles import axis_triangles
 from ..errors import ExportError
 from .rows_of_text import write_rows
 
@@ -113,6 +113,6 @@ def _require_facets(axis: Any) -> None:
 
 def _triangles(axis: Any) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     """Return the triangles, (t, 3), and the facet of each, (t,)."""
-    triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
+    triangles = axis_triangles(axis)
     facets = len(axis.face_offsets) - 1
     return triangles, np.repeat(np.arange(facets), np.diff(axis.face_offsets) - 2)

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import MedialAxis
+from ..axis.polygon_triangles import axis_triangles
 from ..axis.turning import turned_corners
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
@@ -150,7 +150,7 @@ def _write_polygons(
 def _write_ma(axis: MedialAxis, stream: BinaryIO) -> None:
     """Write Q-MAT's plain variant: `nv ne nf`, then `v x y z r`, every edge once, and triangles."""
     vertices, radius = exact_balls(axis)
-    triangles = triangulate_facets(vertices, axis.face_offsets, axis.face_vertices)
+    triangles = axis_triangles(replace(axis, vertices=vertices))
     edges = _edges(triangles, axis.edges, len(vertices))
     stream.write(b"%d %d %d\n" % (len(vertices), len(edges), len(triangles)))
     _write_rows(stream, "v %.17g %.17g %.17g %.17g\n", vertices, radius)

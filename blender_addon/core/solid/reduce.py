@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import MedialAxis
+from ..axis.polygon_triangles import axis_triangles, polygon_triangles
+from ..axis.structure import CREASE
+from ..axis.turning import with_facets_turned
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..machine.progress import Progress
@@ -19,8 +21,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..axis.compute import Computation
+    from ..axis.medial_axis import LevelValues
+    from ..axis.structure import Structure
     from ..samples.shape import Shape
-    from ..settings import Settings
 
 _INNER = 1  # value of `_medial.Side`
 _SPACING = 1 / 400  # the distance of points on the solid, as a share of the diagonal
@@ -41,10 +44,14 @@ class SphereMesh:
 
 
 def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = None) -> MedialAxis:
-    """Represent the same solid by few vertices with triangles and edges of the same topology.
+    """Represent the same solid by few vertices with polygons and edges of the same topology.
 
-    Edges collapse in the order in which they change the surface of the solid least, as long as the link condition
-    holds. Then the spheres are fitted to that surface.
+    An axis with crisp places that reaches sharp edges of the solid is reduced sheet by sheet (`_sheets`), if there are
+    enough vertices for its nodes and curves. Otherwise edges collapse in the order in which they change the surface of
+    the solid least, as long as the link condition holds; then the spheres are fitted to that surface.
+
+    All choices are made with coordinates in the precision of a mesh in Blender, so that an axis that is stored there
+    becomes the same small mesh.
 
     Parameters
     ----------
@@ -57,8 +64,8 @@ def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = Non
     Returns
     -------
     reduced : MedialAxis
-        Triangles and edges, with radii. Facets have no samples of their own: `generators` are -1, and `theta` and
-        `rho` are infinite, so that all thresholds keep them.
+        Polygons and edges, with radii. Facets have no samples of their own: `generators` are -1, and `theta` and `rho`
+        are infinite, so that all thresholds keep them.
 
     Raises
     ------
@@ -70,17 +77,73 @@ def reduce_axis(axis: MedialAxis, vertices: int, progress: Progress | None = Non
         raise InvalidInputError(
             "Expected a medial axis of the inside, found one of another side; compute it with side Inner"
         )
-    whole = sphere_mesh(axis)
+    if not _has_crisp_edges(axis):
+        return _loose(axis, vertices, progress)
+    found = _sheets(axis, vertices, progress)
+    return _loose(_on_samples(axis), vertices, progress) if found is None else found
+
+
+def _has_crisp_edges(axis: MedialAxis) -> bool:
+    """Whether sheets taper to sharp edges of the solid."""
+    structure, level = axis.structure, axis.level
+    if structure is None or level is None or not level.is_crisp.any():
+        return False
+    return structure.count(CREASE) > 0
+
+
+def _sheets(axis: MedialAxis, vertices: int, progress: Progress | None) -> MedialAxis | None:
+    """Reduce sheet by sheet: nodes stay, flat sheets become polygons; None if more vertices are needed for that.
+
+    Vertices that have not moved keep their places and radii to the last digit.
+    """
+    structure = cast("Structure", axis.structure)
+    turned = with_facets_turned(_single(axis), structure.turned)
+    triangles = polygon_triangles(turned.vertices, turned.face_offsets, turned.face_vertices)
     with own_errors() as module:
-        found = module.reduce_sphere_mesh(
+        found = module.reduce_sheets(
+            turned.vertices,
+            turned.radius,
+            triangles,
+            _edges(axis),
+            np.repeat(structure.part, np.diff(turned.face_offsets) - 2),
+            structure.node_vertex,
+            vertices,
+            progress=progress and progress.part(),
+        )
+    if found is None:
+        return None
+    places, radius, row, face_offsets, face_vertices, _, edges = found
+    stays = row >= 0
+    places = np.where(stays[:, None], axis.vertices[row], places)
+    radius = np.where(stays, axis.radius[row], radius)
+    return _as_axis(places, radius, face_offsets, face_vertices, edges)
+
+
+def _loose(axis: MedialAxis, vertices: int, progress: Progress | None) -> MedialAxis:
+    """Reduce as any sphere mesh."""
+    whole = sphere_mesh(_single(axis))
+    with own_errors() as module:
+        places, radius, triangles, edges = module.reduce_sphere_mesh(
             *whole.arrays, vertices, progress=progress and progress.part()
         )
-    return _as_axis(SphereMesh(*found))
+    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int32)
+    return _as_axis(places, radius, offsets, triangles.reshape(-1), edges)
 
 
-def reducible(settings: Settings) -> Settings:
-    """Return the settings of an axis that reduces well: slabs that taper to an edge of the solid collapse badly."""
-    return replace(settings, crisp=False)
+def _on_samples(axis: MedialAxis) -> MedialAxis:
+    """The axis with balls that end at the samples: slabs that taper to an edge of the solid collapse badly."""
+    level = cast("LevelValues", axis.level)
+    return replace(axis, vertices=level.exact, radius=level.exact_radius)
+
+
+def _single(axis: MedialAxis) -> MedialAxis:
+    """The axis with vertices and radii that have the digits of float32, in its range or not."""
+    return replace(axis, vertices=_rounded(axis.vertices), radius=_rounded(axis.radius))
+
+
+def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    share, exponent = np.frexp(np.ascontiguousarray(values))
+    return np.ldexp(share.astype(np.float32).astype(np.float64), exponent)
 
 
 def reduced(found: Computation, vertices: int, progress: Progress | None = None) -> Computation:
@@ -90,13 +153,16 @@ def reduced(found: Computation, vertices: int, progress: Progress | None = None)
 
 def sphere_mesh(axis: MedialAxis) -> SphereMesh:
     """Convert an axis to spheres with triangles and edges."""
-    triangles = triangulate_facets(axis.vertices, axis.face_offsets, axis.face_vertices)
     return SphereMesh(
         np.ascontiguousarray(axis.vertices),
         np.ascontiguousarray(axis.radius),
-        triangles,
-        np.ascontiguousarray(axis.edges, np.int32).reshape(-1, 2),
+        axis_triangles(axis),
+        _edges(axis),
     )
+
+
+def _edges(axis: MedialAxis) -> NDArray[np.int32]:
+    return np.ascontiguousarray(axis.edges, np.int32).reshape(-1, 2)
 
 
 def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
@@ -130,19 +196,25 @@ def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
     return difference_of_points(shape, points, signed)
 
 
-def _as_axis(mesh: SphereMesh) -> MedialAxis:
-    count = len(mesh.triangles)
+def _as_axis(
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    face_offsets: NDArray[np.int32],
+    face_vertices: NDArray[np.int32],
+    edges: NDArray[np.int32],
+) -> MedialAxis:
+    count = len(face_offsets) - 1
     always = np.full(count, np.inf)
     return MedialAxis(
-        vertices=mesh.vertices,
-        radius=mesh.radius,
-        face_offsets=np.arange(0, 3 * count + 1, 3, dtype=np.int32),
-        face_vertices=mesh.triangles.reshape(-1),
+        vertices=vertices,
+        radius=radius,
+        face_offsets=face_offsets,
+        face_vertices=face_vertices,
         theta=always,
         rho=always,
         side=np.full(count, _INNER, np.int32),
         generators=np.full((count, 2), -1, np.int32),
         unbounded=0,
         zero_area=0,
-        edges=mesh.edges,
+        edges=edges,
     )

@@ -7,6 +7,7 @@
 #include <medial/progress.h>
 #include <medial/types.h>
 
+#include <optional>
 #include <span>
 
 namespace medial {
@@ -32,6 +33,37 @@ struct ReduceOptions {
 // radii and less than one wanted vertex; Cancelled.
 SphereMesh reduce(const SphereMesh& given, const ReduceOptions& options,
                   Progress* progress = nullptr);
+
+// The sheets of a sphere mesh, and the nodes where their curves meet.
+struct SheetLabels {
+  std::span<const int32_t> part;   // (t) the sheet of each triangle
+  std::span<const int32_t> nodes;  // vertices that stay where they are
+};
+
+// A small medial mesh of sheets: flat ones are polygons, the others triangles.
+struct SheetMesh {
+  Column<Vec3> vertices;
+  Column<double> radius;         // (v)
+  Column<int32_t> row;           // (v) row of the given vertex that it is, -1 where it has moved
+  Column<int32_t> face_offsets;  // (f + 1)
+  Column<int32_t>
+      face_vertices;     // each polygon turns as its triangles did, and touches no corner twice
+  Column<int32_t> part;  // (f) ascending
+  Column<Edge> wires;    // edges that are on no face, i < j, each once, ascending
+};
+
+// Reduces a mesh sheet by sheet. Its nodes stay. Vertices of a curve, where sheets end or meet,
+// merge along the curve only, and those with radius 0 stay where one of them was; vertices inside a
+// sheet merge as in reduce(). Those that may move are fitted. Curves that are straight and sheets
+// that are flat keep no vertex that changes nothing, however many are wanted. The homotopy type
+// stays. Triangles of a sheet that lie in one plane, with radii that change linearly, are joined to
+// polygons whose boundary is one loop; a flat sheet with a hole has two of them or more.
+//
+// Returns nothing if fewer vertices are wanted than there are nodes and bent curves: reduce() makes
+// a better solid of so few. Throws as reduce() does, and InvalidInputError for labels that do not
+// fit.
+std::optional<SheetMesh> reduce_sheets(const SphereMesh& given, const SheetLabels& labels,
+                                       const ReduceOptions& options, Progress* progress = nullptr);
 
 // Returns the signed distance of each query to the slabs, cones and balls, negative inside. Outside
 // it is the distance to the solid; inside, the surface is at least as far away.

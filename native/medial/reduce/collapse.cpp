@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reduce/collapse.h"
 
+#include <optional>
 #include <queue>
 
+#include "base/union_find.h"
 #include "reduce/checked_mesh.h"
 #include "reduce/quadric.h"
 
@@ -25,8 +27,10 @@ struct Candidate {
 
 class Collapser {
  public:
-  Collapser(const SphereMesh& mesh, SphereComplex complex, std::span<const TangentPlace> places)
+  Collapser(const SphereMesh& mesh, SphereComplex complex, std::span<const TangentPlace> places,
+            SheetLocks* locks)
       : complex_(std::move(complex)),
+        locks_(locks),
         quadrics_(mesh.vertices.size()),
         version_(mesh.vertices.size(), 0),
         waiting_(mesh.vertices.size()) {
@@ -47,20 +51,18 @@ class Collapser {
   }
 
   // Collapses edges until the wanted number of vertices is left. Slabs may turn over only when
-  // nothing else can collapse.
-  void run(int64_t wanted, const Run& run) {
-    const auto total = static_cast<int64_t>(spheres_.size());
-    left_ = total;
-    for (const bool turns : {false, true}) {
-      may_turn_ = turns;
-      fill();
-      while (left_ > wanted && !queue_.empty()) {
-        if (step() && left_ % 256 == 0) {
-          advance(run.progress, static_cast<double>(total - left_) /
-                                    static_cast<double>(std::max<int64_t>(1, total - wanted)));
-        }
-      }
+  // nothing else can collapse. Between sheets, first all edges go that change nothing;
+  // if then more nodes and bent curves are left than vertices are wanted, it stops and returns
+  // false.
+  bool run(int64_t wanted, const Run& run) {
+    left_ = static_cast<int64_t>(spheres_.size());
+    if (locks_) {
+      collapse_all({.most = kNoDistance}, 0, run);
+      if (needed() > wanted) return false;
     }
+    collapse_all({}, wanted, run);
+    collapse_all({.turns = true}, wanted, run);
+    return true;
   }
 
   Collapsed result(const SphereMesh& mesh) const {
@@ -70,6 +72,7 @@ class Collapser {
       if (gone(static_cast<int32_t>(v))) continue;
       number[v] = static_cast<int32_t>(out.row.size());
       out.row.push_back(row_[v]);
+      if (locks_) out.held.push_back(is_held(static_cast<int32_t>(v)));
       out.mesh.vertices.push_back(spheres_[v].centre);
       out.mesh.radius.push_back(spheres_[v].radius);
     }
@@ -79,6 +82,7 @@ class Collapser {
       const auto those = complex_.triangles_of(a);
       if (!std::binary_search(those.begin(), those.end(), id)) continue;
       out.mesh.triangles.push_back({number[a], number[b], number[c]});
+      if (locks_) out.part.push_back(locks_->part(id));
     }
     for (size_t v = 0; v < spheres_.size(); ++v) {
       for (const int32_t other : complex_.neighbours(static_cast<int32_t>(v))) {
@@ -93,6 +97,44 @@ class Collapser {
   static constexpr uint32_t kGone = UINT32_MAX;
   bool gone(int32_t v) const { return version_[v] == kGone; }
 
+  bool is_held(int32_t v) const { return locks_->is_end(v) || locks_->is_sharp(v, spheres_[v]); }
+
+  // Says which edges may collapse now.
+  struct Allowed {
+    bool turns = false;      // slabs may turn over
+    double most = HUGE_VAL;  // the largest distance by which the surface may move
+  };
+
+  // Returns how many vertices describe the curves roughly: the nodes, and one for each curve that
+  // is not straight.
+  int64_t needed() const {
+    int64_t count = 0;
+    UnionFind bent(spheres_.size());
+    for (int32_t v = 0; v < static_cast<int32_t>(spheres_.size()); ++v) {
+      if (gone(v) || !locks_->is_on_curve(v)) continue;
+      ++count;
+      if (locks_->is_end(v)) continue;
+      for (const int32_t other : complex_.neighbours(v)) {
+        if (other > v || locks_->is_end(other) || !locks_->is_curve(complex_, v, other)) continue;
+        if (bent.find(v) != bent.find(other)) --count;
+        bent.unite(v, other);
+      }
+    }
+    return count;
+  }
+
+  void collapse_all(const Allowed& allowed, int64_t wanted, const Run& run) {
+    const auto total = static_cast<int64_t>(spheres_.size());
+    allowed_ = allowed;
+    fill();
+    while (left_ > wanted && !queue_.empty()) {
+      if (step() && left_ % 256 == 0) {
+        advance(run.progress, static_cast<double>(total - left_) /
+                                  static_cast<double>(std::max<int64_t>(1, total - wanted)));
+      }
+    }
+  }
+
   void fill() {
     queue_ = {};
     for (auto& edges : waiting_) edges.clear();
@@ -106,6 +148,7 @@ class Collapser {
   void push(int32_t a, int32_t b) {
     if (a > b) std::swap(a, b);
     const Target target = target_of(a, b);
+    if (!is_allowed(a, b, target)) return wait_at_both(a, b);
     const double along = squared_length(spheres_[a].centre - spheres_[b].centre);
     const double weight = quadrics_[a].weight() + quadrics_[b].weight();
     queue_.push({std::max(0.0, target.cost) + kLength * weight * along,
@@ -117,10 +160,19 @@ class Collapser {
     Sphere sphere;
     int32_t row = -1;
     double cost = HUGE_VAL;
+    int32_t kept = -1;  // the end that stays; -1 if either may
   };
+
+  // The lighter of both vertices tells, so that no small thing is lost in a large sheet.
+  bool is_allowed(int32_t a, int32_t b, const Target& target) const {
+    if (allowed_.most == HUGE_VAL) return target.cost < HUGE_VAL;
+    const double weight = std::min(quadrics_[a].weight(), quadrics_[b].weight());
+    return target.cost <= weight * allowed_.most * allowed_.most;
+  }
 
   // Returns the best sphere for both, or one of the two if that is as good.
   Target target_of(int32_t a, int32_t b) const {
+    if (locks_ && !locks_->may_move(complex_, a, b, spheres_)) return end_of(a, b);
     Quadric sum = quadrics_[a];
     sum += quadrics_[b];
     const Sphere &s = spheres_[a], &t = spheres_[b];
@@ -137,20 +189,34 @@ class Collapser {
     return best;
   }
 
+  // Returns the end into which the other one may merge, of two the better one; an infinite cost if
+  // there is none.
+  Target end_of(int32_t a, int32_t b) const {
+    Quadric sum = quadrics_[a];
+    sum += quadrics_[b];
+    Target best;
+    for (const auto& [kept, other] : {Edge{a, b}, Edge{b, a}}) {
+      if (!locks_->may_merge(complex_, other, kept, spheres_)) continue;
+      const double cost = sum(spheres_[kept]);
+      if (cost < best.cost) best = {spheres_[kept], row_[kept], cost, kept};
+    }
+    return best;
+  }
+
   // Tries the next edge; returns whether it has collapsed.
   bool step() {
     const Candidate next = queue_.top();
     queue_.pop();
-    const auto [a, b] = next.ends;
+    auto [a, b] = next.ends;
     if (next.version[0] != version_[a] || next.version[1] != version_[b]) return false;
     if (gone(a) || gone(b)) return false;
     const Target target = target_of(a, b);
-    if (!complex_.can_collapse(a, b) ||
-        (!may_turn_ && (turns(a, b, target.sphere) || turns(b, a, target.sphere)))) {
-      wait(a, b);
-      wait(b, a);
+    if (!is_allowed(a, b, target) || !complex_.can_collapse(a, b) ||
+        (!allowed_.turns && (turns(a, b, target.sphere) || turns(b, a, target.sphere)))) {
+      wait_at_both(a, b);
       return false;
     }
+    if (target.kept == b) std::swap(a, b);
     complex_.collapse(a, b);
     quadrics_[a] += quadrics_[b];
     spheres_[a] = target.sphere;
@@ -158,8 +224,14 @@ class Collapser {
     ++version_[a];
     version_[b] = kGone;
     --left_;
+    if (locks_) locks_->update(complex_, a);
     push_again(a);
     return true;
+  }
+
+  void wait_at_both(int32_t a, int32_t b) {
+    wait(a, b);
+    wait(b, a);
   }
 
   // Adds an edge to the waiting edges of a vertex, unless it is there. An edge waits at both its
@@ -196,12 +268,24 @@ class Collapser {
       }
       const Vec3 was = cross(before[1] - before[0], before[2] - before[0]);
       const Vec3 is = cross(after[1] - after[0], after[2] - after[0]);
-      if (squared_length(was) > 0 && !(dot(was, is) > 0)) return true;
+      if (is_line(before, was)) continue;
+      if (!(dot(was, is) > 0) || is_line(after, is)) return true;
     }
     return false;
   }
 
+  // Returns whether a triangle has no area; between sheets also if it is so thin that it is a line.
+  bool is_line(const std::array<Vec3, 3>& corners, const Vec3& twice_area) const {
+    if (!locks_) return !(squared_length(twice_area) > 0);
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      longest = std::max(longest, squared_length(corners[(i + 1) % 3] - corners[i]));
+    }
+    return !(squared_length(twice_area) > kNoDistance * kNoDistance * longest);
+  }
+
   SphereComplex complex_;
+  SheetLocks* locks_;  // null if there are no sheets
   std::vector<Sphere> spheres_;
   std::vector<int32_t> row_;
   std::vector<Quadric> quadrics_;
@@ -210,15 +294,16 @@ class Collapser {
   std::vector<std::vector<int32_t>> waiting_;
   std::priority_queue<Candidate> queue_;
   int64_t left_ = 0;
-  bool may_turn_ = false;
+  Allowed allowed_;
 };
 
 }  // namespace
 
-Collapsed collapse_edges(const SphereMesh& mesh, SphereComplex complex,
-                         std::span<const TangentPlace> places, int32_t wanted, const Run& run) {
-  Collapser collapser(mesh, std::move(complex), places);
-  collapser.run(wanted, run);
+std::optional<Collapsed> collapse_edges(const SphereMesh& mesh, SphereComplex complex,
+                                        std::span<const TangentPlace> places, int32_t wanted,
+                                        const Run& run, SheetLocks* locks) {
+  Collapser collapser(mesh, std::move(complex), places, locks);
+  if (!collapser.run(wanted, run)) return {};
   return collapser.result(mesh);
 }
 

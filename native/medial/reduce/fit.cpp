@@ -40,8 +40,14 @@ double dot_all(const Step& a, const Step& b) {
 
 class Fitter {
  public:
-  Fitter(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run)
-      : mesh_(mesh), places_(places), run_(run), envelope_(mesh), found_(places.size()) {
+  Fitter(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run,
+         std::span<const uint8_t> fixed)
+      : mesh_(mesh),
+        places_(places),
+        fixed_(fixed),
+        run_(run),
+        envelope_(mesh),
+        found_(places.size()) {
     for (const Triangle& t : mesh_.triangles) normals_.push_back(normal(t));
   }
 
@@ -119,6 +125,7 @@ class Fitter {
         whole += demands[p].matrix[k][k];
       }
     }
+    keep_fixed(right);
     const double floor = 1e-6 * whole / static_cast<double>(n);
     const auto apply = [&](const Step& x) {
       Step y(n);
@@ -136,9 +143,16 @@ class Fitter {
           y[parts[p][k / 4]][k % 4] += sum;
         }
       }
+      keep_fixed(y);
       return y;
     };
     return conjugate_gradients(apply, right);
+  }
+
+  void keep_fixed(Step& step) const {
+    for (size_t v = 0; v < fixed_.size(); ++v) {
+      if (fixed_[v]) step[v] = {};
+    }
   }
 
   template <typename Apply>
@@ -210,6 +224,7 @@ class Fitter {
 
   SphereMesh& mesh_;
   std::span<const TangentPlace> places_;
+  std::span<const uint8_t> fixed_;  // (v) or empty
   Run run_;
   Envelope envelope_;
   std::vector<Envelope::Found> found_;
@@ -219,9 +234,12 @@ class Fitter {
 
 }  // namespace
 
-bool fit_spheres(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run) {
-  if (places.empty() || mesh.vertices.empty()) return false;
-  return Fitter(mesh, places, run).fit();
+bool fit_spheres(SphereMesh& mesh, std::span<const TangentPlace> places, const Run& run,
+                 std::span<const uint8_t> fixed) {
+  const bool all_fixed =
+      !fixed.empty() && std::all_of(fixed.begin(), fixed.end(), [](uint8_t f) { return f != 0; });
+  if (places.empty() || mesh.vertices.empty() || all_fixed) return false;
+  return Fitter(mesh, places, run, fixed).fit();
 }
 
 }  // namespace medial

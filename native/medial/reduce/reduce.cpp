@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reduces a sphere mesh: finds places on its surface, collapses edges, and fits the spheres to the
 // places.
+#include <map>
+
 #include "base/parallel.h"
 #include "base/rows.h"
 #include "reduce/checked_mesh.h"
 #include "reduce/collapse.h"
 #include "reduce/envelope.h"
 #include "reduce/fit.h"
+#include "reduce/flat_faces.h"
 
 namespace medial {
 namespace {
@@ -41,35 +44,127 @@ std::vector<TangentPlace> thinned(const std::vector<TangentPlace>& places, size_
   return result;
 }
 
+void require_wanted(const ReduceOptions& options) {
+  if (options.vertices >= 1) return;
+  throw InvalidInputError("Expected at least 1 wanted vertex, found " +
+                          std::to_string(options.vertices) + "; 200 is a usual number.");
+}
+
+void require_labels(const SphereMesh& mesh, const SheetLabels& labels) {
+  if (labels.part.size() != mesh.triangles.size()) {
+    throw InvalidInputError(
+        "Expected one part per triangle, found " + std::to_string(labels.part.size()) + " for " +
+        std::to_string(mesh.triangles.size()) + " triangles; pass all of them.");
+  }
+  for (const int32_t v : labels.nodes) {
+    if (v >= 0 && static_cast<size_t>(v) < mesh.vertices.size()) continue;
+    throw InvalidInputError("Expected nodes that are rows of " +
+                            std::to_string(mesh.vertices.size()) + " vertices, found " +
+                            std::to_string(v) + "; number them from 0.");
+  }
+}
+
+void hold_flat_faces(Collapsed& found) {
+  const auto flat = vertices_of_flat_faces(found.mesh, found.part);
+  for (size_t v = 0; v < flat.size(); ++v) found.held[v] |= flat[v];
+}
+
+// Collapses and fits a mesh in its unit.
+std::optional<Collapsed> reduced(const SphereMesh& mesh, const SphereComplex& complex,
+                                 int32_t wanted, SheetLocks* locks, const Run& run) {
+  begin_stage(run.progress, "Surface of the balls", 0, 0.2);
+  const auto places = uncovered(mesh, tangent_places(mesh, complex, run), run);
+  begin_stage(run.progress, "Collapse of edges", 0.2, 0.6);
+  auto found = collapse_edges(mesh, complex, places, wanted, run, locks);
+  if (!found) return {};
+  Collapsed& collapsed = *found;
+  begin_stage(run.progress, "Fit of the spheres", 0.6, 1);
+  const auto some = thinned(places, collapsed.row.size());
+  const auto before = collapsed.mesh;
+  if (locks) hold_flat_faces(collapsed);
+  fit_spheres(collapsed.mesh, some, run, collapsed.held);
+  for (size_t v = 0; v < before.vertices.size(); ++v) {
+    const bool stays = collapsed.mesh.vertices[v] == before.vertices[v] &&
+                       collapsed.mesh.radius[v] == before.radius[v];
+    if (!stays) collapsed.row[v] = -1;
+  }
+  return found;
+}
+
+// Returns the spheres in the unit of the given ones; those that have not moved are the given ones.
+SphereMesh outward(SphereMesh mesh, std::span<const int32_t> row, const SphereMesh& given,
+                   const Unit& unit) {
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    mesh.vertices[v] = row[v] >= 0 ? given.vertices[row[v]] : unit.outward(mesh.vertices[v]);
+    mesh.radius[v] = row[v] >= 0 ? given.radius[row[v]] : unit.outward(mesh.radius[v]);
+  }
+  return mesh;
+}
+
+Triangle ascending(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+// Returns the parts of triangles of which each is one of the given ones.
+std::vector<int32_t> parts_for(const SphereMesh& mesh, const SphereMesh& given,
+                               std::span<const int32_t> part) {
+  std::map<Triangle, int32_t> of;
+  for (size_t t = 0; t < part.size(); ++t) of.try_emplace(ascending(given.triangles[t]), part[t]);
+  std::vector<int32_t> result;
+  for (const Triangle& t : mesh.triangles) result.push_back(of.at(ascending(t)));
+  return result;
+}
+
+SheetMesh as_sheets(SphereMesh mesh, const std::vector<FlatFace>& faces,
+                    const std::vector<int32_t>& row) {
+  SheetMesh result;
+  result.vertices = std::move(mesh.vertices);
+  result.radius = std::move(mesh.radius);
+  result.wires = std::move(mesh.wires);
+  result.row.assign(row.begin(), row.end());
+  result.face_offsets = {0};
+  for (const FlatFace& face : faces) {
+    result.face_vertices.insert(result.face_vertices.end(), face.corners.begin(),
+                                face.corners.end());
+    result.face_offsets.push_back(static_cast<int32_t>(result.face_vertices.size()));
+    result.part.push_back(face.part);
+  }
+  return result;
+}
+
 }  // namespace
 
 SphereMesh reduce(const SphereMesh& given, const ReduceOptions& options, Progress* progress) {
   require_sphere_mesh(given);
-  if (options.vertices < 1) {
-    throw InvalidInputError("Expected at least 1 wanted vertex, found " +
-                            std::to_string(options.vertices) + "; 200 is a usual number.");
-  }
-  SphereMesh mesh = without_doubles(given);
+  require_wanted(options);
+  const SphereMesh mesh = without_doubles(given);
   if (mesh.vertices.size() <= static_cast<size_t>(options.vertices)) return mesh;
   const Run run{thread_count(options.threads), progress};
   const Unit unit = unit_of(mesh);
-  mesh = inward(mesh, unit);
-  const SphereComplex complex(mesh);
-  begin_stage(progress, "Surface of the balls", 0, 0.2);
-  const auto places = uncovered(mesh, tangent_places(mesh, complex, run), run);
-  begin_stage(progress, "Collapse of edges", 0.2, 0.6);
-  Collapsed collapsed = collapse_edges(mesh, complex, places, options.vertices, run);
-  begin_stage(progress, "Fit of the spheres", 0.6, 1);
-  const auto some = thinned(places, collapsed.row.size());
-  const bool moved = fit_spheres(collapsed.mesh, some, run);
-  SphereMesh result = std::move(collapsed.mesh);
-  for (size_t v = 0; v < result.vertices.size(); ++v) {
-    const int32_t row = moved ? -1 : collapsed.row[v];
-    result.vertices[v] = row >= 0 ? given.vertices[row] : unit.outward(result.vertices[v]);
-    result.radius[v] = row >= 0 ? given.radius[row] : unit.outward(result.radius[v]);
-  }
+  const SphereMesh inner = inward(mesh, unit);
+  auto found = reduced(inner, SphereComplex(inner), options.vertices, nullptr, run);
   advance(progress, 1);
-  return result;
+  return outward(std::move(found->mesh), found->row, given, unit);
+}
+
+std::optional<SheetMesh> reduce_sheets(const SphereMesh& given, const SheetLabels& labels,
+                                       const ReduceOptions& options, Progress* progress) {
+  require_sphere_mesh(given);
+  require_wanted(options);
+  require_labels(given, labels);
+  const SphereMesh mesh = without_doubles(given);
+  const auto part = parts_for(mesh, given, labels.part);
+  const Run run{thread_count(options.threads), progress};
+  const Unit unit = unit_of(mesh);
+  const SphereMesh inner = inward(mesh, unit);
+  const SphereComplex complex(inner);
+  SheetLocks locks(complex, {part, labels.nodes}, inner.vertices.size());
+  auto found = reduced(inner, complex, options.vertices, &locks, run);
+  if (!found) return {};
+  const auto faces = flat_faces(found->mesh, found->part);
+  advance(progress, 1);
+  return as_sheets(outward(std::move(found->mesh), found->row, given, unit), faces, found->row);
 }
 
 }  // namespace medial

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Joins triangles of a sheet that lie in one plane to polygons.
+#pragma once
+
+#include <medial/sphere_mesh.h>
+
+#include <vector>
+
+namespace medial {
+
+struct FlatFace {
+  int32_t part = -1;
+  std::vector<int32_t> corners;
+};
+
+// Returns the polygons, and the triangles that are not flat together with a neighbour, in the order
+// of their parts. Every edge and vertex of the mesh that is not between two triangles of one
+// polygon stays; the boundary of a polygon is one loop that touches no vertex twice. Radii change
+// linearly over a polygon, so any triangles of it have the same slabs. The mesh must be in a unit
+// near its extent, with one part per triangle.
+std::vector<FlatFace> flat_faces(const SphereMesh& mesh, const std::vector<int32_t>& part);
+
+// Marks the vertices of triangles that are flat together with a neighbour.
+std::vector<uint8_t> vertices_of_flat_faces(const SphereMesh& mesh,
+                                            const std::vector<int32_t>& part);
+
+}  // namespace medial
