@@ -81,7 +81,8 @@ def main():
         faces=faces == "faces",
         side=settings.Side[side],
         levels=form != "PUBLISHED",
-        output="" if form == "CURVE" else memory.OBJECT,
+        output=memory.CURVE if form == "CURVE" else memory.OBJECT,
+        triangles=2 * points - 4 if faces == "faces" and form != "PUBLISHED" else 0,
     )
     print("PEAK", peak, memory.memory_needed(points, use))
 

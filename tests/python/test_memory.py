@@ -5,6 +5,7 @@ import argparse
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,7 +18,7 @@ from medial_axis.core.files import numpy_arrays
 from medial_axis.core.machine import cache, few_addresses, free_memory
 from medial_axis.core.machine import memory_limit as memory
 from medial_axis.core.machine.cache import CACHE, AnalysisCache
-from medial_axis.core.machine.memory_limit import MemoryLimit, Use, memory_needed
+from medial_axis.core.machine.memory_limit import CURVE, MemoryLimit, Use, memory_needed
 from medial_axis.core.samples import choose_samples
 from medial_axis.core.samples.sampling_report import report_sampling
 from medial_axis.core.samples.shape import Shape
@@ -35,7 +36,9 @@ from scipy.spatial import ConvexHull, cKDTree
 
 GOLDEN = np.pi * (1 + 5**0.5)
 THIN = AboveLimit.THIN
-CLOUD, MESH = Use(faces=False, levels=True), Use(faces=True, levels=True)
+CLOUD = Use(faces=False, levels=True)
+TRIANGLES = 14_396  # of ball()
+MESH = Use(faces=True, levels=True, triangles=TRIANGLES)
 NO_FACES = np.empty((0, 3), np.int32)
 
 
@@ -270,6 +273,16 @@ def test_too_many_points_are_refused_before_they_are_analysed(room, work, settin
     with pytest.raises(MemoryLimitError, match=r"Expected points .* found (7,200|16,000), which"):
         work(ball(), settings)
     assert CACHE.analyses == before
+
+
+def test_the_faces_of_crisp_places_count(monkeypatch):
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=500)
+    without = memory_needed(1000, Use(faces=True, levels=True))
+    assert memory_needed(1000, MESH) > without + 500 * TRIANGLES
+    monkeypatch.setattr(memory, "free_memory", lambda: without - CACHE.bytes)
+    with pytest.raises(MemoryLimitError):
+        compute_axis(ball(), settings)
+    compute_axis(ball(), replace(settings, crisp=False))
 
 
 def test_a_surface_of_too_many_points_is_refused(room):
@@ -521,7 +534,7 @@ native.load()
 peak = lambda: 1024 * int(re.search(r"VmHWM:\\s+(\\d+)", open("/proc/self/status").read())[1])
 before = peak()
 code = cli.main([sys.argv[2], sys.argv[3], "--sampling", "vertices", "--side", sys.argv[4],
-    "--form", sys.argv[5], "--quiet"])
+    "--form", *sys.argv[5].split(), "--quiet"])
 print(code, peak() - before)
 """
 
@@ -543,6 +556,7 @@ print(code, peak() - before)
             for faces in (False, True)
             for suffix in (".npz", ".ma")
         ],
+        (True, "clean --no-crisp", ".ma", "inner"),
         (True, "curve", ".ma", "inner"),
     ],
 )
@@ -564,7 +578,8 @@ def test_the_peak_is_what_was_told(tmp_path, faces, form, suffix, side):
         faces=faces,
         side=Side[side.upper()],
         levels=form != "published",
-        output="" if form == "curve" else suffix,
+        output=CURVE if form == "curve" else suffix,
+        triangles=len(shape.triangles) if faces and form in ("clean", "curve") else 0,
     )
     told = memory_needed(len(shape.points), use)
     assert said[-2] == "0" and int(said[-1]) == pytest.approx(told, rel=0.15)

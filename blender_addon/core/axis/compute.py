@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine.cache import CACHE
-from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.memory_limit import CURVE, WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.outward_faces import reading_counts
 from ..samples.shape import Shape
+from ..samples.solid_faces import triangles_of_places
 from ..settings import Form, Settings
 from .axis_warnings import axis_warnings
 from .extract import extract
@@ -120,9 +121,10 @@ def compute_axis(
         faces=len(shape.triangles) > 0,
         side=settings.side,
         levels=form is not Form.PUBLISHED,
+        triangles=triangles_of_places(shape, settings),
     )
     if form is Form.CURVE:
-        limit = limit.used(output="")  # a curve is small in every format
+        limit = limit.used(output=CURVE)
     share = 1.0 if form is Form.PUBLISHED else _ANALYSIS
     begun = begin(shape, settings, progress, limit, share)
     shape, chosen = begun.shape, begun.chosen

@@ -14,6 +14,7 @@ from .cache import CACHE
 from .free_memory import free_memory
 
 OBJECT = "object"  # the output is an object in Blender and not a file
+CURVE = "curve"  # the output is the curve of a level, which is small in every format
 _MOST = 1 << 28  # one analysis can have at most so many points
 # A number of points that follows from the free memory keeps so many binary digits, so that small changes of the free
 # memory give the same points.
@@ -33,13 +34,16 @@ class Use:
     levels : bool
         A level of the hierarchy is wanted, not the facets of the published method.
     output : str
-        The extension of the file that is written, OBJECT in Blender, or "".
+        The extension of the file that is written, OBJECT in Blender, CURVE, or "".
+    triangles : int
+        The triangles of the faces that give crisp places; 0 without crisp places.
     """
 
     faces: bool = True
     side: Side = Side.INNER
     levels: bool = False
     output: str = ""
+    triangles: int = 0
 
 
 @dataclass(frozen=True)
@@ -126,9 +130,10 @@ WHAT_IS_FREE = MemoryLimit()
 # These are measured bytes per point at the peak of the process (docs/lab/performance.md). Levels use the inner side.
 # A solid has outer facets only at its hollows; the figures are those of a solid with many.
 _OF_LEVELS = {  # {faces: {output: bytes}}
-    False: {"": 2150, ".ply": 2380, ".ma": 3130, OBJECT: 2840},
-    True: {"": 2150, ".ply": 2390, ".ma": 3050, OBJECT: 2870},
+    False: {"": 2150, CURVE: 2010, ".npz": 2650, ".ply": 2950, ".ma": 3530, OBJECT: 2840},
+    True: {"": 2150, CURVE: 2010, ".npz": 2650, ".ply": 2950, ".ma": 3490, OBJECT: 2870},
 }
+_OF_CRISP, _OF_TRIANGLE = 150, 600  # crisp places, per point and per triangle, in addition
 _AT_PEAK = {  # {faces: {side: {output: bytes}}}
     False: {
         Side.INNER: {"": 1930, ".ply": 2100, ".ma": 2800, OBJECT: 2330},
@@ -147,7 +152,8 @@ def memory_needed(points: int, use: Use | None = None) -> int:
     """Return roughly how many bytes so many points need at the peak of their analysis and its use."""
     if use is not None:
         peaks = _peaks(use)
-        return points * peaks.get(use.output, peaks[""])
+        crisp = points * _OF_CRISP + use.triangles * _OF_TRIANGLE if use.triangles else 0
+        return points * peaks.get(use.output, peaks[""]) + crisp
     with native.own_errors() as module:
         return module.memory_needed(points)
 

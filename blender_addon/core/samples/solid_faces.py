@@ -73,6 +73,11 @@ def solid_faces(
     return SolidFaces(shape, _face_of_vertex(shape) if face is None else face)
 
 
+def triangles_of_places(shape: Shape, settings: Settings) -> int:
+    """Return how many triangles may give crisp places, for the forecast of memory; 0 if there are no such places."""
+    return len(shape.triangles) if settings.crisp and settings.crisp_is_possible else 0
+
+
 def _face_of_vertex(shape: Shape) -> NDArray[np.int32]:
     """(n,) the first triangle at each vertex, or -1."""
     face = np.full(len(shape.points), -1, np.int32)

@@ -14,7 +14,8 @@ from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.sampling_warnings import sampling_warnings
-from ..settings import BallSettings, CoverMode, Settings, Side, SidesFrom
+from ..samples.solid_faces import triangles_of_places
+from ..settings import BallSettings, CoverMode, Form, Settings, Side, SidesFrom
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -107,7 +108,12 @@ def cover_by_balls(
         The samples span no volume, or enclose none.
     """
     settings = replace(settings, side=Side.INNER)
-    limit = limit.used(faces=len(shape.triangles) > 0, side=Side.INNER, levels=True)
+    limit = limit.used(
+        faces=len(shape.triangles) > 0,
+        side=Side.INNER,
+        levels=True,
+        triangles=triangles_of_places(shape, replace(settings, form=Form.CLEAN)),
+    )
     begun = begin(shape, settings, progress, limit, _ANALYSIS)
     shape, chosen, progress = begun.shape, begun.chosen, begun.progress
     progress.until(_AXIS)

@@ -11,7 +11,7 @@ namespace medial {
 namespace {
 
 constexpr int kMostWalked = 1 << 12;  // triangles of one walk
-constexpr int32_t kLeafOfTree = 1;
+constexpr int32_t kLeafOfTree = 2;
 constexpr size_t kFew = 8;  // triangles whose box holds their control points
 // A patch that bulges by less than this share of its size is flat: only rounding bent it.
 constexpr double kFlat = 1e-12;
