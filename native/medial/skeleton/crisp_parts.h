@@ -99,7 +99,7 @@ class CrispState {
 // curved wall all samples mostly have one foot, so the first one will do unless `thorough`.
 Walls walls_at(const CrispState& state, int32_t v, bool thorough);
 // Finds the ball that touches some walls near a place. A wall that it sticks out of is added.
-Touch touch(const CrispState& state, int32_t v, Walls walls, Vec3 start);
+Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start);
 
 // --- crisp_creases.cpp: rims that end in creases
 

@@ -8,7 +8,8 @@ namespace {
 constexpr double kExact = 1e-10;     // the largest difference between a radius and the distance
 constexpr double kFarthestMove = 2;  // that a vertex moves to touch walls
 constexpr double kSameFoot = 0.08;   // between unit directions to feet that are one
-constexpr int kMoreWalls = 4;        // attempts to add a wall that the ball sticks out of
+constexpr int kMoreWalls = 8;        // attempts to mend walls that the ball sticks out of
+constexpr int kExchanges = 8;        // of one of four walls
 
 class WallFinder {
  public:
@@ -120,22 +121,108 @@ class WallFinder {
   const CrispState& c_;
 };
 
-// Returns whether there are samples near all feet: a ball may have rolled to a face inside the
-// solid, which bounds nothing.
-bool touches_samples(const CrispState& state, const TouchingBall& ball, size_t walls) {
-  for (size_t i = 0; i < walls; ++i) {
-    if (!state.samples.are_near(ball.centre - ball.radius * ball.away[i])) return false;
-  }
-  return true;
-}
+// Finds the ball of a vertex that touches some walls and is empty.
+class BallFinder {
+ public:
+  BallFinder(const CrispState& state, int32_t v)
+      : samples_(state.samples),
+        from_(state.complex.position[v]),
+        spacing_(state.spacing_at(v)),
+        tolerance_(kExact * spacing_) {}
 
-// Returns whether the feet are not all in one place, as they are beyond the rim of a sheet.
-bool touches_twice(const TouchingBall& ball, size_t walls) {
-  for (size_t i = 1; i < walls; ++i) {
-    if (distance(ball.away[i], ball.away[0]) > kSameFoot) return true;
+  // A wall that the ball sticks out of is added, or replaces another one if there are four. If it
+  // is seen in the direction of a wall already there, the foot on that one was not the nearest.
+  Touch find(Walls walls, Vec3 start) const {
+    for (int i = 0; i < kMoreWalls; ++i) {
+      const Trial trial = tried(walls, start);
+      if (!trial.is_ball) return {};
+      if (!trial.nearer) return found(trial);
+      if (!samples_.are_near(trial.nearer->point)) return {};
+      start = trial.ball.centre;
+      walls = trial.walls;
+      const size_t same = same_place(trial);
+      if (same < walls.count) {
+        walls.triangle[same] = trial.nearer->triangle;
+      } else if (!walls.add(trial.nearer->triangle)) {
+        return exchanged(trial);
+      }
+    }
+    return {};
   }
-  return false;
-}
+
+ private:
+  struct Trial {
+    TouchingBall ball;
+    Walls walls;
+    bool is_ball = false;        // whether it touches all walls, in two places at least
+    std::optional<Foot> nearer;  // a place of the faces inside the ball
+
+    double depth() const { return nearer ? ball.radius - nearer->distance : 0; }
+  };
+
+  Trial tried(Walls walls, const Vec3& start) const {
+    Trial trial{touching_ball(samples_.faces(), walls.all(), start), walls, false, {}};
+    trial.walls = walls;
+    const TouchingBall& ball = trial.ball;
+    trial.is_ball = ball.unequal <= tolerance_ &&
+                    distance(ball.centre, from_) <= kFarthestMove * spacing_ &&
+                    touches_twice(ball, walls.count);
+    if (trial.is_ball) {
+      trial.nearer = samples_.faces().nearer(ball.centre, ball.radius - tolerance_);
+    }
+    return trial;
+  }
+
+  // Returns the wall whose foot is seen in the direction of a place inside the ball, or the number
+  // of walls.
+  static size_t same_place(const Trial& trial) {
+    const Vec3 away = normalized(trial.ball.centre - trial.nearer->point);
+    size_t i = 0;
+    while (i < trial.walls.count && distance(trial.ball.away[i], away) > kSameFoot) ++i;
+    return i;
+  }
+
+  // Returns the empty ball that touches four of many walls, as at the end of the axis of a
+  // cylinder, where walls lie all round: a wall inside the ball replaces that one of the four
+  // without which the next ball is nearest to being empty.
+  Touch exchanged(Trial trial) const {
+    for (int i = 0; i < kExchanges; ++i) {
+      Trial best;
+      for (size_t out = 0; out < kMostContacts; ++out) {
+        Walls walls = trial.walls;
+        walls.triangle[out] = trial.nearer->triangle;
+        const Trial next = tried(walls, trial.ball.centre);
+        if (next.is_ball && (!best.is_ball || next.depth() < best.depth())) best = next;
+      }
+      if (!best.is_ball || best.depth() >= trial.depth()) return {};
+      if (!best.nearer) return found(best);
+      trial = best;
+    }
+    return {};
+  }
+
+  // There are samples near all feet: a ball may have rolled to a face inside the solid, which
+  // bounds nothing.
+  Touch found(const Trial& trial) const {
+    const TouchingBall& ball = trial.ball;
+    for (size_t i = 0; i < trial.walls.count; ++i) {
+      if (!samples_.are_near(ball.centre - ball.radius * ball.away[i])) return {};
+    }
+    return {ball.centre, ball.radius, trial.walls, ball.away};
+  }
+
+  // Returns whether the feet are not all in one place, as they are beyond the rim of a sheet.
+  static bool touches_twice(const TouchingBall& ball, size_t walls) {
+    for (size_t i = 1; i < walls; ++i) {
+      if (distance(ball.away[i], ball.away[0]) > kSameFoot) return true;
+    }
+    return false;
+  }
+
+  const SamplesOnFaces& samples_;
+  const Vec3& from_;
+  double spacing_, tolerance_;
+};
 
 }  // namespace
 
@@ -143,22 +230,8 @@ Walls walls_at(const CrispState& state, int32_t v, bool thorough) {
   return WallFinder(state).walls_at(v, thorough);
 }
 
-Touch touch(const CrispState& state, int32_t v, Walls walls, Vec3 start) {
-  const double spacing = state.spacing_at(v), tolerance = kExact * spacing;
-  for (int i = 0; i < kMoreWalls; ++i) {
-    const TouchingBall ball = touching_ball(state.samples.faces(), walls.all(), start);
-    if (!(ball.unequal <= tolerance)) return {};
-    if (!(distance(ball.centre, state.complex.position[v]) <= kFarthestMove * spacing)) return {};
-    if (!touches_twice(ball, walls.count)) return {};
-    const auto nearer = state.samples.faces().nearer(ball.centre, ball.radius - tolerance);
-    if (!nearer) {
-      if (!touches_samples(state, ball, walls.count)) return {};
-      return {ball.centre, ball.radius, walls, ball.away};
-    }
-    if (!state.samples.are_near(nearer->point) || !walls.add(nearer->triangle)) break;
-    start = ball.centre;
-  }
-  return {};
+Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start) {
+  return BallFinder(state, v).find(walls, start);
 }
 
 }  // namespace medial
