@@ -22,7 +22,8 @@ void place(CrispState& state, CreaseRims& creases, int32_t v) {
   state.made.place[v] = found.radius > 0 ? Placing::touching : Placing::refused;
   if (!(found.radius > 0)) return;
   state.take(v, found);
-  if (state.on_rim[v] && found.walls.count == 2) find_smooth_rim(state, v, found);
+  if (state.on_rim[v] && found.walls.count == 2)
+    state.smooth_rim[v] = smooth_rim_of(state, v, found);
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ void place(CrispState& state, CreaseRims& creases, int32_t v) {
 CrispState::CrispState(const InnerComplex& of, const Triangulation& cells,
                        const SamplesOnFaces& on_faces, std::span<const Thickness> values,
                        std::span<const double> sines, std::span<const uint8_t> selected,
-                       const Run& whole)
+                       std::span<const uint8_t> edges, const Run& whole)
     : complex(of),
       triangulation(cells),
       samples(on_faces),
@@ -39,13 +40,16 @@ CrispState::CrispState(const InnerComplex& of, const Triangulation& cells,
       progress(whole.progress) {
   find_facets(values);
   find_rims();
+  find_wires(edges);
   find_hidden(selected);
   made.position = {complex.position.begin(), complex.position.end()};
   made.radius = {complex.radius.begin(), complex.radius.end()};
   made.place = Array<Placing>(complex.cell.size(), Placing::voronoi);
   made.reach = samples.reach();
+  made.tips = tips_of(samples.faces());
   walls = array<Walls>(complex.cell.size(), Walls{}, run);
   smooth_rim = array<SmoothRim>(complex.cell.size(), SmoothRim{}, run);
+  stays = array<uint8_t>(complex.cell.size(), 0, run);
 }
 
 // Lists the facets of K1 at each vertex, and counts those at each edge.
@@ -66,9 +70,32 @@ void CrispState::find_facets(std::span<const Thickness> values) {
 }
 void CrispState::find_rims() {
   on_rim = array<uint8_t>(complex.cell.size(), 0, run);
+  on_seam = array<uint8_t>(complex.cell.size(), 0, run);
+  std::vector<Edge> pairs;
   for (size_t e = 0; e < complex.ends.size(); ++e) {
+    const auto& [a, b] = complex.ends[e];
+    if (edge_uses[e] == 3) on_seam[a] = on_seam[b] = 1;
     if (edge_uses[e] != 1) continue;
-    for (const int32_t v : complex.ends[e]) on_rim[v] = 1;
+    on_rim[a] = on_rim[b] = 1;
+    pairs.push_back({a, b});
+    pairs.push_back({b, a});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  beside.offsets = array<int64_t>(complex.cell.size() + 1, 0, run);
+  beside.items = array<int32_t>(pairs.size(), run);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    ++beside.offsets[pairs[i][0]];
+    beside.items[i] = pairs[i][1];
+  }
+  counts_to_offsets(beside.offsets);
+}
+
+void CrispState::find_wires(std::span<const uint8_t> edges) {
+  for (size_t e = 0; e < edges.size(); ++e) {
+    if (!edges[e] || edge_uses[e] > 0) continue;
+    const auto& [a, b] = complex.ends[e];
+    if (!facets_at[a].empty() && facets_at[b].empty()) wires.push_back({a, b});
+    if (!facets_at[b].empty() && facets_at[a].empty()) wires.push_back({b, a});
   }
 }
 
@@ -100,11 +127,25 @@ void CrispState::take(int32_t v, const Touch& found) {
   walls[v] = found.walls;
 }
 
+void CrispState::end_at(int32_t v, const Vec3& place) {
+  const auto foot = samples.faces().nearer(place, HUGE_VAL);
+  if (!samples.are_near(foot->point)) return;
+  made.position[v] = place;
+  made.radius[v] = foot->distance;
+  made.place[v] = Placing::rim;
+}
+
+bool CrispState::is_open_rim(int32_t v) const {
+  const Placing place = made.place[v];
+  if (!on_rim[v] || place >= Placing::crease || place == Placing::voronoi) return false;
+  return place == Placing::rim ? made.radius[v] > 0 : !on_seam[v];
+}
+
 CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& triangulation,
                          const SamplesOnFaces& samples, std::span<const Thickness> facets,
                          std::span<const double> sine, std::span<const uint8_t> selected,
-                         const Run& run) {
-  CrispState state(complex, triangulation, samples, facets, sine, selected, run);
+                         std::span<const uint8_t> edges, const Run& run) {
+  CrispState state(complex, triangulation, samples, facets, sine, selected, edges, run);
   CreaseRims creases(state);
   parallel_for(
       complex.vertices(), {run.threads, state.progress, run.arena},
@@ -114,8 +155,11 @@ CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& trian
       256);
   settle_smooth_rims(state);
   end_fillets(state);
+  order_rims(state);
+  gather_focal_rims(state);
   creases.reach_corners();
   join_seams(state);
+  end_wires(state);
   unfold(state);
   return std::move(state.made);
 }

@@ -4,9 +4,10 @@
 namespace medial {
 namespace {
 
-constexpr int kBisections = 40;  // of the way to the last ball that touches two places
+constexpr int kBisections = 20;  // of the way to the last ball that touches two places
 
-// Returns the nearest neighbour of a vertex that touches walls, or -1.
+}  // namespace
+
 int32_t placed_neighbour(const CrispState& state, int32_t v) {
   int32_t best = -1;
   const auto away = [&](int32_t other) {
@@ -18,26 +19,23 @@ int32_t placed_neighbour(const CrispState& state, int32_t v) {
       if (best < 0 || away(c.vertex) < away(best)) best = c.vertex;
     }
   }
-  return best;
+  return best >= 0 && state.walls[best].count == 2 ? best : -1;
 }
 
-Touch last_ball(const CrispState& state, int32_t v) {
-  const int32_t inner = placed_neighbour(state, v);
-  if (inner < 0 || state.walls[inner].count != 2) return {};
+Touch last_ball(const CrispState& state, int32_t v, const Walls& walls, const Vec3& inner,
+                const Vec3& beyond, double openness_at_least) {
   Touch last;
   double low = 0, high = 1;
   for (int i = 0; i < kBisections; ++i) {
     const double share = 0.5 * (low + high);
-    const Vec3 start = (1 - share) * state.made.position[inner] + share * state.complex.position[v];
-    const Touch ball = touch(state, v, state.walls[inner], start);
-    const bool ends = !(ball.radius > 0) || ball.walls.count != 2;
+    const Touch ball = touch(state, v, walls, (1 - share) * inner + share * beyond);
+    const bool ends =
+        !(ball.radius > 0) || ball.walls.count != 2 || openness(ball.away) < openness_at_least;
     (ends ? high : low) = share;
     if (!ends) last = ball;
   }
   return last;
 }
-
-}  // namespace
 
 void end_fillets(CrispState& state) {
   const auto beyond =
@@ -49,7 +47,14 @@ void end_fillets(CrispState& state) {
   std::vector<Touch> found(beyond.size());
   parallel_for(
       static_cast<int64_t>(beyond.size()), state.run,
-      [&](int64_t i) { found[i] = last_ball(state, beyond[i]); }, 64);
+      [&](int64_t i) {
+        const int32_t v = beyond[i], inner = placed_neighbour(state, v);
+        if (inner >= 0) {
+          found[i] = last_ball(state, v, state.walls[inner], state.made.position[inner],
+                               state.complex.position[v], 0);
+        }
+      },
+      64);
   for (size_t i = 0; i < beyond.size(); ++i) {
     if (!(found[i].radius > 0)) continue;
     state.take(beyond[i], found[i]);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/union_find.h"
 #include "skeleton/crisp_parts.h"
 
 namespace medial {
@@ -12,123 +11,152 @@ constexpr double kFarOut = 0.8;             // of the way to the rim that balls 
 constexpr double kFarthestRim = 0.5;        // from the last vertex to the rim, in radii
 constexpr double kLongerThanBeside = 1.25;  // of the way of a vertex to that of its neighbours
 constexpr int kRimRounds = 3;
-constexpr double kCertainRim = 0.85;  // of the vertices of a rim must have found it
+constexpr int kShareRounds = 24;      // of means along the rim of how many have found its end
+constexpr double kCertainRim = 0.55;  // of the vertices round one must have found it
+constexpr int kGapRounds = 6;         // half the length of the longest gap that is filled
 constexpr double kBent = 0.4;  // the largest deviation from a line, as a share of the openness
 constexpr int kRimSteps = 4;
+
+// Fits a parabola through the origin to how much of the openness is lost on the way.
+class Loss {
+ public:
+  void add(double along, double lost) {
+    at_.push_back({along, lost});
+    const double squared = along * along;
+    s2_ += squared;
+    s3_ += squared * along;
+    s4_ += squared * squared;
+    t1_ += along * lost;
+    t2_ += squared * lost;
+  }
+
+  // Returns where all of it is lost; infinite if it does not fall, or not nearly linearly.
+  double end(double openness) const {
+    const double slope = t1_ / s2_;
+    if (!(slope > 0)) return HUGE_VAL;
+    for (const auto& [along, lost] : at_) {
+      if (!(std::abs(lost - slope * along) < kBent * openness)) return HUGE_VAL;
+    }
+    const double determinant = s2_ * s4_ - s3_ * s3_;
+    if (at_.size() < 3 || !(determinant > 0)) return openness / slope;
+    const double linear = (t1_ * s4_ - t2_ * s3_) / determinant,
+                 square = (t2_ * s2_ - t1_ * s3_) / determinant;
+    const double root = linear * linear + 4 * square * openness;
+    return linear > 0 && root > 0 ? 2 * openness / (linear + std::sqrt(root)) : openness / slope;
+  }
+
+ private:
+  std::vector<std::array<double, 2>> at_;
+  double s2_ = 0, s3_ = 0, s4_ = 0, t1_ = 0, t2_ = 0;
+};
+
+// Returns how far the openness of the balls after some steps lets the rim be. At the rim of a
+// fillet it drops at once where the balls of the fillet have their common centre.
+double distance_to_rim(const CrispState& state, const Touch& inner, const Vec3& step, int steps) {
+  Walls walls = inner.walls;
+  Vec3 position = inner.position;
+  const double first = openness(inner.away);
+  Loss loss;
+  for (int i = 0; i < steps; ++i) {
+    const TouchingBall ball = touching_ball(state.samples.faces(), walls.all(), position + step);
+    position = ball.centre;
+    loss.add(distance(position, inner.position), first - openness(ball.away));
+  }
+  return loss.end(first);
+}
 
 class SmoothRims {
  public:
   explicit SmoothRims(CrispState& state) : c_(state) {}
 
-  // Moves a vertex of a smooth rim outward to where the two feet become one: there the openness is
-  // 0. It falls linearly towards the rim; the line is fitted to several balls on the way, because
-  // the curvature of curved triangles jumps from one to the next.
-  void find(int32_t v, const Touch& inner) {
-    const double first = openness(inner.away);
-    if (!(first < kMostOpen)) return;
-    const double farthest = kFarthestRim * inner.radius;
-    const Vec3 outward = -normalized(inner.away[0] + inner.away[1]);
-    double reach = distance_to_rim(inner, 0.25 * c_.spacing_at(v) * outward, 1);
-    for (int i = 0; i < 2; ++i) {
-      if (!(reach < farthest)) return;
-      reach = distance_to_rim(inner, (kFarOut * reach / kRimSteps) * outward, kRimSteps);
-    }
-    if (reach < farthest) c_.smooth_rim[v] = {outward, reach};
-  }
-
-  // Moves the vertices of smooth rims. A vertex goes no farther than the rim beside it does.
   void settle() {
-    for (int round = 0; round < kRimRounds; ++round) {
-      auto settled = array<double>(c_.smooth_rim.size(), c_.run);
-      parallel_for(c_.complex.vertices(), c_.run,
-                   [&](int64_t v) { settled[v] = settled_reach(static_cast<int32_t>(v)); });
-      for (size_t v = 0; v < c_.smooth_rim.size(); ++v) c_.smooth_rim[v].reach = settled[v];
-    }
     leave_doubtful_rims();
-    parallel_for(c_.complex.vertices(), c_.run, [&](int64_t v) {
-      if (c_.smooth_rim[v].reach > 0) {
-        end_on_rim(static_cast<int32_t>(v),
-                   c_.made.position[v] + c_.smooth_rim[v].reach * c_.smooth_rim[v].outward);
-      }
+    for (int round = 0; round < kGapRounds; ++round) fill_gaps();
+    for (int round = 0; round < kRimRounds; ++round) {
+      std::vector<double> settled(c_.smooth_rim.size());
+      for_rims([&](int32_t v) { settled[v] = settled_reach(v); });
+      for_rims([&](int32_t v) { c_.smooth_rim[v].reach = settled[v]; });
+    }
+    for_rims([&](int32_t v) {
+      const SmoothRim& rim = c_.smooth_rim[v];
+      if (rim.reach > 0) c_.end_at(v, c_.made.position[v] + rim.reach * rim.outward);
     });
   }
 
  private:
-  // A rim moves as a whole or not at all: where too few of its vertices have found the end of the
-  // sheet, as on noisy bodies, it would become ragged.
-  void leave_doubtful_rims() {
-    UnionFind rims(c_.smooth_rim.size());
-    for (size_t e = 0; e < c_.complex.ends.size(); ++e) {
-      if (c_.edge_uses[e] == 1) rims.unite(c_.complex.ends[e][0], c_.complex.ends[e][1]);
-    }
-    const auto rim = std::move(rims).representatives();
-    std::vector<int32_t> all(c_.smooth_rim.size(), 0), found(c_.smooth_rim.size(), 0);
-    for (int32_t v = 0; v < c_.complex.vertices(); ++v) {
-      if (!c_.on_rim[v] || c_.made.place[v] >= Placing::rim) continue;
-      ++all[rim[v]];
-      found[rim[v]] += c_.smooth_rim[v].reach > 0;
-    }
-    for (int32_t v = 0; v < c_.complex.vertices(); ++v) {
-      if (found[rim[v]] < kCertainRim * all[rim[v]]) c_.smooth_rim[v].reach = 0;
-    }
+  template <typename Found>
+  void for_rims(const Found& found) const {
+    parallel_for(c_.complex.vertices(), c_.run, [&](int64_t v) {
+      if (c_.on_rim[v]) found(static_cast<int32_t>(v));
+    });
   }
 
+  // The end of the sheet that a few vertices have found is left where most of those round them have
+  // not, as on rough bodies: the rim would become ragged.
+  void leave_doubtful_rims() {
+    std::vector<double> share(c_.smooth_rim.size()), mean(c_.smooth_rim.size());
+    for_rims([&](int32_t v) { share[v] = c_.smooth_rim[v].reach > 0; });
+    for (int round = 0; round < kShareRounds; ++round) {
+      for_rims([&](int32_t v) {
+        double sum = 0;
+        for (const int32_t other : c_.beside[v]) sum += share[other];
+        mean[v] = 0.5 * share[v] + 0.5 * sum / static_cast<double>(c_.beside[v].size());
+      });
+      std::swap(share, mean);
+    }
+    for_rims([&](int32_t v) {
+      if (share[v] < kCertainRim) c_.smooth_rim[v].reach = 0;
+      is_certain_[v] = share[v] >= kCertainRim;
+    });
+  }
+
+  // A vertex that has not found the end of the sheet goes as far as its neighbours.
+  void fill_gaps() {
+    std::vector<SmoothRim> filled(c_.smooth_rim.begin(), c_.smooth_rim.end());
+    for_rims([&](int32_t v) {
+      if (c_.smooth_rim[v].reach > 0 || !is_certain_[v] || !c_.is_open_rim(v)) return;
+      SmoothRim sum;
+      int count = 0;
+      for (const int32_t other : c_.beside[v]) {
+        const SmoothRim& rim = c_.smooth_rim[other];
+        if (!(rim.reach > 0)) continue;
+        sum.outward = sum.outward + rim.outward;
+        sum.reach += rim.reach;
+        ++count;
+      }
+      if (count > 0) filled[v] = {normalized(sum.outward), sum.reach / count};
+    });
+    std::copy(filled.begin(), filled.end(), c_.smooth_rim.begin());
+  }
+
+  // A vertex goes no farther than the rim beside it does.
   double settled_reach(int32_t v) const {
     if (!(c_.smooth_rim[v].reach > 0)) return 0;
     std::vector<double> beside{c_.smooth_rim[v].reach};
-    c_.for_edges(v, [&](const Corner& c, int32_t other) {
-      if (c_.edge_uses[c.edge] == 1) beside.push_back(c_.smooth_rim[other].reach);
-    });
+    for (const int32_t other : c_.beside[v]) beside.push_back(c_.smooth_rim[other].reach);
     const auto middle = beside.begin() + static_cast<std::ptrdiff_t>((beside.size() - 1) / 2);
     std::nth_element(beside.begin(), middle, beside.end());
     return std::min(c_.smooth_rim[v].reach, kLongerThanBeside * *middle);
   }
 
-  // Returns how far the openness of the balls after some steps lets the rim be; infinite if it does
-  // not fall, or not linearly. At the rim of a fillet it drops at once where the balls of the
-  // fillet have their common centre.
-  double distance_to_rim(const Touch& inner, const Vec3& step, int steps) const {
-    Walls walls = inner.walls;
-    Vec3 position = inner.position;
-    const double first = openness(inner.away);
-    double products = 0, squares = 0;
-    std::vector<std::array<double, 2>> lost;  // how far, and how much of the openness
-    for (int i = 0; i < steps; ++i) {
-      const TouchingBall ball = touching_ball(c_.samples.faces(), walls.all(), position + step);
-      position = ball.centre;
-      const double along = distance(position, inner.position);
-      lost.push_back({along, first - openness(ball.away)});
-      products += along * lost.back()[1];
-      squares += along * along;
-    }
-    if (!(products > 0)) return HUGE_VAL;
-    const double slope = products / squares;
-    const bool straight = std::all_of(lost.begin(), lost.end(), [&](const auto& at) {
-      return std::abs(at[1] - slope * at[0]) < kBent * first;
-    });
-    return straight ? first / slope : HUGE_VAL;
-  }
-
-  // Returns the squared sine of half the angle between the directions to the first two feet.
-  static double openness(const std::array<Vec3, kMostContacts>& away) {
-    return 0.5 * (1 - dot(away[0], away[1]));
-  }
-
-  void end_on_rim(int32_t v, const Vec3& position) {
-    const auto foot = c_.samples.faces().nearer(position, HUGE_VAL);
-    if (!c_.samples.are_near(foot->point)) return;
-    c_.made.position[v] = position;
-    c_.made.radius[v] = foot->distance;
-    c_.made.place[v] = Placing::rim;
-  }
-
   CrispState& c_;
+  std::vector<uint8_t> is_certain_ = std::vector<uint8_t>(c_.smooth_rim.size(), 0);
 };
 
 }  // namespace
 
-void find_smooth_rim(CrispState& state, int32_t v, const Touch& inner) {
-  SmoothRims(state).find(v, inner);
+// The openness falls nearly linearly towards the rim, where it is 0. The line is fitted to several
+// balls on the way, because the curvature of curved triangles jumps from one to the next.
+SmoothRim smooth_rim_of(const CrispState& state, int32_t v, const Touch& inner) {
+  if (!(openness(inner.away) < kMostOpen)) return {};
+  const double farthest = kFarthestRim * inner.radius;
+  const Vec3 outward = -normalized(inner.away[0] + inner.away[1]);
+  double reach = distance_to_rim(state, inner, 0.25 * state.spacing_at(v) * outward, 1);
+  for (int i = 0; i < 2; ++i) {
+    if (!(reach < farthest)) return {};
+    reach = distance_to_rim(state, inner, (kFarOut * reach / kRimSteps) * outward, kRimSteps);
+  }
+  return reach < farthest ? SmoothRim{outward, reach} : SmoothRim{};
 }
 
 void settle_smooth_rims(CrispState& state) { SmoothRims(state).settle(); }

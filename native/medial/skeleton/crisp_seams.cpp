@@ -8,19 +8,13 @@ bool reaches_seam(const CrispState& state, int32_t v) {
   return state.made.place[v] == Placing::touching && state.walls[v].count >= 3;
 }
 
-bool is_on_seam(const CrispState& state, int32_t v) {
-  bool found = false;
-  state.for_edges(v, [&](const Corner& c, int32_t) { found |= state.edge_uses[c.edge] == 3; });
-  return found;
-}
-
 int32_t neighbour_on_seam(const CrispState& state, int32_t v) {
   int32_t best = -1;
   const auto away = [&](int32_t other) {
     return distance(state.complex.position[other], state.complex.position[v]);
   };
   state.for_edges(v, [&](const Corner&, int32_t other) {
-    if (!reaches_seam(state, other) || !is_on_seam(state, other)) return;
+    if (!reaches_seam(state, other) || !state.on_seam[other]) return;
     if (best < 0 || away(other) < away(best) || (away(other) == away(best) && other < best)) {
       best = other;
     }
@@ -34,7 +28,7 @@ void join_seams(CrispState& state) {
   state.follows = array<int32_t>(state.complex.cell.size(), -1, state.run);
   parallel_for(state.complex.vertices(), state.run, [&](int64_t id) {
     const auto v = static_cast<int32_t>(id);
-    if (reaches_seam(state, v) && !is_on_seam(state, v)) {
+    if (reaches_seam(state, v) && !state.on_seam[v]) {
       state.follows[v] = neighbour_on_seam(state, v);
     }
   });

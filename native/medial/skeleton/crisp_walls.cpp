@@ -9,7 +9,9 @@ constexpr double kExact = 1e-10;     // the largest difference between a radius 
 constexpr double kFarthestMove = 2;  // that a vertex moves to touch walls
 constexpr double kSameFoot = 0.08;   // between unit directions to feet that are one
 constexpr int kMoreWalls = 8;        // attempts to mend walls that the ball sticks out of
-constexpr int kExchanges = 8;        // of one of four walls
+constexpr double kNearlyEqual =
+    1e-3;                      // between the distances to walls of one ball, where they are rough
+constexpr int kExchanges = 8;  // of one of four walls
 
 class WallFinder {
  public:
@@ -232,6 +234,17 @@ Walls walls_at(const CrispState& state, int32_t v, bool thorough) {
 
 Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start) {
   return BallFinder(state, v).find(walls, start);
+}
+
+Touch nearly_touching(const CrispState& state, int32_t v, Walls walls, const Vec3& start) {
+  const Faces& faces = state.samples.faces();
+  const double room = kNearlyEqual * state.spacing_at(v);
+  const TouchingBall ball = touching_ball(faces, walls.all(), start);
+  if (!(ball.unequal < room)) return {};
+  const auto nearest = faces.nearer(ball.centre, HUGE_VAL);
+  const bool touches = std::abs(nearest->distance - ball.radius) < room;
+  if (!touches || !state.samples.are_near(nearest->point)) return {};
+  return {ball.centre, nearest->distance, walls, ball.away};
 }
 
 }  // namespace medial
