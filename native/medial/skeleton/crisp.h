@@ -14,24 +14,26 @@ enum class Placing : uint8_t {
   voronoi,   // no wall is known there: the vertex of a wire, or one of samples on no face
   refused,   // the ball of the walls is not empty, or too far away; the Voronoi vertex stays
   touching,  // the ball touches the walls, and no face is nearer
-  rim,       // on a smooth rim, where the two places that the ball touches become one
+  rim,       // at the end of a sheet, where the two places that the ball touches become one
   crease,    // on a convex crease, with radius 0
   corner     // at the end of convex creases, with radius 0
 };
 
 struct CrispPlaces {
-  Array<Vec3> position;  // (v)
-  Array<double> radius;  // (v) the distance to the faces, unless `place` is voronoi or refused
-  Array<Placing> place;  // (v)
-  double reach = 0;      // the distance within which a sample is near a place of the faces
+  Array<Vec3> position;    // (v)
+  Array<double> radius;    // (v) the distance to the faces, unless `place` is voronoi or refused
+  Array<Placing> place;    // (v)
+  std::vector<Vec3> tips;  // of the faces, where curves end
+  double reach = 0;        // the distance within which a sample is near a place of the faces
 };
 
 // Returns the places of the vertices of a complex, at facets that are thicker than one spacing;
-// `facets` has the values of all. `selected` tells for each shrunk facet whether it was selected.
+// `facets` has the values of all. `selected` tells for each shrunk facet whether it was selected,
+// and `edges` for each edge whether it is left.
 // The distance to the faces was verified for every vertex that moved.
 CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& triangulation,
                          const SamplesOnFaces& samples, std::span<const Thickness> facets,
                          std::span<const double> sine, std::span<const uint8_t> selected,
-                         const Run& run);
+                         std::span<const uint8_t> edges, const Run& run);
 
 }  // namespace medial

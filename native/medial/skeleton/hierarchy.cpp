@@ -193,8 +193,9 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
     std::vector<uint8_t> selected;
     for (const ShrunkFacet& s : made.complex.shrunk) selected.push_back(weight.selected(s.dual));
     begin_stage(run.progress, "Crisp places", 0.85, 1);
+    const Alive left = alive_at(made, {.spacings = 1}, {run.threads, nullptr, run.arena});
     made.crisp = crisp_places(made.complex, facets.triangulation, *on_faces, made.values.facet,
-                              made.sine, selected, run);
+                              made.sine, selected, left.edge, run);
     watch.lap("crisp");
   } else {
     begin_stage(run.progress, "Values", 0.85, 1);

@@ -20,23 +20,6 @@ void check(double threshold, const char* name) {
 
 bool exceeds(float value, double threshold) { return value > threshold || value == HUGE_VALF; }
 
-Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run) {
-  const InnerComplex& complex = h.complex;
-  Alive alive{array<uint8_t>(complex.generators.size(), run),
-              array<uint8_t>(complex.ends.size(), run), array<uint8_t>(complex.cell.size(), run)};
-  parallel_for(complex.facets(), run,
-               [&](int64_t f) { alive.facet[f] = exceeds(h.values.facet[f], t); });
-  parallel_for(complex.vertices(), run, [&](int64_t v) {
-    alive.vertex[v] = exceeds(h.values.vertex[v], t) || h.limb[v] > t.limb;
-  });
-  parallel_for(complex.edges(), run, [&](int64_t e) {
-    const int32_t partner = h.partner[e];
-    alive.edge[e] = partner == kAlone ||
-                    (partner >= 0 ? alive.facet[partner] : alive.vertex[with_vertex(partner)]);
-  });
-  return alive;
-}
-
 // Makes a mesh of the cells that are left.
 class Drawer {
  public:
@@ -297,6 +280,23 @@ class Drawer {
 bool exceeds(const Thickness& value, const LevelOptions& t) {
   return exceeds(value.sheet, t.sheet) && exceeds(value.spacings, t.spacings) &&
          exceeds(value.erosion, t.erosion);
+}
+
+Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run) {
+  const InnerComplex& complex = h.complex;
+  Alive alive{array<uint8_t>(complex.generators.size(), run),
+              array<uint8_t>(complex.ends.size(), run), array<uint8_t>(complex.cell.size(), run)};
+  parallel_for(complex.facets(), run,
+               [&](int64_t f) { alive.facet[f] = exceeds(h.values.facet[f], t); });
+  parallel_for(complex.vertices(), run, [&](int64_t v) {
+    alive.vertex[v] = exceeds(h.values.vertex[v], t) || h.limb[v] > t.limb;
+  });
+  parallel_for(complex.edges(), run, [&](int64_t e) {
+    const int32_t partner = h.partner[e];
+    alive.edge[e] = partner == kAlone ||
+                    (partner >= 0 ? alive.facet[partner] : alive.vertex[with_vertex(partner)]);
+  });
+  return alive;
 }
 
 Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& run) {

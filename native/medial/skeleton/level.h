@@ -7,6 +7,7 @@
 #include "base/frame.h"
 #include "base/point_tree.h"
 #include "base/stopwatch.h"
+#include "skeleton/betti.h"
 #include "skeleton/crisp.h"
 
 namespace medial {
@@ -37,6 +38,9 @@ struct Hierarchy::Parts {
 
 // Returns whether a cell with this value is above the thresholds.
 bool exceeds(const Thickness& value, const LevelOptions& t);
+
+// Returns the cells of a level.
+Alive alive_at(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);
 
 // Extracts a level. Throws InvalidInputError for thresholds below 0.
 Level level(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);

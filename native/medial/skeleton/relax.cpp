@@ -19,11 +19,33 @@ void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samp
   });
 }
 
-// Returns the rims without those at vertices that lie on creases.
+constexpr double kNearTip = 4;      // spacings from the loose end of a curve to the tip of a cone
+constexpr double kLikeACone = 0.2;  // the largest deviation from the radius half way to a tip
+constexpr double kBluntest = 0.95;  // the sine of half the angle of a cone with a tip
+
+// Returns the tip of a cone that a curve leads into, if the faces are such a cone: the ball half
+// way is half as large.
+std::optional<Vec3> tip_of(const CrispPlaces& crisp, const Faces& faces, const Vec3& before,
+                           const Vec3& end, double spacing) {
+  for (const Vec3& tip : crisp.tips) {
+    if (!(distance(tip, end) < kNearTip * spacing)) continue;
+    const double radius = faces.nearer(before, HUGE_VAL)->distance,
+                 half = faces.nearer(0.5 * (before + tip), HUGE_VAL)->distance;
+    const bool is_cone = std::abs(half - 0.5 * radius) < kLikeACone * radius;
+    const bool is_before = dot(tip - before, end - before) > 0;
+    if (is_cone && is_before && radius < kBluntest * distance(before, tip)) return tip;
+  }
+  return {};
+}
+
+// Returns the rims without those at vertices that lie on creases, or at the end of a smooth sheet.
 std::vector<Edge> rims_to_smooth(const Level& level, std::span<const Edge> rims,
                                  const CrispPlaces& crisp) {
   std::vector<Edge> off;
-  const auto is_free = [&](int32_t v) { return crisp.place[level.vertex_of[v]] < Placing::crease; };
+  const auto is_free = [&](int32_t v) {
+    const Placing place = crisp.place[level.vertex_of[v]];
+    return place < Placing::rim || (place == Placing::rim && level.radius[v] == 0);
+  };
   for (const Edge& rim : rims) {
     if (is_free(rim[0]) && is_free(rim[1])) off.push_back(rim);
   }
@@ -56,8 +78,8 @@ std::vector<Chain> chains_of(const Level& level) {
 class Rewirer {
  public:
   Rewirer(Level& level, const Hierarchy::Parts& hierarchy, const std::vector<Chain>& chains,
-          const std::vector<Curve>& curves)
-      : level_(level), h_(hierarchy), chains_(chains), curves_(curves) {}
+          const std::vector<Curve>& curves, bool crisp)
+      : level_(level), h_(hierarchy), chains_(chains), curves_(curves), crisp_(crisp) {}
 
   void rewire() && {
     take_out();
@@ -119,10 +141,18 @@ class Rewirer {
     const int32_t vertex = number_[which == 0 ? chain.vertices.front() : chain.vertices.back()];
     if (chain.loose[which]) {
       const Canal& canal = which == 0 ? curve.canal.front() : curve.canal.back();
-      level_.vertices[vertex] = canal.centre;
-      level_.radius[vertex] = canal.radius;
+      const auto tip = crisp_ ? tip_of(curve, which) : std::nullopt;
+      level_.vertices[vertex] = tip.value_or(canal.centre);
+      level_.radius[vertex] = tip ? 0 : canal.radius;
     }
     return vertex;
+  }
+
+  std::optional<Vec3> tip_of(const Curve& curve, int which) const {
+    const size_t last = curve.canal.size() - 1;
+    return medial::tip_of(h_.crisp, *h_.faces, curve.canal[which == 0 ? 1 : last - 1].centre,
+                          curve.canal[which == 0 ? 0 : last].centre,
+                          which == 0 ? curve.spacing.front() : curve.spacing.back());
   }
 
   // A new vertex stands for the nearest old one along the wire. Places between two old vertices may
@@ -142,6 +172,7 @@ class Rewirer {
   const Hierarchy::Parts& h_;
   const std::vector<Chain>& chains_;
   const std::vector<Curve>& curves_;
+  bool crisp_;
   std::vector<int32_t> number_;  // per old vertex: its new number, or -1 if it is removed
   Column<Vec3> old_exact_;
   Column<double> old_exact_radius_;
@@ -163,7 +194,7 @@ void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, 
   if (level.wires.empty()) return;
   const auto chains = chains_of(level);
   const auto curves = fit_curves(chains, level.vertices, h.samples, run);
-  Rewirer(level, h, chains, curves).rewire();
+  Rewirer(level, h, chains, curves, crisp).rewire();
 }
 
 }  // namespace medial

@@ -37,6 +37,8 @@ class SamplesOnFaces {
   // Returns whether a sample is near a place of the faces. Where none is, the faces do not bound
   // the solid: they are inside it, or doubled.
   bool are_near(const Vec3& place) const;
+  // Returns the triangle on which the sample nearest to a place lies, or -1.
+  int32_t triangle_near(const Vec3& place) const { return triangle(tree_.nearest(place).id); }
   // Returns the distance within which a sample is near.
   double reach() const { return reach_; }
 

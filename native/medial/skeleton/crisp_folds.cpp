@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/flat_polygon.h"
+#include "skeleton/crisp_parts.h"
+
+namespace medial {
+namespace {
+
+constexpr int kRounds = 24;         // of steps that unfold facets
+constexpr int kDentRounds = 6;      // of these, the rounds that mend deep dents, too
+constexpr double kDeepDent = 0.25;  // the sine of the turn
+
+constexpr double kAside = 0.1;  // holes from a place to one where a ball nearly touches walls
+
+// Tells how much is moved in a round: how many rings of neighbours round the folded facets, in how
+// many steps, and whether balls nearly touch walls afterwards.
+struct Effort {
+  int rings, steps;
+  bool nearly;
+};
+
+Effort effort_of(int round) {
+  if (round < 3) return {0, 1, false};
+  if (round < 9) return {1, 1, false};
+  return round < 16 ? Effort{2, 4, true} : Effort{3, 12, true};
+}
+
+class Unfolder {
+ public:
+  explicit Unfolder(CrispState& state) : c_(state) {}
+
+  void unfold() {
+    std::vector<int32_t> suspects = c_.facets;
+    for (int round = 0; round < kRounds; ++round) {
+      throw_if_cancelled(c_.progress);
+      std::vector<int32_t> vertices = folded_vertices(suspects, round < kDentRounds);
+      if (vertices.empty()) return;
+      const Effort effort = effort_of(round);
+      for (int ring = 0; ring < effort.rings; ++ring) vertices = with_neighbours(vertices);
+      suspects = facets_round(vertices);
+      std::erase_if(vertices, [&](int32_t v) { return !moves(v); });
+      relax(vertices, effort);
+    }
+  }
+
+ private:
+  // Returns the vertices of folded facets out of some, and of dented ones if wanted, ascending.
+  std::vector<int32_t> folded_vertices(std::span<const int32_t> suspects, bool dented) const {
+    auto vertices = parallel_append<int32_t>(static_cast<int64_t>(suspects.size()), c_.run,
+                                             [&](int64_t i, auto& out, int) {
+                                               if (!is_folded(c_, suspects[i], dented)) return;
+                                               for (const Corner& c : c_.complex.ring(suspects[i]))
+                                                 out.push_back(c.vertex);
+                                             });
+    sort_out(vertices);
+    return vertices;
+  }
+
+  std::vector<int32_t> with_neighbours(std::span<const int32_t> vertices) const {
+    std::vector<int32_t> all;
+    for (const int32_t v : vertices) {
+      for (const int32_t f : c_.facets_at[v]) {
+        for (const Corner& c : c_.complex.ring(f)) all.push_back(c.vertex);
+      }
+    }
+    sort_out(all);
+    return all;
+  }
+
+  // Returns the facets at some vertices, and at those that follow them.
+  std::vector<int32_t> facets_round(std::span<const int32_t> vertices) const {
+    std::vector<int32_t> all;
+    for (const int32_t v : vertices)
+      all.insert(all.end(), c_.facets_at[v].begin(), c_.facets_at[v].end());
+    for (const int32_t v : c_.followers) {
+      if (!std::binary_search(vertices.begin(), vertices.end(), c_.follows[v])) continue;
+      all.insert(all.end(), c_.facets_at[v].begin(), c_.facets_at[v].end());
+    }
+    sort_out(all);
+    return all;
+  }
+
+  static void sort_out(std::vector<int32_t>& ids) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  }
+
+  bool moves(int32_t v) const {
+    const Placing place = c_.made.place[v];
+    const bool may = place == Placing::crease || place == Placing::touching ||
+                     (place == Placing::refused && !c_.is_open_rim(v));
+    return may && c_.follows[v] < 0 && !c_.stays[v];
+  }
+
+  // Moves vertices towards the middle of their neighbours, and onto the walls or the crease again.
+  void relax(std::span<const int32_t> vertices, const Effort& effort) {
+    const auto count = static_cast<int64_t>(vertices.size());
+    std::vector<Vec3> before, next(vertices.size());
+    for (const int32_t v : vertices) before.push_back(c_.made.position[v]);
+    for (int step = 0; step < effort.steps; ++step) {
+      parallel_for(count, c_.run, [&](int64_t i) { next[i] = step_of(vertices[i]); });
+      for (size_t i = 0; i < vertices.size(); ++i) c_.made.position[vertices[i]] = next[i];
+    }
+    std::vector<Touch> found(vertices.size());
+    parallel_for(
+        count, c_.run, [&](int64_t i) { found[i] = placed(vertices[i], effort); }, 64);
+    for (size_t i = 0; i < vertices.size(); ++i) {
+      const int32_t v = vertices[i];
+      if (c_.made.place[v] == Placing::crease) {
+        c_.made.position[v] = found[i].radius < 0 ? before[i] : found[i].position;
+      } else if (found[i].radius > 0) {
+        c_.take(v, found[i]);
+        c_.made.place[v] = Placing::touching;
+      } else {
+        c_.made.position[v] = before[i];
+      }
+    }
+    follow(c_);
+  }
+
+  // Returns a place half way to the middle of the neighbours of a vertex.
+  Vec3 step_of(int32_t v) const {
+    const Vec3& here = c_.made.position[v];
+    const auto middle = middle_of_neighbours(v, c_.made.place[v]);
+    return middle ? 0.5 * here + 0.5 * *middle : here;
+  }
+
+  // Returns the place on the walls, or on the crease, that is nearest to where a vertex has moved
+  // to; on a crease with radius 0, or below 0 if there is none.
+  Touch placed(int32_t v, const Effort& effort) const {
+    const Vec3& here = c_.made.position[v];
+    if (effort.nearly && c_.made.place[v] != Placing::crease && !c_.on_seam[v]) {
+      const Touch found = nearly_placed(v, here);
+      if (found.radius > 0) return found;
+    }
+    if (c_.made.place[v] == Placing::touching) return touch(c_, v, walls_of(v), here);
+    if (c_.made.place[v] == Placing::refused) {
+      const int32_t other = placed_neighbour(c_, v);
+      return other < 0 ? Touch{} : touch(c_, v, c_.walls[other], here);
+    }
+    const auto on_crease = c_.samples.creases().nearer(here, c_.spacing_at(v));
+    return on_crease ? Touch{on_crease->point} : Touch{here, -1};
+  }
+
+  // Returns the nearest place where a ball nearly touches two walls of a vertex, or of one beside
+  // it.
+  Touch nearly_placed(int32_t v, const Vec3& here) const {
+    Touch best;
+    const auto take = [&](const Walls& walls) {
+      if (walls.count < 2) return;
+      const Touch found = nearly_touching(c_, v, walls, here);
+      if (!(found.radius > 0) || distance(found.position, here) > kAside * c_.spacing_at(v)) return;
+      if (best.radius > 0 && distance(best.position, here) <= distance(found.position, here))
+        return;
+      best = found;
+    };
+    take(walls_of(v));
+    c_.for_edges(v, [&](const Corner&, int32_t other) { take(walls_of(other)); });
+    return best;
+  }
+
+  // A vertex beside a seam may leave the third wall.
+  Walls walls_of(int32_t v) const {
+    Walls walls = c_.walls[v];
+    if (!c_.on_seam[v]) walls.count = std::min<size_t>(walls.count, 2);
+    return walls;
+  }
+
+  // A vertex on a crease has its neighbours on the rim, one on a seam those along it.
+  std::optional<Vec3> middle_of_neighbours(int32_t v, Placing place) const {
+    Vec3 sum;
+    int count = 0;
+    const auto take = [&](const Corner& c, int32_t other) {
+      const int uses = c_.edge_uses[c.edge];
+      const bool along = place == Placing::crease ? uses == 1 : !c_.on_seam[v] || uses == 3;
+      if (!along) return;
+      sum = sum + c_.made.position[other];
+      ++count;
+    };
+    c_.for_edges(v, take);
+    if (count == 0) return {};
+    return (1.0 / count) * sum;
+  }
+
+  CrispState& c_;
+};
+
+}  // namespace
+
+bool is_folded(const CrispState& state, int32_t facet, bool dented) {
+  const auto ring = state.complex.ring(facet);
+  const auto& [p, q] = state.complex.generators[facet];
+  const auto [right, up] = across(normalized(state.samples.point(q) - state.samples.point(p)));
+  std::vector<FlatPoint> corners;
+  const Vec3& origin = state.made.position[ring[0].vertex];
+  for (const Corner& c : ring) {
+    const Vec3 at = state.made.position[c.vertex] - origin;
+    corners.push_back({dot(at, right), dot(at, up)});
+  }
+  return is_turned_over(corners) || turns_back(corners) || crosses_itself(corners) ||
+         (dented && has_dent(corners, kDeepDent));
+}
+
+void unfold(CrispState& state) { Unfolder(state).unfold(); }
+
+}  // namespace medial

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of the stage that makes crisp places, and the state that they share.
+#pragma once
+
+#include "base/csr.h"
+#include "contact/touching_ball.h"
+#include "skeleton/crisp.h"
+
+namespace medial {
+
+// Holds the walls that a ball touches, by triangles of the mesh.
+struct Walls {
+  std::array<int32_t, kMostContacts> triangle{-1, -1, -1, -1};
+  size_t count = 0;
+
+  std::span<int32_t> all() { return {triangle.data(), count}; }
+  bool add(int32_t t) {
+    if (count == kMostContacts) return false;
+    triangle[count++] = t;
+    return true;
+  }
+};
+
+struct Touch {
+  Vec3 position;
+  double radius = 0;  // 0: there is no empty ball that touches the walls
+  Walls walls{};
+  std::array<Vec3, kMostContacts> away{};  // unit directions from the feet
+};
+
+// Tells how far, and in which direction, a smooth rim is; 0 if there is none.
+struct SmoothRim {
+  Vec3 outward;
+  double reach = 0;
+};
+
+// A vertex, and two samples that a facet without area separates there.
+using Hidden = std::array<int32_t, 3>;
+
+// Holds the facets that get crisp places, and what is known of the places of their vertices so far.
+// Its const members may be called from several threads.
+class CrispState {
+ public:
+  CrispState(const InnerComplex& complex, const Triangulation& triangulation,
+             const SamplesOnFaces& samples, std::span<const Thickness> values,
+             std::span<const double> sine, std::span<const uint8_t> selected,
+             std::span<const uint8_t> edges, const Run& run);
+
+  // Returns the largest hole between the samples of the facets at a vertex.
+  double spacing_at(int32_t v) const;
+  void take(int32_t v, const Touch& found);
+  // Moves a vertex to a place at the end of a sheet, if there are samples near the faces there.
+  void end_at(int32_t v, const Vec3& place);
+  // Returns whether a vertex is on a rim that ends in no crease and at no seam.
+  bool is_open_rim(int32_t v) const;
+
+  // Calls found(facet, corner) for all corners of the facets.
+  template <typename Found>
+  void for_corners(const Found& found) const {
+    for (const int32_t f : facets) {
+      for (const Corner& c : complex.ring(f)) found(f, c);
+    }
+  }
+  // Calls found(corner, other) for the edges of each facet at a vertex, where `corner` names the
+  // edge and `other` is its other end.
+  template <typename Found>
+  void for_edges(int32_t v, const Found& found) const {
+    for (const int32_t f : facets_at[v]) {
+      const auto ring = complex.ring(f);
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const size_t next = (i + 1) % ring.size();
+        if (ring[i].vertex == v) found(ring[i], ring[next].vertex);
+        if (ring[next].vertex == v) found(ring[i], ring[i].vertex);
+      }
+    }
+  }
+
+  const InnerComplex& complex;
+  const Triangulation& triangulation;
+  const SamplesOnFaces& samples;
+  std::span<const double> sine;  // per facet
+  Run run;
+  Progress* progress;
+  std::vector<int32_t> facets;  // those that get places
+  Csr<int32_t> facets_at;       // per vertex: the facets at it
+  Array<uint8_t> edge_uses;     // per edge: the facets at it; 3 means three or more
+  Array<uint8_t> on_rim;        // per vertex
+  Array<uint8_t> on_seam;       // per vertex
+  Csr<int32_t> beside;          // per vertex: its neighbours along rims, ascending
+  std::vector<Edge> wires;      // a vertex of facets, and the other end of an edge without facets
+  std::vector<Hidden> hidden;   // ascending
+  CrispPlaces made;
+  Array<Walls> walls;           // per vertex: what its ball touches
+  Array<SmoothRim> smooth_rim;  // per vertex
+  Array<int32_t> follows;       // per vertex: the vertex in whose place it is, or -1
+  std::vector<int32_t> followers;
+  Array<uint8_t> stays;  // per vertex: whether it is the end of a wire
+
+ private:
+  void find_facets(std::span<const Thickness> values);
+  void find_rims();
+  void find_wires(std::span<const uint8_t> edges);
+  void find_hidden(std::span<const uint8_t> selected);
+};
+
+// --- crisp_walls.cpp
+
+// Returns the walls of a vertex: its samples are of one wall where no facet separates them. On a
+// curved wall all samples mostly have one foot, so the first one will do unless `thorough`.
+Walls walls_at(const CrispState& state, int32_t v, bool thorough);
+// Finds the ball that touches some walls near a place. A wall that it sticks out of is added.
+Touch touch(const CrispState& state, int32_t v, const Walls& walls, const Vec3& start);
+// Finds a ball that touches some walls, although others are as near but for what smooth faces are
+// off: walls all round the end of a wire, and the arc of a fillet. The radius is the distance to
+// the nearest face.
+Touch nearly_touching(const CrispState& state, int32_t v, Walls walls, const Vec3& start);
+
+// Returns the squared sine of half the angle between the directions to the first two feet.
+inline double openness(const std::array<Vec3, kMostContacts>& away) {
+  return 0.5 * (1 - dot(away[0], away[1]));
+}
+
+// --- crisp_creases.cpp: rims that end in creases
+
+class CreaseRims {
+ public:
+  explicit CreaseRims(CrispState& state);
+
+  // Moves a vertex of a rim onto its crease, with radius 0; returns whether there is one. It may be
+  // called from several threads.
+  bool onto_crease(int32_t v);
+  // Moves the nearest vertex on a crease to each corner that no vertex has reached.
+  void reach_corners();
+
+ private:
+  double reach_of(const PlaceOnCrease& place) const;
+  void onto_corner(int32_t v, double within);
+  bool same_direction(const PlaceOnCrease& a, const PlaceOnCrease& b) const;
+  Vec3 direction(int32_t edge) const;
+
+  CrispState& c_;
+  PointTree corners_;
+  std::vector<Vec3> corner_points_;
+};
+
+// --- crisp_rims.cpp: rims of smooth sheets
+
+// Moves the vertices of smooth rims to where the two places that a ball touches become one.
+void settle_smooth_rims(CrispState& state);
+// Returns how far a smooth rim is from a ball that touches two places, and in which direction.
+SmoothRim smooth_rim_of(const CrispState& state, int32_t v, const Touch& inner);
+
+// --- crisp_rim_order.cpp
+
+// Vertices of a rim that went to the end of the sheet may have changed their order along it, as
+// those of a fillet, which samples put near to a line, do. They move towards the middle of their
+// neighbours along the rim until it no longer turns back, and then to the end of the sheet again.
+void order_rims(CrispState& state);
+
+// --- crisp_fillets.cpp
+
+// Vertices of rims beyond the last ball that touches two places go back to that ball. It lies
+// between them and a neighbour that has found its place, as at a fillet, all of whose balls have
+// one centre.
+void end_fillets(CrispState& state);
+// Returns the nearest neighbour of a vertex whose ball touches two walls, or -1.
+int32_t placed_neighbour(const CrispState& state, int32_t v);
+// Returns the last ball that touches two places on the way between two places, which are seen under
+// a certain openness at least.
+Touch last_ball(const CrispState& state, int32_t v, const Walls& walls, const Vec3& inner,
+                const Vec3& beyond, double openness_at_least);
+
+// --- crisp_wires.cpp
+
+// A wire that ends at facets, as the axis of a cylinder does, ends where the ball touches walls all
+// round it and one before it. Such places stay when facets are unfolded.
+void end_wires(CrispState& state);
+// Returns the points in which smooth faces end, as in the tip of a cone.
+std::vector<Vec3> tips_of(const Faces& faces);
+
+// --- crisp_focal.cpp
+
+// Draws what is near the rim of a fillet, whose balls all have one centre line, together on that
+// line.
+void gather_focal_rims(CrispState& state);
+
+// --- crisp_seams.cpp
+
+// A vertex may reach a seam without being on one: the sheet of the samples goes on a little where
+// that of the faces ends. It follows the nearest neighbour that is on the seam, or else the order
+// along the seam would be lost.
+void join_seams(CrispState& state);
+// Moves the vertices that follow others to their places.
+void follow(CrispState& state);
+
+// --- crisp_folds.cpp
+
+// Facets fold where places that nearly coincide changed their order. Their vertices take steps
+// towards the middle of their neighbours, along the seam or crease that they are on.
+void unfold(CrispState& state);
+// Returns whether a facet is turned over, or its boundary runs back or crosses itself, as seen
+// along the line between its samples; if `dented`, also whether it has a deep dent. A facet at the
+// rim of a hole has a slight one.
+bool is_folded(const CrispState& state, int32_t facet, bool dented);
+
+}  // namespace medial
