@@ -33,19 +33,22 @@ void require_fitting(const StructureInput& input) {
   require_rows(input.wires, input.vertices.size(), "ends of wires");
 }
 
-Csr<int32_t> facets_at_edges(const Facets& facets, const Run& run) {
-  Csr<int32_t> result;
-  result.offsets = array<int64_t>(facets.edges.ends.size() + 1, 0, run);
-  for (const int32_t edge : facets.edges.of_corner) ++result.offsets[edge];
-  counts_to_offsets(result.offsets);
-  result.items = array<int32_t>(facets.edges.of_corner.size(), run);
-  std::vector<int64_t> next(result.offsets.begin(), result.offsets.end());
+void put_facets_at_edges(Facets& facets, const Run& run) {
+  const auto& [ends, of_corner] = facets.edges;
+  Csr<int32_t>& at = facets.at_edge;
+  at.offsets = array<int64_t>(ends.size() + 1, 0, run);
+  for (const int32_t edge : of_corner) ++at.offsets[edge];
+  counts_to_offsets(at.offsets);
+  at.items = array<int32_t>(of_corner.size(), run);
+  facets.forward.resize(of_corner.size());
+  std::vector<int64_t> next(at.offsets.begin(), at.offsets.end());
   for (int32_t f = 0; f < facets.count(); ++f) {
     for (int32_t c = facets.input.face_offsets[f]; c < facets.input.face_offsets[f + 1]; ++c) {
-      result.items[static_cast<size_t>(next[facets.edges.of_corner[c]]++)] = f;
+      const auto slot = static_cast<size_t>(next[of_corner[c]]++);
+      at.items[slot] = f;
+      facets.forward[slot] = facets.input.face_vertices[c] == ends[of_corner[c]][0];
     }
   }
-  return result;
 }
 
 void measure(Facets& facets, int64_t f) {
@@ -89,7 +92,7 @@ Facets facets_of(const StructureInput& input, const Run& run) {
   facets.middle.resize(count);
   facets.normal.resize(count);
   parallel_for(static_cast<int64_t>(count), run, [&](int64_t f) { measure(facets, f); });
-  facets.at_edge = facets_at_edges(facets, run);
+  put_facets_at_edges(facets, run);
   return facets;
 }
 

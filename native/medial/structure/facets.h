@@ -13,12 +13,14 @@ namespace medial {
 struct Facets {
   StructureInput input;
   PolygonEdges edges;
-  Csr<int32_t> at_edge;         // facets at each edge, ascending
-  std::vector<double> area;     // (f)
-  std::vector<double> spacing;  // (f) mean of its generators
-  std::vector<double> radius;   // (f) mean of its corners
-  std::vector<Vec3> middle;     // (f) mean of its corners
-  std::vector<Vec3> normal;     // (f) as long as the area
+  Csr<int32_t> at_edge;          // facets at each edge, ascending
+  std::vector<uint8_t> forward;  // in the order of at_edge: whether the facet passes the edge from
+                                 // its lower to its higher end
+  std::vector<double> area;      // (f)
+  std::vector<double> spacing;   // (f) mean of its generators
+  std::vector<double> radius;    // (f) mean of its corners
+  std::vector<Vec3> middle;      // (f) mean of its corners
+  std::vector<Vec3> normal;      // (f) as long as the area
 
   int32_t count() const { return static_cast<int32_t>(area.size()); }
   int32_t edge_count() const { return static_cast<int32_t>(edges.ends.size()); }

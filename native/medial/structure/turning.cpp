@@ -6,16 +6,6 @@
 namespace medial {
 namespace {
 
-// Returns whether a facet passes an edge from its lower to its higher end.
-bool passes_forward(const Facets& facets, int32_t facet, int32_t edge) {
-  for (int32_t c = facets.input.face_offsets[facet]; c < facets.input.face_offsets[facet + 1];
-       ++c) {
-    if (facets.edges.of_corner[c] != edge) continue;
-    return facets.input.face_vertices[c] == facets.edges.ends[edge][0];
-  }
-  return false;
-}
-
 // Returns how much a facet, as it is, speaks for the direction of its sheet: its area if it leads
 // from the lower patch to the higher one, less for the opposite, nothing if that is not known.
 double vote_of(const Facets& facets, const Edge& label, int32_t facet) {
@@ -42,7 +32,8 @@ Column<uint8_t> turned_facets(const Facets& facets, const AxisParts& parts) {
   for (int32_t e = 0; e < facets.edge_count(); ++e) {
     const auto at = facets.at_edge[e];
     if (at.size() != 2 || parts.of_facet[at[0]] != parts.of_facet[at[1]]) continue;
-    sets.unite(at[0], at[1], passes_forward(facets, at[0], e) == passes_forward(facets, at[1], e));
+    const auto first = static_cast<size_t>(facets.at_edge.offsets[e]);
+    sets.unite(at[0], at[1], facets.forward[first] == facets.forward[first + 1]);
   }
   std::vector<double> votes(facets.area.size(), 0);
   std::vector<Vec3> normals(facets.area.size());
