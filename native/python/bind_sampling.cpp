@@ -143,6 +143,7 @@ void bind_sampling(py::module_& m) {
                              docs::SurfaceSamples_radius)
       .def_property_readonly("partner", view_property<int32_t>(&S::partner),
                              docs::SurfaceSamples_partner)
+      .def_property_readonly("bend", view_property<double>(&S::bend), docs::SurfaceSamples_bend)
       .def_property_readonly("sharp_edges", view_property<int32_t>(&S::sharp_edges),
                              docs::SurfaceSamples_sharp_edges)
       .def_readonly("area", &S::area, docs::SurfaceSamples_area);

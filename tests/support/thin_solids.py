@@ -92,7 +92,10 @@ def stairs(t: float, steps: int = 3) -> ThinSolid:
     boxes = []
     for i in range(steps):
         x, z = 0.4 * i, 0.3 * i
-        boxes += [((x, 0, z), (x + 0.4 + t, 1, z + t)), ((x + 0.4, 0, z), (x + 0.4 + t, 1, z + 0.3 + t))]
+        boxes += [
+            ((x, 0, z), (x + 0.4 + t, 1, z + t)),
+            ((x + 0.4, 0, z), (x + 0.4 + t, 1, z + 0.3 + t)),
+        ]
     return ThinSolid(union(*boxes), (1, 0, 0), (1 - 2 * t) * (0.7 * steps - 2 * t))
 
 
@@ -113,14 +116,20 @@ def tube(t: float, around: int = 96) -> ThinSolid:
     turn = 2 * np.pi * np.arange(around) / around
     profile = [(0.5 - t, 0.0), (0.5, 0.0), (0.5, 1.0), (0.5 - t, 1.0)]
     points = np.concatenate(
-        [np.column_stack((r * np.cos(turn), r * np.sin(turn), np.full(around, z))) for r, z in profile]
+        [
+            np.column_stack((r * np.cos(turn), r * np.sin(turn), np.full(around, z)))
+            for r, z in profile
+        ]
     )
     i = np.arange(around)
     j = (i + 1) % around
     triangles = []
     for ring in range(4):
         a, b = ring * around, (ring + 1) % 4 * around
-        triangles += [np.column_stack((a + i, a + j, b + j)), np.column_stack((a + i, b + j, b + i))]
+        triangles += [
+            np.column_stack((a + i, a + j, b + j)),
+            np.column_stack((a + i, b + j, b + i)),
+        ]
     mesh = points, np.concatenate(triangles).astype(np.int32)
     return ThinSolid(mesh, (1, 1, 0), 2 * np.pi * (0.5 - t / 2) * (1 - 2 * t))
 

@@ -47,6 +47,9 @@ class Density:
         The smallest spacing at sharp edges, where the feature size is 0.
     limit : float
         The largest epsilon that is dense enough.
+    paired : (k,) bool, optional
+        Samples with a partner on the opposite wall, between which the axis is right whatever their epsilon. They do
+        not count.
     """
 
     points: NDArray[np.float64]
@@ -55,11 +58,13 @@ class Density:
     edges: NDArray[np.float64]
     finest: float
     limit: float
+    paired: NDArray[np.bool_] | None = None
 
     @cached_property
     def at_edge(self) -> NDArray[np.bool_]:
-        """(k,) bool: samples so close to a sharp edge that the finest spacing is not dense enough there."""
-        return near(self.points, self.edges, self.finest / self.limit)
+        """(k,) bool: samples so close to a sharp edge that no spacing is dense enough, or with a partner."""
+        close = near(self.points, self.edges, self.finest / self.limit)
+        return close if self.paired is None else close | self.paired
 
     @cached_property
     def epsilon(self) -> NDArray[np.float64]:
@@ -140,6 +145,7 @@ def estimate(
     finest: float,
     limit: float,
     most: int | None = None,
+    paired: NDArray[np.bool_] | None = None,
 ) -> Density:
     """Estimate the density of an analysis from the facets that the published thresholds select, whatever is shown.
 
@@ -152,6 +158,8 @@ def estimate(
     finest, limit : float
     most : int, optional
         The number of samples to measure; default all.
+    paired : (n,) bool, optional
+        The points that have a partner on the opposite wall.
     """
     published, rows = Settings(), analysis.samples
     some = _spread(len(rows), most) if most and most < len(rows) else slice(None)
@@ -162,6 +170,7 @@ def estimate(
         edges=edges,
         finest=finest,
         limit=limit,
+        paired=None if paired is None else paired[rows[some]],
     )
 
 

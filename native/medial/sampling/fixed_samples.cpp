@@ -17,12 +17,6 @@ Vec3 edge_normal(const CurvedSurface& surface, const Edge& ends, double share) {
 
 }  // namespace
 
-Barycentric along(const Triangle& t, int32_t from, int32_t to, double share) {
-  std::array<double, 3> at{};
-  for (int i = 0; i < 3; ++i) at[i] = t[i] == from ? 1 - share : t[i] == to ? share : 0;
-  return {at[0], at[1], at[2]};
-}
-
 FixedSample at_vertex(const CurvedSurface& surface, const Creases& creases, int32_t vertex,
                       const Spacing& spacing) {
   const TriangleMesh& mesh = surface.mesh();

@@ -27,9 +27,6 @@ struct FixedSample {
   int32_t partner = -1;  // on the opposite wall
 };
 
-// Returns the barycentric coordinates of a place on the edge between two corners of a triangle.
-Barycentric along(const Triangle& t, int32_t from, int32_t to, double share);
-
 FixedSample at_vertex(const CurvedSurface& surface, const Creases& creases, int32_t vertex,
                       const Spacing& spacing);
 FixedSample on_edge(const CurvedSurface& surface, const Creases& creases, int32_t edge,

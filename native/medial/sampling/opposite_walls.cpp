@@ -13,6 +13,8 @@ constexpr int kMostShrinkings = 32;
 constexpr double kFacing = 0.8660254037844386;  // the cosine of 30 degrees
 constexpr double kUpright =
     0.94;  // the cosine between a normal and the way to the centre, at least
+constexpr int kMostSteps = 12;
+constexpr double kPrecise = 1e-12;  // in barycentric coordinates
 // A ball touches where it is not cut deeper than by this share of its radius.
 constexpr double kTouching = 1e-9;
 // Walls closer than this share of the reach meet there.
@@ -20,12 +22,12 @@ constexpr double kMeeting = 1e-8;
 
 }  // namespace
 
-OppositeWalls::OppositeWalls(const TriangleMesh& mesh)
-    : mesh_(mesh), order_(mesh.triangles.size()) {
+OppositeWalls::OppositeWalls(const CurvedSurface& surface, const Creases& creases)
+    : surface_(surface), creases_(creases), mesh_(surface.mesh()), order_(mesh_.triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0);
   std::vector<Box> boxes(order_.size());
   for (size_t t = 0; t < boxes.size(); ++t) {
-    for (const int32_t corner : mesh.triangles[t]) boxes[t].add(mesh.points[corner]);
+    for (const int32_t corner : mesh_.triangles[t]) boxes[t].add(mesh_.points[corner]);
   }
   const auto describe = [&](Node& node) {
     for (int32_t i = node.begin; i < node.end; ++i) {
@@ -78,8 +80,8 @@ OppositeWalls::Touch OppositeWalls::nearest_facing(const Vec3& centre, const Vec
 }
 
 // The ball shrinks to touch the place that lies deepest in it, until it holds none.
-std::optional<WallPlace> OppositeWalls::operator()(const Vec3& from, const Vec3& normal,
-                                                   double reach) const {
+std::optional<OppositeWalls::Touch> OppositeWalls::touch(const Vec3& from, const Vec3& normal,
+                                                         double reach) const {
   double radius = 0.5 * reach;
   Touch touch;
   if (normal == Vec3{} || nodes_.empty()) return {};
@@ -95,7 +97,60 @@ std::optional<WallPlace> OppositeWalls::operator()(const Vec3& from, const Vec3&
   if (touch.triangle < 0) return {};
   const Vec3 away = normalized(from - radius * normal - touch.point);
   if (!(-dot(away, mesh_.normal[touch.triangle]) > kUpright)) return {};
-  return WallPlace{touch.triangle, touch.at, distance(from, touch.point)};
+  return touch;
+}
+
+std::optional<WallPlace> OppositeWalls::operator()(const SurfacePlace& from, double reach) const {
+  const auto flat = touch(point(from.triangle, from.at), mesh_.normal[from.triangle], reach);
+  if (!flat) return {};
+  SurfacePlace place{flat->triangle, flat->at};
+  const bool inside = flat->at.a > 0 && flat->at.b > 0 && flat->at.c > 0;
+  if (inside || surface_.smooth()) place = on_curved(from, place);
+  const Vec3 there = surface_.point(place.triangle, place.at);
+  return WallPlace{place.triangle, place.at,
+                   distance(surface_.point(from.triangle, from.at), there)};
+}
+
+// Moves a place of the flat wall to where the ball touches the curved one. In each step the curved
+// wall is replaced by its tangent plane.
+SurfacePlace OppositeWalls::on_curved(const SurfacePlace& from, SurfacePlace place) const {
+  const Vec3 start = surface_.point(from.triangle, from.at);
+  const Vec3 n = surface_.normal(from.triangle, from.at);
+  for (int i = 0; i < kMostSteps; ++i) {
+    const PatchExpansion here = surface_.patch(place.triangle).expansion(place.at);
+    const Vec3 m = normalized(cross(here.b, here.c));
+    const double facing = 1 - dot(n, m);
+    if (!(facing > 1)) break;
+    const double radius = dot(here.point - start, m) / facing;
+    const Vec3 way = start - radius * n + radius * m - here.point;
+    const double bb = dot(here.b, here.b), bc = dot(here.b, here.c), cc = dot(here.c, here.c);
+    const double by_b = dot(way, here.b), by_c = dot(way, here.c), det = bb * cc - bc * bc;
+    if (!(det > 0)) break;
+    const double db = (by_b * cc - by_c * bc) / det, dc = (by_c * bb - by_b * bc) / det;
+    place.at = {place.at.a - db - dc, place.at.b + db, place.at.c + dc};
+    const bool over = step_over(place);
+    if (!over && std::abs(db) + std::abs(dc) < kPrecise) break;
+  }
+  return place;
+}
+
+// Brings a place that has left its triangle back to the side through which it left, of the next
+// triangle if that is on the same wall. Returns whether the place may move on.
+bool OppositeWalls::step_over(SurfacePlace& place) const {
+  std::array<double, 3> at{place.at.a, place.at.b, place.at.c};
+  const auto out = static_cast<int>(std::min_element(at.begin(), at.end()) - at.begin());
+  if (at[out] >= 0) return false;
+  at[out] = 0;
+  const int i = (out + 1) % 3, j = (out + 2) % 3;
+  at[i] = std::clamp(at[i] / (at[i] + at[j]), 0.0, 1.0);
+  at[j] = 1 - at[i];
+  place.at = {at[0], at[1], at[2]};
+  const Triangle& t = mesh_.triangles[place.triangle];
+  const MeshEdge& edge = creases_.edges[creases_.find(t[i], t[j])];
+  if (edge.crease != Crease::none || !edge.manifold) return false;
+  const int32_t next = edge.triangles[edge.triangles[0] == place.triangle];
+  place = {next, along(mesh_.triangles[next], t[i], t[j], at[j])};
+  return true;
 }
 
 }  // namespace medial

@@ -10,6 +10,11 @@
 
 namespace medial {
 
+struct SurfacePlace {
+  int32_t triangle;
+  Barycentric at;
+};
+
 // A place of the opposite wall.
 struct WallPlace {
   int32_t triangle = -1;
@@ -17,17 +22,18 @@ struct WallPlace {
   double distance = 0;  // between the two places
 };
 
-// It reads the flat triangles. Its const members may be called from several threads.
+// It finds the triangle by the flat triangles, and the place on the surface. Its const members may
+// be called from several threads.
 class OppositeWalls {
  public:
-  // The mesh must outlive this object; its triangles turn outward.
-  explicit OppositeWalls(const TriangleMesh& mesh);
+  // The surface must outlive this object; its triangles turn outward.
+  OppositeWalls(const CurvedSurface& surface, const Creases& creases);
 
-  // Returns the place at which the ball touches that touches the surface at `from`, where `normal`
-  // is the outward unit normal, and lies inside. Only triangles within 30 degrees of the opposite
-  // direction count, so the ball ignores walls beside. There is nothing if the diameter of the ball
-  // is above `reach`, or if the ball touches the end of a wall at a slant.
-  std::optional<WallPlace> operator()(const Vec3& from, const Vec3& normal, double reach) const;
+  // Returns where the ball that touches the surface at a place from inside touches the opposite
+  // wall. Only triangles within 30 degrees of the opposite direction count, so the ball ignores
+  // walls beside. There is nothing if the diameter of the ball is above `reach`, or if the ball
+  // touches the end of a wall at a slant.
+  std::optional<WallPlace> operator()(const SurfacePlace& from, double reach) const;
   // Returns a place on the flat triangle.
   Vec3 point(int32_t triangle, const Barycentric& at) const;
 
@@ -41,8 +47,13 @@ class OppositeWalls {
     Vec3 point;
   };
 
+  std::optional<Touch> touch(const Vec3& from, const Vec3& normal, double reach) const;
   Touch nearest_facing(const Vec3& centre, const Vec3& normal, double than) const;
+  SurfacePlace on_curved(const SurfacePlace& from, SurfacePlace place) const;
+  bool step_over(SurfacePlace& place) const;
 
+  const CurvedSurface& surface_;
+  const Creases& creases_;
   const TriangleMesh& mesh_;
   std::vector<int32_t> order_;  // triangles, leaf after leaf
   std::vector<Node> nodes_;

@@ -50,43 +50,45 @@ bool PairedSamples::is_reflex(int32_t edge) const {
   return dot(mesh().points[third] - mesh().points[e.ends[0]], mesh().normal[e.triangles[0]]) > 0;
 }
 
-// Returns a normal for each face at a sample from which the solid goes straight down.
-std::vector<Vec3> PairedSamples::normals_at(const FixedSample& sample) const {
-  std::vector<Vec3> normals;
-  const auto take = [&](int32_t triangle) {
-    const Vec3& n = mesh().normal[triangle];
-    for (const Vec3& m : normals) {
-      if (dot(n, m) > kOneDirection) return;
-    }
-    normals.push_back(n);
-  };
-  if (sample.edge >= 0) {
-    const MeshEdge& e = creases_.edges[sample.edge];
-    for (const int32_t t : e.triangles) {
-      if (t >= 0) take(t);
-    }
-    const bool acute = normals.size() == 2 && dot(normals[0], normals[1]) < kAcute;
-    if (acute && !is_reflex(sample.edge)) normals.clear();
-  } else if (sample.kind == SampleKind::surface) {
-    take(sample.triangle);
-  } else {
-    const Triangle& t = mesh().triangles[sample.triangle];
+// Returns the place of a sample on each face from which the solid goes straight down.
+std::vector<SurfacePlace> PairedSamples::places_of(const FixedSample& sample) const {
+  if (sample.edge < 0) {
+    if (sample.kind == SampleKind::surface) return {{sample.triangle, sample.at}};
     const double at[3] = {sample.at.a, sample.at.b, sample.at.c};
-    for (const int32_t other : mesh().fans[t[std::max_element(at, at + 3) - at]]) take(other);
+    return places_at_vertex(mesh().triangles[sample.triangle][std::max_element(at, at + 3) - at]);
   }
-  return normals;
+  const MeshEdge& e = creases_.edges[sample.edge];
+  std::vector<SurfacePlace> places;
+  for (const int32_t t : e.triangles) {
+    if (t < 0) continue;
+    places.push_back({t, along(mesh().triangles[t], e.ends[0], e.ends[1], sample.share)});
+  }
+  const bool acute =
+      places.size() == 2 && dot(normal(e.triangles[0]), normal(e.triangles[1])) < kAcute;
+  if (acute && !is_reflex(sample.edge)) places.clear();
+  return places;
+}
+
+std::vector<SurfacePlace> PairedSamples::places_at_vertex(int32_t vertex) const {
+  std::vector<SurfacePlace> places;
+  for (const int32_t t : mesh().fans[vertex]) {
+    const bool again = std::any_of(places.begin(), places.end(), [&](const SurfacePlace& other) {
+      return dot(normal(t), normal(other.triangle)) > kOneDirection;
+    });
+    if (!again) places.push_back({t, along(mesh().triangles[t], vertex, -1, 0)});
+  }
+  return places;
 }
 
 std::optional<WallPlace> PairedSamples::wall_opposite(const FixedSample& sample,
-                                                      const Vec3& normal) const {
-  return walls_(walls_.point(sample.triangle, sample.at), normal,
-                kCloseWalls * sample.radius / kDisk);
+                                                      const SurfacePlace& place) const {
+  return walls_(place, kCloseWalls * sample.radius / kDisk);
 }
 
 PairedSamples::Opposites PairedSamples::opposites_of(const FixedSample& sample) const {
   Opposites found;
-  for (const Vec3& n : normals_at(sample)) {
-    if (const auto wall = wall_opposite(sample, n)) found.push_back({n, *wall});
+  for (const SurfacePlace& place : places_of(sample)) {
+    if (const auto wall = wall_opposite(sample, place)) found.push_back({place.triangle, *wall});
   }
   return found;
 }
@@ -195,7 +197,7 @@ void PairedSamples::add_on_creases(std::span<const FixedSample> samples) {
 
 void PairedSamples::add_partners(int32_t id, const Opposites& opposites, int depth) {
   if (depth > kMostReflections) return;
-  for (const auto& [normal, wall] : opposites) {
+  for (const auto& [triangle, wall] : opposites) {
     const FixedSample found = on_surface(surface_, wall.triangle, wall.at, spacing_);
     link(id, add_partner(found, tolerance_of(samples_[id], wall.distance), depth));
   }
@@ -207,8 +209,9 @@ void PairedSamples::add_partners(int32_t id, const Opposites& opposites, int dep
 void PairedSamples::add_outer_edge(int32_t id, const Opposites& opposites) {
   const FixedSample sample = samples_[id];
   if (opposites.size() != 2 || sample.edge < 0 || !is_reflex(sample.edge)) return;
-  const auto& [n, first] = opposites[0];
-  const auto& [m, second] = opposites[1];
+  const auto& [left, first] = opposites[0];
+  const auto& [right, second] = opposites[1];
+  const Vec3 &n = normal(left), &m = normal(right);
   const double cosine = dot(n, m), determinant = 1 - cosine * cosine;
   const double down = first.distance, across = second.distance;
   // The point is `down` below one face, and `across` below the other one.
@@ -252,19 +255,20 @@ void PairedSamples::add_rim(int32_t id, int side) {
   const FixedSample sample = samples_[id];
   const MeshEdge& edge = creases_.edges[sample.edge];
   const int32_t triangle = edge.triangles[side];
-  const Vec3 &n = mesh().normal[triangle], &m = mesh().normal[edge.triangles[1 - side]];
-  if (dot(n, m) < kAcute) return;
-  const auto wall = wall_opposite(sample, n);
+  if (dot(normal(triangle), normal(edge.triangles[1 - side])) < kAcute) return;
+  const Barycentric at =
+      along(mesh().triangles[triangle], edge.ends[0], edge.ends[1], sample.share);
+  const auto wall = wall_opposite(sample, {triangle, at});
   if (!wall || !(wall->distance < kRimThickness * sample.radius)) return;
   const double away = kRim * wall->distance;
   const auto place = walk_from_edge(mesh(), creases_, edge, triangle, sample.share, away);
   if (!place) return;
   const FixedSample inner = on_surface(surface_, place->triangle, place->at, spacing_);
-  const auto opposite = wall_opposite(inner, mesh().normal[place->triangle]);
+  const auto opposite = wall_opposite(inner, *place);
   if (!opposite || coincident(inner, 0.5 * away) >= 0) return;
   const FixedSample other = on_surface(surface_, opposite->triangle, opposite->at, spacing_);
   if (coincident(other, 0.5 * away) >= 0) return;
-  add_partners(add(inner, true), {{mesh().normal[place->triangle], *opposite}}, 0);
+  add_partners(add(inner, true), {{place->triangle, *opposite}}, 0);
 }
 
 void PairedSamples::add_beside(std::span<const std::array<FixedSample, 2>> rows) {
@@ -281,7 +285,7 @@ void PairedSamples::add_beside(std::span<const std::array<FixedSample, 2>> rows)
 
 // Adds a sample and its partner unless they are there; returns whether they have room.
 bool PairedSamples::add_member(const FixedSample& sample) {
-  const auto wall = wall_opposite(sample, mesh().normal[sample.triangle]);
+  const auto wall = wall_opposite(sample, {sample.triangle, sample.at});
   const double tolerance = tolerance_of(sample, wall ? wall->distance : sample.radius);
   if (coincident(sample, tolerance) >= 0) return true;
   if (is_crowded(sample)) return false;

@@ -30,15 +30,18 @@ class PairedSamples {
 
  private:
   struct Opposite {
-    Vec3 normal;  // of the face from which the wall is opposite
+    int32_t triangle;  // from which the wall is opposite
     WallPlace wall;
   };
   using Opposites = std::vector<Opposite>;
 
   const TriangleMesh& mesh() const { return surface_.mesh(); }
   bool is_reflex(int32_t edge) const;
-  std::vector<Vec3> normals_at(const FixedSample& sample) const;
-  std::optional<WallPlace> wall_opposite(const FixedSample& sample, const Vec3& normal) const;
+  const Vec3& normal(int32_t triangle) const { return mesh().normal[triangle]; }
+  std::vector<SurfacePlace> places_of(const FixedSample& sample) const;
+  std::vector<SurfacePlace> places_at_vertex(int32_t vertex) const;
+  std::optional<WallPlace> wall_opposite(const FixedSample& sample,
+                                         const SurfacePlace& place) const;
   Opposites opposites_of(const FixedSample& sample) const;
 
   int32_t add(const FixedSample& sample, bool is_partner);

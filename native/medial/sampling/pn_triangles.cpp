@@ -29,6 +29,12 @@ Vec3 tangent_third(const Vec3& chord, const Vec3& left, const Vec3& right) {
 
 }  // namespace
 
+Barycentric along(const Triangle& t, int32_t from, int32_t to, double share) {
+  std::array<double, 3> at{};
+  for (int i = 0; i < 3; ++i) at[i] = t[i] == from ? 1 - share : t[i] == to ? share : 0;
+  return {at[0], at[1], at[2]};
+}
+
 // The control point in the middle is a quarter of the handles minus a sixth of the corners.
 Patch::Patch(const Vec3& p, const Vec3& q, const Vec3& r, const std::array<Vec3, 6>& handles)
     : corners_{p, q, r}, flat_(false), handles_(handles), centre_((-1.0 / 6) * (p + q + r)) {
@@ -213,6 +219,18 @@ Patch CurvedSurface::patch(int32_t triangle) const {
           r,
           {handle(triangle, 0, 1), handle(triangle, 1, 0), handle(triangle, 1, 2),
            handle(triangle, 2, 1), handle(triangle, 2, 0), handle(triangle, 0, 2)}};
+}
+
+double CurvedSurface::bend(int32_t triangle) const {
+  const Triangle& t = mesh_.triangles[triangle];
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double turn = distance(fan_normal(triangle, t[i]), fan_normal(triangle, t[j]));
+    const double side = distance(mesh_.points[t[i]], mesh_.points[t[j]]);
+    if (turn > most * side) most = turn / side;
+  }
+  return most;
 }
 
 Vec3 CurvedSurface::normal(int32_t triangle, const Barycentric& at) const {

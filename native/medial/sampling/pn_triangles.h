@@ -11,6 +11,9 @@ struct Barycentric {
   double a, b, c;
 };
 
+// Returns the barycentric coordinates of a place on the edge between two corners of a triangle.
+Barycentric along(const Triangle& t, int32_t from, int32_t to, double share);
+
 // Holds a point of a patch, and its first and second derivatives by the coordinates b and c, where
 // a is 1 - b - c.
 struct PatchExpansion {
@@ -54,6 +57,8 @@ class CurvedSurface {
   Vec3 point(int32_t triangle, const Barycentric& at) const { return patch(triangle).point(at); }
   // Returns the unit normal, or zero if there is none.
   Vec3 normal(int32_t triangle, const Barycentric& at) const;
+  // Returns the largest curvature along the sides of a triangle, by the normals at its corners.
+  double bend(int32_t triangle) const;
 
  private:
   // Holds the inner control points of an edge, next to p and next to q.

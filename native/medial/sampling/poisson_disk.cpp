@@ -286,9 +286,8 @@ void read_darts(const Darts& darts, std::span<const uint32_t> ids, double scale,
 std::optional<PlacedDisk> partner_of(const Dart& dart, double scale, const CurvedSurface& surface,
                                      const OppositeWalls* walls) {
   if (!walls) return {};
-  const int32_t t = dart.place.triangle;
-  const Vec3 from = walls->point(t, dart.place.barycentric());
-  const auto found = (*walls)(from, surface.mesh().normal[t], kCloseWalls * dart.radius / scale);
+  const auto found =
+      (*walls)({dart.place.triangle, dart.place.barycentric()}, kCloseWalls * dart.radius / scale);
   if (!found) return {};
   const auto& [triangle, at, thickness] = *found;
   return PlacedDisk{

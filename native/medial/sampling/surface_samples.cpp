@@ -53,7 +53,7 @@ Model::Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles
                            marked_edges(vertices, options.sharp_edges, mesh, triangles),
                            options.keep_vertices, run)) {
   surface.emplace(mesh, creases, options.smooth, run);
-  if (options.pairs) walls.emplace(mesh);
+  if (options.pairs) walls.emplace(*surface, creases);
   area = area_of(*surface, run);
   if (!(area > 0)) {
     throw InvalidInputError("Expected triangles with an area, found " +
@@ -465,6 +465,7 @@ void append(const Model& model, const Attempt& attempt, SurfaceSamples& samples)
     samples.kind.push_back(kind);
     samples.radius.push_back(radius);
     samples.partner.push_back(static_cast<int32_t>(partner));
+    samples.bend.push_back(partner < 0 ? 0 : model.surface->bend(triangle));
   };
   for (const FixedSample& s : attempt.fixed) {
     add(s.point, s.normal, s.triangle, s.at, s.kind, s.radius, s.partner);
