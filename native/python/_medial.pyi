@@ -862,8 +862,8 @@ class SurfaceSamples:
         named: two samples are partners if either names the other."""
     @property
     def bend(self) -> NDArray[np.float64]:
-        """(n,) float64: curvature of the surface at samples with partners, by the normals at the corners of their
-        triangles; 0 at all others. Pairs s apart follow walls t apart while s * s * bend is well below t."""
+        """(n,) float64: curvature of the surface at samples with partners, by the normals of their triangles
+        and the next ones; 0 at all others. Pairs s apart follow walls t apart while s * s * bend is well below t."""
     @property
     def sharp_edges(self) -> NDArray[np.int32]:
         """(e, 2) int32: rows p < q of the ends of the sharp edges, sorted; of equal vertices the lowest row."""

@@ -29,7 +29,7 @@ _WANTED = 2.0
 _MISSED = 0.8
 # Pairs of samples follow curved walls while the square of the spacing, times the curvature, is below this share of
 # their distance; finer samples get this share.
-_FOLLOWED, _FINER = 0.6, 0.4
+_FOLLOWED, _FINER = 0.4, 0.25
 # A smaller share of the area may come from single samples, and does not count.
 _SOME = 0.01
 # Walls that stay closer than this number of spacings within the budget do not justify another pass.

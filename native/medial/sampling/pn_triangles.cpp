@@ -221,18 +221,6 @@ Patch CurvedSurface::patch(int32_t triangle) const {
            handle(triangle, 2, 1), handle(triangle, 2, 0), handle(triangle, 0, 2)}};
 }
 
-double CurvedSurface::bend(int32_t triangle) const {
-  const Triangle& t = mesh_.triangles[triangle];
-  double most = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const double turn = distance(fan_normal(triangle, t[i]), fan_normal(triangle, t[j]));
-    const double side = distance(mesh_.points[t[i]], mesh_.points[t[j]]);
-    if (turn > most * side) most = turn / side;
-  }
-  return most;
-}
-
 Vec3 CurvedSurface::normal(int32_t triangle, const Barycentric& at) const {
   if (!smooth()) return mesh_.normal[triangle];
   const auto& [i, j, k] = fan_of_[triangle];

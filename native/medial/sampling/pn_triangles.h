@@ -57,8 +57,6 @@ class CurvedSurface {
   Vec3 point(int32_t triangle, const Barycentric& at) const { return patch(triangle).point(at); }
   // Returns the unit normal, or zero if there is none.
   Vec3 normal(int32_t triangle, const Barycentric& at) const;
-  // Returns the largest curvature along the sides of a triangle, by the normals at its corners.
-  double bend(int32_t triangle) const;
 
  private:
   // Holds the inner control points of an edge, next to p and next to q.

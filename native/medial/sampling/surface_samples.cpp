@@ -455,6 +455,29 @@ void require_valid(const SamplingOptions& options, size_t vertices) {
   }
 }
 
+// Returns the largest curvature across the sides of a triangle: the turn of the normals over the
+// way between the middles of the triangles.
+double bend_of(const Model& model, int32_t triangle) {
+  constexpr double kMiddle = 0.4;  // of the heights over the common side
+  const auto& [points, rows, triangles, source, normal, fans] = model.mesh;
+  const Triangle& t = triangles[triangle];
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    const MeshEdge& edge = model.creases.edges[model.creases.find(t[i], t[(i + 1) % 3])];
+    if (edge.crease != Crease::none || !edge.manifold) continue;
+    const Vec3 side = normalized(points[edge.ends[1]] - points[edge.ends[0]]);
+    double way = 0;
+    for (const int32_t at : edge.triangles) {
+      const Triangle& c = triangles[at];
+      const int32_t third = c[0] + c[1] + c[2] - edge.ends[0] - edge.ends[1];
+      way += kMiddle * length(cross(points[third] - points[edge.ends[0]], side));
+    }
+    const double turn = distance(normal[edge.triangles[0]], normal[edge.triangles[1]]);
+    if (turn > most * way) most = turn / way;
+  }
+  return most;
+}
+
 void append(const Model& model, const Attempt& attempt, SurfaceSamples& samples) {
   const auto add = [&](const Vec3& point, const Vec3& normal, int32_t triangle,
                        const Barycentric& at, SampleKind kind, double radius, int64_t partner) {
@@ -465,7 +488,7 @@ void append(const Model& model, const Attempt& attempt, SurfaceSamples& samples)
     samples.kind.push_back(kind);
     samples.radius.push_back(radius);
     samples.partner.push_back(static_cast<int32_t>(partner));
-    samples.bend.push_back(partner < 0 ? 0 : model.surface->bend(triangle));
+    samples.bend.push_back(partner < 0 ? 0 : bend_of(model, triangle));
   };
   for (const FixedSample& s : attempt.fixed) {
     add(s.point, s.normal, s.triangle, s.at, s.kind, s.radius, s.partner);
