@@ -48,8 +48,8 @@ class Density:
     limit : float
         The largest epsilon that is dense enough.
     paired : (k,) bool, optional
-        Samples with a partner on the opposite wall, between which the axis is right whatever their epsilon. They do
-        not count.
+        Samples with a partner on the opposite wall, between which the axis is right whatever the spacing. Their
+        epsilon counts as 0.
     """
 
     points: NDArray[np.float64]
@@ -62,16 +62,18 @@ class Density:
 
     @cached_property
     def at_edge(self) -> NDArray[np.bool_]:
-        """(k,) bool: samples so close to a sharp edge that no spacing is dense enough, or with a partner."""
-        close = near(self.points, self.edges, self.finest / self.limit)
-        return close if self.paired is None else close | self.paired
+        """(k,) bool: samples so close to a sharp edge that the finest spacing is not dense enough there."""
+        return near(self.points, self.edges, self.finest / self.limit)
 
     @cached_property
     def epsilon(self) -> NDArray[np.float64]:
-        """(k,) float64: infinite where there is no axis to compare with, or where the hole has no end."""
+        """(k,) float64: infinite where there is no axis to compare with, or where the hole has no end, 0 at pairs."""
         known = np.isfinite(self.feature_size) & (self.feature_size > 0.0)
         unknown = np.full(len(self.spacing), np.inf)
-        return np.divide(self.spacing, self.feature_size, out=unknown, where=known)
+        epsilon = np.divide(self.spacing, self.feature_size, out=unknown, where=known)
+        if self.paired is not None:
+            epsilon[self.paired] = 0.0
+        return epsilon
 
     @cached_property
     def share(self) -> float:
