@@ -133,6 +133,16 @@ TEST(Pairs, EverySampleOfAPlateIsOppositeItsPartner) {
   }
 }
 
+TEST(Pairs, NoPartnerTakesThePlaceOfACorner) {
+  const test::Mesh mesh = plate(0.01);
+  const SurfaceSamples samples = paired(mesh, 2000);
+  for (size_t i = 0; i < samples.points.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      EXPECT_GT(distance(samples.points[i], samples.points[j]), 0.9 * 0.01) << i << " " << j;
+    }
+  }
+}
+
 TEST(Pairs, ThickSolidsAreSampledWithoutPartners) {
   const SurfaceSamples samples = paired(plate(1), 2000);
   EXPECT_EQ(std::count(samples.partner.begin(), samples.partner.end(), -1),

@@ -186,11 +186,17 @@ void PairedSamples::add_on_creases(std::span<const FixedSample> samples) {
         rank[i] = samples[i].edge < 0 ? 0 : is_reflex(samples[i].edge) ? 1 : 2;
       },
       64);
+  // Corners stay where they are, so all of them are there before the partners of the first one.
+  std::vector<int32_t> id(samples.size(), -1);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (rank[i] == 0) id[i] = add(samples[i], false);
+  }
   for (uint8_t now = 0; now < 3; ++now) {
     throw_if_cancelled(run_.progress);
     for (size_t i = 0; i < samples.size(); ++i) {
       if (rank[i] != now || (now > 0 && is_replaced(samples[i]))) continue;
-      add_partners(add(samples[i], false), opposites[i], 0);
+      if (now > 0) id[i] = add(samples[i], false);
+      add_partners(id[i], opposites[i], 0);
     }
   }
 }
