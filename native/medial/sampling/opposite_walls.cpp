@@ -112,10 +112,13 @@ std::optional<WallPlace> OppositeWalls::operator()(const SurfacePlace& from, dou
 }
 
 // Moves a place of the flat wall to where the ball touches the curved one. In each step the curved
-// wall is replaced by its tangent plane.
-SurfacePlace OppositeWalls::on_curved(const SurfacePlace& from, SurfacePlace place) const {
+// wall is replaced by its tangent plane. A place that would go farther than the walls are apart
+// stays where it was: there the faces are too coarse for a curved wall.
+SurfacePlace OppositeWalls::on_curved(const SurfacePlace& from, const SurfacePlace& flat) const {
   const Vec3 start = surface_.point(from.triangle, from.at);
   const Vec3 n = surface_.normal(from.triangle, from.at);
+  const Vec3 first = surface_.point(flat.triangle, flat.at);
+  SurfacePlace place = flat;
   for (int i = 0; i < kMostSteps; ++i) {
     const PatchExpansion here = surface_.patch(place.triangle).expansion(place.at);
     const Vec3 m = normalized(cross(here.b, here.c));
@@ -127,29 +130,33 @@ SurfacePlace OppositeWalls::on_curved(const SurfacePlace& from, SurfacePlace pla
     const double by_b = dot(way, here.b), by_c = dot(way, here.c), det = bb * cc - bc * bc;
     if (!(det > 0)) break;
     const double db = (by_b * cc - by_c * bc) / det, dc = (by_c * bb - by_b * bc) / det;
-    place.at = {place.at.a - db - dc, place.at.b + db, place.at.c + dc};
-    const bool over = step_over(place);
-    if (!over && std::abs(db) + std::abs(dc) < kPrecise) break;
+    if (!go(place, {-db - dc, db, dc}) && std::abs(db) + std::abs(dc) < kPrecise) break;
   }
-  return place;
+  const Vec3 last = surface_.point(place.triangle, place.at);
+  return distance(first, last) < distance(first, start) ? place : flat;
 }
 
-// Brings a place that has left its triangle back to the side through which it left, of the next
-// triangle if that is on the same wall. Returns whether the place may move on.
-bool OppositeWalls::step_over(SurfacePlace& place) const {
+// Takes a step in barycentric coordinates as far as the side of the triangle, and then over it to
+// the next triangle if that is on the same wall. Returns whether it went over.
+bool OppositeWalls::go(SurfacePlace& place, const std::array<double, 3>& step) const {
   std::array<double, 3> at{place.at.a, place.at.b, place.at.c};
-  const auto out = static_cast<int>(std::min_element(at.begin(), at.end()) - at.begin());
-  if (at[out] >= 0) return false;
-  at[out] = 0;
-  const int i = (out + 1) % 3, j = (out + 2) % 3;
-  at[i] = std::clamp(at[i] / (at[i] + at[j]), 0.0, 1.0);
-  at[j] = 1 - at[i];
+  double share = 1;
+  int out = -1;
+  for (int i = 0; i < 3; ++i) {
+    if (!(at[i] + step[i] < 0) || !(at[i] < -share * step[i])) continue;
+    share = std::max(0.0, -at[i] / step[i]);
+    out = i;
+  }
+  for (int i = 0; i < 3; ++i) at[i] = std::clamp(at[i] + share * step[i], 0.0, 1.0);
+  if (out >= 0) at[out] = 0;
   place.at = {at[0], at[1], at[2]};
+  if (out < 0) return false;
   const Triangle& t = mesh_.triangles[place.triangle];
-  const MeshEdge& edge = creases_.edges[creases_.find(t[i], t[j])];
+  const int32_t p = t[(out + 1) % 3], q = t[(out + 2) % 3];
+  const MeshEdge& edge = creases_.edges[creases_.find(p, q)];
   if (edge.crease != Crease::none || !edge.manifold) return false;
   const int32_t next = edge.triangles[edge.triangles[0] == place.triangle];
-  place = {next, along(mesh_.triangles[next], t[i], t[j], at[j])};
+  place = {next, along(mesh_.triangles[next], p, q, at[(out + 2) % 3])};
   return true;
 }
 

@@ -49,8 +49,8 @@ class OppositeWalls {
 
   std::optional<Touch> touch(const Vec3& from, const Vec3& normal, double reach) const;
   Touch nearest_facing(const Vec3& centre, const Vec3& normal, double than) const;
-  SurfacePlace on_curved(const SurfacePlace& from, SurfacePlace place) const;
-  bool step_over(SurfacePlace& place) const;
+  SurfacePlace on_curved(const SurfacePlace& from, const SurfacePlace& flat) const;
+  bool go(SurfacePlace& place, const std::array<double, 3>& step) const;
 
   const CurvedSurface& surface_;
   const Creases& creases_;
