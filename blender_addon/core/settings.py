@@ -106,6 +106,7 @@ SAMPLING_OPTIONS = (
     "sharp_angle",
     "smooth",
     "keep_vertices",
+    "pairs",
     "seed",
 )
 
@@ -351,6 +352,12 @@ class Settings(Options):
     )
     keep_vertices: bool = switch(
         "Keep Vertices", "The vertices of the faces are samples, too", default=False
+    )
+    pairs: bool = switch(
+        "Pairs",
+        "Between close walls, samples lie opposite each other, so that thin sheets are whole "
+        "whatever the spacing; small details beside them still need small spacings",
+        default=False,
     )
     seed: int = integer(
         "Seed",

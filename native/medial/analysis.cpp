@@ -42,6 +42,20 @@ std::vector<double> outward_lengths(std::vector<double> lengths, const Frame& fr
   return lengths;
 }
 
+// There is one row, or -1, per point, or none at all.
+void require_partners(std::span<const int32_t> partners, size_t points) {
+  if (!partners.empty() && partners.size() != points) {
+    throw InvalidInputError("Expected one partner per point, found " +
+                            std::to_string(partners.size()) + " for " + std::to_string(points) +
+                            " points; pass all of them or none.");
+  }
+  for (const int32_t row : partners) {
+    if (row >= -1 && row < static_cast<int64_t>(points)) continue;
+    throw InvalidInputError("Expected partners from -1 to below " + std::to_string(points) +
+                            ", found " + std::to_string(row) + "; pass rows of the points.");
+  }
+}
+
 void require_valid(const FacesInput& faces, size_t points) {
   if (faces.face.size() != points) {
     throw InvalidInputError("Expected a face per point, found " +
@@ -135,7 +149,8 @@ MedialMesh MedialAnalysis::extract(const Extraction& extraction, Progress* progr
 
 Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
                                     std::optional<int64_t> bodies, Progress* progress,
-                                    const FacesInput* faces) const {
+                                    const FacesInput* faces,
+                                    std::span<const int32_t> partners) const {
   if (side != Side::inner) {
     throw InvalidInputError(
         "Expected side INNER for a hierarchy, found another one; the outer axis reaches infinity, "
@@ -143,12 +158,13 @@ Hierarchy MedialAnalysis::hierarchy(const Thresholds& thresholds, Side side,
   }
   require_solid(*parts_);
   if (faces) require_valid(*faces, parts_->samples.point_of_row.size());
+  require_partners(partners, parts_->samples.point_of_row.size());
   const SmallParts& small = parts_->small;
   const bool has_small = !small.pockets.empty() || !small.crumbs.empty();
   CellSides in_parts;
   if (has_small) in_parts = without(small, bodies, parts_->triangulation, parts_->sides);
   const CellSides& sides = has_small ? in_parts : parts_->sides;
-  return make_hierarchy(parts_->samples, facets_of(*parts_, sides), thresholds, faces,
+  return make_hierarchy(parts_->samples, facets_of(*parts_, sides), thresholds, faces, partners,
                         parts_->frame, parts_->run(progress));
 }
 

@@ -737,6 +737,7 @@ class MedialAnalysis:
         *,
         bodies: int | None = None,
         faces: Faces | None = None,
+        partners: NDArray[np.int32] | None = None,
         progress: Progress | None = None,
     ) -> Hierarchy:
         """The levels of the inner axis; computed once, extracted often. It does not need the analysis any more.
@@ -753,6 +754,9 @@ class MedialAnalysis:
         faces : Faces, optional
             The faces of the solid. With them facets between the two sides of a sharp convex edge are selected,
             whatever the thresholds say, and every vertex also has a crisp place.
+        partners : (n,) int32, optional
+            The row of the partner of each point on the opposite wall, or -1, as in `SurfaceSamples.partner`. The facets
+            between partners are selected, whatever the thresholds say, and they are no noise of the samples.
         progress : Progress, optional
 
         Raises
@@ -853,6 +857,14 @@ class SurfaceSamples:
         """(n,) float64: radius of the sample's disc, 0.727 of the spacing there. No SURFACE sample is nearer to any
         other sample than the smaller of their radii, unless their normals are a right angle or more apart."""
     @property
+    def partner(self) -> NDArray[np.int32]:
+        """(n,) int32: the sample on the opposite wall, or -1; always -1 without `pairs`. Of several partners one is
+        named: two samples are partners if either names the other."""
+    @property
+    def bend(self) -> NDArray[np.float64]:
+        """(n,) float64: curvature of the surface at samples with partners, by the normals of their triangles
+        and the next ones; 0 at all others. Pairs s apart follow walls t apart while s * s * bend is well below t."""
+    @property
     def sharp_edges(self) -> NDArray[np.int32]:
         """(e, 2) int32: rows p < q of the ends of the sharp edges, sorted; of equal vertices the lowest row."""
     @property
@@ -871,6 +883,7 @@ def sample_surface(
     smooth: bool = False,
     keep_vertices: bool = False,
     mirrored_rows: int = 2,
+    pairs: bool = False,
     seed: int = 0,
     progress: Progress | None = None,
     threads: int = 0,
@@ -914,6 +927,10 @@ def sample_surface(
         So many rows of samples along each sharp edge of two triangles, 0.75, 1.6, 2.45, ... spacings from it, are
         the same on both sides of the edge, where there is room: their Voronoi facets lie in the bisector of the
         sides, and the medial axis runs straight into the edge; default 2.
+    pairs : bool
+        Where walls are closer than two spacings, samples lie opposite each other: each has its partner where the ball
+        that touches the surface there from inside touches the wall that looks the other way. The facets between
+        partners are pieces of the sheet between the walls, however close these are. Default: without.
     seed : int
     progress : Progress, optional
     threads : int

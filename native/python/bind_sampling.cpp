@@ -50,8 +50,8 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
                                        std::optional<int64_t> count, std::optional<double> spacing,
                                        const py::object& sizing, double sharp_angle,
                                        const py::object& sharp_edges, bool smooth,
-                                       bool keep_vertices, int mirrored_rows, int64_t seed,
-                                       Progress* progress, int threads) {
+                                       bool keep_vertices, int mirrored_rows, bool pairs,
+                                       int64_t seed, Progress* progress, int threads) {
   const Points points(vertices, "vertices");
   const Triangles faces(py::reinterpret_borrow<py::object>(triangles));
   const Sizing sizes(sizing);
@@ -65,6 +65,7 @@ std::shared_ptr<SurfaceSamples> sample(const py::object& vertices, const py::obj
   options.smooth = smooth;
   options.keep_vertices = keep_vertices;
   options.mirrored_rows = mirrored_rows;
+  options.pairs = pairs;
   options.seed = static_cast<uint64_t>(seed);
   const int team = thread_argument(threads);
   const auto point_span = points.span();
@@ -140,6 +141,9 @@ void bind_sampling(py::module_& m) {
       .def_property_readonly("kind", view_property<int32_t>(&S::kind), docs::SurfaceSamples_kind)
       .def_property_readonly("radius", view_property<double>(&S::radius),
                              docs::SurfaceSamples_radius)
+      .def_property_readonly("partner", view_property<int32_t>(&S::partner),
+                             docs::SurfaceSamples_partner)
+      .def_property_readonly("bend", view_property<double>(&S::bend), docs::SurfaceSamples_bend)
       .def_property_readonly("sharp_edges", view_property<int32_t>(&S::sharp_edges),
                              docs::SurfaceSamples_sharp_edges)
       .def_readonly("area", &S::area, docs::SurfaceSamples_area);
@@ -148,8 +152,8 @@ void bind_sampling(py::module_& m) {
         py::arg("sizing") = py::none(), py::arg("sharp_angle") = SamplingOptions{}.sharp_angle,
         py::arg("sharp_edges") = py::none(), py::arg("smooth") = false,
         py::arg("keep_vertices") = false,
-        py::arg("mirrored_rows") = SamplingOptions{}.mirrored_rows, py::arg("seed") = 0,
-        py::arg("progress") = nullptr, py::arg("threads") = 0);
+        py::arg("mirrored_rows") = SamplingOptions{}.mirrored_rows, py::arg("pairs") = false,
+        py::arg("seed") = 0, py::arg("progress") = nullptr, py::arg("threads") = 0);
   m.def("closing_samples", &close_openings, docs::closing_samples, py::arg("points"),
         py::arg("normals"), py::arg("radius"), py::arg("vertices"), py::arg("triangles"),
         py::kw_only(), py::arg("seed") = 0, py::arg("progress") = nullptr, py::arg("threads") = 0);

@@ -74,7 +74,7 @@ void expect_blue_noise(const test::Mesh& from, double radius, uint64_t seed) {
   double hole = 0;
   for (const Vec3& place : sampled.places(10000 / static_cast<int>(from.triangles.size()), 1)) {
     double nearest = HUGE_VAL;
-    for (const auto& [disk, at] : disks) nearest = std::min(nearest, distance(disk.centre, place));
+    for (const PlacedDisk& d : disks) nearest = std::min(nearest, distance(d.disk.centre, place));
     hole = std::max(hole, nearest);
   }
   EXPECT_LT(hole, 1.3 * radius);
@@ -120,8 +120,8 @@ TEST(BlueNoise, OfTwoRadiiTheSmallerCounts) {
   EXPECT_GT(between, pairs / 20);
   for (const Vec3& place : sampled.places(4000, 2)) {
     double nearest = HUGE_VAL;  // in radii of the disc
-    for (const auto& [disk, at] : disks) {
-      nearest = std::min(nearest, distance(disk.centre, place) / disk.radius);
+    for (const PlacedDisk& d : disks) {
+      nearest = std::min(nearest, distance(d.disk.centre, place) / d.disk.radius);
     }
     EXPECT_LT(nearest, 1.35);
   }

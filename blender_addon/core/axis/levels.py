@@ -42,7 +42,9 @@ def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | N
     """
     bodies = 1 if samples.by_faces is None else samples.by_faces[0]
     solid = samples.solid if settings.crisp else None
-    hierarchy = samples.levels.hierarchy(samples.analysis, settings, progress, bodies, solid)
+    hierarchy = samples.levels.hierarchy(
+        samples.analysis, settings, progress, bodies, solid, samples.partners
+    )
     CACHE.resize(samples.key, samples.bytes)
     return hierarchy
 

@@ -103,6 +103,8 @@ class AnalysedSamples:
         there are no faces.
     apart : (n,) float64 or None
         The wanted distance of neighbours at each sample; None where the points are vertices.
+    partners : (n,) int32 or None
+        The row of the sample on the opposite wall, or -1; None where samples were not taken in pairs.
     """
 
     points: NDArray[np.float64]
@@ -122,6 +124,7 @@ class AnalysedSamples:
     solid: SolidFaces | None = None
     patches: NDArray[np.int32] | None = None
     apart: NDArray[np.float64] | None = None
+    partners: NDArray[np.int32] | None = None
 
     @property
     def walls_to_show(self) -> Walls | None:
@@ -144,6 +147,7 @@ class AnalysedSamples:
             self.faces,
             self.patches,
             self.apart,
+            self.partners,
         )
         others = (density.points, density.spacing, density.feature_size, density.edges)
         walls = self.walls

@@ -13,7 +13,7 @@ from .analysed import AnalysedSamples, Request, Sides
 from .density import LOOKED_AT, estimate
 from .patches import patches_of
 from .solid_faces import solid_faces
-from .surface_samples import apart_of
+from .surface_samples import apart_of, are_paired
 from .walls import Places, Walls, find_walls, middles_of_faces
 
 if TYPE_CHECKING:
@@ -91,7 +91,14 @@ def analyse_samples(
     points, normals, part = samples.points, samples.normals, request.progress.part(share)
     with Beside(partial(_faces_of_samples, request, sides, samples.places)) as beside:
         analysis = _analysis(request, points, normals, sides, part)
-        density = estimate(analysis, points, samples.edges, first, request.settings.epsilon)
+        density = estimate(
+            analysis,
+            points,
+            samples.edges,
+            first,
+            request.settings.epsilon,
+            paired=are_paired(samples.partners),
+        )
     walls, by_faces = beside.result()
     return AnalysedSamples(
         points=points,
@@ -108,6 +115,7 @@ def analyse_samples(
         solid=solid_faces(request.shape, sides.source, samples.faces),
         patches=patches_of(request.shape, request.settings, samples),
         apart=apart_of(samples),
+        partners=samples.partners if request.settings.pairs else None,
     )
 
 

@@ -25,6 +25,7 @@ _OFF = 1e-3
 # share of the spacing and would bridge them only in places, so no sample is taken in such clefts.
 _CLEFT = 0.25
 _ROUNDINGS = 4  # a wall thinner than this number of roundings to float32, in which meshes are stored, is a sheet
+_ON_SIDE = 1e-6  # partners may lie on a side of their triangle, up to this barycentric coordinate
 _BESIDE = 1.5  # clefts are looked for up to this distance from buried samples, in spacings
 
 
@@ -113,6 +114,7 @@ def on_flat_faces(
     points = np.einsum("ij,ijk->ik", found.barycentric, corners)
     with native.own_errors() as module:
         on_edge = found.kind != int(module.SampleKind.SURFACE)
+    on_edge |= (found.partner >= 0) & (found.barycentric.min(axis=1) < _ON_SIDE)
     inward = corners[on_edge].mean(axis=1) - points[on_edge]
     ways = np.linalg.norm(inward, axis=1)[:, None]
     step = 100.0 * (_OFF * spacing)

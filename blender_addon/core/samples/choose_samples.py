@@ -275,7 +275,9 @@ def _pass(
 
 def _options(shape: Shape, settings: Settings) -> dict[str, Any]:
     """Return the arguments of `_medial.sample_surface` that are the same in every pass."""
-    options = {name: getattr(settings, name) for name in ("smooth", "keep_vertices", "seed")}
+    options = {
+        name: getattr(settings, name) for name in ("smooth", "keep_vertices", "pairs", "seed")
+    }
     return {"sharp_angle": sharp_angle_of(shape, settings), **options}
 
 

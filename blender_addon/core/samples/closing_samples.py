@@ -46,5 +46,6 @@ def close_openings(samples: FaceSamples, shape: Shape, seed: int, progress: Any)
         normals=np.concatenate((samples.normals, outward)),
         kinds=np.concatenate((samples.kinds, opening)),
         faces=np.concatenate((samples.faces, np.full(len(more), -1, np.int32))),
+        partners=np.concatenate((samples.partners, np.full(len(more), -1, np.int32))),
         closing=len(more),
     )

@@ -47,6 +47,9 @@ class Density:
         The smallest spacing at sharp edges, where the feature size is 0.
     limit : float
         The largest epsilon that is dense enough.
+    paired : (k,) bool, optional
+        Samples with a partner on the opposite wall, between which the axis is right whatever the spacing. Their
+        epsilon counts as 0.
     """
 
     points: NDArray[np.float64]
@@ -55,6 +58,7 @@ class Density:
     edges: NDArray[np.float64]
     finest: float
     limit: float
+    paired: NDArray[np.bool_] | None = None
 
     @cached_property
     def at_edge(self) -> NDArray[np.bool_]:
@@ -63,10 +67,13 @@ class Density:
 
     @cached_property
     def epsilon(self) -> NDArray[np.float64]:
-        """(k,) float64: infinite where there is no axis to compare with, or where the hole has no end."""
+        """(k,) float64: infinite where there is no axis to compare with, or where the hole has no end, 0 at pairs."""
         known = np.isfinite(self.feature_size) & (self.feature_size > 0.0)
         unknown = np.full(len(self.spacing), np.inf)
-        return np.divide(self.spacing, self.feature_size, out=unknown, where=known)
+        epsilon = np.divide(self.spacing, self.feature_size, out=unknown, where=known)
+        if self.paired is not None:
+            epsilon[self.paired] = 0.0
+        return epsilon
 
     @cached_property
     def share(self) -> float:
@@ -140,6 +147,7 @@ def estimate(
     finest: float,
     limit: float,
     most: int | None = None,
+    paired: NDArray[np.bool_] | None = None,
 ) -> Density:
     """Estimate the density of an analysis from the facets that the published thresholds select, whatever is shown.
 
@@ -152,6 +160,8 @@ def estimate(
     finest, limit : float
     most : int, optional
         The number of samples to measure; default all.
+    paired : (n,) bool, optional
+        The points that have a partner on the opposite wall.
     """
     published, rows = Settings(), analysis.samples
     some = _spread(len(rows), most) if most and most < len(rows) else slice(None)
@@ -162,6 +172,7 @@ def estimate(
         edges=edges,
         finest=finest,
         limit=limit,
+        paired=None if paired is None else paired[rows[some]],
     )
 
 

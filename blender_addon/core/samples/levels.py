@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Any
 from ..machine import native
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ..settings import Settings
     from .solid_faces import SolidFaces
 
@@ -31,6 +34,7 @@ class Levels:
         progress: Any | None,
         bodies: int | None = None,
         solid: SolidFaces | None = None,
+        partners: NDArray[np.int32] | None = None,
     ) -> Any:
         """Return the `_medial.Hierarchy` of an analysis, which must always be the same one.
 
@@ -47,6 +51,8 @@ class Levels:
             pieces are left.
         solid : SolidFaces, optional
             The faces that give crisp places, always the same ones; without them there are none.
+        partners : (n,) int32, optional
+            As in `AnalysedSamples`, always the same ones.
 
         Raises
         ------
@@ -67,6 +73,7 @@ class Levels:
                 module.Side.INNER,
                 bodies=bodies,
                 faces=None if solid is None else solid.of_module(module, settings),
+                partners=partners,
                 progress=progress,
             )
         self._newest = thresholds, hierarchy

@@ -89,6 +89,8 @@ def next_amount(
     density, walls = samples.density, samples.walls_to_show
     least = np.where(density.at_edge, density.finest, finest * samples.spacing)
     spacings = np.clip(density.limit * density.feature_size, least, samples.spacing)
+    if density.paired is not None:
+        spacings[density.paired] = samples.spacing
     sites = density.points
     if walls is not None and walls.are_missed:
         between, wanted = walls.wanted(finest_walls * samples.spacing)

@@ -48,6 +48,8 @@ class FaceSamples:
         The number of samples that close openings.
     places : Places
         The flat faces below the samples, where opposite walls are looked for.
+    partners : (n,) int32
+        The row of the sample on the opposite wall, or -1.
     """
 
     points: NDArray[np.float64]
@@ -60,6 +62,7 @@ class FaceSamples:
     buried: int
     closing: int
     places: Places
+    partners: NDArray[np.int32]
 
 
 def sample_faces(
@@ -115,8 +118,25 @@ def sample_faces(
             radius[inside] / _DISC,
             radius[inside] ** 2,
             found.triangle[inside],
+            found.bend[inside],
+            are_paired(found.partner)[inside],
         ),
+        partners=_of_rows(found.partner, bare),
     )
+
+
+def are_paired(partners: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """(n,) mark the samples that have a partner: of two partners one may name the other alone."""
+    paired = partners >= 0
+    paired[partners[paired]] = True
+    return paired
+
+
+def _of_rows(partners: NDArray[np.int32], kept: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """(k,) the partners of the kept samples, counted among these; -1 where a partner was not kept."""
+    number = np.where(kept, np.cumsum(kept) - 1, -1).astype(np.int32)
+    partners = partners[kept]
+    return np.where(partners >= 0, number[partners], np.int32(-1))
 
 
 def apart_of(samples: FaceSamples) -> NDArray[np.float64]:

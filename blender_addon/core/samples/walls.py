@@ -27,6 +27,9 @@ _WANTED = 2.0
 # Between walls closer than this number of spacings the axis is missing or torn: 94 % of the sheet in a plate is found
 # at a thickness of one spacing, 93 % at 0.78, 59 % at 0.63, 16 % at 0.49, 2 % at 0.29.
 _MISSED = 0.8
+# Pairs of samples follow curved walls while the square of the spacing, times the curvature, is below this share of
+# their distance; finer samples get this share.
+_FOLLOWED, _FINER = 0.4, 0.25
 # A smaller share of the area may come from single samples, and does not count.
 _SOME = 0.01
 # Walls that stay closer than this number of spacings within the budget do not justify another pass.
@@ -47,6 +50,10 @@ class Places:
         The area that each place represents; only ratios matter.
     faces : (n,) int32
         The triangle of the shape on which each place lies.
+    bend : (n,) float64, optional
+        The curvature of the surface there.
+    paired : (n,) bool, optional
+        Whether the sample there has a partner on the opposite wall.
     """
 
     points: NDArray[np.float64]
@@ -54,6 +61,8 @@ class Places:
     spacing: NDArray[np.float64]
     area: NDArray[np.float64]
     faces: NDArray[np.int32]
+    bend: NDArray[np.float64] | None = None
+    paired: NDArray[np.bool_] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +80,11 @@ class Walls:
         The area that each place represents; only ratios matter.
     faces : (n,) int32
         The triangle of the shape on which each place lies.
+    bend : (n,) float64, optional
+        The curvature of the surface there.
+    paired : (n,) bool, optional
+        Whether the sample there has a partner on the opposite wall. Then the axis is missing only where the walls
+        bend away between the samples.
     """
 
     points: NDArray[np.float64]
@@ -78,6 +92,8 @@ class Walls:
     spacing: NDArray[np.float64]
     area: NDArray[np.float64]
     faces: NDArray[np.int32]
+    bend: NDArray[np.float64] | None = None
+    paired: NDArray[np.bool_] | None = None
 
     @cached_property
     def missed(self) -> float:
@@ -99,8 +115,14 @@ class Walls:
         Walls that would need spacings far below `finest` are left out.
         """
         close = self.distance < _WANTED * self.spacing
-        close &= self.distance >= _HOPELESS * finest
-        return self.points[close], np.maximum(self.distance[close] / _WANTED, finest)
+        wanted = self.distance / _WANTED
+        if self.bend is not None and self.paired is not None:
+            bent = self.paired & (self.bend > 0.0) & close
+            wanted[self.paired] = np.inf
+            wanted[bent] = np.sqrt(_FINER * self.distance[bent] / self.bend[bent])
+            close &= wanted < self.spacing
+        close &= wanted >= _HOPELESS / _WANTED * finest
+        return self.points[close], np.maximum(wanted[close], finest)
 
     def are_reached_by(self, budget: int, area: float) -> bool:
         """Whether a budget of samples, all of them spent on missed walls, would show most of these.
@@ -112,11 +134,20 @@ class Walls:
             The area of all faces.
         """
         spacing = math.sqrt(2.0 / math.sqrt(3.0) * area * self.missed / budget)
-        return _HOPELESS * spacing < self.thickness
+        needed = self.distance / _HOPELESS
+        if self.bend is not None and self.paired is not None:
+            bent = self.paired & self._are_missed
+            needed[bent] = np.sqrt(_FOLLOWED * self.distance[bent] / self.bend[bent])
+        return spacing < float(np.median(needed[self._are_missed]))
 
     @cached_property
     def _are_missed(self) -> NDArray[np.bool_]:
-        return self.distance < _MISSED * self.spacing
+        missed = self.distance < _MISSED * self.spacing
+        if self.bend is None or self.paired is None:
+            return missed
+        close = np.where(missed, self.distance, np.inf)
+        away = self.spacing**2 * self.bend > _FOLLOWED * close
+        return np.where(self.paired, away, missed)
 
 
 def middles_of_faces(shape: Shape) -> Places:
@@ -147,4 +178,12 @@ def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
             shape.triangles,
             progress=progress,
         )
-    return Walls(places.points, distance, places.spacing, places.area, places.faces)
+    return Walls(
+        places.points,
+        distance,
+        places.spacing,
+        places.area,
+        places.faces,
+        places.bend,
+        places.paired,
+    )

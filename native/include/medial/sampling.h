@@ -25,6 +25,7 @@ struct SamplingOptions {
   bool smooth = false;
   bool keep_vertices = false;
   int mirrored_rows = 2;  // beside each sharp edge, on either side
+  bool pairs = false;     // between close walls samples lie opposite each other
   uint64_t seed = 0;
 };
 
@@ -36,6 +37,10 @@ struct SurfaceSamples {
   std::vector<Vec3> barycentric;
   std::vector<SampleKind> kind;  // ascending
   std::vector<double> radius;
+  // The sample on the opposite wall, or -1. Of several partners one is named; two samples are
+  // partners if either names the other.
+  std::vector<int32_t> partner;
+  std::vector<double> bend;  // curvature of the surface at samples with partners; else 0
   std::vector<Edge> sharp_edges;  // rows of vertices, p < q, sorted
   double area = 0;
 };

@@ -10,11 +10,6 @@
 
 namespace medial {
 
-struct SurfacePlace {
-  int32_t triangle;
-  Barycentric at;
-};
-
 // Walks from the place `share` of the way along an edge of a triangle, at a right angle into the
 // triangle, and straight on over the edges that follow. Returns nothing if a crease comes first.
 std::optional<SurfacePlace> walk_from_edge(const TriangleMesh& mesh, const Creases& creases,

@@ -8,9 +8,10 @@
 namespace medial {
 namespace {
 
-constexpr int kSide = 4;           // cells along a block
-constexpr int kLocal = kSide + 2;  // the same with a margin
-constexpr int kColours = 8;        // blocks of one colour are farther apart than any disc reaches
+constexpr int kSide = 4;    // cells along a block
+constexpr int kMargin = 2;  // a partner is at most 1.4 cells away, and a disc reaches 0.5
+constexpr int kLocal = kSide + 2 * kMargin;  // cells along a block with its margins
+constexpr int kColours = 8;  // blocks of one colour are farther apart than any pair reaches
 
 using BlockKey = uint64_t;  // 21 bits per axis
 
@@ -186,7 +187,7 @@ class Neighbourhood {
   void begin(const Grid& grid, BlockKey key) {
     grid_ = &grid;
     const auto at = coordinates(key);
-    for (int i = 0; i < 3; ++i) low_[i] = static_cast<double>((at[i] - 1) * kSide - 1);
+    for (int i = 0; i < 3; ++i) low_[i] = static_cast<double>((at[i] - 1) * kSide - kMargin);
     heads_.fill(-1);
     disks_.clear();
   }
@@ -209,7 +210,7 @@ class Neighbourhood {
     const auto x = local(centre);
     std::array<int, 3> own, other;  // the cell, and the next one on the nearer side
     for (int i = 0; i < 3; ++i) {
-      own[i] = std::clamp(static_cast<int>(x[i]), 1, kSide);
+      own[i] = std::clamp(static_cast<int>(x[i]), 1, kLocal - 2);
       other[i] = x[i] - own[i] < 0.5 ? own[i] - 1 : own[i] + 1;
     }
     for (int i = 0; i < 8; ++i) {
@@ -281,9 +282,22 @@ void read_darts(const Darts& darts, std::span<const uint32_t> ids, double scale,
   }
 }
 
-// Throws the darts of a block, in an order that depends only on the block and the seed.
+// Returns the disc of the same size on the opposite wall, if that is close.
+std::optional<PlacedDisk> partner_of(const Dart& dart, double scale, const CurvedSurface& surface,
+                                     const OppositeWalls* walls) {
+  if (!walls) return {};
+  const auto found =
+      (*walls)({dart.place.triangle, dart.place.barycentric()}, kCloseWalls * dart.radius / scale);
+  if (!found) return {};
+  const auto& [triangle, at, thickness] = *found;
+  return PlacedDisk{
+      {surface.point(triangle, at), dart.radius, surface.normal(triangle, at)}, triangle, at};
+}
+
+// Throws the darts of a block, in an order that depends only on the block and the seed. A dart
+// between close walls stays only if its partner has room, too.
 void throw_darts(const Darts& darts, const Grid& grid, double scale, std::span<const Disk> fixed,
-                 int32_t block, Blocks& blocks, Scratch& scratch) {
+                 const OppositeWalls* walls, int32_t block, Blocks& blocks, Scratch& scratch) {
   const auto ids = blocks.darts[block];
   if (ids.empty()) return;
   const BlockKey key = blocks.keys[block];
@@ -300,15 +314,25 @@ void throw_darts(const Darts& darts, const Grid& grid, double scale, std::span<c
       return darts.surface.normal(dart.place.triangle, dart.place.barycentric());
     };
     if (!scratch.near.free(dart.centre, dart.radius, normal)) continue;
+    auto partner = partner_of(dart, scale, darts.surface, walls);
+    if (partner && !scratch.near.free(partner->disk.centre, dart.radius,
+                                      [&] { return partner->disk.normal; })) {
+      continue;
+    }
     const Disk disk{dart.centre, dart.radius, normal()};
     scratch.near.add(disk);
-    blocks.placed[block].push_back({disk, dart.place});
+    blocks.placed[block].push_back(
+        {disk, dart.place.triangle, dart.place.barycentric(), partner.has_value()});
+    if (!partner) continue;
+    scratch.near.add(partner->disk);
+    blocks.placed[block].push_back(*partner);
   }
 }
 
 // Places discs of about the same size among those that are there.
 std::vector<PlacedDisk> one_size(const Darts& darts, const Grid& grid, double scale,
-                                 std::span<const Disk> fixed, const Run& run) {
+                                 std::span<const Disk> fixed, const OppositeWalls* walls,
+                                 const Run& run) {
   Blocks blocks = make_blocks(darts, fixed, grid, run);
   std::array<std::vector<int32_t>, kColours> coloured;
   for (int32_t b = 0; b < static_cast<int32_t>(blocks.keys.size()); ++b) {
@@ -320,7 +344,7 @@ std::vector<PlacedDisk> one_size(const Darts& darts, const Grid& grid, double sc
         static_cast<int64_t>(list.size()), run,
         [&](int64_t begin, int64_t end, int worker) {
           for (int64_t i = begin; i < end; ++i) {
-            throw_darts(darts, grid, scale, fixed, list[i], blocks, scratch[worker]);
+            throw_darts(darts, grid, scale, fixed, walls, list[i], blocks, scratch[worker]);
           }
         },
         4);
@@ -378,7 +402,7 @@ void require_range(const Grid& grid, const CurvedSurface& surface) {
 
 std::vector<PlacedDisk> poisson_disks(const CurvedSurface& surface, std::span<const Piece> pieces,
                                       double scale, std::span<const Disk> fixed, int darts,
-                                      uint64_t seed, const Run& run) {
+                                      uint64_t seed, const Run& run, const OppositeWalls* walls) {
   double largest = 0;
   for (const Piece& piece : pieces) largest = std::max(largest, piece.spacing);
   std::vector<Disk> there(fixed.begin(), fixed.end());
@@ -391,7 +415,8 @@ std::vector<PlacedDisk> poisson_disks(const CurvedSurface& surface, std::span<co
     require_range(grid, surface);
     const auto first = numbered(pieces, size, darts * kPacking / (scale * scale), seed);
     if (first.back() == 0) continue;
-    const auto placed = one_size({surface, pieces, size, first, seed}, grid, scale, there, run);
+    const auto placed =
+        one_size({surface, pieces, size, first, seed}, grid, scale, there, walls, run);
     for (const PlacedDisk& disk : placed) there.push_back(disk.disk);
     all.insert(all.end(), placed.begin(), placed.end());
   }

@@ -3,6 +3,7 @@
 // for one more.
 #pragma once
 
+#include "sampling/opposite_walls.h"
 #include "sampling/pieces.h"
 
 namespace medial {
@@ -15,8 +16,13 @@ struct Disk {
 
 struct PlacedDisk {
   Disk disk;
-  Place place;
+  int32_t triangle;
+  Barycentric at;
+  bool paired_with_next = false;  // the next disc is its partner on the opposite wall
 };
+
+// Walls closer than this number of spacings get pairs of samples.
+inline constexpr double kCloseWalls = 2;
 
 // This is the number of samples per area of squared radius after the darts below have been thrown.
 inline constexpr double kPacking = 0.61;
@@ -25,9 +31,11 @@ inline constexpr double kPacking = 0.61;
 // stays unless it is nearer to another disc (including the `fixed` ones) than the smaller of the
 // two radii, and their normals are less than a right angle apart: opposite walls of a sheet do not
 // repel each other. The radius of a disc is `scale` times the spacing of its piece. Large discs are
-// placed first.
+// placed first. With `walls`, a dart between close walls takes its partner along: the disc of the
+// same size at the place of the opposite wall. Both stay or none does.
 std::vector<PlacedDisk> poisson_disks(const CurvedSurface& surface, std::span<const Piece> pieces,
                                       double scale, std::span<const Disk> fixed, int darts,
-                                      uint64_t seed, const Run& run);
+                                      uint64_t seed, const Run& run,
+                                      const OppositeWalls* walls = nullptr);
 
 }  // namespace medial

@@ -7,6 +7,7 @@
 #include "base/rows.h"
 #include "base/text.h"
 #include "sampling/mirrored_rows.h"
+#include "sampling/paired_samples.h"
 #include "sampling/poisson_disk.h"
 
 namespace medial {
@@ -14,23 +15,10 @@ namespace {
 
 constexpr int kDarts = 14;
 constexpr int64_t kMostSamples = INT_MAX / 8;  // as many as an analysis accepts
-// squared spacing if each sample has the area 1
-constexpr double kHexagonal = 2 / std::numbers::sqrt3;
-// The radius of a disc for a spacing is such that there are as many discs as points of the
-// hexagonal lattice.
-const double kDisk = std::sqrt(kPacking / kHexagonal);
-constexpr int kMostCuts = 3;  // cuts of a curved triangle
+constexpr int kMostCuts = 3;                   // cuts of a curved triangle
 constexpr size_t kManyPieces = 1 << 20;
 constexpr int kCurveSteps = 8;  // steps along a curved edge
 constexpr int kMostRows = 100;
-
-struct FixedSample {
-  SampleKind kind;
-  int32_t triangle;
-  Barycentric at;
-  Vec3 point, normal;
-  double radius;
-};
 
 // Holds the surface and all data that do not depend on the spacing.
 struct Model {
@@ -43,6 +31,7 @@ struct Model {
   TriangleMesh mesh;
   Creases creases;
   std::optional<CurvedSurface> surface;
+  std::optional<OppositeWalls> walls;  // if samples are paired
   double area = 0;
 };
 
@@ -64,47 +53,13 @@ Model::Model(std::span<const Vec3> vertices, std::span<const Triangle> triangles
                            marked_edges(vertices, options.sharp_edges, mesh, triangles),
                            options.keep_vertices, run)) {
   surface.emplace(mesh, creases, options.smooth, run);
+  if (options.pairs) walls.emplace(*surface, creases);
   area = area_of(*surface, run);
   if (!(area > 0)) {
     throw InvalidInputError("Expected triangles with an area, found " +
                             std::to_string(triangles.size()) +
                             " without; choose an object with faces.");
   }
-}
-
-// Returns the mean normal of the triangles at an edge.
-Vec3 edge_normal(const Model& model, const MeshEdge& edge, double share) {
-  Vec3 sum;
-  for (const int32_t t : model.mesh.fans[edge.ends[0]]) {
-    const Triangle& corners = model.mesh.triangles[t];
-    if (std::find(corners.begin(), corners.end(), edge.ends[1]) == corners.end()) continue;
-    sum = sum + model.surface->normal(t, place_on_edge(corners, edge.ends, share));
-  }
-  return normalized(sum);
-}
-
-FixedSample at_vertex(const Model& model, int32_t p, const Spacing& spacing) {
-  const int32_t t = model.mesh.fans[p].front();
-  const auto& creases = model.creases;
-  const SampleKind kind = creases.corner[p]                ? SampleKind::corner
-                          : creases.at[p] == Crease::none  ? SampleKind::vertex
-                          : creases.at[p] == Crease::sharp ? SampleKind::sharp
-                                                           : SampleKind::boundary;
-  return {kind,
-          t,
-          place_on_edge(model.mesh.triangles[t], {p, -1}, 0),
-          model.mesh.points[p],
-          normalized(model.mesh.normal_sum(p)),
-          kDisk * spacing(model.mesh.points[p])};
-}
-
-FixedSample on_edge(const Model& model, const MeshEdge& edge, double share,
-                    const Spacing& spacing) {
-  const int32_t t = edge.triangles[0];
-  const Barycentric at = place_on_edge(model.mesh.triangles[t], edge.ends, share);
-  const Vec3 point = model.surface->point(t, at);
-  const auto kind = edge.crease == Crease::sharp ? SampleKind::sharp : SampleKind::boundary;
-  return {kind, t, at, point, edge_normal(model, edge, share), kDisk * spacing(point)};
 }
 
 // Holds a chain as a polyline, with its length in spacings up to each point.
@@ -195,9 +150,7 @@ class Division {
   double parts_;
 };
 
-struct Pair {
-  FixedSample left, right;
-};
+using Pair = std::array<FixedSample, 2>;
 
 // Returns two places on either side of an edge, at the same distance from it.
 std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, double spacings,
@@ -210,13 +163,7 @@ std::optional<Pair> beside_edge(const Model& model, const PlaceOnEdge& place, do
   const auto on_side = [&](int32_t triangle) -> std::optional<FixedSample> {
     const auto found = walk_from_edge(model.mesh, model.creases, edge, triangle, place.share, away);
     if (!found) return {};
-    const Vec3 point = model.surface->point(found->triangle, found->at);
-    return FixedSample{SampleKind::surface,
-                       found->triangle,
-                       found->at,
-                       point,
-                       model.surface->normal(found->triangle, found->at),
-                       kDisk * spacing(point)};
+    return on_surface(*model.surface, found->triangle, found->at, spacing);
   };
   const auto left = on_side(edge.triangles[0]), right = on_side(edge.triangles[1]);
   if (!left || !right) return {};
@@ -244,14 +191,14 @@ std::vector<FixedSample> fixed_samples(const Model& model, bool keep_vertices,
       [&](int64_t p, std::vector<FixedSample>& out, int) {
         if (model.mesh.fans[p].empty()) return;  // all triangles there were omitted
         if (keep_vertices || model.creases.corner[p]) {
-          out.push_back(at_vertex(model, static_cast<int32_t>(p), spacing));
+          out.push_back(at_vertex(*model.surface, model.creases, static_cast<int32_t>(p), spacing));
         }
       });
   const auto along_chains = parallel_append<FixedSample>(
       static_cast<int64_t>(divisions.size()), run,
       [&](int64_t i, std::vector<FixedSample>& out, int) {
         for (const auto& [edge, share] : divisions[i]->ends_of_parts()) {
-          out.push_back(on_edge(model, model.creases.edges[edge], share, spacing));
+          out.push_back(on_edge(*model.surface, model.creases, edge, share, spacing));
         }
       },
       16);
@@ -278,14 +225,23 @@ std::vector<Pair> mirrored_row(const Model& model, int row, const Divisions& div
       16);
 }
 
-Disk disk_of(const FixedSample& s) {
-  return {s.point, s.radius, s.kind >= SampleKind::vertex ? s.normal : Vec3{}};
-}
-
 std::vector<Disk> disks_of(std::span<const FixedSample> samples) {
   std::vector<Disk> disks;
   for (const FixedSample& s : samples) disks.push_back(disk_of(s));
   return disks;
+}
+
+// Puts all samples on creases and beside them in order, those between close walls in pairs.
+std::vector<FixedSample> paired(const Model& model, int rows, const Divisions& divisions,
+                                const Spacing& spacing, std::span<const FixedSample> samples,
+                                const Run& run) {
+  PairedSamples made(*model.surface, model.creases, *model.walls, spacing, run);
+  made.add_on_creases(samples);
+  made.add_rims();
+  for (int row = 0; row < rows; ++row) {
+    made.add_beside(mirrored_row(model, row, divisions, spacing, run));
+  }
+  return std::move(made).sorted();
 }
 
 // Appends the rows next to the sharp edges where there is room, the nearest first.
@@ -296,8 +252,8 @@ void add_mirrored_rows(const Model& model, int rows, const Divisions& divisions,
     std::vector<std::array<Disk, 2>> disks;
     for (const auto& [left, right] : pairs) disks.push_back({disk_of(left), disk_of(right)});
     for (const int32_t i : free_pairs(disks_of(samples), disks, run)) {
-      samples.push_back(pairs[i].left);
-      samples.push_back(pairs[i].right);
+      samples.push_back(pairs[i][0]);
+      samples.push_back(pairs[i][1]);
     }
   }
 }
@@ -356,13 +312,17 @@ Attempt sample_once(const Model& model, const SamplingOptions& options, const Sp
   Attempt attempt;
   const auto divisions = divisions_of(model, options.keep_vertices, spacing, run);
   attempt.fixed = fixed_samples(model, options.keep_vertices, divisions, spacing, run);
-  add_mirrored_rows(model, options.mirrored_rows, divisions, spacing, attempt.fixed, run);
+  if (model.walls) {
+    attempt.fixed = paired(model, options.mirrored_rows, divisions, spacing, attempt.fixed, run);
+  } else {
+    add_mirrored_rows(model, options.mirrored_rows, divisions, spacing, attempt.fixed, run);
+  }
   const int cuts = cuts_for(model, expected.count);
   if (cuts > 0 || !spacing.field) {
     expected.pieces = cut_into_pieces(*model.surface, cuts, spacing, run);
   }
   attempt.placed = poisson_disks(*model.surface, expected.pieces, kDisk, disks_of(attempt.fixed),
-                                 kDarts, options.seed, run);
+                                 kDarts, options.seed, run, model.walls ? &*model.walls : nullptr);
   return attempt;
 }
 
@@ -495,22 +455,52 @@ void require_valid(const SamplingOptions& options, size_t vertices) {
   }
 }
 
+// Returns the largest curvature across the sides of a triangle: the turn of the normals over the
+// way between the middles of the triangles.
+double bend_of(const Model& model, int32_t triangle) {
+  constexpr double kMiddle = 0.4;  // of the heights over the common side
+  const auto& [points, rows, triangles, source, normal, fans] = model.mesh;
+  const Triangle& t = triangles[triangle];
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    const MeshEdge& edge = model.creases.edges[model.creases.find(t[i], t[(i + 1) % 3])];
+    if (edge.crease != Crease::none || !edge.manifold) continue;
+    const Vec3 side = normalized(points[edge.ends[1]] - points[edge.ends[0]]);
+    double way = 0;
+    for (const int32_t at : edge.triangles) {
+      const Triangle& c = triangles[at];
+      const int32_t third = c[0] + c[1] + c[2] - edge.ends[0] - edge.ends[1];
+      way += kMiddle * length(cross(points[third] - points[edge.ends[0]], side));
+    }
+    const double turn = distance(normal[edge.triangles[0]], normal[edge.triangles[1]]);
+    if (turn > most * way) most = turn / way;
+  }
+  return most;
+}
+
 void append(const Model& model, const Attempt& attempt, SurfaceSamples& samples) {
   const auto add = [&](const Vec3& point, const Vec3& normal, int32_t triangle,
-                       const Barycentric& at, SampleKind kind, double radius) {
+                       const Barycentric& at, SampleKind kind, double radius, int64_t partner) {
     samples.points.push_back(point);
     samples.normals.push_back(normal);
     samples.triangle.push_back(model.mesh.source[triangle]);
     samples.barycentric.push_back({at.a, at.b, at.c});
     samples.kind.push_back(kind);
     samples.radius.push_back(radius);
+    samples.partner.push_back(static_cast<int32_t>(partner));
+    samples.bend.push_back(partner < 0 ? 0 : bend_of(model, triangle));
   };
   for (const FixedSample& s : attempt.fixed) {
-    add(s.point, s.normal, s.triangle, s.at, s.kind, s.radius);
+    add(s.point, s.normal, s.triangle, s.at, s.kind, s.radius, s.partner);
   }
-  for (const auto& [disk, place] : attempt.placed) {
-    add(disk.centre, disk.normal, place.triangle, place.barycentric(), SampleKind::surface,
-        disk.radius);
+  bool with_last = false;
+  for (const auto& [disk, triangle, at, with_next] : attempt.placed) {
+    const auto own = static_cast<int64_t>(samples.points.size());
+    add(disk.centre, disk.normal, triangle, at, SampleKind::surface, disk.radius,
+        with_last   ? own - 1
+        : with_next ? own + 1
+                    : -1);
+    with_last = with_next;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "skeleton/level.h"
 #include "skeleton/limbs.h"
 #include "skeleton/sheets.h"
+#include "skeleton/wall_partners.h"
 
 namespace medial {
 namespace {
@@ -60,9 +61,9 @@ Collapse peel(const InnerComplex& complex, const FacetWeights& weight, const Run
   return collapse;
 }
 
-// The thickness, in spacings, of sheets that lead into creases: the faces say that they are there,
-// so they are no noise of the samples, however blunt the crease. No threshold but infinity drops
-// them.
+// The thickness, in spacings, of sheets that lead into creases or lie between partners: the faces
+// say that they are there, so they are no noise of the samples, however blunt the crease and
+// however close the walls. No threshold but infinity drops them.
 constexpr float kCertain = std::numeric_limits<float>::max();
 
 // Returns the values by which facets are removed, and preliminary values of the vertices at them.
@@ -81,7 +82,7 @@ Values values_of_facets(const InnerComplex& complex, const Collapse& collapse,
     });
     for (size_t f = 0; f < spacings.size(); ++f) {
       const bool burns = spacings[f] > 0 && spacings[f] < HUGE_VALF;
-      if (burns && weight.leads_into_crease(complex.dual[f])) spacings[f] = kCertain;
+      if (burns && weight.is_certain(complex.dual[f])) spacings[f] = kCertain;
     }
     by_spacing = drop_values(complex, collapse, sheets, spacings, run);
   }
@@ -156,14 +157,15 @@ void bring_outward(Level& level, const Frame& frame) {
 }  // namespace
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                         const FacesInput* faces, const Frame& frame, const Run& run) {
+                         const FacesInput* faces, std::span<const int32_t> partners,
+                         const Frame& frame, const Run& run) {
   auto parts = std::make_unique<Hierarchy::Parts>();
   Hierarchy::Parts& made = *parts;
   made.threads = run.threads;
   made.frame = frame;
   Stopwatch watch(made.timings);
   std::optional<SamplesOnFaces> on_faces;
-  std::vector<CreaseMark> marks;
+  std::vector<EdgeMark> marks;
   if (faces) {
     // The faces outlive the arena.
     made.faces = std::make_unique<Faces>(*faces, frame.inward(faces->vertices),
@@ -171,6 +173,9 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
     on_faces.emplace(*faces, *made.faces, samples, facets.significance.spacing, run);
     marks = crease_marks(*on_faces, facets.edges, run);
     watch.lap("faces");
+  }
+  if (!partners.empty()) {
+    mark_partners(WallPartners(partners, samples, run), facets.edges, marks, run);
   }
   const FacetWeights weight(facets, thresholds, marks);
   begin_stage(run.progress, "Inner complex", 0, 0.2);

@@ -15,6 +15,7 @@ namespace medial {
 // coordinates of `frame`, which the hierarchy keeps. With faces, those of the solid, vertices also
 // get crisp places. Throws InvalidInputError for thresholds out of range.
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
-                         const FacesInput* faces, const Frame& frame, const Run& run);
+                         const FacesInput* faces, std::span<const int32_t> partners,
+                         const Frame& frame, const Run& run);
 
 }  // namespace medial

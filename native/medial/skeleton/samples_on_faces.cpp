@@ -94,18 +94,18 @@ std::optional<PlaceOnCrease> SamplesOnFaces::crease_of_planes(const Edge& sample
   return creases_.nearer(apex(point(p), n, point(q), m, at), reach);
 }
 
-CreaseMark SamplesOnFaces::mark(const Edge& samples) const {
+EdgeMark SamplesOnFaces::mark(const Edge& samples) const {
   const auto& [p, q] = samples;
-  if (on_crease_[p] != on_crease_[q]) return CreaseMark::at_crease;
+  if (on_crease_[p] != on_crease_[q]) return EdgeMark::at_crease;
   const Vec3 middle = 0.5 * point(p) + 0.5 * point(q);
   const auto crease = crease_between(samples, middle);
-  return crease && creases_.divides(crease->edge) ? CreaseMark::into_crease : CreaseMark::none;
+  return crease && creases_.divides(crease->edge) ? EdgeMark::into_crease : EdgeMark::none;
 }
 
-std::vector<CreaseMark> crease_marks(const SamplesOnFaces& samples, const Edges& edges,
-                                     const Run& run) {
+std::vector<EdgeMark> crease_marks(const SamplesOnFaces& samples, const Edges& edges,
+                                   const Run& run) {
   if (samples.creases().empty()) return {};
-  std::vector<CreaseMark> marks(edges.ends.size());
+  std::vector<EdgeMark> marks(edges.ends.size());
   parallel_for(edges.count(), run, [&](int64_t e) { marks[e] = samples.mark(edges.ends[e]); });
   return marks;
 }

@@ -11,7 +11,7 @@
 namespace medial {
 
 // Marks of Delaunay edges that decide before the thresholds do.
-enum class CreaseMark : uint8_t { none, into_crease, at_crease };
+enum class EdgeMark : uint8_t { none, into_crease, at_crease, between_partners };
 
 class SamplesOnFaces {
  public:
@@ -33,7 +33,7 @@ class SamplesOnFaces {
   // to `at` as possible; nothing if they do not meet in one. If one sample is on a crease, it is
   // the place of this sample.
   std::optional<PlaceOnCrease> crease_between(const Edge& samples, const Vec3& at) const;
-  CreaseMark mark(const Edge& samples) const;
+  EdgeMark mark(const Edge& samples) const;
   // Returns whether a sample is near a place of the faces. Where none is, the faces do not bound
   // the solid: they are inside it, or doubled.
   bool are_near(const Vec3& place) const;
@@ -61,7 +61,7 @@ class SamplesOnFaces {
 
 // Returns the marks of all Delaunay edges: those into a crease are selected, those at a crease are
 // not.
-std::vector<CreaseMark> crease_marks(const SamplesOnFaces& samples, const Edges& edges,
-                                     const Run& run);
+std::vector<EdgeMark> crease_marks(const SamplesOnFaces& samples, const Edges& edges,
+                                   const Run& run);
 
 }  // namespace medial

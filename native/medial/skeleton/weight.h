@@ -12,18 +12,20 @@ class FacetWeights {
  public:
   // The arguments must outlive this object. There is a mark per Delaunay edge, or none at all.
   FacetWeights(const Facets& facets, const Thresholds& thresholds,
-               std::span<const CreaseMark> marks = {})
+               std::span<const EdgeMark> marks = {})
       : facets_(facets), t_(thresholds), selection_({thresholds}, facets), marks_(marks) {}
 
   // Returns whether a Delaunay edge is selected.
   bool selected(int32_t edge) const {
-    if (!marks_.empty() && marks_[edge] != CreaseMark::none) return leads_into_crease(edge);
+    if (!marks_.empty() && marks_[edge] != EdgeMark::none) return is_certain(edge);
     std::vector<int32_t> none;  // the side `both` needs no ring
     return selection_.wants(edge, none);
   }
-  // Returns whether the samples of a Delaunay edge lie on the two sides of a sharp convex edge.
-  bool leads_into_crease(int32_t edge) const {
-    return !marks_.empty() && marks_[edge] == CreaseMark::into_crease;
+  // Returns whether the samples of a Delaunay edge lie on the two sides of a sharp convex edge, or
+  // are partners on opposite walls.
+  bool is_certain(int32_t edge) const {
+    return !marks_.empty() &&
+           (marks_[edge] == EdgeMark::into_crease || marks_[edge] == EdgeMark::between_partners);
   }
   // Returns the larger one of theta / theta0 and rho / rho0, or only the one that the criteria use.
   double operator()(int32_t edge) const {
@@ -42,7 +44,7 @@ class FacetWeights {
   const Facets& facets_;
   Thresholds t_;
   Selection selection_;
-  std::span<const CreaseMark> marks_;
+  std::span<const EdgeMark> marks_;
 };
 
 }  // namespace medial

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sampling/opposite_walls.h"
+
+#include <numeric>
+
+#include "sampling/closest_on_flat.h"
+
+namespace medial {
+namespace {
+
+constexpr int32_t kLeafOfWalls = 4;
+constexpr int kMostShrinkings = 32;
+constexpr double kFacing = 0.8660254037844386;  // the cosine of 30 degrees
+constexpr double kUpright =
+    0.94;  // the cosine between a normal and the way to the centre, at least
+constexpr int kMostSteps = 12;
+constexpr double kPrecise = 1e-12;  // in barycentric coordinates
+// A ball touches where it is not cut deeper than by this share of its radius.
+constexpr double kTouching = 1e-9;
+// Walls closer than this share of the reach meet there.
+constexpr double kMeeting = 1e-8;
+
+}  // namespace
+
+OppositeWalls::OppositeWalls(const CurvedSurface& surface, const Creases& creases)
+    : surface_(surface), creases_(creases), mesh_(surface.mesh()), order_(mesh_.triangles.size()) {
+  std::iota(order_.begin(), order_.end(), 0);
+  std::vector<Box> boxes(order_.size());
+  for (size_t t = 0; t < boxes.size(); ++t) {
+    for (const int32_t corner : mesh_.triangles[t]) boxes[t].add(mesh_.points[corner]);
+  }
+  const auto describe = [&](Node& node) {
+    for (int32_t i = node.begin; i < node.end; ++i) {
+      node.box.add(boxes[order_[i]].low);
+      node.box.add(boxes[order_[i]].high);
+    }
+  };
+  const auto split = [&](const Node& node) {
+    const int axis = longest_axis(node.box.extent());
+    return split_in_middle(order_, node.begin, node.end, [&, axis](int32_t t) {
+      return std::pair(coordinate(boxes[t].low, axis) + coordinate(boxes[t].high, axis), t);
+    });
+  };
+  if (!order_.empty()) {
+    build_tree(nodes_, 0, static_cast<int32_t>(order_.size()), kLeafOfWalls, describe, split);
+  }
+}
+
+Vec3 OppositeWalls::point(int32_t triangle, const Barycentric& at) const {
+  const auto& [p, q, r] = mesh_.triangles[triangle];
+  const Vec3& origin = mesh_.points[p];
+  return origin + at.b * (mesh_.points[q] - origin) + at.c * (mesh_.points[r] - origin);
+}
+
+// Returns the nearest place of the triangles that face a normal; of equally near ones that of the
+// lowest triangle.
+OppositeWalls::Touch OppositeWalls::nearest_facing(const Vec3& centre, const Vec3& normal,
+                                                   double than) const {
+  Touch best;
+  double within = than * than;
+  visit_nearest(
+      nodes_, 0, [&](const Node& node) { return squared_distance(node.box, centre); },
+      [&] { return within; },
+      [&](const Node& leaf) {
+        for (int32_t i = leaf.begin; i < leaf.end; ++i) {
+          const int32_t t = order_[i];
+          if (!(dot(mesh_.normal[t], normal) < -kFacing)) continue;
+          const auto& [p, q, r] = mesh_.triangles[t];
+          const Barycentric at =
+              closest_on_flat(mesh_.points[p], mesh_.points[q], mesh_.points[r], centre);
+          const Vec3 found = point(t, at);
+          const double away = squared_length(found - centre);
+          if (away < within || (away == within && best.triangle > t)) {
+            best = {t, at, found};
+            within = away;
+          }
+        }
+      });
+  return best;
+}
+
+// The ball shrinks to touch the place that lies deepest in it, until it holds none.
+std::optional<OppositeWalls::Touch> OppositeWalls::touch(const Vec3& from, const Vec3& normal,
+                                                         double reach) const {
+  double radius = 0.5 * reach;
+  Touch touch;
+  if (normal == Vec3{} || nodes_.empty()) return {};
+  for (int i = 0; i < kMostShrinkings; ++i) {
+    const Touch next = nearest_facing(from - radius * normal, normal, (1 - kTouching) * radius);
+    if (next.triangle < 0) break;
+    const Vec3 back = from - next.point;
+    const double depth = dot(back, normal);
+    if (!(depth > kMeeting * reach)) return {};
+    radius = squared_length(back) / (2 * depth);
+    touch = next;
+  }
+  if (touch.triangle < 0) return {};
+  const Vec3 away = normalized(from - radius * normal - touch.point);
+  if (!(-dot(away, mesh_.normal[touch.triangle]) > kUpright)) return {};
+  return touch;
+}
+
+std::optional<WallPlace> OppositeWalls::operator()(const SurfacePlace& from, double reach) const {
+  const auto flat = touch(point(from.triangle, from.at), mesh_.normal[from.triangle], reach);
+  if (!flat) return {};
+  SurfacePlace place{flat->triangle, flat->at};
+  const bool inside = flat->at.a > 0 && flat->at.b > 0 && flat->at.c > 0;
+  if (inside || surface_.smooth()) place = on_curved(from, place);
+  const Vec3 there = surface_.point(place.triangle, place.at);
+  return WallPlace{place.triangle, place.at,
+                   distance(surface_.point(from.triangle, from.at), there)};
+}
+
+// Moves a place of the flat wall to where the ball touches the curved one. In each step the curved
+// wall is replaced by its tangent plane. A place that would go farther than the walls are apart
+// stays where it was: there the faces are too coarse for a curved wall.
+SurfacePlace OppositeWalls::on_curved(const SurfacePlace& from, const SurfacePlace& flat) const {
+  const Vec3 start = surface_.point(from.triangle, from.at);
+  const Vec3 n = surface_.normal(from.triangle, from.at);
+  const Vec3 first = surface_.point(flat.triangle, flat.at);
+  SurfacePlace place = flat;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const PatchExpansion here =
+        surface_.patch(place.triangle).polynomial(start).expansion(place.at.b, place.at.c);
+    const Vec3 m = normalized(cross(here.b, here.c));
+    const double facing = 1 - dot(n, m);
+    if (!(facing > 1)) break;
+    const double radius = dot(here.point, m) / facing;
+    const Vec3 way = radius * (m - n) - here.point;
+    const double bb = dot(here.b, here.b), bc = dot(here.b, here.c), cc = dot(here.c, here.c);
+    const double by_b = dot(way, here.b), by_c = dot(way, here.c), det = bb * cc - bc * bc;
+    if (!(det > 0)) break;
+    const double db = (by_b * cc - by_c * bc) / det, dc = (by_c * bb - by_b * bc) / det;
+    if (!go(place, {-db - dc, db, dc}) && std::abs(db) + std::abs(dc) < kPrecise) break;
+  }
+  const Vec3 last = surface_.point(place.triangle, place.at);
+  return distance(first, last) < distance(first, start) ? place : flat;
+}
+
+// Takes a step in barycentric coordinates as far as the side of the triangle, and then over it to
+// the next triangle if that is on the same wall. Returns whether it went over.
+bool OppositeWalls::go(SurfacePlace& place, const std::array<double, 3>& step) const {
+  std::array<double, 3> at{place.at.a, place.at.b, place.at.c};
+  double share = 1;
+  int out = -1;
+  for (int i = 0; i < 3; ++i) {
+    if (!(at[i] + step[i] < 0) || !(at[i] < -share * step[i])) continue;
+    share = std::max(0.0, -at[i] / step[i]);
+    out = i;
+  }
+  for (int i = 0; i < 3; ++i) at[i] = std::clamp(at[i] + share * step[i], 0.0, 1.0);
+  if (out >= 0) at[out] = 0;
+  place.at = {at[0], at[1], at[2]};
+  if (out < 0) return false;
+  const Triangle& t = mesh_.triangles[place.triangle];
+  const int32_t p = t[(out + 1) % 3], q = t[(out + 2) % 3];
+  const MeshEdge& edge = creases_.edges[creases_.find(p, q)];
+  if (edge.crease != Crease::none || !edge.manifold) return false;
+  const int32_t next = edge.triangles[edge.triangles[0] == place.triangle];
+  place = {next, place_on_edge(mesh_.triangles[next], {p, q}, at[(out + 2) % 3])};
+  return true;
+}
+
+}  // namespace medial

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Finds the place of the opposite wall for a place of a surface: where the ball that touches the
+// surface there from inside touches the faces that look the other way.
+#pragma once
+
+#include <optional>
+
+#include "base/box_tree.h"
+#include "sampling/pn_triangles.h"
+
+namespace medial {
+
+struct SurfacePlace {
+  int32_t triangle;
+  Barycentric at;
+};
+
+// A place of the opposite wall.
+struct WallPlace {
+  int32_t triangle = -1;
+  Barycentric at{};
+  double distance = 0;  // between the two places
+};
+
+// It finds the triangle by the flat triangles, and the place on the surface. Its const members may
+// be called from several threads.
+class OppositeWalls {
+ public:
+  // The surface must outlive this object; its triangles turn outward.
+  OppositeWalls(const CurvedSurface& surface, const Creases& creases);
+
+  // Returns where the ball that touches the surface at a place from inside touches the opposite
+  // wall. Only triangles within 30 degrees of the opposite direction count, so the ball ignores
+  // walls beside. There is nothing if the diameter of the ball is above `reach`, or if the ball
+  // touches the end of a wall at a slant.
+  std::optional<WallPlace> operator()(const SurfacePlace& from, double reach) const;
+  // Returns a place on the flat triangle.
+  Vec3 point(int32_t triangle, const Barycentric& at) const;
+
+ private:
+  struct Node : TreeNode {
+    Box box;
+  };
+  struct Touch {
+    int32_t triangle = -1;
+    Barycentric at{};
+    Vec3 point;
+  };
+
+  std::optional<Touch> touch(const Vec3& from, const Vec3& normal, double reach) const;
+  Touch nearest_facing(const Vec3& centre, const Vec3& normal, double than) const;
+  SurfacePlace on_curved(const SurfacePlace& from, const SurfacePlace& flat) const;
+  bool go(SurfacePlace& place, const std::array<double, 3>& step) const;
+
+  const CurvedSurface& surface_;
+  const Creases& creases_;
+  const TriangleMesh& mesh_;
+  std::vector<int32_t> order_;  // triangles, leaf after leaf
+  std::vector<Node> nodes_;
+};
+
+}  // namespace medial

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sampling/paired_samples.h"
+
+#include "base/random.h"
+#include "sampling/mirrored_rows.h"
+
+namespace medial {
+namespace {
+
+// A partner may be moved onto a crease, or to a sample, by this share of the distance of the walls.
+// Where that is less than a disc's radius, the share is smaller: the facet between partners is as
+// wide as the disc, and must not leave the wall when it turns.
+constexpr double kMoved = 0.14;
+constexpr double kReplaced = 1.03;       // radii from a partner on the same crease
+constexpr int kMostReflections = 3;      // from crease to crease
+constexpr double kOneDirection = 0.866;  // faces of a corner within 30 degrees look one way
+constexpr double kAcute = -0.2;          // the cosine between the normals of an acute edge
+constexpr double kRimThickness = 0.5;    // of the radius, at most
+constexpr double kRim = 2;               // thicknesses from an edge to the row beside it
+
+double tolerance_of(const FixedSample& sample, double thickness) {
+  return kMoved * std::min(thickness, sample.radius) * std::min(1.0, thickness / sample.radius);
+}
+
+}  // namespace
+
+PairedSamples::PairedSamples(const CurvedSurface& surface, const Creases& creases,
+                             const OppositeWalls& walls, const Spacing& spacing, const Run& run)
+    : surface_(surface),
+      creases_(creases),
+      walls_(walls),
+      lines_(surface.mesh(), creases),
+      spacing_(spacing),
+      run_(run),
+      chain_of_(creases.edges.size(), -1) {
+  for (int64_t c = 0; c < creases.chains.size(); ++c) {
+    for (const ChainLink& link : creases.chains[c]) {
+      chain_of_[link.edge] = static_cast<int32_t>(c);
+    }
+  }
+}
+
+// --- the faces at a sample, and the walls opposite to them
+
+bool PairedSamples::is_reflex(int32_t edge) const {
+  const MeshEdge& e = creases_.edges[edge];
+  if (!e.manifold) return false;
+  const Triangle& other = mesh().triangles[e.triangles[1]];
+  const int32_t third = other[0] + other[1] + other[2] - e.ends[0] - e.ends[1];
+  return dot(mesh().points[third] - mesh().points[e.ends[0]], mesh().normal[e.triangles[0]]) > 0;
+}
+
+// Returns the place of a sample on each face from which the solid goes straight down.
+std::vector<SurfacePlace> PairedSamples::places_of(const FixedSample& sample) const {
+  if (sample.edge < 0) {
+    if (sample.kind == SampleKind::surface) return {{sample.triangle, sample.at}};
+    const double at[3] = {sample.at.a, sample.at.b, sample.at.c};
+    return places_at_vertex(mesh().triangles[sample.triangle][std::max_element(at, at + 3) - at]);
+  }
+  const MeshEdge& e = creases_.edges[sample.edge];
+  std::vector<SurfacePlace> places;
+  for (const int32_t t : e.triangles) {
+    if (t < 0) continue;
+    places.push_back({t, place_on_edge(mesh().triangles[t], e.ends, sample.share)});
+  }
+  const bool acute =
+      places.size() == 2 && dot(normal(e.triangles[0]), normal(e.triangles[1])) < kAcute;
+  if (acute && !is_reflex(sample.edge)) places.clear();
+  return places;
+}
+
+std::vector<SurfacePlace> PairedSamples::places_at_vertex(int32_t vertex) const {
+  std::vector<SurfacePlace> places;
+  for (const int32_t t : mesh().fans[vertex]) {
+    const bool again = std::any_of(places.begin(), places.end(), [&](const SurfacePlace& other) {
+      return dot(normal(t), normal(other.triangle)) > kOneDirection;
+    });
+    if (!again) places.push_back({t, place_on_edge(mesh().triangles[t], {vertex, -1}, 0)});
+  }
+  return places;
+}
+
+std::optional<WallPlace> PairedSamples::wall_opposite(const FixedSample& sample,
+                                                      const SurfacePlace& place) const {
+  return walls_(place, kCloseWalls * sample.radius / kDisk);
+}
+
+PairedSamples::Opposites PairedSamples::opposites_of(const FixedSample& sample) const {
+  Opposites found;
+  for (const SurfacePlace& place : places_of(sample)) {
+    if (const auto wall = wall_opposite(sample, place)) found.push_back({place.triangle, *wall});
+  }
+  return found;
+}
+
+// --- the samples that are there
+
+uint64_t PairedSamples::cell_of(const Vec3& point, int dx, int dy, int dz) const {
+  const auto at = [&](double x, int d) {
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / width_)) + d);
+  };
+  return scrambled(at(point.x, dx) ^ scrambled(at(point.y, dy) ^ scrambled(at(point.z, dz))));
+}
+
+template <typename Found>
+void PairedSamples::for_near(const Vec3& point, double reach, const Found& found) const {
+  const int cells = width_ > 0 ? static_cast<int>(std::ceil(reach / width_)) : -1;
+  for (int x = -cells; x <= cells; ++x) {
+    for (int y = -cells; y <= cells; ++y) {
+      for (int z = -cells; z <= cells; ++z) {
+        const auto cell = cells_.find(cell_of(point, x, y, z));
+        if (cell == cells_.end()) continue;
+        for (const int32_t id : cell->second) {
+          const double away = distance(samples_[id].point, point);
+          if (away <= reach) found(id, away);
+        }
+      }
+    }
+  }
+}
+
+// Returns the nearest sample of the same wall within a tolerance, or -1.
+int32_t PairedSamples::coincident(const FixedSample& sample, double tolerance) const {
+  int32_t best = -1;
+  double nearest = HUGE_VAL;
+  for_near(sample.point, tolerance, [&](int32_t id, double away) {
+    const Disk other = disk_of(samples_[id]);
+    const bool same_wall = other.normal == Vec3{} || dot(other.normal, sample.normal) > 0;
+    if (!same_wall || away > nearest || (away == nearest && id > best)) return;
+    best = id;
+    nearest = away;
+  });
+  return best;
+}
+
+bool PairedSamples::is_crowded(const FixedSample& sample) const {
+  bool crowded = false;
+  for_near(sample.point, sample.radius, [&](int32_t id, double away) {
+    const Disk other = disk_of(samples_[id]);
+    if (!(away < std::min(sample.radius, other.radius))) return;
+    crowded |= other.normal == Vec3{} || dot(other.normal, sample.normal) > 0;
+  });
+  return crowded;
+}
+
+// Returns whether a partner from another wall is near on the same crease.
+bool PairedSamples::is_replaced(const FixedSample& sample) const {
+  bool replaced = false;
+  for_near(sample.point, kReplaced * sample.radius, [&](int32_t id, double away) {
+    const FixedSample& other = samples_[id];
+    if (!is_partner_[id] || other.edge < 0) return;
+    replaced |= chain_of_[other.edge] == chain_of_[sample.edge] &&
+                away < kReplaced * std::min(sample.radius, other.radius);
+  });
+  return replaced;
+}
+
+int32_t PairedSamples::add(const FixedSample& sample, bool is_partner) {
+  const auto id = static_cast<int32_t>(samples_.size());
+  samples_.push_back(sample);
+  is_partner_.push_back(is_partner);
+  cells_[cell_of(sample.point, 0, 0, 0)].push_back(id);
+  return id;
+}
+
+// One of the two names the other.
+void PairedSamples::link(int32_t p, int32_t q) {
+  if (p == q || samples_[p].partner == q || samples_[q].partner == p) return;
+  if (samples_[p].partner < 0) {
+    samples_[p].partner = q;
+  } else if (samples_[q].partner < 0) {
+    samples_[q].partner = p;
+  }
+}
+
+// --- creases
+
+void PairedSamples::add_on_creases(std::span<const FixedSample> samples) {
+  for (const FixedSample& s : samples) width_ = std::max(width_, s.radius);
+  std::vector<Opposites> opposites(samples.size());
+  std::vector<uint8_t> rank(samples.size());
+  parallel_for(
+      static_cast<int64_t>(samples.size()), run_,
+      [&](int64_t i) {
+        opposites[i] = opposites_of(samples[i]);
+        rank[i] = samples[i].edge < 0 ? 0 : is_reflex(samples[i].edge) ? 1 : 2;
+      },
+      64);
+  // Corners stay where they are, so all of them are there before the partners of the first one.
+  std::vector<int32_t> id(samples.size(), -1);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    if (rank[i] == 0) id[i] = add(samples[i], false);
+  }
+  for (uint8_t now = 0; now < 3; ++now) {
+    throw_if_cancelled(run_.progress);
+    for (size_t i = 0; i < samples.size(); ++i) {
+      if (rank[i] != now || (now > 0 && is_replaced(samples[i]))) continue;
+      if (now > 0) id[i] = add(samples[i], false);
+      add_partners(id[i], opposites[i], 0);
+    }
+  }
+}
+
+void PairedSamples::add_partners(int32_t id, const Opposites& opposites, int depth) {
+  if (depth > kMostReflections) return;
+  for (const auto& [triangle, wall] : opposites) {
+    const FixedSample found = on_surface(surface_, wall.triangle, wall.at, spacing_);
+    link(id, add_partner(found, tolerance_of(samples_[id], wall.distance), depth));
+  }
+  add_outer_edge(id, opposites);
+}
+
+// Where two walls meet in a corner, adds the sample of the outer edge that is opposite to the inner
+// edge.
+void PairedSamples::add_outer_edge(int32_t id, const Opposites& opposites) {
+  const FixedSample sample = samples_[id];
+  if (opposites.size() != 2 || sample.edge < 0 || !is_reflex(sample.edge)) return;
+  const auto& [left, first] = opposites[0];
+  const auto& [right, second] = opposites[1];
+  const Vec3 &n = normal(left), &m = normal(right);
+  const double cosine = dot(n, m), determinant = 1 - cosine * cosine;
+  const double down = first.distance, across = second.distance;
+  // The point is `down` below one face, and `across` below the other one.
+  const Vec3 away =
+      ((across * cosine - down) / determinant) * n + ((down * cosine - across) / determinant) * m;
+  const double tolerance = tolerance_of(sample, std::min(down, across));
+  const auto line = lines_.nearest(walls_.point(sample.triangle, sample.at) + away, tolerance);
+  if (!line) return;
+  const FixedSample outer = on_edge(surface_, creases_, line->edge, line->share, spacing_);
+  const int32_t there = coincident(outer, tolerance);
+  link(there >= 0 ? there : add(outer, true), id);
+}
+
+// Adds a partner, or finds that it is there. One that is next to a crease moves onto it, and has
+// partners of its own.
+int32_t PairedSamples::add_partner(const FixedSample& found, double tolerance, int depth) {
+  const int32_t there = coincident(found, tolerance);
+  if (there >= 0) return there;
+  const auto line = lines_.nearest(walls_.point(found.triangle, found.at), tolerance);
+  if (!line) return add(found, true);
+  const FixedSample moved = on_edge(surface_, creases_, line->edge, line->share, spacing_);
+  const int32_t same = coincident(moved, tolerance);
+  if (same >= 0) return same;
+  const int32_t id = add(moved, true);
+  add_partners(id, opposites_of(moved), depth + 1);
+  return id;
+}
+
+// --- rows beside creases
+
+void PairedSamples::add_rims() {
+  const auto on_creases = static_cast<int32_t>(samples_.size());
+  for (int32_t id = 0; id < on_creases; ++id) {
+    const int32_t edge = samples_[id].edge;
+    if (edge < 0 || !creases_.edges[edge].manifold || is_reflex(edge)) continue;
+    for (const int side : {0, 1}) add_rim(id, side);
+  }
+}
+
+void PairedSamples::add_rim(int32_t id, int side) {
+  const FixedSample sample = samples_[id];
+  const MeshEdge& edge = creases_.edges[sample.edge];
+  const int32_t triangle = edge.triangles[side];
+  if (dot(normal(triangle), normal(edge.triangles[1 - side])) < kAcute) return;
+  const Barycentric at = place_on_edge(mesh().triangles[triangle], edge.ends, sample.share);
+  const auto wall = wall_opposite(sample, {triangle, at});
+  if (!wall || !(wall->distance < kRimThickness * sample.radius)) return;
+  const double away = kRim * wall->distance;
+  const auto place = walk_from_edge(mesh(), creases_, edge, triangle, sample.share, away);
+  if (!place) return;
+  const FixedSample inner = on_surface(surface_, place->triangle, place->at, spacing_);
+  const auto opposite = wall_opposite(inner, *place);
+  if (!opposite || coincident(inner, 0.5 * away) >= 0) return;
+  const FixedSample other = on_surface(surface_, opposite->triangle, opposite->at, spacing_);
+  if (coincident(other, 0.5 * away) >= 0) return;
+  add_partners(add(inner, true), {{place->triangle, *opposite}}, 0);
+}
+
+void PairedSamples::add_beside(std::span<const std::array<FixedSample, 2>> rows) {
+  for (const auto& [left, right] : rows) {
+    const size_t before = samples_.size();
+    if (add_member(left) && add_member(right)) continue;
+    while (samples_.size() > before) {
+      cells_[cell_of(samples_.back().point, 0, 0, 0)].pop_back();
+      samples_.pop_back();
+      is_partner_.pop_back();
+    }
+  }
+}
+
+// Adds a sample and its partner unless they are there; returns whether they have room.
+bool PairedSamples::add_member(const FixedSample& sample) {
+  const auto wall = wall_opposite(sample, {sample.triangle, sample.at});
+  const double tolerance = tolerance_of(sample, wall ? wall->distance : sample.radius);
+  if (coincident(sample, tolerance) >= 0) return true;
+  if (is_crowded(sample)) return false;
+  const int32_t id = add(sample, false);
+  if (!wall) return true;
+  const FixedSample partner = on_surface(surface_, wall->triangle, wall->at, spacing_);
+  const int32_t there = coincident(partner, tolerance);
+  if (there < 0 && is_crowded(partner)) return false;
+  if (there < 0) {
+    link(id, add(partner, true));
+  } else if (samples_[id].partner < 0) {
+    samples_[id].partner = there;
+  }
+  return true;
+}
+
+std::vector<FixedSample> PairedSamples::sorted() && {
+  std::vector<int32_t> order(samples_.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int32_t>(i);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int32_t a, int32_t b) { return samples_[a].kind < samples_[b].kind; });
+  std::vector<int32_t> place(order.size());
+  for (size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<int32_t>(i);
+  std::vector<FixedSample> all;
+  for (const int32_t id : order) {
+    all.push_back(samples_[id]);
+    if (all.back().partner >= 0) all.back().partner = place[all.back().partner];
+  }
+  for (size_t i = 0; i < all.size(); ++i) {
+    const int32_t other = all[i].partner;
+    if (other >= 0 && all[other].partner < 0) all[other].partner = static_cast<int32_t>(i);
+  }
+  return all;
+}
+
+}  // namespace medial

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Samples in pairs across thin walls, and the sheets between them.
+#include <gtest/gtest.h>
+#include <medial/analysis.h>
+#include <medial/sampling.h>
+
+#include "sampling/opposite_walls.h"
+#include "shapes.h"
+
+namespace medial {
+namespace {
+
+constexpr std::array<Triangle, 12> kBoxTriangles{{{0, 2, 1},
+                                                  {0, 3, 2},
+                                                  {4, 5, 6},
+                                                  {4, 6, 7},
+                                                  {0, 1, 5},
+                                                  {0, 5, 4},
+                                                  {1, 2, 6},
+                                                  {1, 6, 5},
+                                                  {2, 3, 7},
+                                                  {2, 7, 6},
+                                                  {3, 0, 4},
+                                                  {3, 4, 7}}};
+
+// A box of 1 x 1 x t in a pose that no axis is parallel to, rounded to float32.
+test::Mesh plate(double t) {
+  const Vec3 x = normalized(Vec3{2, 1, 0.5}), y = normalized(cross(Vec3{0.3, -1, 2}, x));
+  const Vec3 z = cross(x, y);
+  test::Mesh mesh{{}, {kBoxTriangles.begin(), kBoxTriangles.end()}};
+  for (const double up : {0.0, t}) {
+    for (const auto& [u, v] :
+         {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
+      const Vec3 p = static_cast<double>(u) * x + static_cast<double>(v) * y + up * z;
+      mesh.vertices.push_back(
+          {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+  }
+  return mesh;
+}
+
+// A torus and the same one inside it, of which the tubes are `t` apart.
+test::Mesh hollow_torus(double t) {
+  test::Mesh mesh = test::torus(64, 32);
+  const auto count = static_cast<int32_t>(mesh.vertices.size());
+  const auto outer = mesh.triangles;
+  TriangleMesh welded = make_mesh(mesh.vertices, mesh.triangles, {2, nullptr});
+  std::vector<Vec3> inner(mesh.vertices.size());
+  for (size_t p = 0; p < welded.points.size(); ++p) {
+    const Vec3 n = normalized(welded.normal_sum(static_cast<int32_t>(p)));
+    inner[welded.row[p]] = welded.points[p] - t * n;
+  }
+  mesh.vertices.insert(mesh.vertices.end(), inner.begin(), inner.end());
+  for (const auto& [a, b, c] : outer) mesh.triangles.push_back({a + count, c + count, b + count});
+  return mesh;
+}
+
+SurfaceSamples paired(const test::Mesh& mesh, int64_t count, bool smooth = false, int threads = 2) {
+  SamplingOptions options;
+  options.count = count;
+  options.pairs = true;
+  options.smooth = smooth;
+  return sample_surface(mesh.vertices, mesh.triangles, options, threads);
+}
+
+// Returns whether each sample names a partner or is named by one.
+std::vector<uint8_t> has_partner(const SurfaceSamples& samples) {
+  std::vector<uint8_t> has(samples.points.size(), 0);
+  for (size_t i = 0; i < has.size(); ++i) {
+    if (samples.partner[i] < 0) continue;
+    has[i] = has[samples.partner[i]] = 1;
+  }
+  return has;
+}
+
+Level level_of(const test::Mesh& mesh, const SurfaceSamples& samples, bool crisp = false) {
+  AnalysisInput input;
+  input.points = samples.points;
+  input.triangles = mesh.triangles;
+  input.vertices = mesh.vertices;
+  const auto analysis = MedialAnalysis(input, {});
+  FacesInput faces{mesh.vertices, mesh.triangles, samples.triangle};
+  const Hierarchy hierarchy =
+      analysis.hierarchy({}, Side::inner, std::nullopt, nullptr, &faces, samples.partner);
+  LevelOptions options;
+  options.spacings = 1;
+  options.crisp = crisp;
+  return hierarchy.extract(options);
+}
+
+double area_of(const Level& level) {
+  double area = 0;
+  for (size_t f = 0; f + 1 < level.face_offsets.size(); ++f) {
+    Vec3 sum;
+    const auto corner = [&](int32_t k) { return level.vertices[level.face_vertices[k]]; };
+    for (int32_t k = level.face_offsets[f] + 2; k < level.face_offsets[f + 1]; ++k) {
+      const Vec3 first = corner(level.face_offsets[f]);
+      sum = sum + cross(corner(k - 1) - first, corner(k) - first);
+    }
+    area += 0.5 * length(sum);
+  }
+  return area;
+}
+
+TEST(OppositeWalls, TheBallTouchesTheOtherSideOfAWedgeAtTheSameDistanceFromItsEdge) {
+  const double angle = 0.3;
+  const Vec3 up{std::cos(angle), std::sin(angle), 0};
+  const std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {4, 0, 2},
+                                 {0, 0, 2}, 4.0 * up,  4.0 * up + Vec3{0, 0, 2}};
+  const std::vector<Triangle> sides{{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {0, 5, 4}};
+  const TriangleMesh mesh = make_mesh(points, sides, {1, nullptr});
+  const Creases creases = find_creases(mesh, 0.5, {}, false, {1, nullptr});
+  const CurvedSurface surface(mesh, creases, false, {1, nullptr});
+  const OppositeWalls walls(surface, creases);
+  const Vec3 from = surface.point(0, {0.3, 0.4, 0.3});
+  const auto found = walls({0, {0.3, 0.4, 0.3}}, 4);
+  ASSERT_TRUE(found);
+  const Vec3 there = surface.point(found->triangle, found->at);
+  EXPECT_NEAR(distance(there, from.x * up + Vec3{0, 0, from.z}), 0, 1e-12);
+  EXPECT_FALSE(walls({0, {0.3, 0.4, 0.3}}, 0.1 * found->distance));
+}
+
+TEST(Pairs, EverySampleOfAPlateIsOppositeItsPartner) {
+  for (const double t : {0.03, 1e-3, 1e-5}) {
+    const SurfaceSamples samples = paired(plate(t), 2000);
+    const auto has = has_partner(samples);
+    EXPECT_EQ(std::count(has.begin(), has.end(), 1), static_cast<int64_t>(has.size())) << t;
+    for (size_t i = 0; i < has.size(); ++i) {
+      if (samples.partner[i] < 0) continue;
+      const double apart = distance(samples.points[i], samples.points[samples.partner[i]]);
+      EXPECT_NEAR(apart, t, 0.02 * t + 2e-7);
+    }
+  }
+}
+
+TEST(Pairs, NoPartnerTakesThePlaceOfACorner) {
+  const test::Mesh mesh = plate(0.01);
+  const SurfaceSamples samples = paired(mesh, 2000);
+  for (size_t i = 0; i < samples.points.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      EXPECT_GT(distance(samples.points[i], samples.points[j]), 0.9 * 0.01) << i << " " << j;
+    }
+  }
+}
+
+TEST(Pairs, ThickSolidsAreSampledWithoutPartners) {
+  const SurfaceSamples samples = paired(plate(1), 2000);
+  EXPECT_EQ(std::count(samples.partner.begin(), samples.partner.end(), -1),
+            static_cast<int64_t>(samples.points.size()));
+  SamplingOptions options;
+  options.count = 2000;
+  const test::Mesh cube = plate(1);
+  const auto without = sample_surface(cube.vertices, cube.triangles, options, 2).points.size();
+  EXPECT_NEAR(static_cast<double>(samples.points.size()), static_cast<double>(without), 40);
+}
+
+TEST(Pairs, PartnersOnCurvedWallsAreAlongTheNormals) {
+  const SurfaceSamples samples = paired(hollow_torus(0.01), 6000, true);
+  const auto has = has_partner(samples);
+  EXPECT_GT(std::count(has.begin(), has.end(), 1), 0.99 * static_cast<double>(has.size()));
+  for (size_t i = 0; i < has.size(); ++i) {
+    if (samples.partner[i] < 0) continue;
+    const Vec3 way = normalized(samples.points[i] - samples.points[samples.partner[i]]);
+    EXPECT_GT(dot(way, samples.normals[i]), 0.9995);
+  }
+}
+
+TEST(Pairs, AreTheSameForAnyNumberOfThreads) {
+  for (const test::Mesh& mesh : {plate(1e-3), hollow_torus(0.02)}) {
+    const SurfaceSamples one = paired(mesh, 3000, false, 1), four = paired(mesh, 3000, false, 4);
+    EXPECT_EQ(one.points, four.points);
+    EXPECT_EQ(one.partner, four.partner);
+  }
+}
+
+TEST(Pairs, GiveTheWholeSheetOfAPlateHoweverThin) {
+  for (const double t : {0.01, 1e-3, 1e-4, 1e-5}) {
+    const test::Mesh mesh = plate(t);
+    const SurfaceSamples samples = paired(mesh, 2000);
+    EXPECT_EQ(level_of(mesh, samples, true).betti, (Betti{1, 0, 0})) << t;
+    const Level level = level_of(mesh, samples);
+    EXPECT_EQ(level.betti, (Betti{1, 0, 0})) << t;
+    EXPECT_TRUE(level.wires.empty()) << t;
+    EXPECT_GT(area_of(level), 0.99 * (1 - 2 * t) * (1 - 2 * t)) << t;
+    EXPECT_LT(area_of(level), 1.0 + 2 * t) << t;
+  }
+}
+
+TEST(Pairs, OfAHollowTorusGiveAClosedSheet) {
+  const test::Mesh mesh = hollow_torus(0.02);
+  const SurfaceSamples samples = paired(mesh, 8000, true);
+  EXPECT_EQ(level_of(mesh, samples, true).betti, (Betti{1, 2, 1}));
+}
+
+TEST(Pairs, PartnersHaveToFitThePoints) {
+  const test::Mesh mesh = plate(0.01);
+  SurfaceSamples samples = paired(mesh, 500);
+  samples.partner.pop_back();
+  EXPECT_THROW(level_of(mesh, samples), InvalidInputError);
+  samples.partner.push_back(static_cast<int32_t>(samples.points.size()));
+  EXPECT_THROW(level_of(mesh, samples), InvalidInputError);
+}
+
+}  // namespace
+}  // namespace medial

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Closed solids with thin walls, whose Betti numbers and whose area of the middle sheets are known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import meshes
+from .thick_meshes import lathe
+
+Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
+Box = tuple[tuple[float, float, float], tuple[float, float, float]]
+
+
+@dataclass(frozen=True)
+class ThinSolid:
+    """A solid, its Betti numbers, and the area of its middle sheets; `area` is without rims as wide as the wall."""
+
+    mesh: Mesh
+    betti: tuple[int, int, int]
+    area: float
+
+
+def turned(mesh: Mesh, seed: int = 1) -> Mesh:
+    """The mesh in a random pose, rounded to float32 as meshes are stored."""
+    points, triangles = mesh
+    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    q = q * np.sign(np.diag(r))
+    if np.linalg.det(q) < 0:
+        q[:, 0] = -q[:, 0]
+    return (points @ q.T).astype(np.float32).astype(np.float64), triangles
+
+
+def union(*boxes: Box) -> Mesh:
+    """The boundary of a union of boxes, cut along all of their planes so that faces meet edge to edge."""
+    planes = [np.unique([end[axis] for box in boxes for end in box]) for axis in range(3)]
+    middles = [(p[:-1] + p[1:]) / 2 for p in planes]
+    grid = np.stack(np.meshgrid(*middles, indexing="ij"), axis=-1)
+    filled = np.zeros(grid.shape[:3], bool)
+    for low, high in boxes:
+        filled |= ((grid > low) & (grid < high)).all(axis=-1)
+    padded = np.pad(filled, 1)
+    shape = [len(p) for p in planes]
+    quads = []
+    for axis in range(3):
+        for end, step in ((0, -1), (1, 1)):
+            outside = np.roll(padded, -step, axis)[1:-1, 1:-1, 1:-1]
+            cells = np.argwhere(filled & ~outside)
+            u, v = (np.eye(3, dtype=int)[(axis + k) % 3] for k in (1, 2))
+            first = cells + end * np.eye(3, dtype=int)[axis]
+            ring = [first, first + u, first + u + v, first + v]
+            quads.append(np.stack(ring[:: 1 if end else -1], axis=1))
+    rows = np.ravel_multi_index(np.moveaxis(np.concatenate(quads), -1, 0), shape)
+    used, rows = np.unique(rows, return_inverse=True)
+    rows = rows.reshape(-1, 4)
+    at = np.unravel_index(used, shape)
+    points = np.column_stack([planes[axis][at[axis]] for axis in range(3)])
+    triangles = np.concatenate((rows[:, [0, 1, 2]], rows[:, [0, 2, 3]]))
+    return points, triangles.astype(np.int32)
+
+
+def plate(t: float) -> ThinSolid:
+    return ThinSolid(union(((0, 0, 0), (1, 1, t))), (1, 0, 0), (1 - 2 * t) ** 2)
+
+
+def profile_t(t: float) -> ThinSolid:
+    mesh = union(((0, 0, 0), (1, 1, t)), ((0.5 - t / 2, 0, t), (0.5 + t / 2, 1, 0.4)))
+    return ThinSolid(mesh, (1, 0, 0), (1 - 2 * t) * (1.4 - 2 * t))
+
+
+def cross(t: float) -> ThinSolid:
+    mesh = union(((0, 0, -t / 2), (1, 1, t / 2)), ((0.5 - t / 2, 0, -0.4), (0.5 + t / 2, 1, 0.4)))
+    return ThinSolid(mesh, (1, 0, 0), (1 - 2 * t) * (1.8 - 4 * t))
+
+
+def profile_i(t: float) -> ThinSolid:
+    flanges = [((0, 0, z), (0.6, 1, z + t)) for z in (0.0, 1.0)]
+    mesh = union(*flanges, ((0.3 - t / 2, 0, 0), (0.3 + t / 2, 1, 1 + t)))
+    return ThinSolid(mesh, (1, 0, 0), (1 - 2 * t) * (2.2 - 6 * t))
+
+
+def profile_l(t: float) -> ThinSolid:
+    mesh = union(((0, 0, 0), (1, 1, t)), ((0, 0, 0), (t, 1, 0.5)))
+    return ThinSolid(mesh, (1, 0, 0), (1 - 2 * t) * (1.5 - 3 * t))
+
+
+def stairs(t: float, steps: int = 3) -> ThinSolid:
+    """A bent sheet: treads of 0.4 and risers of 0.3."""
+    boxes = []
+    for i in range(steps):
+        x, z = 0.4 * i, 0.3 * i
+        boxes += [
+            ((x, 0, z), (x + 0.4 + t, 1, z + t)),
+            ((x + 0.4, 0, z), (x + 0.4 + t, 1, z + 0.3 + t)),
+        ]
+    return ThinSolid(union(*boxes), (1, 0, 0), (1 - 2 * t) * (0.7 * steps - 2 * t))
+
+
+def fin(t: float) -> ThinSolid:
+    """A cube with a thin fin; the area is that of the fin's sheet alone, so it is a lower bound."""
+    mesh = union(((0, 0, 0), (1, 1, 1)), ((0.2, 0.5 - t / 2, 1), (0.8, 0.5 + t / 2, 1.5)))
+    return ThinSolid(mesh, (1, 0, 0), 0.0)
+
+
+def cup(t: float, around: int = 96) -> ThinSolid:
+    """An open cylinder of radius 0.5 and height 1 with a bottom."""
+    mesh = lathe([(0, 0), (0.5, 0), (0.5, 1), (0.5 - t, 1), (0.5 - t, t), (0, t)], around)
+    middle = 0.5 - t / 2
+    return ThinSolid(mesh, (1, 0, 0), np.pi * middle**2 + 2 * np.pi * middle * (1 - 1.5 * t))
+
+
+def tube(t: float, around: int = 96) -> ThinSolid:
+    turn = 2 * np.pi * np.arange(around) / around
+    profile = [(0.5 - t, 0.0), (0.5, 0.0), (0.5, 1.0), (0.5 - t, 1.0)]
+    points = np.concatenate(
+        [
+            np.column_stack((r * np.cos(turn), r * np.sin(turn), np.full(around, z)))
+            for r, z in profile
+        ]
+    )
+    i = np.arange(around)
+    j = (i + 1) % around
+    triangles = []
+    for ring in range(4):
+        a, b = ring * around, (ring + 1) % 4 * around
+        triangles += [
+            np.column_stack((a + i, a + j, b + j)),
+            np.column_stack((a + i, b + j, b + i)),
+        ]
+    mesh = points, np.concatenate(triangles).astype(np.int32)
+    return ThinSolid(mesh, (1, 1, 0), 2 * np.pi * (0.5 - t / 2) * (1 - 2 * t))
+
+
+def shell(t: float, subdivisions: int = 5) -> ThinSolid:
+    points, triangles = meshes.icosphere(subdivisions)
+    rows = triangles[:, ::-1] + len(points)
+    mesh = np.concatenate((points, (1 - t) * points)), np.concatenate((triangles, rows))
+    return ThinSolid((mesh[0], mesh[1].astype(np.int32)), (1, 0, 1), 4 * np.pi * (1 - t / 2) ** 2)
+
+
+def wedge(degrees: float = 2.0) -> ThinSolid:
+    angle = np.radians(degrees)
+    outline = np.array([(0, 0), (1, 0), (np.cos(angle), np.sin(angle))])
+    points = np.concatenate([np.column_stack((outline, np.full(3, z))) for z in (0.0, 1.0)])
+    rows = [(0, 2, 1), (3, 4, 5)]
+    for i in range(3):
+        j = (i + 1) % 3
+        rows += [(i, j, 3 + j), (i, 3 + j, 3 + i)]
+    return ThinSolid((points, np.array(rows, np.int32)), (1, 0, 0), 1 - 2 * angle)
