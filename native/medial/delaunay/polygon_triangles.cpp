@@ -344,7 +344,7 @@ class LeastArea {
   // Returns how the part of the ring between two of its corners is cut best.
   Best best(int32_t i, int32_t j) const {
     const Point2 &p = points_[ring_[i]], &q = points_[ring_[j]];
-    Best found{HUGE_VAL};
+    Best found{HUGE_VAL, -1};
     for (int32_t tip = i + 1; tip < j; ++tip) {
       const double cost =
           best_at(i, tip).cost + best_at(tip, j).cost + doubled_area(p, points_[ring_[tip]], q);

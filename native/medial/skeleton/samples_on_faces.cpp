@@ -62,9 +62,7 @@ void SamplesOnFaces::place(int32_t s, int32_t triangle) {
   }
 }
 
-bool SamplesOnFaces::are_near(const Vec3& place) const {
-  return tree_.has_within(place, reach_);
-}
+bool SamplesOnFaces::are_near(const Vec3& place) const { return tree_.has_within(place, reach_); }
 
 std::optional<PlaceOnCrease> SamplesOnFaces::crease_between(const Edge& samples,
                                                             const Vec3& at) const {
