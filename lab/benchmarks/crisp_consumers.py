@@ -134,7 +134,7 @@ def lengths(subject, _axes, _vertices):
 
 
 def radii(solid, at, diagonal):
-    """Of the largest balls inside that touch the faces there, by bisection."""
+    """The radii of the largest balls inside that touch the faces at some places, by bisection."""
     inward = solid.inward(at)
     low, high = np.zeros(len(at)), np.full(len(at), diagonal)
     for _ in range(40):
