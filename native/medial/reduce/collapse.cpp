@@ -57,11 +57,11 @@ class Collapser {
   bool run(int64_t wanted, const Run& run) {
     left_ = static_cast<int64_t>(spheres_.size());
     if (locks_) {
-      collapse_all({.most = kNoDistance}, 0, run);
+      collapse_all({false, kNoDistance}, 0, run);
       if (needed() > wanted) return false;
     }
-    collapse_all({}, wanted, run);
-    collapse_all({.turns = true}, wanted, run);
+    collapse_all({false, HUGE_VAL}, wanted, run);
+    collapse_all({true, HUGE_VAL}, wanted, run);
     return true;
   }
 
@@ -177,14 +177,14 @@ class Collapser {
     sum += quadrics_[b];
     const Sphere &s = spheres_[a], &t = spheres_[b];
     const Sphere middle{0.5 * (s.centre + t.centre), 0.5 * (s.radius + t.radius)};
-    Target best{s, row_[a], sum(s)};
+    Target best{s, row_[a], sum(s), -1};
     const double other = sum(t), same = kSame * std::max(best.cost, other);
-    if (other < best.cost - same) best = {t, row_[b], other};
+    if (other < best.cost - same) best = {t, row_[b], other, -1};
     const auto free = sum.best(middle);
     if (free && free->radius >= 0) {
       const double cost = sum(*free);
       const double reach = squared_length(s.centre - t.centre) + std::pow(s.radius - t.radius, 2);
-      if (cost < best.cost - same - kSame * sum.weight() * reach) best = {*free, -1, cost};
+      if (cost < best.cost - same - kSame * sum.weight() * reach) best = {*free, -1, cost, -1};
     }
     return best;
   }
