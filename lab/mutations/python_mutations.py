@@ -66,8 +66,8 @@ MUTATIONS = (
     ),
     _bug(
         "samples/choose_samples.py",
-        'for name in ("smooth", "keep_vertices", "seed")}',
-        'for name in ("smooth", "keep_vertices")}',
+        'in ("smooth", "keep_vertices", "pairs", "seed")',
+        'in ("smooth", "keep_vertices", "pairs")',
         "the seed does not reach the sampling",
         "test_cache.py",
     ),

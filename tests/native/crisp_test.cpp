@@ -5,6 +5,8 @@
 #include <medial/analysis.h>
 #include <medial/sampling.h>
 
+#include <map>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <thread>
@@ -224,6 +226,95 @@ TEST(Crisp, EveryCornerOfABoxIsReached) {
   for (const Vec3& corner : box().vertices) {
     EXPECT_TRUE(std::any_of(level.vertices.begin(), level.vertices.end(),
                             [&](const Vec3& v) { return v == corner; }));
+  }
+}
+
+// A cone of height 2 over a circle of radius 0.7, with outward faces.
+test::Mesh cone() {
+  constexpr int kSides = 72;
+  test::Mesh mesh{{{0, 0, 2}, {0, 0, 0}}, {}};
+  for (int i = 0; i < kSides; ++i) {
+    const double turn = 2 * std::numbers::pi * i / kSides;
+    mesh.vertices.push_back({0.7 * std::cos(turn), 0.7 * std::sin(turn), 0});
+    const int32_t here = i + 2, next = (i + 1) % kSides + 2;
+    mesh.triangles.push_back({0, here, next});
+    mesh.triangles.push_back({1, next, here});
+  }
+  return mesh;
+}
+
+// An ellipsoid of revolution with the radii 1 and 0.5, whose axis is a disc of radius 0.75.
+test::Mesh oblate() {
+  constexpr int kRings = 48, kSides = 96;
+  test::Mesh mesh{{{0, 0, 0.5}, {0, 0, -0.5}}, {}};
+  for (int r = 1; r < kRings; ++r) {
+    const double down = std::numbers::pi * r / kRings;
+    for (int i = 0; i < kSides; ++i) {
+      const double turn = 2 * std::numbers::pi * i / kSides;
+      mesh.vertices.push_back(
+          {std::sin(down) * std::cos(turn), std::sin(down) * std::sin(turn), 0.5 * std::cos(down)});
+    }
+  }
+  const auto at = [](int ring, int i) { return 2 + (ring - 1) * kSides + i % kSides; };
+  for (int i = 0; i < kSides; ++i) {
+    mesh.triangles.push_back({0, at(1, i), at(1, i + 1)});
+    mesh.triangles.push_back({1, at(kRings - 1, i + 1), at(kRings - 1, i)});
+    for (int r = 1; r < kRings - 1; ++r) {
+      mesh.triangles.push_back({at(r, i), at(r + 1, i), at(r + 1, i + 1)});
+      mesh.triangles.push_back({at(r, i), at(r + 1, i + 1), at(r, i + 1)});
+    }
+  }
+  return mesh;
+}
+
+Level crisp_level(const test::Mesh& mesh, int threads) {
+  const auto samples =
+      sample_surface(mesh.vertices, mesh.triangles, {.count = 3000, .smooth = true});
+  const MedialAnalysis analysis({samples.points, mesh.triangles, samples.normals, mesh.vertices},
+                                {.threads = threads});
+  const FacesInput faces{mesh.vertices, mesh.triangles, samples.triangle, kSharp, {}, true};
+  const Hierarchy hierarchy = analysis.hierarchy({}, Side::inner, 1, nullptr, &faces);
+  return hierarchy.extract({.spacings = 1, .round_limbs = true, .relaxed = true, .crisp = true});
+}
+
+TEST(Crisp, TheCurveOfAConeEndsInItsTip) {
+  const Level level = crisp_level(cone(), 2);
+  const auto tip = std::find(level.vertices.begin(), level.vertices.end(), Vec3{0, 0, 2});
+  ASSERT_NE(tip, level.vertices.end());
+  EXPECT_EQ(level.radius[tip - level.vertices.begin()], 0);
+  for (const Edge& wire : level.wires) {
+    for (const int32_t v : wire) {
+      const Vec3& p = level.vertices[v];
+      EXPECT_LT(std::sqrt(p.x * p.x + p.y * p.y), 1e-3) << v;
+    }
+  }
+}
+
+TEST(Crisp, ASmoothRimIsWhereTheSheetEndsAndDoesNotTurnBack) {
+  const Level level = crisp_level(oblate(), 2);
+  std::map<Edge, int> uses;
+  for (size_t f = 0; f + 1 < level.face_offsets.size(); ++f) {
+    for (int32_t c = level.face_offsets[f]; c < level.face_offsets[f + 1]; ++c) {
+      const int32_t next = c + 1 < level.face_offsets[f + 1] ? c + 1 : level.face_offsets[f];
+      const int32_t a = level.face_vertices[c], b = level.face_vertices[next];
+      ++uses[{std::min(a, b), std::max(a, b)}];
+    }
+  }
+  double rim = 0;
+  for (const auto& [edge, count] : uses) {
+    const Vec3 &a = level.vertices[edge[0]], &b = level.vertices[edge[1]];
+    if (count != 1) continue;
+    rim += distance(a, b);
+    EXPECT_NEAR(length(a), 0.75, 0.01);
+  }
+  EXPECT_NEAR(rim, 2 * std::numbers::pi * 0.75, 0.05);
+}
+
+TEST(Crisp, RimsAndTipsAreTheSameForEveryThreadCount) {
+  for (const test::Mesh& mesh : {cone(), oblate()}) {
+    const Level one = crisp_level(mesh, 1), three = crisp_level(mesh, 3);
+    EXPECT_EQ(one.vertices, three.vertices);
+    EXPECT_EQ(one.radius, three.radius);
   }
 }
 

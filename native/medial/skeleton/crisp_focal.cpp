@@ -9,13 +9,14 @@ namespace {
 
 // Lengths are in holes between the samples.
 constexpr double kClearOfRim = 0.25;  // from the rim to a ball that is inside the sheet
-constexpr double kBeyondRim = 0.5;  // the way from a vertex that leads beyond the end of the sheet
-constexpr double kFarthestEnd = 1;  // from a vertex of the rim to the end of the sheet
-constexpr double kAsOpen = 0.7;     // the least openness at the end, as a share of that inside
-constexpr double kNearWeb = 1;      // from the end of the sheet to facets that are no sheet
-constexpr double kNearEnd = 0.12;   // from the end of the sheet to what is drawn together there
-constexpr double kKnotsApart = 1;   // between the places between which the line is straight
-constexpr double kNextKnot = 2.5;   // between neighbours of these, at most
+constexpr double kBeyondRim = 0.5;   // the way from a vertex that leads beyond the end of the sheet
+constexpr double kFarthestEnd = 1;   // from a vertex of the rim to the end of the sheet
+constexpr double kAsOpen = 0.7;      // the least openness at the end, as a share of that inside
+constexpr double kNearWeb = 1;       // from the end of the sheet to facets that are no sheet
+constexpr double kNearEnd = 0.12;    // from the end of the sheet to what is drawn together there
+constexpr double kKnotsApart = 1;    // between the places between which the line is straight
+constexpr double kEndsApart = 0.25;  // of that, where the line goes on beyond the last one
+constexpr double kNextKnot = 2.5;    // between neighbours of these, at most
 constexpr size_t kMostSearched = 400;  // vertices, for a ball inside the sheet
 constexpr int kMiddleRounds = 200;     // of steps towards the middle of the neighbours
 constexpr int kSnapRounds = 60;
@@ -44,6 +45,7 @@ class FocalRims {
       }
       if (!changed) break;
     }
+    snap_all();
     place();
   }
 
@@ -106,31 +108,45 @@ class FocalRims {
     return -1;
   }
 
-  // Chooses ends that are a certain distance apart.
+  // Chooses ends that are a certain distance apart, and then more of them where the line goes on.
   void choose_knots() {
-    std::map<std::array<int64_t, 3>, std::vector<size_t>> boxes;
     apart_ = kKnotsApart * *std::max_element(spacing_.begin(), spacing_.end());
-    const auto box_of = [&](const Vec3& p, int64_t dx, int64_t dy, int64_t dz) {
-      const auto box = [&](double x) { return static_cast<int64_t>(std::floor(x / apart_)); };
-      return std::array<int64_t, 3>{box(p.x) + dx, box(p.y) + dy, box(p.z) + dz};
-    };
-    for (size_t i = 0; i < ends_.size(); ++i) {
-      const Vec3& p = ends_[i].position;
-      bool near = false;
-      for (int64_t k = 0; k < 27 && !near; ++k) {
-        const auto found = boxes.find(box_of(p, k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
-        if (found == boxes.end()) continue;
-        near = std::any_of(found->second.begin(), found->second.end(), [&](size_t knot) {
-          return distance(knots_[knot].position, p) < kKnotsApart * spacing_[i];
-        });
+    for (const double share : {1.0, kEndsApart}) {
+      for (size_t i = 0; i < ends_.size(); ++i) {
+        const double apart = share * kKnotsApart * spacing_[i];
+        if (share < 1 && distance_to_line(ends_[i].position) < apart) continue;
+        if (has_knot_near(ends_[i].position, apart)) continue;
+        boxes_[box_of(ends_[i].position)].push_back(knots_.size());
+        knots_.push_back(ends_[i]);
       }
-      if (near) continue;
-      boxes[box_of(p, 0, 0, 0)].push_back(knots_.size());
-      knots_.push_back(ends_[i]);
+      std::vector<Vec3> places;
+      for (const Touch& knot : knots_) places.push_back(knot.position);
+      knot_tree_ = PointTree::sorted(places, c_.run);
     }
-    std::vector<Vec3> places;
-    for (const Touch& knot : knots_) places.push_back(knot.position);
-    knot_tree_ = PointTree::sorted(places, c_.run);
+  }
+
+  using BoxId = std::array<int64_t, 3>;
+
+  BoxId box_of(const Vec3& p) const {
+    const auto box = [&](double x) { return static_cast<int64_t>(std::floor(x / apart_)); };
+    return {box(p.x), box(p.y), box(p.z)};
+  }
+
+  bool has_knot_near(const Vec3& place, double within) const {
+    const BoxId own = box_of(place);
+    for (int64_t k = 0; k < 27; ++k) {
+      const auto found =
+          boxes_.find({own[0] + k % 3 - 1, own[1] + k / 3 % 3 - 1, own[2] + k / 9 - 1});
+      if (found == boxes_.end()) continue;
+      for (const size_t knot : found->second) {
+        if (distance(knots_[knot].position, place) < within) return true;
+      }
+    }
+    return false;
+  }
+
+  double distance_to_line(const Vec3& place) const {
+    return distance(place, place_at(on_line(place)));
   }
 
   void find_web() {
@@ -140,10 +156,10 @@ class FocalRims {
     web_ = parallel_append<int32_t>(c_.complex.vertices(), c_.run, [&](int64_t id, auto& out, int) {
       const auto v = static_cast<int32_t>(id);
       if (!is_free(v)) return;
-      const Neighbour end = tree.nearest(c_.made.position[v]);
-      const double within = end.distance / c_.spacing_at(v);
+      const Vec3& here = c_.made.position[v];
+      const double within = distance_to_line(here) / c_.spacing_at(v);
       if (within > kNearWeb) return;
-      if (within < kNearEnd || !is_sheet(v, ends_[end.id])) out.push_back(v);
+      if (within < kNearEnd || !is_sheet(v, ends_[tree.nearest(here).id])) out.push_back(v);
     });
     on_line_ = array<OnLine>(c_.complex.cell.size(), OnLine{}, c_.run);
     for (const int32_t v : web_) on_line_[v].knots = {0, 0};
@@ -216,6 +232,14 @@ class FocalRims {
     return {{near, near}, 0};
   }
 
+  void snap_all() {
+    bool changed = true;
+    for (int round = 0; changed && round < kSnapRounds; ++round) {
+      changed = false;
+      for (const int32_t f : facets_) changed |= snap(f);
+    }
+  }
+
   // Moves the corners of a facet of the web that are not between the two knots that most of it lies
   // between to one of these.
   bool snap(int32_t facet) {
@@ -276,11 +300,11 @@ class FocalRims {
 
   bool is_in_web(int32_t v) const { return on_line_[v].knots[0] >= 0; }
 
-  Vec3 place_of(int32_t v) const {
-    const auto& [knots, share] = on_line_[v];
-    const Vec3 &from = knots_[knots[0]].position, &to = knots_[knots[1]].position;
-    return from + share * (to - from);
+  Vec3 place_at(const OnLine& at) const {
+    const Vec3 &from = knots_[at.knots[0]].position, &to = knots_[at.knots[1]].position;
+    return from + at.share * (to - from);
   }
+  Vec3 place_of(int32_t v) const { return place_at(on_line_[v]); }
 
   // Moves a vertex from which two others are in one direction to the nearer one.
   bool shorten(int32_t a, int32_t v, int32_t b) {
@@ -319,7 +343,8 @@ class FocalRims {
   std::vector<Touch> ends_;      // balls at the end of the sheet
   std::vector<double> spacing_;  // at each of these
   std::vector<Touch> knots_;
-  double apart_ = 0;  // the largest distance between knots
+  double apart_ = 0;                            // the largest distance between knots
+  std::map<BoxId, std::vector<size_t>> boxes_;  // the knots in them
   PointTree knot_tree_;
   std::vector<int32_t> web_;     // vertices
   std::vector<int32_t> facets_;  // at these

@@ -128,11 +128,11 @@ class Unfolder {
   // to; on a crease with radius 0, or below 0 if there is none.
   Touch placed(int32_t v, const Effort& effort) const {
     const Vec3& here = c_.made.position[v];
-    if (effort.nearly && c_.made.place[v] != Placing::crease && !c_.on_seam[v]) {
+    if (effort.nearly && c_.made.place[v] != Placing::crease && c_.walls[v].count < 3) {
       const Touch found = nearly_placed(v, here);
       if (found.radius > 0) return found;
     }
-    if (c_.made.place[v] == Placing::touching) return touch(c_, v, walls_of(v), here);
+    if (c_.made.place[v] == Placing::touching) return touch(c_, v, c_.walls[v], here);
     if (c_.made.place[v] == Placing::refused) {
       const int32_t other = placed_neighbour(c_, v);
       return other < 0 ? Touch{} : touch(c_, v, c_.walls[other], here);
@@ -146,32 +146,25 @@ class Unfolder {
   Touch nearly_placed(int32_t v, const Vec3& here) const {
     Touch best;
     const auto take = [&](const Walls& walls) {
-      if (walls.count < 2) return;
+      if (walls.count != 2) return;
       const Touch found = nearly_touching(c_, v, walls, here);
       if (!(found.radius > 0) || distance(found.position, here) > kAside * c_.spacing_at(v)) return;
       if (best.radius > 0 && distance(best.position, here) <= distance(found.position, here))
         return;
       best = found;
     };
-    take(walls_of(v));
-    c_.for_edges(v, [&](const Corner&, int32_t other) { take(walls_of(other)); });
+    take(c_.walls[v]);
+    c_.for_edges(v, [&](const Corner&, int32_t other) { take(c_.walls[other]); });
     return best;
   }
 
-  // A vertex beside a seam may leave the third wall.
-  Walls walls_of(int32_t v) const {
-    Walls walls = c_.walls[v];
-    if (!c_.on_seam[v]) walls.count = std::min<size_t>(walls.count, 2);
-    return walls;
-  }
-
-  // A vertex on a crease has its neighbours on the rim, one on a seam those along it.
+  // A vertex on a crease has its neighbours on the rim, one of three walls those on the seam.
   std::optional<Vec3> middle_of_neighbours(int32_t v, Placing place) const {
     Vec3 sum;
     int count = 0;
     const auto take = [&](const Corner& c, int32_t other) {
       const int uses = c_.edge_uses[c.edge];
-      const bool along = place == Placing::crease ? uses == 1 : !c_.on_seam[v] || uses == 3;
+      const bool along = place == Placing::crease ? uses == 1 : c_.walls[v].count < 3 || uses == 3;
       if (!along) return;
       sum = sum + c_.made.position[other];
       ++count;

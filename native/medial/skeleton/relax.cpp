@@ -20,23 +20,56 @@ void smooth_rims(Level& level, std::span<const Edge> rims, const PointTree& samp
 }
 
 constexpr double kNearTip = 4;      // spacings from the loose end of a curve to the tip of a cone
+constexpr double kClearOfTip = 3;   // spacings from a tip to where samples determine the curve
 constexpr double kLikeACone = 0.2;  // the largest deviation from the radius half way to a tip
 constexpr double kBluntest = 0.95;  // the sine of half the angle of a cone with a tip
 
-// Returns the tip of a cone that a curve leads into, if the faces are such a cone: the ball half
-// way is half as large.
-std::optional<Vec3> tip_of(const CrispPlaces& crisp, const Faces& faces, const Vec3& before,
-                           const Vec3& end, double spacing) {
-  for (const Vec3& tip : crisp.tips) {
-    if (!(distance(tip, end) < kNearTip * spacing)) continue;
-    const double radius = faces.nearer(before, HUGE_VAL)->distance,
-                 half = faces.nearer(0.5 * (before + tip), HUGE_VAL)->distance;
-    const bool is_cone = std::abs(half - 0.5 * radius) < kLikeACone * radius;
-    const bool is_before = dot(tip - before, end - before) > 0;
-    if (is_cone && is_before && radius < kBluntest * distance(before, tip)) return tip;
+// Ends curves in the tips of cones. Near a tip samples hardly determine a curve, so that it goes
+// straight on where the balls are larger there.
+class Tips {
+ public:
+  Tips(std::span<const Vec3> tips, const Faces& faces) : tips_(tips), faces_(faces) {}
+
+  void end(Curve& curve, bool at_front) const {
+    const size_t last = curve.canal.size() - 1;
+    const auto vertex = [&](size_t k) -> Canal& { return curve.canal[at_front ? k : last - k]; };
+    const double spacing = at_front ? curve.spacing.front() : curve.spacing.back();
+    for (const Vec3& tip : tips_) {
+      if (!(distance(tip, vertex(0).centre) < kNearTip * spacing)) continue;
+      size_t clear = 1;
+      while (clear < last && distance(tip, vertex(clear).centre) < kClearOfTip * spacing) ++clear;
+      if (!is_cone(vertex(clear).centre, vertex(0).centre, tip)) continue;
+      for (size_t k = 1; k < clear; ++k) straighten(vertex(k), vertex(clear).centre, tip);
+      vertex(0).centre = tip;
+      vertex(0).radius = 0;
+      return;
+    }
   }
-  return {};
-}
+
+ private:
+  double radius_at(const Vec3& place) const { return faces_.nearer(place, HUGE_VAL)->distance; }
+
+  // Returns whether the faces are a cone round the way to a tip: the ball half way is half as
+  // large.
+  bool is_cone(const Vec3& from, const Vec3& end, const Vec3& tip) const {
+    const double radius = radius_at(from), half = radius_at(0.5 * (from + tip));
+    return std::abs(half - 0.5 * radius) < kLikeACone * radius && dot(tip - from, end - from) > 0 &&
+           radius < kBluntest * distance(from, tip);
+  }
+
+  void straighten(Canal& canal, const Vec3& from, const Vec3& tip) const {
+    const Vec3 way = tip - from;
+    const double share = dot(canal.centre - from, way) / squared_length(way);
+    const Vec3 place = from + std::clamp(share, 0.0, 1.0) * way;
+    const double radius = radius_at(place);
+    if (!(radius > radius_at(canal.centre))) return;
+    canal.centre = place;
+    canal.radius = radius;
+  }
+
+  std::span<const Vec3> tips_;
+  const Faces& faces_;
+};
 
 // Returns the rims without those at vertices that lie on creases, or at the end of a smooth sheet.
 std::vector<Edge> rims_to_smooth(const Level& level, std::span<const Edge> rims,
@@ -78,8 +111,8 @@ std::vector<Chain> chains_of(const Level& level) {
 class Rewirer {
  public:
   Rewirer(Level& level, const Hierarchy::Parts& hierarchy, const std::vector<Chain>& chains,
-          const std::vector<Curve>& curves, bool crisp)
-      : level_(level), h_(hierarchy), chains_(chains), curves_(curves), crisp_(crisp) {}
+          const std::vector<Curve>& curves)
+      : level_(level), h_(hierarchy), chains_(chains), curves_(curves) {}
 
   void rewire() && {
     take_out();
@@ -141,18 +174,10 @@ class Rewirer {
     const int32_t vertex = number_[which == 0 ? chain.vertices.front() : chain.vertices.back()];
     if (chain.loose[which]) {
       const Canal& canal = which == 0 ? curve.canal.front() : curve.canal.back();
-      const auto tip = crisp_ ? tip_of(curve, which) : std::nullopt;
-      level_.vertices[vertex] = tip.value_or(canal.centre);
-      level_.radius[vertex] = tip ? 0 : canal.radius;
+      level_.vertices[vertex] = canal.centre;
+      level_.radius[vertex] = canal.radius;
     }
     return vertex;
-  }
-
-  std::optional<Vec3> tip_of(const Curve& curve, int which) const {
-    const size_t last = curve.canal.size() - 1;
-    return medial::tip_of(h_.crisp, *h_.faces, curve.canal[which == 0 ? 1 : last - 1].centre,
-                          curve.canal[which == 0 ? 0 : last].centre,
-                          which == 0 ? curve.spacing.front() : curve.spacing.back());
   }
 
   // A new vertex stands for the nearest old one along the wire. Places between two old vertices may
@@ -172,7 +197,6 @@ class Rewirer {
   const Hierarchy::Parts& h_;
   const std::vector<Chain>& chains_;
   const std::vector<Curve>& curves_;
-  bool crisp_;
   std::vector<int32_t> number_;  // per old vertex: its new number, or -1 if it is removed
   Column<Vec3> old_exact_;
   Column<double> old_exact_radius_;
@@ -193,8 +217,13 @@ void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, 
   begin_stage(run.progress, "Curves", 0.7, 1);
   if (level.wires.empty()) return;
   const auto chains = chains_of(level);
-  const auto curves = fit_curves(chains, level.vertices, h.samples, run);
-  Rewirer(level, h, chains, curves, crisp).rewire();
+  auto curves = fit_curves(chains, level.vertices, h.samples, run);
+  for (size_t c = 0; crisp && c < chains.size(); ++c) {
+    const Tips tips(h.crisp.tips, *h.faces);
+    if (chains[c].loose[0]) tips.end(curves[c], true);
+    if (chains[c].loose[1]) tips.end(curves[c], false);
+  }
+  Rewirer(level, h, chains, curves).rewire();
 }
 
 }  // namespace medial
