@@ -5,7 +5,7 @@
 namespace medial {
 namespace {
 
-constexpr int kRounds = 24;         // of steps that unfold facets
+constexpr int kRounds = 40;         // of steps that unfold facets
 constexpr int kDentRounds = 6;      // of these, the rounds that mend deep dents, too
 constexpr double kDeepDent = 0.25;  // the sine of the turn
 
@@ -20,8 +20,8 @@ struct Effort {
 
 Effort effort_of(int round) {
   if (round < 3) return {0, 1, false};
-  if (round < 9) return {1, 1, false};
-  return round < 16 ? Effort{2, 4, true} : Effort{3, 12, true};
+  if (round < 24) return {1, 1, false};
+  return round < 32 ? Effort{2, 4, true} : Effort{3, 12, true};
 }
 
 class Unfolder {

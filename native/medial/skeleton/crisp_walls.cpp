@@ -10,8 +10,7 @@ constexpr double kFarthestMove = 2;  // that a vertex moves to touch walls
 constexpr double kSameFoot = 0.08;   // between unit directions to feet that are one
 constexpr int kMoreWalls = 8;        // attempts to mend walls that the ball sticks out of
 constexpr double kNearlyEqual =
-    1e-3;                      // between the distances to walls of one ball, where they are rough
-constexpr int kExchanges = 8;  // of one of four walls
+    1e-3;  // between the distances to walls of one ball, where they are rough
 
 class WallFinder {
  public:
@@ -146,7 +145,7 @@ class BallFinder {
       if (same < walls.count) {
         walls.triangle[same] = trial.nearer->triangle;
       } else if (!walls.add(trial.nearer->triangle)) {
-        return exchanged(trial);
+        return {};
       }
     }
     return {};
@@ -158,8 +157,6 @@ class BallFinder {
     Walls walls;
     bool is_ball = false;        // whether it touches all walls, in two places at least
     std::optional<Foot> nearer;  // a place of the faces inside the ball
-
-    double depth() const { return nearer ? ball.radius - nearer->distance : 0; }
   };
 
   Trial tried(Walls walls, const Vec3& start) const {
@@ -182,25 +179,6 @@ class BallFinder {
     size_t i = 0;
     while (i < trial.walls.count && distance(trial.ball.away[i], away) > kSameFoot) ++i;
     return i;
-  }
-
-  // Returns the empty ball that touches four of many walls, as at the end of the axis of a
-  // cylinder, where walls lie all round: a wall inside the ball replaces that one of the four
-  // without which the next ball is nearest to being empty.
-  Touch exchanged(Trial trial) const {
-    for (int i = 0; i < kExchanges; ++i) {
-      Trial best;
-      for (size_t out = 0; out < kMostContacts; ++out) {
-        Walls walls = trial.walls;
-        walls.triangle[out] = trial.nearer->triangle;
-        const Trial next = tried(walls, trial.ball.centre);
-        if (next.is_ball && (!best.is_ball || next.depth() < best.depth())) best = next;
-      }
-      if (!best.is_ball || best.depth() >= trial.depth()) return {};
-      if (!best.nearer) return found(best);
-      trial = best;
-    }
-    return {};
   }
 
   // There are samples near all feet: a ball may have rolled to a face inside the solid, which

@@ -21,7 +21,7 @@ int32_t wall_before(const Touch& at, const Vec3& along) {
   return best;
 }
 
-// Returns the ball that touches the wall before the end of a wire and three walls round it.
+// Returns the ball that touches the wall before the end of a wire and a curved wall all round it.
 Touch wire_end(const CrispState& state, int32_t v, int32_t next) {
   const Walls own = state.walls[v].count > 1 ? state.walls[v] : walls_at(state, v, true);
   if (own.count < 2) return {};
@@ -37,7 +37,7 @@ Touch wire_end(const CrispState& state, int32_t v, int32_t next) {
     const double angle = i * 2 * std::numbers::pi / 3;
     const Vec3 out = std::cos(angle) * right + std::sin(angle) * up;
     const int32_t t = state.samples.triangle_near(at.position + at.radius * out);
-    if (t < 0) return {};
+    if (t < 0 || !state.samples.faces().is_curved(t)) return {};
     walls.add(t);
   }
   const Touch end = nearly_touching(state, v, walls, at.position);
