@@ -40,7 +40,7 @@ struct SurfaceSamples {
   // The sample on the opposite wall, or -1. Of several partners one is named; two samples are
   // partners if either names the other.
   std::vector<int32_t> partner;
-  std::vector<double> bend;  // curvature of the surface at samples with partners; else 0
+  std::vector<double> bend;       // curvature of the surface at samples with partners; else 0
   std::vector<Edge> sharp_edges;  // rows of vertices, p < q, sorted
   double area = 0;
 };

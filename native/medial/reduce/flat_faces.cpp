@@ -105,7 +105,7 @@ std::vector<int32_t> planes_of(const SphereMesh& mesh, const std::vector<InnerEd
 class Joiner {
  public:
   explicit Joiner(const SphereMesh& mesh) : sets_(mesh.triangles.size()) {
-    for (const Triangle& t : mesh.triangles) loops_.push_back({t.begin(), t.end()});
+    for (const Triangle& t : mesh.triangles) loops_.emplace_back(t.begin(), t.end());
   }
 
   // Joins the polygons at an edge, if they have nothing else in common.

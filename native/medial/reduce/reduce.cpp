@@ -138,7 +138,7 @@ SheetMesh as_sheets(SphereMesh mesh, const std::vector<FlatFace>& faces,
 SphereMesh reduce(const SphereMesh& given, const ReduceOptions& options, Progress* progress) {
   require_sphere_mesh(given);
   require_wanted(options);
-  const SphereMesh mesh = without_doubles(given);
+  SphereMesh mesh = without_doubles(given);
   if (mesh.vertices.size() <= static_cast<size_t>(options.vertices)) return mesh;
   const Run run{thread_count(options.threads), progress};
   const Unit unit = unit_of(mesh);

@@ -6,6 +6,7 @@ namespace medial {
 namespace {
 
 constexpr int kRounds = 40;         // of steps that unfold facets
+constexpr int kNarrowRounds = 24;   // of these, the rounds that move little
 constexpr int kDentRounds = 6;      // of these, the rounds that mend deep dents, too
 constexpr double kDeepDent = 0.25;  // the sine of the turn
 
@@ -20,7 +21,7 @@ struct Effort {
 
 Effort effort_of(int round) {
   if (round < 3) return {0, 1, false};
-  if (round < 24) return {1, 1, false};
+  if (round < kNarrowRounds) return {1, 1, false};
   return round < 32 ? Effort{2, 4, true} : Effort{3, 12, true};
 }
 
@@ -28,9 +29,39 @@ class Unfolder {
  public:
   explicit Unfolder(CrispState& state) : c_(state) {}
 
+  // Where little steps leave folds, wider ones are taken. They are taken back if they leave as
+  // many: a facet all of whose corners are nearly in one place cannot be unfolded, and its
+  // neighbours would fold in its stead.
   void unfold() {
     std::vector<int32_t> suspects = c_.facets;
-    for (int round = 0; round < kRounds; ++round) {
+    take_rounds(0, kNarrowRounds, suspects);
+    const int64_t left = folded_facets(suspects);
+    if (left == 0) return;
+    const Places before{c_.made.position, c_.made.radius, c_.made.place, c_.walls};
+    take_rounds(kNarrowRounds, kRounds, suspects);
+    if (folded_facets(suspects) < left) return;
+    c_.made.position = before.position;
+    c_.made.radius = before.radius;
+    c_.made.place = before.place;
+    c_.walls = before.walls;
+  }
+
+ private:
+  struct Places {
+    decltype(CrispPlaces::position) position;
+    decltype(CrispPlaces::radius) radius;
+    decltype(CrispPlaces::place) place;
+    Array<Walls> walls;
+  };
+
+  int64_t folded_facets(std::span<const int32_t> suspects) const {
+    return std::count_if(suspects.begin(), suspects.end(),
+                         [&](int32_t facet) { return is_folded(c_, facet, false); });
+  }
+
+  // Takes rounds of steps; `suspects` are the facets that may be folded, before and after.
+  void take_rounds(int first, int end, std::vector<int32_t>& suspects) {
+    for (int round = first; round < end; ++round) {
       throw_if_cancelled(c_.progress);
       std::vector<int32_t> vertices = folded_vertices(suspects, round < kDentRounds);
       if (vertices.empty()) return;
@@ -42,7 +73,6 @@ class Unfolder {
     }
   }
 
- private:
   // Returns the vertices of folded facets out of some, and of dented ones if wanted, ascending.
   std::vector<int32_t> folded_vertices(std::span<const int32_t> suspects, bool dented) const {
     auto vertices = parallel_append<int32_t>(static_cast<int64_t>(suspects.size()), c_.run,

@@ -41,10 +41,10 @@ using Hidden = std::array<int32_t, 3>;
 // Its const members may be called from several threads.
 class CrispState {
  public:
-  CrispState(const InnerComplex& complex, const Triangulation& triangulation,
-             const SamplesOnFaces& samples, std::span<const Thickness> values,
-             std::span<const double> sine, std::span<const uint8_t> selected,
-             std::span<const uint8_t> edges, const Run& run);
+  // `edges` tells which edges of the complex belong to the level of least thickness.
+  CrispState(const InnerComplex& of, const Triangulation& cells, const SamplesOnFaces& on_faces,
+             std::span<const Thickness> values, std::span<const double> sines,
+             std::span<const uint8_t> selected, std::span<const uint8_t> edges, const Run& whole);
 
   // Returns the largest hole between the samples of the facets at a vertex.
   double spacing_at(int32_t v) const;

@@ -40,7 +40,7 @@ struct Hierarchy::Parts {
 bool exceeds(const Thickness& value, const LevelOptions& t);
 
 // Returns the cells of a level.
-Alive alive_at(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);
+Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run);
 
 // Extracts a level. Throws InvalidInputError for thresholds below 0.
 Level level(const Hierarchy::Parts& hierarchy, const LevelOptions& options, const Run& run);
