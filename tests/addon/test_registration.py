@@ -20,6 +20,7 @@ SAMPLING = (
     "sharp_angle",
     "smooth",
     "keep_vertices",
+    "pairs",
     "seed",
 )
 OPTIONS = (

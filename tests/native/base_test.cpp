@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "base/oriented_box.h"
 #include "base/point_tree.h"
 #include "base/polygon_edges.h"
 #include "base/rows.h"
@@ -129,6 +130,26 @@ TEST(PolygonEdges, AreThoseOfTheCorners) {
   for (size_t c = 0; c < corners.size(); ++c) {
     const int32_t here = corners[c], next = corners[c % 3 == 2 ? c - 2 : c + 1];
     EXPECT_EQ(edges.ends[edges.of_corner[c]], (Edge{std::min(here, next), std::max(here, next)}));
+  }
+}
+
+// The corners of a thin plate, with normals that are rounding or lie along the longest way: the axes
+// are at right angles, and the box holds its points.
+TEST(OrientedBox, HoldsPointsWhateverTheNormal) {
+  std::mt19937 random(7);
+  const auto corner = [&](int k) {
+    return Vec3{k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 0.01 : -0.01};
+  };
+  for (int trial = 0; trial < 4000; ++trial) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 4; ++i) points.push_back(corner(static_cast<int>(random() % 8)));
+    const Vec3 rounding{0, 0, 1e-19 * static_cast<double>(trial % 3)};
+    const Vec3 normal = trial % 2 == 0 ? rounding : points[1] - points[0];
+    const OrientedBox box = oriented_box(normal, points);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) EXPECT_NEAR(dot(box.axis[i], box.axis[j]), i == j, 1e-12);
+    }
+    for (const Vec3& p : points) EXPECT_LT(squared_distance(box, p), 1e-24);
   }
 }
 

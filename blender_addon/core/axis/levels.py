@@ -14,7 +14,7 @@ import numpy as np
 from ..machine import native
 from ..machine.cache import CACHE
 from ..settings import Form, Settings
-from .medial_axis import LevelValues, MedialAxis
+from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
 from .structure import structure_of
 
 if TYPE_CHECKING:
@@ -87,10 +87,17 @@ def extract_level(
 
 
 def _placing(level: Any, hierarchy: Any, settings: Settings) -> NDArray[np.int32]:
-    """(v,) `LevelValues.place`: vertices that are on no facet are fitted to the samples."""
+    """(v,) `LevelValues.place`: vertices that are on no facet are fitted to the samples, but for ends of curves.
+
+    A curve ends with radius 0 in the tip of a cone, or on a sharp edge.
+    """
     place = np.zeros(len(level.vertices), np.int32)
     if settings.crisp and len(hierarchy.place):
         facets = np.unique(level.face_vertices)
+        ends = np.flatnonzero(level.radius == 0.0)
+        place[ends] = IN_CORNER
+        edges = ends[hierarchy.place[level.vertex_of[ends]] == ON_CREASE]
+        place[edges] = ON_CREASE
         place[facets] = hierarchy.place[level.vertex_of[facets]]
     return place
 

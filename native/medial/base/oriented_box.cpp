@@ -2,6 +2,11 @@
 #include "base/oriented_box.h"
 
 namespace medial {
+namespace {
+
+constexpr double kUpright = 0x1p-40;  // of the square of a direction, what is across the normal
+
+}  // namespace
 
 OrientedBox oriented_box(const Vec3& normal, std::span<const Vec3> points) {
   Vec3 farthest;
@@ -12,8 +17,9 @@ OrientedBox oriented_box(const Vec3& normal, std::span<const Vec3> points) {
   OrientedBox box;
   const Vec3 n = normal == Vec3{} ? box.axis[2] : normalized(normal);
   const Vec3 flat = farthest - dot(farthest, n) * n;
-  const Vec3 along = normalized(flat - dot(flat, n) * n);
-  box.axis = {n, along == Vec3{} ? across(n)[0] : along, {}};
+  // Of a direction along the normal only rounding is left, which may point anywhere.
+  const bool upright = squared_length(flat) <= kUpright * squared_length(farthest);
+  box.axis = {n, upright ? across(n)[0] : normalized(flat - dot(flat, n) * n), {}};
   box.axis[2] = cross(n, box.axis[1]);
   box.centre = points[0];
   for (int i = 0; i < 3; ++i) {
