@@ -761,8 +761,8 @@ MUTATIONS = (
     ),
     Mutation(
         "reduce/collapse.cpp",
-        "if (squared_length(was) > 0 && !(dot(was, is) > 0)) return true;",
-        "if (squared_length(was) > 0 && !(dot(was, is) > 0)) return false;",
+        "if (!(dot(was, is) > 0) || is_line(after, is)) return true;",
+        "if (!(dot(was, is) > 0) || is_line(after, is)) return false;",
         "triangles turn over",
         python=("test_reduce.py",),
     ),

@@ -40,6 +40,8 @@ using Ring = std::vector<int32_t>;  // places of corners in the polygon
 constexpr size_t kMostForLeastArea = 64;
 // The weight of a squared length relative to an area: above rounding, and below all that counts.
 constexpr double kShortDiagonals = 1e-13;
+// Of the area of the other way, what makes one way of cutting a quad the better one.
+constexpr double kClearlyLess = 0.75;
 
 bool is_finite(const Vec3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -369,14 +371,16 @@ class LeastArea {
 };
 
 // Returns whether a quad is cut from its first corner to its third. Where it is not convex there,
-// it is cut the other way, if that way has less area; rounding must not decide this.
+// it is cut the other way; where it is convex nowhere, the way with less area is taken. Rounding
+// must not decide this.
 bool is_cut_at_first_diagonal(std::span<const Vec3> corners) {
   int exponent = 0;
   const auto p = around_origin(corners, exponent);
   const Vec3 a = cross(p[1], p[2]), b = cross(p[3], p[2]);
   if (!(dot(a, b) > 0)) return true;
-  return length(a) + length(b) <=
-         length(cross(p[1], p[3])) + length(cross(p[1] - p[2], p[3] - p[2]));
+  const Vec3 c = cross(p[1], p[3]), d = cross(p[2] - p[1], p[3] - p[1]);
+  if (dot(c, d) > 0) return false;
+  return length(a) + length(b) <= kClearlyLess * (length(c) + length(d));
 }
 
 // Returns triangles of places in the polygon.

@@ -10,6 +10,7 @@
 #include "reduce/envelope.h"
 #include "reduce/fit.h"
 #include "reduce/flat_faces.h"
+#include "reduce/straight_vertices.h"
 
 namespace medial {
 namespace {
@@ -162,7 +163,8 @@ std::optional<SheetMesh> reduce_sheets(const SphereMesh& given, const SheetLabel
   SheetLocks locks(complex, {part, labels.nodes}, inner.vertices.size());
   auto found = reduced(inner, complex, options.vertices, &locks, run);
   if (!found) return {};
-  const auto faces = flat_faces(found->mesh, found->part);
+  auto faces = flat_faces(found->mesh, found->part);
+  leave_out_straight_vertices(found->mesh, faces, found->row);
   advance(progress, 1);
   return as_sheets(outward(std::move(found->mesh), found->row, given, unit), faces, found->row);
 }
