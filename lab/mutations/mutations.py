@@ -627,8 +627,8 @@ MUTATIONS = (
     ),
     Mutation(
         "sampling/pn_triangles.cpp",
-        "centre_((-1.0 / 6) * (p + q + r))",
-        "centre_((1.0 / 6) * (p + q + r))",
+        "Vec3 centre = (-1.0 / 6) * (p + q + r);",
+        "Vec3 centre = (1.0 / 6) * (p + q + r);",
         "patches bulge in the middle",
     ),
     Mutation(
