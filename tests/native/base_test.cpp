@@ -133,8 +133,8 @@ TEST(PolygonEdges, AreThoseOfTheCorners) {
   }
 }
 
-// The corners of a thin plate, with normals that are rounding or lie along the longest way: the axes
-// are at right angles, and the box holds its points.
+// The corners of a thin plate, with normals that are rounding or lie along the longest way: the
+// axes are at right angles, and the box holds its points.
 TEST(OrientedBox, HoldsPointsWhateverTheNormal) {
   std::mt19937 random(7);
   const auto corner = [&](int k) {

@@ -279,7 +279,7 @@ class FocalRims {
     }
     if (kept[0] >= 0) return kept;
     std::vector<std::pair<int, int32_t>> counts;
-    for (const auto& [knot, count] : corners) counts.push_back({-count, knot});
+    for (const auto& [knot, count] : corners) counts.emplace_back(-count, knot);
     std::sort(counts.begin(), counts.end());
     return {counts[0].second, counts[std::min<size_t>(1, counts.size() - 1)].second};
   }
