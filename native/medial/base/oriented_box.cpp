@@ -17,7 +17,7 @@ OrientedBox oriented_box(const Vec3& normal, std::span<const Vec3> points) {
   OrientedBox box;
   const Vec3 n = normal == Vec3{} ? box.axis[2] : normalized(normal);
   const Vec3 flat = farthest - dot(farthest, n) * n;
-  // Of a direction along the normal only rounding is left, which may point anywhere.
+  // If the direction is that of the normal, only rounding is left, which may point anywhere.
   const bool upright = squared_length(flat) <= kUpright * squared_length(farthest);
   box.axis = {n, upright ? across(n)[0] : normalized(flat - dot(flat, n) * n), {}};
   box.axis[2] = cross(n, box.axis[1]);

@@ -40,7 +40,7 @@ using Ring = std::vector<int32_t>;  // places of corners in the polygon
 constexpr size_t kMostForLeastArea = 64;
 // The weight of a squared length relative to an area: above rounding, and below all that counts.
 constexpr double kShortDiagonals = 1e-13;
-// Of the area of the other way, what makes one way of cutting a quad the better one.
+// One way of cutting a quad is better if its area is at most this share of that of the other way.
 constexpr double kClearlyLess = 0.75;
 
 bool is_finite(const Vec3& p) {
