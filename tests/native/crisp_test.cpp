@@ -25,16 +25,7 @@ namespace {
 
 constexpr double kSharp = 0.53;
 
-// A box of 3 by 2 by 1 with outward faces.
-test::Mesh box() {
-  test::Mesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.push_back({3.0 * (i & 1), 2.0 * (i >> 1 & 1), 1.0 * (i >> 2 & 1)});
-  }
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return mesh;
-}
+test::Mesh box() { return test::box({0, 0, 0}, {3, 2, 1}); }
 
 // A patch over a triangle, bent by its handles.
 Patch bent_patch() {

@@ -11,26 +11,13 @@
 namespace medial {
 namespace {
 
-test::Mesh box(double low, double high) {
-  test::Mesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    mesh.vertices.push_back({i & 1 ? high : low, i & 2 ? high : low, i & 4 ? high : low});
-  }
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return mesh;
+// A box with a cavity.
+test::Mesh hollow() {
+  return test::joined(test::box({0, 0, 0}, {1, 1, 1}),
+                      test::turned(test::box({0.3, 0.3, 0.3}, {0.7, 0.7, 0.7})));
 }
 
 Triangle turned(const Triangle& t) { return {t[0], t[2], t[1]}; }
-
-// A box with a cavity.
-test::Mesh hollow() {
-  test::Mesh mesh = box(0, 1);
-  const test::Mesh inner = box(0.3, 0.7);
-  mesh.vertices.insert(mesh.vertices.end(), inner.vertices.begin(), inner.vertices.end());
-  for (const auto& [a, b, c] : inner.triangles) mesh.triangles.push_back({8 + a, 8 + c, 8 + b});
-  return mesh;
-}
 
 std::vector<Triangle> flipped(std::vector<Triangle> triangles, double share, uint64_t seed) {
   for (size_t i = 0; i < triangles.size(); ++i) {
@@ -63,7 +50,7 @@ TEST(OutwardFaces, RandomFlipsAreUndoneForAnyNumberOfThreads) {
 }
 
 TEST(OutwardFaces, OneOfSeveralEqualFacesStays) {
-  const test::Mesh mesh = box(0, 1);
+  const test::Mesh mesh = test::box({0, 0, 0}, {1, 1, 1});
   auto given = mesh.triangles;
   for (const Triangle& t : mesh.triangles) given.push_back(turned(t));
   const OutwardFaces read = outward_faces(mesh.vertices, given, {});

@@ -55,6 +55,32 @@ struct Mesh {
   std::vector<Triangle> triangles;
 };
 
+// A box with outward faces between two of its corners.
+inline Mesh box(const Vec3& low, const Vec3& high) {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.vertices.push_back(
+        {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+  }
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+inline Mesh joined(Mesh a, const Mesh& b) {
+  const auto first = static_cast<int32_t>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const auto& [i, j, k] : b.triangles) {
+    a.triangles.push_back({first + i, first + j, first + k});
+  }
+  return a;
+}
+
+inline Mesh turned(Mesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
 // A torus of radii 1 and 0.4, slightly turned out of the axes.
 inline Mesh torus(int major, int minor) {
   Mesh mesh;

@@ -8,7 +8,7 @@ from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.samples.outward_faces import outward_shape, reading_counts
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
-from support import messy
+from support import meshes, messy
 
 TURNED, REPEATED, WITHOUT_CORNERS = 1, 2, 3
 
@@ -29,13 +29,6 @@ def grid(count):
     return points, np.concatenate(list(halves)).astype(np.int32)
 
 
-def joined(*meshes):
-    first = np.cumsum([0, *(len(points) for points, _ in meshes)])
-    points = np.concatenate([points for points, _ in meshes])
-    triangles = [mesh[1] + start for mesh, start in zip(meshes, first, strict=False)]
-    return points, np.concatenate(triangles).astype(np.int32)
-
-
 def inward(mesh):
     return mesh[0], np.ascontiguousarray(mesh[1][:, [0, 2, 1]])
 
@@ -49,10 +42,10 @@ def flipped(mesh, share, seed=0):
 
 SOLIDS = {
     "box": cube(),
-    "cavity": joined(cube(), inward(cube((0.3, 0.3, 0.3), 0.4))),
-    "parts": joined(cube(), cube((3, 0, 0)), cube((0, 3, 0), 0.2)),
-    "overlap": joined(cube(), cube((0.5, 0.5, 0.5))),
-    "solid in a solid": joined(cube(), cube((0.3, 0.3, 0.3), 0.4)),
+    "cavity": meshes.join(cube(), inward(cube((0.3, 0.3, 0.3), 0.4))),
+    "parts": meshes.join(cube(), cube((3, 0, 0)), cube((0, 3, 0), 0.2)),
+    "overlap": meshes.join(cube(), cube((0.5, 0.5, 0.5))),
+    "solid in a solid": meshes.join(cube(), cube((0.3, 0.3, 0.3), 0.4)),
 }
 
 
@@ -122,7 +115,7 @@ def test_doubled_faces(medial, again):
 
 def test_a_wall_between_two_rooms_drawn_from_both_sides(medial):
     """Two boxes share a wall, of which each has its own faces: they bound one solid as they are."""
-    mesh = joined(cube(), cube((1, 0, 0)))
+    mesh = meshes.join(cube(), cube((1, 0, 0)))
     triangles, reading, _, _ = medial.outward_faces(*mesh)
     assert medial.open_edges(mesh[0], triangles) == 0
     assert (reading != TURNED).all()

@@ -31,12 +31,12 @@ def axis_warnings(
             f"the surface is open at {chosen.gaps:,} edges: inside was taken to be behind its "
             "faces; do not trust the axis near the openings"
         )
-    if sides is SidesFrom.TIGHT_COCONE and chosen.gaps and chosen.sides.reason != AS_CHOSEN:
-        yield Severe(
-            f"the {len(shape.triangles):,} faces bound nothing, so their points were read as a cloud: "
-            "give sheets thickness (a Solidify modifier), or close the mesh"
-        )
     if sides is SidesFrom.TIGHT_COCONE:
+        if chosen.gaps and chosen.sides.reason != AS_CHOSEN:
+            yield Severe(
+                f"the {len(shape.triangles):,} faces bound nothing, so their points were read as a cloud: "
+                "give sheets thickness (a Solidify modifier), or close the mesh"
+            )
         yield from cocone_warnings(samples.analysis.tight_cocone, samples.points)
     normals = samples.normals if sides is SidesFrom.NORMALS else None
     if normals is not None and look_inward(samples.points, normals):

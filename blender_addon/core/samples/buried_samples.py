@@ -45,7 +45,8 @@ def find_bare(
     spacing : float
         The distance of neighbours.
     """
-    # Where the faces point inward the axis is empty, and a warning explains it: no sample is left out.
+    # Faces that cannot be turned outward, for more edges would be open then, may bound a negative volume: all samples
+    # would be left out.
     if shape.volume < 0:
         return np.ones(len(feet), bool)
     found = _are_buried(shape, feet, normals, _OFF * spacing)

@@ -129,7 +129,7 @@ def _choose(request: Request) -> ChosenSamples:
 
 def _whichever_is_dense(request: Request) -> ChosenSamples:
     """Choose the vertices if they are dense enough and enclose a volume, or if samples would be no denser."""
-    if request.gaps and _by_open_faces(request):
+    if _by_open_faces(request):
         return _samples_of_faces(request, "the mesh is open, and samples close its openings")
     try:
         chosen = _vertices(request, "dense enough", 0.2)
@@ -183,7 +183,7 @@ def _by_open_faces(request: Request) -> bool:
 
 def _sides_of_vertices(request: Request) -> Sides:
     shape, settings = request.shape, request.settings
-    if len(shape.triangles) and _by_open_faces(request):
+    if _by_open_faces(request):
         spacing = first_pass(shape, settings).spacing
         sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, spacing)
         if sides.source is SidesFrom.SURFACE:

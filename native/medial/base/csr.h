@@ -3,6 +3,7 @@
 // 1]).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <ranges>
 #include <span>
@@ -34,6 +35,19 @@ void counts_to_offsets(Counts&& counts) {
     count = sum;
     sum += length;
   }
+}
+
+// Lists the second numbers of pairs by the first ones, which are below `lists`. The pairs are
+// sorted.
+inline Csr<int32_t> csr_of_pairs(std::span<const std::array<int32_t, 2>> pairs, size_t lists,
+                                 const Run& run) {
+  Csr<int32_t> result{array<int64_t>(lists + 1, 0, run), array<int32_t>(pairs.size(), run)};
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    ++result.offsets[pairs[i][0]];
+    result.items[i] = pairs[i][1];
+  }
+  counts_to_offsets(result.offsets);
+  return result;
 }
 
 // Inverts a table: list k holds, ascending, the rows that contain k. Ids outside [0, lists) are

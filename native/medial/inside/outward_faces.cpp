@@ -135,10 +135,13 @@ OutwardFaces outward_faces(std::span<const Vec3> rows, std::span<const Triangle>
     return as_given(triangles, patches.count);
   }
   OutwardFaces best = as_given(triangles, patches.count);
-  int64_t open = open_edges(rows, triangles, run);
+  const auto open_edges_of = [&](std::span<const Triangle> faces) {
+    return make_surface(faces, distinct.point_of_row, distinct.count(), run).open_edges();
+  };
+  int64_t open = open_edges_of(triangles);
   for (const Repeated repeated : {Repeated::first, Repeated::first_of_odd}) {
     OutwardFaces read = turned_outward(triangles, distinct, repeated, run);
-    const int64_t now_open = open_edges(rows, read.triangles, run);
+    const int64_t now_open = open_edges_of(read.triangles);
     const bool last = now_open == 0 || !repeats(read);
     if (now_open < open || (now_open == open && repeated == Repeated::first)) {
       best = std::move(read);

@@ -100,7 +100,17 @@ class Voting {
     return {at, normalized(area_vector(face)), scrambled(random + 1)};
   }
 
-  // Returns a ray to the front; rays are spread evenly over the hemisphere of the place.
+  // Calls found(place, front, back) for rays from both sides of places, each the mirror image of
+  // the other; they are spread evenly over the hemispheres.
+  template <typename Found>
+  static void for_rays(std::span<const Place> places, const Found& found) {
+    for (const Place& place : places) {
+      for (int k = 0; k < kRays; ++k) {
+        const Vec3 front = ray(place, k);
+        found(place.at, front, front - 2 * dot(front, place.normal) * place.normal);
+      }
+    }
+  }
   static Vec3 ray(const Place& place, int k) {
     const double cosine = kLeastCosine + (1 - kLeastCosine) * (k + 0.5) / kRays;
     const double sine = std::sqrt(1 - cosine * cosine);
@@ -110,30 +120,27 @@ class Voting {
     return cosine * place.normal + (sine * std::cos(angle)) * u + (sine * std::sin(angle)) * v;
   }
 
+  bool escapes(const Vec3& place, const Vec3& ray) const {
+    return crossings_.met(place, ray, start_, 1) == 0;
+  }
+  bool meets_evenly(const Vec3& place, const Vec3& ray) const {
+    return crossings_.met(place, ray, start_, INT64_MAX) % 2 == 0;
+  }
+
   SkyVotes votes_of(int64_t patch) const {
     const auto places = places_of(patch);
     SkyVotes votes;
-    for (const Place& place : places) {
-      for (int k = 0; k < kRays; ++k, ++votes.rays) {
-        const Vec3 front = ray(place, k),
-                   back = front - 2 * dot(front, place.normal) * place.normal;
-        votes.front += crossings_.met(place.at, front, start_, 1) == 0 ? 1 : 0;
-        votes.back += crossings_.met(place.at, back, start_, 1) == 0 ? 1 : 0;
-      }
-    }
-    if (!votes.decided()) ask_parity(places, votes);
+    for_rays(places, [&](const Vec3& place, const Vec3& front, const Vec3& back) {
+      ++votes.rays;
+      votes.front += escapes(place, front) ? 1 : 0;
+      votes.back += escapes(place, back) ? 1 : 0;
+    });
+    if (votes.decided()) return votes;
+    for_rays(places, [&](const Vec3& place, const Vec3& front, const Vec3& back) {
+      votes.even_front += meets_evenly(place, front) ? 1 : 0;
+      votes.even_back += meets_evenly(place, back) ? 1 : 0;
+    });
     return votes;
-  }
-
-  void ask_parity(std::span<const Place> places, SkyVotes& votes) const {
-    for (const Place& place : places) {
-      for (int k = 0; k < kRays; ++k) {
-        const Vec3 front = ray(place, k),
-                   back = front - 2 * dot(front, place.normal) * place.normal;
-        votes.even_front += crossings_.met(place.at, front, start_, INT64_MAX) % 2 == 0 ? 1 : 0;
-        votes.even_back += crossings_.met(place.at, back, start_, INT64_MAX) % 2 == 0 ? 1 : 0;
-      }
-    }
   }
 
   const FacePatches& patches_;

@@ -12,10 +12,7 @@ namespace {
 class StraightVertices {
  public:
   StraightVertices(const SphereMesh& mesh, std::vector<FlatFace>& faces)
-      : mesh_(mesh),
-        faces_(faces),
-        faces_at_(mesh.vertices.size()),
-        left_out(mesh.vertices.size()) {
+      : mesh_(mesh), faces_(faces), faces_at_(mesh.vertices.size()) {
     for (size_t f = 0; f < faces.size(); ++f) {
       for (const int32_t v : faces[f].corners) faces_at_[v].push_back(static_cast<int32_t>(f));
     }
@@ -24,12 +21,15 @@ class StraightVertices {
     }
   }
 
-  void leave_out() {
-    for (size_t v = 0; v < left_out.size(); ++v) {
+  // Takes the vertices out of the polygons, and returns a mark per vertex.
+  std::vector<uint8_t> leave_out() {
+    std::vector<uint8_t> marks(faces_at_.size(), 0);
+    for (size_t v = 0; v < marks.size(); ++v) {
       if (!may_go(static_cast<int32_t>(v))) continue;
-      left_out[v] = 1;
+      marks[v] = 1;
       for (const int32_t f : faces_at_[v]) std::erase(faces_[f].corners, static_cast<int32_t>(v));
     }
+    return marks;
   }
 
  private:
@@ -63,21 +63,17 @@ class StraightVertices {
   const SphereMesh& mesh_;
   std::vector<FlatFace>& faces_;
   std::vector<std::vector<int32_t>> faces_at_;  // none at a vertex of a wire
-
- public:
-  std::vector<uint8_t> left_out;
 };
 
 }  // namespace
 
 void leave_out_straight_vertices(SphereMesh& mesh, std::vector<FlatFace>& faces,
                                  std::vector<int32_t>& row) {
-  StraightVertices straight(mesh, faces);
-  straight.leave_out();
+  const std::vector<uint8_t> left_out = StraightVertices(mesh, faces).leave_out();
   std::vector<int32_t> number(row.size(), -1);
   int32_t left = 0;
   for (size_t v = 0; v < row.size(); ++v) {
-    if (straight.left_out[v] != 0) continue;
+    if (left_out[v] != 0) continue;
     mesh.vertices[left] = mesh.vertices[v];
     mesh.radius[left] = mesh.radius[v];
     row[left] = row[v];

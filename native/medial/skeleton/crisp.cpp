@@ -81,13 +81,7 @@ void CrispState::find_rims() {
     pairs.push_back({b, a});
   }
   std::sort(pairs.begin(), pairs.end());
-  beside.offsets = array<int64_t>(complex.cell.size() + 1, 0, run);
-  beside.items = array<int32_t>(pairs.size(), run);
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    ++beside.offsets[pairs[i][0]];
-    beside.items[i] = pairs[i][1];
-  }
-  counts_to_offsets(beside.offsets);
+  beside = csr_of_pairs(pairs, complex.cell.size(), run);
 }
 
 void CrispState::find_wires(std::span<const uint8_t> edges) {

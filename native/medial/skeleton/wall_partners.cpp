@@ -22,13 +22,7 @@ WallPartners::WallPartners(std::span<const int32_t> partner, const Samples& samp
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  partners_.offsets = array<int64_t>(samples.row.size() + 1, 0, run);
-  partners_.items = array<int32_t>(pairs.size(), run);
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    ++partners_.offsets[pairs[i][0]];
-    partners_.items[i] = pairs[i][1];
-  }
-  counts_to_offsets(partners_.offsets);
+  partners_ = csr_of_pairs(pairs, samples.row.size(), run);
 }
 
 bool WallPartners::are_across(const Edge& samples) const {
