@@ -130,8 +130,8 @@ WHAT_IS_FREE = MemoryLimit()
 # These are measured bytes per point at the peak of the process (docs/lab/performance.md). Levels use the inner side.
 # A solid has outer facets only at its hollows; the figures are those of a solid with many.
 _OF_LEVELS = {  # {faces: {output: bytes}}
-    False: {"": 2150, CURVE: 2010, ".npz": 2650, ".ply": 2700, ".ma": 3570, OBJECT: 2840},
-    True: {"": 2150, CURVE: 2010, ".npz": 2650, ".ply": 2860, ".ma": 3490, OBJECT: 2870},
+    False: {"": 2150, CURVE: 2010, ".npz": 2650, ".ply": 2700, ".ma": 3570, OBJECT: 3570},
+    True: {"": 2150, CURVE: 2010, ".npz": 2650, ".ply": 2860, ".ma": 3490, OBJECT: 3740},
 }
 _OF_CRISP, _OF_TRIANGLE = 150, 600  # crisp places, per point and per triangle, in addition
 _AT_PEAK = {  # {faces: {side: {output: bytes}}}
