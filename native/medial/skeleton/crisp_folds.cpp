@@ -5,25 +5,24 @@
 namespace medial {
 namespace {
 
-constexpr int kRounds = 40;         // of steps that unfold facets
-constexpr int kNarrowRounds = 24;   // of these, the rounds that move little
-constexpr int kDentRounds = 6;      // of these, the rounds that mend deep dents, too
+constexpr int kPatience = 3;        // rounds in a row that unfold nothing before a stage ends
 constexpr double kDeepDent = 0.25;  // the sine of the turn
 
 constexpr double kAside = 0.1;  // holes from a place to one where a ball nearly touches walls
 
-// Tells how much is moved in a round: how many rings of neighbours round the folded facets, in how
-// many steps, and whether balls nearly touch walls afterwards.
-struct Effort {
+// Tells how many rounds a stage has at most, and how much is moved in each: whether deep dents are
+// mended, too, how many rings of neighbours round the folded facets move, in how many steps, and
+// whether balls nearly touch walls afterwards.
+struct Stage {
+  int rounds;
+  bool dented;
   int rings, steps;
   bool nearly;
 };
 
-Effort effort_of(int round) {
-  if (round < 3) return {0, 1, false};
-  if (round < kNarrowRounds) return {1, 1, false};
-  return round < 32 ? Effort{2, 4, true} : Effort{3, 12, true};
-}
+constexpr Stage kNarrow[] = {
+    {3, true, 0, 1, false}, {3, true, 1, 1, false}, {18, false, 1, 1, false}};
+constexpr Stage kWide[] = {{8, false, 2, 4, true}, {8, false, 3, 12, true}};
 
 class Unfolder {
  public:
@@ -34,11 +33,11 @@ class Unfolder {
   // neighbours would fold in its stead.
   void unfold() {
     std::vector<int32_t> suspects = c_.facets;
-    take_rounds(0, kNarrowRounds, suspects);
+    for (const Stage& stage : kNarrow) take_rounds(stage, suspects);
     const int64_t left = folded_facets(suspects);
     if (left == 0) return;
     const Places before{c_.made.position, c_.made.radius, c_.made.place, c_.walls};
-    take_rounds(kNarrowRounds, kRounds, suspects);
+    for (const Stage& stage : kWide) take_rounds(stage, suspects);
     if (folded_facets(suspects) < left) return;
     c_.made.position = before.position;
     c_.made.radius = before.radius;
@@ -60,16 +59,18 @@ class Unfolder {
   }
 
   // Takes rounds of steps; `suspects` are the facets that may be folded, before and after.
-  void take_rounds(int first, int end, std::vector<int32_t>& suspects) {
-    for (int round = first; round < end; ++round) {
+  void take_rounds(const Stage& stage, std::vector<int32_t>& suspects) {
+    size_t fewest = SIZE_MAX;
+    for (int round = 0, idle = 0; round < stage.rounds && idle < kPatience; ++round) {
       throw_if_cancelled(c_.progress);
-      std::vector<int32_t> vertices = folded_vertices(suspects, round < kDentRounds);
+      std::vector<int32_t> vertices = folded_vertices(suspects, stage.dented);
       if (vertices.empty()) return;
-      const Effort effort = effort_of(round);
-      for (int ring = 0; ring < effort.rings; ++ring) vertices = with_neighbours(vertices);
+      idle = vertices.size() < fewest ? 0 : idle + 1;
+      fewest = std::min(fewest, vertices.size());
+      for (int ring = 0; ring < stage.rings; ++ring) vertices = with_neighbours(vertices);
       suspects = facets_round(vertices);
       std::erase_if(vertices, [&](int32_t v) { return !moves(v); });
-      relax(vertices, effort);
+      relax(vertices, stage);
     }
   }
 
@@ -122,17 +123,17 @@ class Unfolder {
   }
 
   // Moves vertices towards the middle of their neighbours, and onto the walls or the crease again.
-  void relax(std::span<const int32_t> vertices, const Effort& effort) {
+  void relax(std::span<const int32_t> vertices, const Stage& stage) {
     const auto count = static_cast<int64_t>(vertices.size());
     std::vector<Vec3> before, next(vertices.size());
     for (const int32_t v : vertices) before.push_back(c_.made.position[v]);
-    for (int step = 0; step < effort.steps; ++step) {
+    for (int step = 0; step < stage.steps; ++step) {
       parallel_for(count, c_.run, [&](int64_t i) { next[i] = step_of(vertices[i]); });
       for (size_t i = 0; i < vertices.size(); ++i) c_.made.position[vertices[i]] = next[i];
     }
     std::vector<Touch> found(vertices.size());
     parallel_for(
-        count, c_.run, [&](int64_t i) { found[i] = placed(vertices[i], effort); }, 64);
+        count, c_.run, [&](int64_t i) { found[i] = placed(vertices[i], stage); }, 64);
     for (size_t i = 0; i < vertices.size(); ++i) {
       const int32_t v = vertices[i];
       if (c_.made.place[v] == Placing::crease) {
@@ -156,9 +157,9 @@ class Unfolder {
 
   // Returns the place on the walls, or on the crease, that is nearest to where a vertex has moved
   // to; on a crease with radius 0, or below 0 if there is none.
-  Touch placed(int32_t v, const Effort& effort) const {
+  Touch placed(int32_t v, const Stage& stage) const {
     const Vec3& here = c_.made.position[v];
-    if (effort.nearly && c_.made.place[v] != Placing::crease && c_.walls[v].count < 3) {
+    if (stage.nearly && c_.made.place[v] != Placing::crease && c_.walls[v].count < 3) {
       const Touch found = nearly_placed(v, here);
       if (found.radius > 0) return found;
     }
