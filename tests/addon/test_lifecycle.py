@@ -61,19 +61,28 @@ def test_runs_leave_no_blocks_and_no_memory():
     preferences.property_unset("cache_size")
 
 
-def test_changed_thresholds_leave_no_blocks_and_no_memory():
-    """The sliders, which only filter; a mesh of a result is larger than what may stay of each run."""
+def test_moved_sliders_leave_no_blocks_and_no_memory():
+    """Each moves Simplify, which only filters, and each tenth theta, which needs another hierarchy.
+
+    A mesh of a result is larger than what may stay of each run.
+    """
     source = ellipsoid(segments=5)
     compute()
     mesh = result_of(source).data
     size = 12 * len(mesh.vertices) + 4 * len(mesh.loops) + 40 * len(mesh.polygons)
     panel = bpy.context.scene.medial_axis
-    for run in range(RUNS // 10):
-        panel.theta = 0.2 + 0.001 * run
+
+    def move(runs):
+        for run in range(runs):
+            panel.simplify = 0.01 * (run % 10)
+            if run % 10 == 0:
+                panel.theta = 0.2 + 0.001 * (run % 50)
+            assert panel.note == ""
+
+    move(RUNS // 10)
     start, held = blocks(), resident()
-    for run in range(RUNS):
-        panel.theta = 0.2 + 0.002 * (run % 50)
-    assert panel.note == "" and blocks() == start
+    move(RUNS)
+    assert blocks() == start
     assert resident() - held < RUNS / 2 * size
 
 
