@@ -2,11 +2,13 @@
 """The race on meshes: programs get the faces of solids, or as many samples of them as ours takes.
 
     python3 -m lab.race.meshes [--shapes box wedge ...] [--samples 8000] [--programs NAME ...] [--page table.md]
+        [--keep FOLDER]
 
 The solids are those of `support.crisp_solids`, turned at random. What gets faces has the mesh itself, whose vertices
 are few; what gets points or normals has the samples of Sampling Surface, with normals of the exact faces.
 `meshes.toml` lists ours, `recipes.toml` the others. Distances are in shares of the diagonal, the gap of convex edges
-in spacings; the area is that of the output over the exact one.
+in spacings; the area is that of the output over the exact one. `--keep` writes what was found, for
+`lab/pictures/beside_others.py`.
 """
 
 from __future__ import annotations
@@ -51,7 +53,9 @@ class Inputs:
 _ENDS = {"mesh": "off", "points": "xyz", "oriented": "xyzn"}
 
 
-def row(recipe: recipes.Recipe, inputs: Inputs, count: int, limit: int) -> list[str]:
+def row(
+    recipe: recipes.Recipe, inputs: Inputs, count: int, limit: int, kept: Path | None
+) -> list[str]:
     head = [recipe.name, "faces" if recipe.gets == "mesh" else recipe.gets]
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder, recipe.output)
@@ -60,7 +64,22 @@ def row(recipe: recipes.Recipe, inputs: Inputs, count: int, limit: int) -> list[
         if cost["exit"] != 0 or not output.exists():
             print(recipe.name, said[-300:], file=sys.stderr)
             return [*head, "failed", *[""] * (len(HEADER) - 3)]
-        return [*head, *cells(score(inputs, read_axis.read(output)))]
+        found = read_axis.read(output)
+        if kept:
+            keep(found, inputs, kept.with_name(f"{kept.name} {recipe.name}.npz"))
+        return [*head, *cells(score(inputs, found))]
+
+
+def keep(found: read_axis.Complex, inputs: Inputs, path: Path) -> None:
+    """Write `triangles` (t, 3, 3), `edges` (e, 2, 3) and `points` (p, 3), and those of the `solid`, in its frame."""
+    mesh, _ = crisp_solids.turned(inputs.solid.mesh, None)
+    np.savez(
+        path,
+        triangles=judge.triangles_of(found) @ inputs.frame,
+        edges=found.vertices[found.edges] @ inputs.frame,
+        points=found.vertices[found.points] @ inputs.frame,
+        solid=mesh[0][mesh[1]],
+    )
 
 
 def score(inputs: Inputs, found: read_axis.Complex) -> dict[str, Any]:
@@ -94,12 +113,15 @@ def programs(count: int, names: list[str] | None = None) -> list[recipes.Recipe]
     return [recipe for recipe in known if not recipe.missing() and count <= recipe.largest]
 
 
-def table(name: str, count: int, limit: int, names: list[str] | None = None) -> str:
-    with tempfile.TemporaryDirectory() as folder:
-        inputs = Inputs(name, count, Path(folder))
+def table(
+    name: str, count: int, limit: int, names: list[str] | None = None, folder: Path | None = None
+) -> str:
+    kept = folder and folder / name  # the beginning of the names of its files
+    with tempfile.TemporaryDirectory() as made:
+        inputs = Inputs(name, count, Path(made))
         rows = []
         for recipe in programs(count, names):
-            rows.append(row(recipe, inputs, count, limit))
+            rows.append(row(recipe, inputs, count, limit, kept))
             print(name, " | ".join(rows[-1]), file=sys.stderr, flush=True)
     return f"### {name}\n\n{product.markdown(HEADER, rows)}"
 
@@ -114,8 +136,11 @@ def main() -> None:
     parser.add_argument("--limit", type=int, default=300, help="seconds that a program may take")
     parser.add_argument("--programs", nargs="+", help="names of both lists; default: all")
     parser.add_argument("--page", type=Path, help="also write the tables there, below the mark")
+    parser.add_argument("--keep", type=Path, help="a folder for what the programs found")
     options = parser.parse_args()
-    given = options.samples, options.limit, options.programs
+    if options.keep:
+        options.keep.mkdir(parents=True, exist_ok=True)
+    given = options.samples, options.limit, options.programs, options.keep
     text = "\n".join(table(name, *given) for name in options.shapes)
     print(text)
     if options.page:
