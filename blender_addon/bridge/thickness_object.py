@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.samples.triangle_faces import TriangleFaces
 from ..core.solid.measurement import Measurement
-from ..core.solid.thickness_colours import colour_limits, coloured
+from ..core.solid.thickness_colours import ThicknessScale, histogram, scale_of
 from ..core.solid.thin_parts import ThinParts
 from .attributes import as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
@@ -52,6 +52,8 @@ PATCHES = "ma_thickness_patches"  # how many
 PLACES = "ma_thickness_places"
 LEAST = "ma_thickness_place"  # x, y, z of the minimum
 ON_SOURCE = "ma_thickness_on_source"  # whether the source has the attributes, too
+SCALE = "ma_thickness_scale"  # low, limit and high of its ThicknessScale
+HISTOGRAM = "ma_thickness_histogram"  # the shares of the area with each colour of the legend
 CURRENT = "ma_thickness_current"  # the patch that was framed last; -1: none
 _MOST_PLACES = 1000
 # A source with at least this many vertices for each sample shows its thickness.
@@ -130,14 +132,21 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
     if on_copy:
         lengths = found.lengths
         set_attribute(carrier.data, THIN, "BOOLEAN", "FACE", parts.patch_of_triangles >= 0)
-    start, end = colour_limits(found, parts.limit)
+    scale = scale_of(found, parts.limit)
     alone = on_copy or not len(
         carrier.data.color_attributes
     )  # else renders show those of the artist
-    colour_mesh(carrier.data, coloured(lengths), start, end, render=alone)
-    remember_colours(carrier, THICKNESS, start, end)
+    colour_mesh(carrier.data, scale.positions(lengths), 0.0, 1.0, render=alone)
+    remember_colours(carrier, THICKNESS, scale.high, scale.low)
+    carrier[SCALE] = scale.low, scale.limit, scale.high
+    carrier[HISTOGRAM] = histogram(found, scale).tolist()
     carrier.data.update()
     _remember_parts(carrier, parts)
+
+
+def scale_on(carrier: bpy.types.Object) -> ThicknessScale | None:
+    """What the colours of a carrier stand for; None where an older version made them."""
+    return ThicknessScale(*carrier[SCALE]) if SCALE in carrier else None
 
 
 def _has_own(source: bpy.types.Object, found: Measurement) -> bool:

@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """File > Export > Medial Axis: the active object's medial axis as a file."""
 
-import os
-from pathlib import Path
-
 import bpy
 from bpy.props import EnumProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper
 
 from ..bridge.axis_object import settings_of
 from ..bridge.balls_object import is_balls, read_balls
@@ -19,7 +15,7 @@ from ..core.files.write import FORMATS, export_axis
 from ..core.files.write_balls import export_balls
 from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode
 from ..core.solid.ball_cover import cover_by_balls
-from .paths import RELATIVE
+from .export_file import ExportFile
 from .preferences import memory_limit
 from .properties import prop
 from .translation import say
@@ -30,7 +26,7 @@ _LABELS = {suffix: known.label for suffix, known in FORMATS.items()} | {
 _EXTENSIONS = {suffix[1:].upper(): suffix for suffix in _LABELS}
 
 
-class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
+class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
     bl_idname = "export_scene.medial_axis"
     bl_label = "Export Medial Axis"
     bl_description = (
@@ -38,7 +34,6 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
     )
     bl_options = {"PRESET"}
 
-    filepath: StringProperty(name="File Path", subtype="FILE_PATH", options=RELATIVE)
     filter_glob: StringProperty(
         default=";".join(f"*{suffix}" for suffix in _LABELS), options={"HIDDEN"}
     )
@@ -68,35 +63,16 @@ class EXPORT_SCENE_OT_medial_axis(bpy.types.Operator, ExportHelper):
         return True
 
     @property
-    def filename_ext(self) -> str:
-        return _EXTENSIONS[self.file_format]
+    def extensions(self) -> dict[str, str]:
+        return _EXTENSIONS
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if not self.filepath:
-            folder = os.path.dirname(bpy.data.filepath)
-            name = bpy.path.clean_name(_thing(context).name)
-            self.filepath = os.path.join(folder, name + self.filename_ext)
-        self._shown_format = self.file_format
-        return super().invoke(context, event)
-
-    def check(self, context: bpy.types.Context) -> bool:
-        """Keep name and format together while the file browser is open: what was changed last wins."""
-        # Not a Path, which takes Blender's // for a network folder of Windows
-        path, (stem, suffix) = self.filepath, os.path.splitext(self.filepath)
-        chosen, self._shown_format = self.file_format != self._shown_format, self.file_format
-        if not chosen and suffix.lower() in _LABELS:
-            self.file_format = self._shown_format = suffix[1:].upper()
-            return False
-        self.filepath = (stem if suffix.lower() in _LABELS else path) + self.filename_ext
-        return self.filepath != path
+    def default_name(self, context: bpy.types.Context) -> str:
+        return _thing(context).name
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.view_layer.update()  # scripts may have moved the object
-        path = bpy.path.abspath(self.filepath)
-        if not Path(path).suffix:
-            path += self.filename_ext
         try:
-            size, written = self._write(context, _thing(context), path)
+            size, written = self._write(context, _thing(context), self.chosen_path)
         except MedialAxisError as error:
             self.report({"ERROR"}, say(error))
             return {"CANCELLED"}

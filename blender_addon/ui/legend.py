@@ -6,9 +6,11 @@ import bpy.utils.previews
 
 from ..core.axis.colours import colours
 from ..core.axis.verdict import Light
+from ..core.solid.thickness_colours import STEPS, STEPS_BELOW
 
 _STEPS = 12
 _SIZE = 32
+_LEVELS = 16  # heights of bars
 _LIGHTS = {
     Light.GOOD.name: (0.15, 0.75, 0.25),
     Light.LOOK.name: (1.0, 0.75, 0.1),
@@ -24,11 +26,48 @@ def draw_legend(layout, start, end):
     scale.scale_y = 0.7
     for step in range(_STEPS):
         scale.label(text="", icon_value=_icon(f"step {step}", step))
+    _draw_ends(column, (start, "", end))
+
+
+def draw_thickness_legend(layout, scale, shares, texts):
+    """Bars of how much of the surface has which colour, thin on the left, over the scale with an edge at the limit.
+
+    Parameters
+    ----------
+    scale : ThicknessScale
+    shares : sequence of float
+        One for each step.
+    texts : tuple of 3 str
+        What is said below the left end, the limit and the right end; "" for nothing.
+    """
+    column = layout.column(align=True)
+    bars, steps = column.row(align=True), column.row(align=True)
+    steps.scale_y = 0.7
+    bounds = scale.bounds
+    positions = scale.positions((bounds[:-1] + bounds[1:]) / 2)
+    most = max(max(shares), 1e-12)
+    for position, share in zip(positions.tolist(), shares, strict=True):
+        level = round(_LEVELS * share / most) if share > 0.0 else 0
+        level = max(level, 1) if share > 0.0 else 0
+        colour = colours([position], 0.0, 1.0)[0, :3].tolist()
+        name = "thickness " + " ".join(f"{channel:.3f}" for channel in colour)
+        bars.label(text="", icon_value=_icon(f"{name} {level}", (colour, level)))
+        steps.label(text="", icon_value=_icon(name, (colour, _LEVELS)))
+    _draw_ends(column, texts)
+
+
+def _draw_ends(column, texts):
+    left, middle, right = texts
+    if middle:
+        split = column.split(factor=STEPS_BELOW / STEPS)
+        split.label(text=left, translate=False)
+        column = split
+        left = middle
     ends = column.row()
-    ends.label(text=start, translate=False)
-    right = ends.row()
-    right.alignment = "RIGHT"
-    right.label(text=end, translate=False)
+    ends.label(text=left, translate=False)
+    end = ends.row()
+    end.alignment = "RIGHT"
+    end.label(text=right, translate=False)
 
 
 def light(name):
@@ -43,14 +82,24 @@ def _icon(name, what):
     if name not in _icons:
         picture = _icons.new(name)
         picture.icon_size = (_SIZE, _SIZE)
-        picture.icon_pixels_float = _disc(_LIGHTS[what]) if what in _LIGHTS else _square(what)
+        picture.icon_pixels_float = _pixels(what)
     return _icons[name].icon_id
 
 
-def _square(step):
-    """RGBA of a square of one colour of the scale, as screens want it."""
-    linear = colours([step], 0, _STEPS - 1)[0]
-    return [*map(_encoded, linear[:3].tolist()), 1.0] * (_SIZE * _SIZE)
+def _pixels(what):
+    """RGBA of a light by its name, of a step of the scale by its number, or of (linear colour, level) of a bar."""
+    if what in _LIGHTS:
+        return _disc(_LIGHTS[what])
+    if isinstance(what, int):
+        return _bar(colours([what], 0, _STEPS - 1)[0, :3].tolist(), _LEVELS)
+    return _bar(*what)
+
+
+def _bar(linear, level):
+    """RGBA of a square whose lower part has a colour, as screens want it; the lowest row comes first."""
+    filled = _SIZE * level // _LEVELS
+    row = [*map(_encoded, linear), 1.0] * _SIZE
+    return row * filled + [0.0] * (4 * _SIZE * (_SIZE - filled))
 
 
 def _disc(colour):

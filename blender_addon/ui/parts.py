@@ -12,6 +12,7 @@ from ..core.errors import MedialAxisError
 from .object_menus import register_with_entry, unregister_with_entry
 from .tab import Closed, settings_column
 from .translation import say
+from .view_place import edit_faces
 
 _NONE = "Select a medial axis of the form Clean, or an object whose medial axis was computed before"
 _LABELS = {
@@ -70,9 +71,7 @@ class OBJECT_OT_medial_axis_select_part(_OfParts, bpy.types.Operator):
         if context.object.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
         count = select_part(axis, self.number, self.extend)
-        context.view_layer.objects.active = axis
-        bpy.ops.object.mode_set(mode="EDIT")
-        context.tool_settings.mesh_select_mode = (False, False, True)
+        edit_faces(context, axis)
         self.report({"INFO"}, say(f"Part {self.number} has {count:,} faces"))
         return {"FINISHED"}
 

@@ -13,6 +13,14 @@ def shows_colours(space) -> bool:
     return space.shading.type == "SOLID" and space.shading.color_type == "VERTEX"
 
 
+def show_colours(space):
+    """Show the attributes of meshes as colours in a 3D viewport, which remembers what it showed before."""
+    shading = space.shading
+    kind, shading.type = shading.type, "SOLID"
+    _before[space.as_pointer()] = kind, shading.color_type
+    shading.color_type = "VERTEX"
+
+
 class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
     bl_idname = "view3d.medial_axis_show_colours"
     bl_label = "Show Colours"
@@ -26,15 +34,13 @@ class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
         return getattr(context.space_data, "type", "") == "VIEW_3D"
 
     def execute(self, context):
-        shading, key = context.space_data.shading, context.space_data.as_pointer()
-        if shows_colours(context.space_data):
-            kind, colour = _before.pop(key, ("SOLID", "MATERIAL"))
-            shading.color_type = colour  # first, for another kind may know other ones
-            shading.type = kind
-        else:
-            kind, shading.type = shading.type, "SOLID"
-            _before[key] = kind, shading.color_type
-            shading.color_type = "VERTEX"
+        space = context.space_data
+        if not shows_colours(space):
+            show_colours(space)
+            return {"FINISHED"}
+        kind, colour = _before.pop(space.as_pointer(), ("SOLID", "MATERIAL"))
+        space.shading.color_type = colour  # first, for another kind may know other ones
+        space.shading.type = kind
         return {"FINISHED"}
 
 

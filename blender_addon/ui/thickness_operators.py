@@ -23,9 +23,10 @@ from ..core.solid.thin_parts import find_thin_parts
 from .compute_operator import ComputeOperator
 from .preferences import memory_limit
 from .properties import SamplingProperties, draw_sampling, prop, settings_from
+from .show import show_colours, shows_colours
 from .thickness_properties import ThicknessProperties, shown_thickness
 from .translation import say
-from .view_place import show_place
+from .view_place import edit_faces, show_place, viewport_of
 
 
 class OBJECT_OT_medial_axis_thickness(
@@ -44,6 +45,12 @@ class OBJECT_OT_medial_axis_thickness(
 
     sides: prop(OPTIONS["sides"])
     parent: prop(LOOKS["parent"])
+
+    def modal(self, context, event):
+        ended = super().modal(context, event)
+        if ended == {"FINISHED"}:
+            _colour_view(viewport_of(context))
+        return ended
 
     def draw(self, _context):
         self.layout.use_property_split = True
@@ -74,7 +81,7 @@ class OBJECT_OT_medial_axis_thickness(
 class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):
     bl_idname = "object.medial_axis_thin_place"
     bl_label = "Show Thin Place"
-    bl_description = "Select the faces of a thin place, and look at it"
+    bl_description = "Select the faces of a thin place in edit mode, and look at it"
     bl_options = {"REGISTER", "UNDO"}
 
     which: bpy.props.EnumProperty(
@@ -103,6 +110,7 @@ class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):
         target = _selected_on(context, carrier)
         if self.which == "ALL":
             count = select_thin(target)
+            edit_faces(context, target)
             self.report({"INFO"}, say(f"{count:,} faces are thin"))
             return {"FINISHED"}
         found = self._place(carrier)
@@ -113,6 +121,7 @@ class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):
         world = carrier.matrix_world
         local = target.matrix_world.inverted_safe() @ world @ Vector(place)
         select_thin(target, tuple(local))
+        edit_faces(context, target)
         show_place(context, world @ Vector(place), size)
         return {"FINISHED"}
 
@@ -128,6 +137,12 @@ class OBJECT_OT_medial_axis_thin_place(bpy.types.Operator):
         carrier[CURRENT] = (current + step) % count if current >= 0 or step > 0 else count - 1
         place, area, minimum = patch_at(carrier, carrier[CURRENT])
         return place, max(area**0.5, 4 * minimum)
+
+
+def _colour_view(space):
+    """Show colours in Solid view; other views show materials, which somebody may have chosen."""
+    if space is not None and space.shading.type == "SOLID" and not shows_colours(space):
+        show_colours(space)
 
 
 def _selected_on(context, carrier):

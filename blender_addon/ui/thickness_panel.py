@@ -4,19 +4,18 @@
 import bpy
 
 from ..bridge import thickness_object as of
-from ..bridge.colours import colour_range
 from ..bridge.output_object import WARNINGS
 from ..bridge.source_state import has_changed
 from ..bridge.thin_selection import patch_at, patches_of
 from ..core.axis.verdict import Light
 from ..core.settings import THICKNESS_OPTIONS, Noise
-from ..core.solid.thickness_colours import BLUE
 from . import current_job
 from .figures import length_text, share_text
-from .legend import draw_legend, light
+from .legend import draw_thickness_legend, light
 from .properties import copy_settings
 from .show import shows_colours
 from .tab import Closed, settings_column
+from .thickness_limits import unit_note
 from .thickness_properties import shown_thickness
 from .translation import say
 from .wrapped_text import draw_wrapped
@@ -31,6 +30,8 @@ class VIEW3D_PT_medial_axis_thickness(Closed, bpy.types.Panel):
     def draw(self, context):
         layout, settings = self.layout, context.scene.medial_axis_thickness
         _draw_options(layout, settings)
+        if context.object is not None and (note := unit_note(context, context.object)):
+            draw_wrapped(context, layout, note, "INFO")
         if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
             button = layout.operator("object.medial_axis_thickness", icon="DRIVER_DISTANCE")
             copy_settings(context.scene.medial_axis, button)
@@ -48,6 +49,8 @@ def _draw_options(layout, settings):
         row = column.row()
         row.active = name != "edges" or settings.noise == Noise.CLEAN.name
         row.prop(settings, name)
+        if name == "limit":
+            row.menu("VIEW3D_MT_medial_axis_thickness_limits", text="", icon="DOWNARROW_HLT")
 
 
 def _draw_found(context, layout, carrier):
@@ -64,10 +67,11 @@ def _draw_found(context, layout, carrier):
         area = _area(context, carrier[of.AREA])
         column.label(text=say(f"Thinner: {area} ({share})"), icon="MESH_PLANE", translate=False)
         _draw_patches(context, column, carrier)
-    if not shows_colours(context.space_data):
-        layout.operator("view3d.medial_axis_show_colours", icon="COLOR")
-    else:
+    shown = shows_colours(context.space_data)
+    layout.operator("view3d.medial_axis_show_colours", icon="COLOR", depress=shown)
+    if shown:
         _draw_legend(context, layout, carrier)
+    layout.operator("export_scene.medial_axis_thickness", icon="EXPORT")
     for warning in carrier.get(WARNINGS, "").splitlines():
         draw_wrapped(context, layout, warning, "ERROR")
 
@@ -96,11 +100,12 @@ def _draw_place(layout, text, which, icon):
 
 
 def _draw_legend(context, layout, carrier):
-    """Blue from the first text on, red at the second one and yellow far below it."""
-    found = colour_range(carrier)
-    if found is not None:
-        _, blue, _ = found
-        draw_legend(layout, length_text(context, blue), "< " + length_text(context, blue / BLUE))
+    scale = of.scale_on(carrier)
+    if scale is None:
+        return
+    low, limit, high = (length_text(context, x) for x in (scale.low, scale.limit, scale.high))
+    middle = limit if scale.limit > scale.low else ""
+    draw_thickness_legend(layout, scale, list(carrier[of.HISTOGRAM]), (low, middle, high))
 
 
 def _area(context, area):

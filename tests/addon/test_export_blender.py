@@ -291,11 +291,11 @@ def test_menu_entry():
 )
 def test_file_browser_keeps_name_and_format_together(path, shown, chosen, expected):
     cls = addon("ui.export_axis").EXPORT_SCENE_OT_medial_axis
-    extensions = addon("ui.export_axis")._EXTENSIONS
 
     class Browser:
         filepath, file_format, _shown_format = path, chosen, shown
-        filename_ext = property(lambda self: extensions[self.file_format])
+        extensions = addon("ui.export_axis")._EXTENSIONS
+        filename_ext = property(lambda self: self.extensions[self.file_format])
 
     browser = Browser()
     changed = cls.check(browser, bpy.context)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measure Thickness: attributes on the source or on a copy, the live limit, thin places, and the feature size."""
 
+import json
 from types import SimpleNamespace
 
 import bpy
@@ -58,8 +59,9 @@ def test_dense_source_carries_its_thickness_itself():
     assert len(values) == len(mesh.vertices) and 0.4 < np.median(values) < 0.82
     assert mesh.color_attributes.active_color.name == "ma_color"
     assert len(thin_faces(source)) == len(mesh.polygons)
-    limits = addon("bridge.colours").colour_range(source)
-    assert limits == ("ma_thickness", pytest.approx(1.8), pytest.approx(-0.6))
+    scale = addon("bridge.thickness_object").scale_on(source)
+    assert (scale.low, scale.limit) == (0.0, pytest.approx(0.6, rel=1e-5)) and scale.high > 0.89
+    assert sum(source["ma_thickness_histogram"]) == pytest.approx(1.0, abs=0.01)
 
 
 def test_coarse_source_has_a_copy_and_its_own_attributes():
@@ -117,13 +119,15 @@ def test_limit_without_a_measurement_says_what_to_do():
     assert source["ma_thickness_limit"] == pytest.approx(0.1)
 
 
-def test_places_are_selected():
+def test_places_are_selected_where_one_sees_it():
     source = grid_box()
     measure(source, limit=0.41)
     assert bpy.ops.object.medial_axis_thin_place(which="ALL") == {"FINISHED"}
-    assert all(polygon.select for polygon in source.data.polygons)
+    assert source.mode == "EDIT" and bpy.context.tool_settings.mesh_select_mode[2]
+    assert source.data.total_face_sel == len(source.data.polygons)
     assert bpy.ops.object.medial_axis_thin_place(which="NEXT") == {"FINISHED"}
-    assert source["ma_thickness_current"] == 0
+    assert source["ma_thickness_current"] == 0 and source.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.medial_axis_thickness.limit = 0.39
     assert bpy.ops.object.medial_axis_thin_place(which="NEXT") == {"CANCELLED"}
     assert bpy.ops.object.medial_axis_thin_place(which="MINIMUM") == {"FINISHED"}
@@ -175,9 +179,46 @@ def test_thin_parts_that_only_rays_find_are_seen():
         for which in ("MINIMUM", "NEXT", "ALL"):
             select(thing)
             assert bpy.ops.object.medial_axis_thin_place(which=which) == {"FINISHED"}
+            bpy.ops.object.mode_set(mode="OBJECT")
             selected = np.array([p.select for p in thing.data.polygons])
             assert selected.any() and thin_faces(thing)[selected].all(), which
         assert np.array_equal(selected, thin_faces(thing))
+
+
+def test_usual_limits_follow_the_unit_of_the_scene():
+    source, units = box(), bpy.context.scene.unit_settings
+    select(source)
+    settings = bpy.context.scene.medial_axis_thickness
+    for scale, limit in ((1.0, 0.0012), (0.001, 1.2)):
+        units.scale_length = scale
+        assert bpy.ops.scene.medial_axis_thickness_limit(millimetres=1.2) == {"FINISHED"}
+        assert settings.limit == pytest.approx(limit)
+    note = addon("ui.thickness_limits").unit_note
+    units.scale_length = 1.0
+    assert note(bpy.context, source) == ""
+    source.scale = (80.0, 80.0, 80.0)
+    bpy.context.view_layer.update()
+    assert "Unit Scale to 0.001" in note(bpy.context, source)
+
+
+def test_what_was_measured_is_exported(tmp_path):
+    source = torus()
+    export = bpy.ops.export_scene.medial_axis_thickness
+    select(source)
+    assert not export.poll()
+    measure(source, limit=0.6)
+    for suffix in ("html", "csv", "json", "ply"):
+        path = tmp_path / f"ring.{suffix}"
+        assert export(filepath=str(path)) == {"FINISHED"} and path.stat().st_size > 400
+    page = (tmp_path / "ring.html").read_text(encoding="utf-8")
+    assert "Thickness of Torus" in page and page.count("data:image/png;base64,") >= 3
+    assert "0.6 m" in page
+    report = json.loads((tmp_path / "ring.json").read_text(encoding="utf-8"))
+    assert report["limit"] == pytest.approx(0.6) and report["unit"] == "m"
+    addon("core.machine.cache").CACHE.clear()
+    with pytest.raises(RuntimeError, match="press Measure Thickness again"):
+        export(filepath=str(tmp_path / "again.html"))
+    assert not (tmp_path / "again.html").exists()
 
 
 def test_edit_mode_and_places_without_a_measurement_are_refused():

@@ -75,8 +75,15 @@ def test_radii_that_hardly_differ_have_one_colour():
     assert colours_of.radius_range(np.array([0.25, 1.0])) == (0.25, 1.0)
 
 
-def test_red_is_half_way_between_the_limits_of_thickness():
-    from medial_axis.core.solid.thickness_colours import limits_of
+def test_colours_of_thickness_have_a_hard_edge_at_the_limit():
+    from medial_axis.core.solid.thickness_colours import STEPS, STEPS_BELOW, ThicknessScale
 
-    start, end = limits_of(2.0)
-    assert start == 6.0 and (start + end) / 2 == 2.0
+    scale = ThicknessScale(0.0, 2.0, 6.0)
+    found = scale.positions(np.array([0.0, 1.999999, 2.0, 6.0, 9.0, np.inf]))
+    assert found[:5] == pytest.approx([1.0, 0.58, 0.3, 0.0, 0.0], abs=1e-6)
+    assert np.isnan(found[5])
+    assert scale.bounds[STEPS_BELOW] == 2.0 and len(scale.bounds) == STEPS + 1
+    without_limit = ThicknessScale(1.0, 1.0, 3.0)
+    assert without_limit.positions(np.array([1.0, 2.0, 3.0])) == pytest.approx([1.0, 0.5, 0.0])
+    equal = ThicknessScale(2.0, 2.0, 2.0)
+    assert equal.positions(np.array([2.0, 2.0])) == pytest.approx([1.0, 1.0])

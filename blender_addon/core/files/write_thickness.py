@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This module writes thickness as `.csv`, `.json` and `.ply` files (docs/formats.md).
+"""This module writes thickness as `.csv`, `.html`, `.json` and `.ply` files (docs/formats.md).
 
 A file appears whole or not at all. Numbers in text have 17 significant digits; a missing length is infinite in .csv
 and .ply, and null in .json.
@@ -11,6 +11,7 @@ import json
 import math
 import os
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -18,9 +19,11 @@ import numpy as np
 
 from ..axis.colours import colours
 from ..solid.measurement import Measurement
-from ..solid.thickness_colours import colour_limits, coloured
+from ..solid.thickness_colours import scale_of
 from ..solid.thin_parts import ThinParts
 from .extensions import extension_of
+from .picture import encoded
+from .thickness_page import page_of
 from .whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -30,7 +33,11 @@ _CHUNK = 1 << 16  # so many rows are formatted at once
 
 
 def export_thickness(
-    found: Measurement, parts: ThinParts, path: str | os.PathLike, unit: str = ""
+    found: Measurement,
+    parts: ThinParts,
+    path: str | os.PathLike,
+    unit: str = "",
+    title: str = "",
 ) -> Path:
     """Write a measurement in world coordinates; the extension of `path` chooses the format.
 
@@ -41,7 +48,9 @@ def export_thickness(
         The thin parts of the measurement.
     path : path of the file; its folder must exist. A file of that name is replaced.
     unit : str
-        The unit of lengths, which .json states; "" if it is unknown.
+        The unit of lengths, which .json and .html state; "" if it is unknown.
+    title : str
+        The name of what was measured, for .html; by default that of the file.
 
     Returns
     -------
@@ -54,7 +63,14 @@ def export_thickness(
         The extension is unknown, or the system refused to write; an old file is then unchanged.
     """
     write = THICKNESS_FORMATS[extension_of(path, THICKNESS_FORMATS)]
-    return write_whole(path, lambda stream: write(found, parts, unit, stream))
+    labels = _Labels(unit, title or Path(path).stem)
+    return write_whole(path, lambda stream: write(found, parts, labels, stream))
+
+
+@dataclass(frozen=True)
+class _Labels:
+    unit: str
+    title: str
 
 
 def summary_of(found: Measurement, parts: ThinParts, unit: str = "") -> dict[str, Any]:
@@ -98,7 +114,7 @@ def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.flo
     return lambda points: points @ frame[:3, :3].T + frame[:3, 3]
 
 
-def _write_csv(found: Measurement, _parts: ThinParts, _unit: str, stream: BinaryIO) -> None:
+def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:
     stream.write(b"vertex,x,y,z,thickness\n")
     points, lengths = _mover(found)(found.shape.points), found.of_vertices
     for start in range(0, len(points), _CHUNK):
@@ -111,12 +127,12 @@ def _write_csv(found: Measurement, _parts: ThinParts, _unit: str, stream: Binary
         stream.write(text.encode("ascii"))
 
 
-def _write_json(found: Measurement, parts: ThinParts, unit: str, stream: BinaryIO) -> None:
-    text = json.dumps(summary_of(found, parts, unit), indent=1, ensure_ascii=False) + "\n"
+def _write_json(found: Measurement, parts: ThinParts, labels: _Labels, stream: BinaryIO) -> None:
+    text = json.dumps(summary_of(found, parts, labels.unit), indent=1, ensure_ascii=False) + "\n"
     stream.write(text.encode("utf-8"))
 
 
-def _write_ply(found: Measurement, parts: ThinParts, _unit: str, stream: BinaryIO) -> None:
+def _write_ply(found: Measurement, parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:
     """Write the measured surface: its samples and triangles, with lengths, colours and patches."""
     header = f"""ply
 format binary_little_endian 1.0
@@ -139,24 +155,23 @@ end_header
         len(found.points), [("place", "<f8", 3), ("thickness", "<f8"), ("colour", "u1", 3)]
     )
     vertices["place"], vertices["thickness"] = _mover(found)(found.points), found.lengths
-    vertices["colour"] = _bytes_of(coloured(found.lengths), *colour_limits(found, parts.limit))
+    positions = scale_of(found, parts.limit).positions(found.lengths)
+    linear = colours(positions, 0.0, 1.0)[:, :3].astype(np.float64)
+    vertices["colour"] = np.round(255.0 * encoded(linear)).astype(np.uint8)
     stream.write(vertices.tobytes())
     faces = np.empty(len(found.triangles), [("n", "u1"), ("corners", "<i4", 3), ("patch", "<i4")])
     faces["n"], faces["corners"], faces["patch"] = 3, found.triangles, parts.patch_of_triangles
     stream.write(faces.tobytes())
 
 
-def _bytes_of(values: NDArray[np.float64], start: float, end: float) -> NDArray[np.uint8]:
-    """Return the colours of values on the scale, (n, 3), as sRGB bytes."""
-    linear = colours(values, start, end)[:, :3].astype(np.float64)
-    encoded = np.where(
-        linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0.0) ** (1 / 2.4) - 0.055
-    )
-    return np.round(255.0 * encoded).astype(np.uint8)
+def _write_html(found: Measurement, parts: ThinParts, labels: _Labels, stream: BinaryIO) -> None:
+    points = _mover(found)(found.points)
+    stream.write(page_of(found, parts, labels.title, labels.unit, points).encode("utf-8"))
 
 
-THICKNESS_FORMATS: dict[str, Callable[[Measurement, ThinParts, str, BinaryIO], None]] = {
+THICKNESS_FORMATS: dict[str, Callable[[Measurement, ThinParts, _Labels, BinaryIO], None]] = {
     ".csv": _write_csv,
+    ".html": _write_html,
     ".json": _write_json,
     ".ply": _write_ply,
 }
