@@ -10,7 +10,6 @@ from ..bridge.colours import colour_range
 from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
 from ..bridge.source_state import has_changed
 from ..core.axis.verdict import Light
-from ..core.samples.density import percent
 from . import manual
 from .guide import WHY
 from .inward_faces import draw_inward_faces
@@ -39,11 +38,6 @@ def draw_result(context, layout, result):
     if seconds := result.get(output_object.SECONDS):
         figures["Time"] = f"{seconds:.2f} s"
     _draw_figures(layout, figures, 0.3)
-
-
-def share_text(share):
-    """A share as '0.004 %', '7.1 %' or '100 %'."""
-    return percent(share) if share >= 0.095 else f"{100 * share:.2g} %"
 
 
 def draw_sequence(context, layout, frame):

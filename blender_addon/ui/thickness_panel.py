@@ -8,9 +8,10 @@ from ..bridge.output_object import WARNINGS
 from ..bridge.source_state import has_changed
 from ..bridge.thin_selection import patch_at, patches_of
 from ..core.axis.verdict import Light
+from ..core.samples.density import share_text
 from ..core.settings import THICKNESS_OPTIONS, Noise
 from . import current_job
-from .figures import length_text, share_text
+from .figures import length_text
 from .legend import draw_thickness_legend, light
 from .properties import copy_settings
 from .show import shows_colours

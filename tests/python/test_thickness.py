@@ -445,7 +445,7 @@ def test_ply_is_the_measured_surface(tmp_path):
 
 def test_other_formats_are_refused(tmp_path):
     found = measure(BOX)
-    with pytest.raises(ExportError, match=r"\.csv, \.json or \.ply"):
+    with pytest.raises(ExportError, match=r"\.csv, \.html, \.json or \.ply"):
         export_thickness(found, find_thin_parts(found, 0.1), tmp_path / "box.obj")
 
 

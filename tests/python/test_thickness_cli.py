@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`medial_axis thickness` on the command line: files, exit codes, batches."""
 
+import base64
 import json
+import re
+import struct
+import zlib
 
 import numpy as np
 import pytest
@@ -60,4 +64,36 @@ def test_many_inputs_and_one_that_cannot_be_used(box, tmp_path, capsys):
 def test_wrong_usage(box, tmp_path, words, capsys):
     assert run(box, tmp_path / "box.json", *words) == cli.USAGE
     assert run(box, tmp_path / "box.ma") == cli.USAGE
-    assert ".csv, .json or .ply" in capsys.readouterr().err
+    assert ".csv, .html, .json or .ply" in capsys.readouterr().err
+
+
+def test_a_page_shows_the_thin_places_in_colours(box, tmp_path):
+    """The pictures are read again without a library, and the box fills them in the colour of thin faces."""
+    out = tmp_path / "box.html"
+    assert run(box, out, "--limit", 0.41, "--unit", "mm") == cli.THIN
+    page = out.read_text(encoding="utf-8")
+    assert "Thickness of box" in page and "0.41 mm" in page and "100 % of the surface" in page
+    assert "http" not in page, "nothing is fetched"
+    pictures = [pixels_of(data) for data in re.findall(r'base64,([^"]+)"', page)]
+    assert len(pictures) >= 3
+    for pixels in pictures[:2]:
+        red, green, blue = pixels[:, :, :3].reshape(-1, 3).T.astype(int)
+        drawn = (red != 255) | (green != 255) | (blue != 255)
+        assert 0.2 < drawn.mean() < 0.95
+        assert (red[drawn] > blue[drawn] + 30).mean() > 0.95, "all of it is below the limit"
+
+
+def pixels_of(data):
+    """(h, w, 3) of a PNG file that is not filtered; every part has its checksum."""
+    file, chunks, at = base64.b64decode(data), {}, 8
+    assert file[:8] == b"\x89PNG\r\n\x1a\n"
+    while at < len(file):
+        size, name = struct.unpack(">I4s", file[at : at + 8])
+        chunks[name] = file[at + 8 : at + 8 + size]
+        crc = struct.unpack(">I", file[at + 8 + size : at + 12 + size])[0]
+        assert crc == zlib.crc32(name + chunks[name])
+        at += 12 + size
+    width, height = struct.unpack(">II", chunks[b"IHDR"][:8])
+    rows = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, -1)
+    assert (rows[:, 0] == 0).all()
+    return rows[:, 1:].reshape(height, width, 3)

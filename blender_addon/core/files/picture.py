@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import struct
+import sys
 import zlib
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -101,15 +103,17 @@ def _view(
     if focus is not None:
         return focus[0], float(size.min()) / (2 * focus[1])
     low, high = flat.min(axis=0), flat.max(axis=0)
-    room = np.maximum(high - low, np.finfo(float).tiny)[:2]
+    room = np.maximum(high - low, sys.float_info.min)[:2]
     return (low + high) / 2, float(0.94 * (size / room).min())
 
 
-def _chunks(flat, triangles, colours):
+def _chunks(
+    flat: NDArray[np.float64], triangles: NDArray[np.int32], colours: NDArray[np.float64]
+) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
     """Yield (m, 3, 3) corners, (m, 3, 3) shaded colours and (k, 3) weights of the points that are drawn of each."""
     corners = flat[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)
+    length = np.maximum(np.linalg.norm(normal, axis=1), sys.float_info.min)
     shade = _AMBIENT + (1.0 - _AMBIENT) * np.abs(normal[:, 2]) / length
     edges = np.linalg.norm(corners[:, :, :2] - np.roll(corners[:, :, :2], 1, axis=1), axis=2)
     level = np.ceil(np.log2(np.maximum(edges.max(axis=1) / _STEP, 1.0))).astype(int)
@@ -128,7 +132,14 @@ def _weights(count: int) -> NDArray[np.float64]:
     return np.column_stack((i, j, count - i - j)) / count
 
 
-def _draw(corners, colours, weights, size, image, depth) -> None:
+def _draw(
+    corners: NDArray[np.float64],
+    colours: NDArray[np.float64],
+    weights: NDArray[np.float64],
+    size: NDArray[np.int64],
+    image: NDArray[np.float64],
+    depth: NDArray[np.float64],
+) -> None:
     """Draw points into an image; of those in one pixel the nearest stays."""
     places = np.einsum("kc,mcx->mkx", weights, corners).reshape(-1, 3)
     column, row = np.floor(places[:, 0]).astype(int), np.floor(places[:, 1]).astype(int)

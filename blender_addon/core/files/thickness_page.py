@@ -6,11 +6,13 @@ from __future__ import annotations
 import base64
 import html
 import math
+import sys
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..axis.colours import colours
+from ..samples.density import share_text
 from ..samples.surface_normals import cross
 from ..solid.thickness_colours import STEPS, ThicknessScale, histogram, scale_of
 from .picture import encoded, picture_of, png
@@ -91,10 +93,10 @@ def _rows(found: Measurement, parts: ThinParts, unit: str) -> str:
     if parts.limit > 0.0:
         cells["Limit"] = _length(parts.limit, unit)
         cells["Thinner than the limit"] = (
-            f"{100 * parts.share:.2g} % of the surface, {len(parts.patches)} patches"
+            f"{share_text(parts.share)} of the surface, {len(parts.patches):,} patches"
         )
     if found.unmeasured > 0.0:
-        cells["Unknown"] = f"{100 * found.unmeasured:.2g} % of the surface"
+        cells["Unknown"] = f"{share_text(found.unmeasured)} of the surface"
     cells["Sampling"] = f"{found.samples:,} samples; {found.chosen.reason}"
     return "".join(
         f"<tr><th>{name}</th><td>{html.escape(text)}</td></tr>" for name, text in cells.items()
@@ -110,7 +112,7 @@ def _bars(found: Measurement, scale: ThicknessScale, unit: str) -> str:
     made = []
     for step, (share, fill) in enumerate(zip(shares, fills, strict=True)):
         tall = high * float(share) / most
-        text = f"{_length(bounds[step], unit)} to {_length(bounds[step + 1], unit)}: {100 * share:.3g} %"
+        text = f"{_length(bounds[step], unit)} to {_length(bounds[step + 1], unit)}: {share_text(share)}"
         made.append(
             f'<rect x="{wide * step}" y="{high - tall:.1f}" width="{wide - 3}" height="{tall:.1f}" '
             f'fill="{fill}"><title>{html.escape(text)}</title></rect>'
@@ -163,7 +165,7 @@ def _close_up(
     row = rows[found.of_triangles[rows].argmin()]
     a, b, c = points[found.triangles[row]]
     normal = cross((b - a)[None], (c - a)[None])[0]
-    normal /= max(float(np.linalg.norm(normal)), np.finfo(float).tiny)
+    normal /= max(float(np.linalg.norm(normal)), sys.float_info.min)
     size = _AROUND * max(math.sqrt(patch.area) / 2, patch.minimum)
     eye = normal + np.array([0.25, -0.25, 0.35])
     picture = picture_of(points, found.triangles, rgb, eye, *_SMALL, focus=((a + b + c) / 3, size))

@@ -189,6 +189,11 @@ def percent(share: float) -> str:
     return f"{100 * share:.{places}f} %"
 
 
+def share_text(share: float) -> str:
+    """Format a share with two digits, as '0.004 %', '7.1 %' or '100 %'."""
+    return percent(share) if share >= 0.095 else f"{100 * share:.2g} %"
+
+
 def _figure(value: float) -> str:
     return f"{value:.2f}" if np.isfinite(value) else "unknown"
 

@@ -7,6 +7,7 @@ Places without a length are grey.
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -73,7 +74,7 @@ def histogram(found: Measurement, scale: ThicknessScale) -> NDArray[np.float64]:
     known = np.isfinite(found.of_triangles)
     step = np.searchsorted(scale.bounds[1:-1], found.of_triangles[known], side="right")
     areas = np.bincount(step, found.areas[known], STEPS)
-    return areas / max(float(found.areas.sum()), np.finfo(float).tiny)
+    return areas / max(float(found.areas.sum()), sys.float_info.min)
 
 
 def _length_of_share(found: Measurement, share: float) -> float:
