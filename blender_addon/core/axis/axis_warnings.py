@@ -9,7 +9,7 @@ from ..samples.chosen import ChosenSamples
 from ..samples.density import percent
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.shape import Shape
-from ..samples.sides import AS_CHOSEN, cocone_warnings, look_inward
+from ..samples.sides import cocone_warnings, look_inward
 from ..settings import SamplingMode, Settings, Side, SidesFrom
 from ..severe import Severe
 from .medial_axis import MedialAxis
@@ -32,7 +32,7 @@ def axis_warnings(
             "faces; do not trust the axis near the openings"
         )
     if sides is SidesFrom.TIGHT_COCONE:
-        if chosen.gaps and chosen.sides.reason != AS_CHOSEN:
+        if chosen.gaps and not chosen.sides.is_chosen:
             yield Severe(
                 f"the {len(shape.triangles):,} faces bound nothing, so their points were read as a cloud: "
                 "give sheets thickness (a Solidify modifier), or close the mesh"

@@ -31,10 +31,13 @@ class Sides:
     source : SidesFrom
         AUTOMATIC is left only where points alone must decide: their analysis chooses (`sides.decided`).
     reason : str
+    is_chosen : bool
+        The user wanted this source.
     """
 
     source: SidesFrom
     reason: str
+    is_chosen: bool = False
 
     def __str__(self) -> str:
         return f"Inside from {OPTIONS['sides'].items[self.source][0]}: {self.reason}"

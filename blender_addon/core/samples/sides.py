@@ -26,7 +26,6 @@ _UNEVEN = 0.1
 _WIDE = 10.0
 # Normals of faces mean nothing where a larger share of the edges lies between faces of opposite orientation.
 _TURNED = 0.01
-AS_CHOSEN = "as chosen"  # the reason of a source that the user wanted
 _CHUNK = 1 << 16  # the number of triangles measured at once; bounds the memory
 # Where a smaller share of the faces bounds the solid, the faces are a sheet: half of a wavy sheet bounds it.
 _BOUNDING = 0.75
@@ -63,7 +62,7 @@ def resolve_sides(
             "Expected an attribute 'normal' of the points, vectors that are not all zero, for "
             "Inside From Normals, found none; choose Inside From Automatic or Tight Cocone"
         )
-    return Sides(wanted, AS_CHOSEN)
+    return Sides(wanted, "as chosen", is_chosen=True)
 
 
 def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing: float) -> Sides:
@@ -82,7 +81,7 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
         The distance of neighbouring samples.
     """
     if wanted is not SidesFrom.AUTOMATIC:
-        return Sides(wanted, AS_CHOSEN)
+        return Sides(wanted, "as chosen", is_chosen=True)
     if gaps == 0:
         return Sides(SidesFrom.SURFACE, "the faces are closed")
     if bounding_share(shape, spacing) >= _BOUNDING:
