@@ -28,7 +28,7 @@ _LONGEST = 70  # of a warning in the table
 
 def row(mesh: Mesh, run: Run) -> Row:
     """The result of one mesh."""
-    report, faces = run.report, run.report.get("faces") or {}
+    report, faces = run.report, run.report.get("mesh") or {}
     parts = [f"{faces.get('parts', '')}"]
     parts += [f"{faces[kind]} {kind}" for kind in ("open", "flat", "turned") if faces.get(kind)]
     return {

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -84,4 +84,5 @@ class AxisWork:
             "missed": found.missed,
             "inside": str(found.sides),
             "turned_faces": found.turned,
+            "mesh": None if found.mesh is None else asdict(found.mesh),
         }
