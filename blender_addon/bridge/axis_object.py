@@ -60,6 +60,7 @@ BETTI = "ma_betti"  # pieces, loops and cavities; only of clean forms and curves
 TOPOLOGY = "ma_topology"  # the same in a sentence
 PLACES = "ma_places"  # a sentence: where balls end; only of clean forms and curves
 REFUSED = "ma_refused"  # vertices at which no ball fits the faces
+MESH = "ma_mesh"  # a sentence: the connected parts of the source, and how they were read
 TURNED = "ma_turned"  # triangles of the source that looked inward and were read the other way round
 # The whole axis, its own master.
 ALL = Look(within=0.0)
@@ -187,6 +188,7 @@ def _remember(result: bpy.types.Object, source: bpy.types.Object, computation: C
     remember(result, source, computation.points, computation.duplicates, computation.warnings)
     result[ANALYSIS] = computation.key
     result[INSIDE] = str(computation.sides)
+    result[MESH] = str(computation.mesh or "")
     result[TOPOLOGY] = computation.topology
     result[SAMPLED] = computation.chosen.reason
     result[DENSITY] = str(computation.density)

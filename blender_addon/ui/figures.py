@@ -80,7 +80,7 @@ def draw_details(context, layout, result):
         },
     )
     sentences = (output_object.SAMPLED, output_object.DENSITY, axis_object.INSIDE)
-    for name in (*sentences, axis_object.PLACES):
+    for name in (*sentences, axis_object.MESH, axis_object.PLACES):
         if sentence := result.get(name):
             draw_wrapped(context, layout, sentence, "INFO")
     for warning in result.get(output_object.WARNINGS, "").splitlines():

@@ -1220,6 +1220,31 @@ def solid_betti(
     triangles : (m, 3) int32
     """
 
+def mesh_parts(
+    points: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.bool_], NDArray[np.bool_]]:
+    """The connected parts of faces: faces that share an edge are of one part. Rows with the same coordinates are one.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+
+    Returns
+    -------
+    part : (m,) int32
+        The part of each triangle, in the order of their first triangles; -1 for a triangle that repeats a corner.
+    open : (k,) bool
+        Whether a part has an edge through which its triangles do not run equally often in both directions.
+    flat : (k,) bool
+        Whether a part lies in a plane, up to the rounding of its corners to float32.
+
+    Raises
+    ------
+    InvalidInputError
+        A corner is no row of the points, or a coordinate is not finite.
+    """
+
 def outward_faces(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],

@@ -9,6 +9,7 @@
 #include "delaunay/samples.h"
 #include "docstrings.h"
 #include "inside/buried.h"
+#include "inside/mesh_parts.h"
 #include "inside/outward_faces.h"
 #include "inside/solid_betti.h"
 #include "inside/surface.h"
@@ -57,6 +58,18 @@ py::tuple faces_of_solid(const py::object& points, const py::object& triangles, 
   for (const FaceReading one : found.reading) reading.push_back(static_cast<uint8_t>(one));
   return py::make_tuple(array_of<int32_t>(std::move(found.triangles)),
                         array_of<uint8_t>(std::move(reading)), found.patches, found.unseen);
+}
+
+py::tuple parts_of_mesh(const py::object& points, const py::object& triangles) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  MeshParts found = [&, row_span = rows.span(), face_span = faces.span()] {
+    const py::gil_scoped_release release;
+    return mesh_parts(row_span, face_span, all_cores());
+  }();
+  return py::make_tuple(array_of<int32_t>(std::move(found.part)),
+                        array_of<bool>(std::move(found.open)),
+                        array_of<bool>(std::move(found.flat)));
 }
 
 py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& face_vertices,
@@ -173,6 +186,7 @@ void bind_surfaces(py::module_& m) {
   m.def("solid_betti", &betti_of_solid, docs::solid_betti, py::arg("points"), py::arg("triangles"));
   m.def("outward_faces", &faces_of_solid, docs::outward_faces, py::arg("points"),
         py::arg("triangles"), py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("mesh_parts", &parts_of_mesh, docs::mesh_parts, py::arg("points"), py::arg("triangles"));
   m.def("polygon_edges", &edges_of_polygons, docs::polygon_edges, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));
   m.def("polygon_triangles", &triangles_of_polygons, docs::polygon_triangles, py::arg("points"),

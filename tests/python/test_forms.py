@@ -344,6 +344,7 @@ def test_words_of_the_command_line(tmp_path, capsys, monkeypatch):
         reports[form] = json.loads(capsys.readouterr().out)
     assert [reports[form]["form"] for form in reports] == list(reports)
     assert reports["clean"]["betti"] == reports["curve"]["betti"] == [1, 1, 0]
+    assert reports["clean"]["betti_by_faces"] == [1, 1, 0]
     assert reports["clean"]["places"] == "All balls end at the samples"  # a curve is fitted
     assert reports["clean"]["refused"] == 0 and reports["published"]["refused"] is None
     assert reports["clean"]["settings"]["crisp"] is True

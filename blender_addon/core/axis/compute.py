@@ -12,6 +12,7 @@ from ..machine.cache import CACHE
 from ..machine.memory_limit import CURVE, WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
+from ..samples.mesh_parts import MeshCounts, mesh_counts
 from ..samples.outward_faces import reading_counts
 from ..samples.shape import Shape
 from ..samples.solid_faces import triangles_of_places
@@ -52,6 +53,8 @@ class Computation(OfChosenSamples):
     seconds : float
     turned : int
         The number of faces that looked inward and were read the other way round.
+    mesh : MeshCounts or None
+        The numbers of faces and connected parts; None where there are no faces.
     """
 
     axis: MedialAxis
@@ -61,6 +64,7 @@ class Computation(OfChosenSamples):
     topology: str
     seconds: float
     turned: int = 0
+    mesh: MeshCounts | None = None
 
     @property
     def sides(self) -> Sides:
@@ -138,6 +142,7 @@ def compute_axis(
         topology=topology_sentence(axis, wanted, chosen.samples),
         seconds=begun.seconds,
         turned=reading_counts(shape)["turned"],
+        mesh=mesh_counts(shape),
     )
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -62,13 +62,14 @@ class AxisWork:
         return {**words, "vertices": self.vertices} if self.vertices else words
 
     def figures(self, found: Computation) -> dict[str, Any]:
-        axis = found.axis
+        axis, by_faces = found.axis, found.chosen.samples.by_faces
         return {
             "points": found.points,
             "duplicates": found.duplicates,
             "form": as_words(found.settings)["form"],
             "topology": found.topology,
             "betti": None if axis.level is None else list(axis.level.betti),
+            "betti_by_faces": None if by_faces is None else list(by_faces),
             "places": None if axis.level is None else axis.level.places,
             "refused": None if axis.level is None else axis.level.refused,
             "structure": None if axis.structure is None else summary_of(axis.structure),
@@ -83,4 +84,5 @@ class AxisWork:
             "missed": found.missed,
             "inside": str(found.sides),
             "turned_faces": found.turned,
+            "mesh": None if found.mesh is None else asdict(found.mesh),
         }

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "inside/mesh_parts.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/csr.h"
+#include "base/rows.h"
+#include "base/union_find.h"
+#include "inside/surface.h"
+
+namespace medial {
+namespace {
+
+// A part that is no thicker than this number of roundings to float32, in which meshes are stored,
+// lies in a plane.
+constexpr double kRoundings = 4;
+
+// Two faces that share an edge; or one at whose edge its part is open, and -1.
+struct EdgeFaces {
+  int32_t first, second;
+};
+
+struct EdgeUse {
+  int32_t other, face;
+  int direction;
+
+  bool operator<(const EdgeUse& use) const {
+    return other != use.other ? other < use.other : face < use.face;
+  }
+};
+
+bool has_corners(const Triangle& t) { return t[0] != t[1] && t[1] != t[2] && t[2] != t[0]; }
+
+// Lists the uses of the edges from a vertex to higher ones, edge by edge.
+void list_uses(std::span<const Triangle> faces, std::span<const int32_t> fan, int32_t vertex,
+               std::vector<EdgeUse>& uses) {
+  uses.clear();
+  for (const int32_t face : fan) {
+    const auto [next, previous] = link_of(faces[face], vertex);
+    if (next > vertex) uses.push_back({next, face, 1});
+    if (previous > vertex) uses.push_back({previous, face, -1});
+  }
+  std::sort(uses.begin(), uses.end());
+}
+
+std::vector<EdgeFaces> edge_faces(std::span<const Triangle> faces, int32_t vertices,
+                                  const Run& run) {
+  const auto fans = rows_containing(faces, vertices, run);
+  std::vector<std::vector<EdgeUse>> uses_of(run.threads);
+  return parallel_append<EdgeFaces>(
+      vertices, run, [&](int64_t v, std::vector<EdgeFaces>& out, int worker) {
+        auto& uses = uses_of[worker];
+        list_uses(faces, fans[v], static_cast<int32_t>(v), uses);
+        for (size_t i = 0, end = 0; i < uses.size(); i = end) {
+          int surplus = 0;
+          for (; end < uses.size() && uses[end].other == uses[i].other; ++end) {
+            surplus += uses[end].direction;
+            if (end > i) out.push_back({uses[i].face, uses[end].face});
+          }
+          if (surplus != 0) out.push_back({uses[i].face, -1});
+        }
+      });
+}
+
+// Calls use(part, vertex) for the corners of the faces that are in a part.
+template <typename Use>
+void for_corners(const MeshParts& parts, std::span<const Triangle> faces, const Use& use) {
+  for (size_t face = 0; face < faces.size(); ++face) {
+    if (parts.part[face] < 0) continue;
+    for (const int32_t v : faces[face]) use(static_cast<size_t>(parts.part[face]), v);
+  }
+}
+
+struct Farthest {
+  int32_t corner = -1;  // the first one that is farthest; -1 where all distances are zero
+  double distance = 0;
+};
+
+// Finds the corner of each part that is farthest by a measure of parts and vertices.
+template <typename Measure>
+std::vector<Farthest> farthest_corners(const MeshParts& parts, std::span<const Triangle> faces,
+                                       const Measure& measure) {
+  std::vector<Farthest> found(static_cast<size_t>(parts.count));
+  for_corners(parts, faces, [&](size_t p, int32_t v) {
+    const double distance = measure(p, v);
+    if (distance > found[p].distance) found[p] = {v, distance};
+  });
+  return found;
+}
+
+// Marks the parts whose corners lie in the plane of three of them that are far from each other.
+void mark_flat(MeshParts& parts, std::span<const Triangle> faces, std::span<const Vec3> points) {
+  std::vector<int32_t> first(static_cast<size_t>(parts.count), -1);
+  for_corners(parts, faces, [&](size_t p, int32_t v) {
+    if (first[p] < 0) first[p] = v;
+  });
+  const auto way = [&](size_t p, int32_t v) { return points[v] - points[first[p]]; };
+  const auto size =
+      farthest_corners(parts, faces, [&](size_t, int32_t v) { return max_abs(points[v]); });
+  const auto second =
+      farthest_corners(parts, faces, [&](size_t p, int32_t v) { return length(way(p, v)); });
+  const auto normal = [&](size_t p, int32_t v) {
+    return second[p].corner < 0 ? Vec3{} : cross(way(p, second[p].corner), way(p, v));
+  };
+  const auto third =
+      farthest_corners(parts, faces, [&](size_t p, int32_t v) { return length(normal(p, v)); });
+  const auto height = farthest_corners(parts, faces, [&](size_t p, int32_t v) {
+    if (third[p].corner < 0) return 0.0;
+    return std::abs(dot(way(p, v), normal(p, third[p].corner))) / third[p].distance;
+  });
+  constexpr double kThinnest = kRoundings * std::numeric_limits<float>::epsilon();
+  for (size_t p = 0; p < height.size(); ++p) {
+    parts.flat[p] = height[p].distance <= kThinnest * size[p].distance ? 1 : 0;
+  }
+}
+
+void number_parts(MeshParts& parts, std::span<const Triangle> faces, UnionFind sets) {
+  std::vector<int32_t> number(faces.size(), -1);
+  parts.part.assign(faces.size(), -1);
+  for (size_t face = 0; face < faces.size(); ++face) {
+    if (!has_corners(faces[face])) continue;
+    const int32_t root = sets.find(static_cast<int32_t>(face));
+    if (number[root] < 0) number[root] = parts.count++;
+    parts.part[face] = number[root];
+  }
+}
+
+}  // namespace
+
+MeshParts mesh_parts(std::span<const Vec3> rows, std::span<const Triangle> triangles,
+                     const Run& run) {
+  require_corners(triangles, rows.size());
+  const DistinctRows distinct = distinct_rows(rows, "point", run);
+  std::vector<Triangle> faces, counted;
+  faces.reserve(triangles.size());
+  for (const auto& [i, j, k] : triangles) {
+    faces.push_back({distinct.point_of_row[i], distinct.point_of_row[j], distinct.point_of_row[k]});
+  }
+  counted = faces;
+  for (Triangle& t : counted) {
+    if (!has_corners(t)) t.fill(-1);
+  }
+  const auto edges = edge_faces(counted, distinct.count(), run);
+  UnionFind sets(faces.size(), run);
+  for (const auto& [first, second] : edges) {
+    if (second >= 0) sets.unite(first, second);
+  }
+  MeshParts parts;
+  number_parts(parts, faces, std::move(sets));
+  parts.open.assign(static_cast<size_t>(parts.count), 0);
+  parts.flat.assign(static_cast<size_t>(parts.count), 0);
+  for (const auto& [first, second] : edges) {
+    if (second < 0) parts.open[parts.part[first]] = 1;
+  }
+  mark_flat(parts, faces, distinct.points);
+  return parts;
+}
+
+}  // namespace medial

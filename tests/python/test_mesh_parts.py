@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Connected parts of faces: against an oracle, told in results, and each computed by itself."""
+
+import json
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.samples.mesh_parts import split
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import SamplingMode, Settings
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from support import meshes, messy
+from test_outward_faces import cube, grid, inward
+
+SHEET = (grid(4)[0] + 5.0, grid(4)[1])
+THREE = meshes.join(cube(), SHEET, cube((3, 0, 0)))
+FEW = {"sampling": SamplingMode.SURFACE, "samples": 1500}
+
+
+def expected(points, triangles):
+    """The part of each face, by faces that share an edge of places."""
+    _, place = np.unique(points, axis=0, return_inverse=True)
+    ends = np.sort(place.reshape(-1)[triangles][:, [[0, 1], [1, 2], [2, 0]]], axis=2).reshape(-1, 2)
+    _, edge = np.unique(ends, axis=0, return_inverse=True)
+    face = np.repeat(np.arange(len(triangles)), 3)
+    graph = coo_array((np.ones(len(face)), (face, len(triangles) + edge.reshape(-1))))
+    graph.resize((len(triangles) + edge.max() + 1,) * 2)
+    part = connected_components(graph, directed=False)[1][: len(triangles)]
+    _, first = np.unique(part, return_index=True)
+    return np.searchsorted(np.sort(first), first[part])
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_parts_are_those_of_the_oracle(medial, seed):
+    random = np.random.default_rng(seed)
+    points = random.integers(0, 6, (60, 3)).astype(float)  # many places twice
+    triangles = random.integers(0, 60, (int(random.integers(1, 50)), 3)).astype(np.int32)
+    corners = points[triangles]
+    whole = ((corners != np.roll(corners, 1, axis=1)).any(axis=2)).all(axis=1)
+    part, _, _ = medial.mesh_parts(points, triangles)
+    assert (part[~whole] == -1).all()
+    if whole.any():
+        assert np.array_equal(part[whole], expected(points, triangles[whole]))
+
+
+def test_parts_of_an_engine(medial, data_file):
+    mesh = messy.load("engine_parts.ply", data_file)
+    part, is_open, is_flat = medial.mesh_parts(*mesh)
+    assert np.array_equal(part, expected(*mesh))
+    assert len(is_open) == 7 and not is_open.any() and not is_flat.any()
+
+
+@pytest.mark.parametrize(("scale", "move"), [(1.0, 0.0), (1e-9, 0.0), (1e9, 0.0), (1.0, 50.0)])
+def test_open_and_flat_parts(medial, scale, move):
+    turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+    points, triangles = meshes.join(THREE, (cube((0, 3, 0))[0], cube()[1][2:]))
+    points = (scale * points @ turn + move).astype(np.float32).astype(float)
+    part, is_open, is_flat = medial.mesh_parts(points, triangles)
+    assert part.tolist() == [0] * 12 + [1] * 18 + [2] * 12 + [3] * 10
+    assert is_open.tolist() == [False, True, False, True]
+    assert is_flat.tolist() == [False, True, False, False]
+
+
+def test_touching_parts(medial):
+    """At a vertex they are two, at an edge one; a face without corners is of no part."""
+    assert len(medial.mesh_parts(*meshes.join(cube(), cube((1, 1, 1))))[1]) == 2
+    assert len(medial.mesh_parts(*meshes.join(cube(), cube((1, 1, 0))))[1]) == 1
+    points, triangles = cube()
+    part, is_open, _ = medial.mesh_parts(points, np.concatenate((triangles, [[0, 0, 1]])))
+    assert part[-1] == -1 and not is_open.any()
+
+
+# --- in the product
+
+
+def test_results_tell_the_parts(tmp_path, capsys):
+    points, triangles = meshes.join(THREE, inward(cube((0, 3, 0))))
+    found = compute_axis(Shape(points, triangles), Settings(**FEW))
+    assert str(found.mesh) == (
+        "4 connected parts; 1 of them open; 1 of them without thickness; "
+        "1 of them with faces that were turned"
+    )
+    assert str(compute_axis(Shape(*cube()), Settings(**FEW)).mesh) == ""
+    assert compute_axis(Shape(found.chosen.samples.points, triangles[:0]), Settings()).mesh is None
+    np.savez(tmp_path / "a.npz", points=points, triangles=triangles)
+    words = [str(tmp_path / "a.npz"), str(tmp_path / "b.ma"), "--json", "--samples", "1500"]
+    assert cli.main(words) == cli.DONE
+    told = json.loads(capsys.readouterr().out)["mesh"]
+    assert told == {"faces": 54, "parts": 4, "open": 1, "flat": 1, "turned": 1}
+
+
+def test_a_split_shape_keeps_what_is_known():
+    points, triangles = THREE
+    shape = Shape(points, triangles, points + 1.0, sharp_edges=np.array([[0, 1], [0, 9], [24, 25]]))
+    parts = split(shape)
+    assert [part.number for part in parts.parts] == [1, 3] and parts.count == 3
+    (warning,) = parts.warnings
+    assert warning.startswith("1 of 3 connected parts were left out because they have no thickness")
+    last = parts.parts[1].shape
+    assert np.array_equal(last.points[last.triangles], points[triangles[-12:]])
+    assert np.array_equal(last.normals, last.points + 1.0)
+    assert last.sharp_edges.tolist() == [[0, 1]]
