@@ -22,6 +22,10 @@ using namespace medial::test;
 
 // All other forms call these, but for those of types that are aligned more strictly; there are
 // none.
+// GCC takes the header for a place outside the block where it inlines these functions.
+#pragma GCC diagnostic ignored "-Warray-bounds"
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+
 void* operator new(size_t size) {
   void* block = std::malloc(kHeader + size);
   if (block == nullptr) throw std::bad_alloc();

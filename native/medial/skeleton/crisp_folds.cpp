@@ -5,7 +5,7 @@
 namespace medial {
 namespace {
 
-constexpr int kPatience = 3;        // rounds in a row that unfold nothing before a stage ends
+constexpr double kIdle = 0.1;       // steps that unfold nothing before a stage ends, per vertex
 constexpr double kDeepDent = 0.25;  // the sine of the turn
 
 constexpr double kAside = 0.1;  // holes from a place to one where a ball nearly touches walls
@@ -58,14 +58,16 @@ class Unfolder {
                          [&](int32_t facet) { return is_folded(c_, facet, false); });
   }
 
-  // Takes rounds of steps; `suspects` are the facets that may be folded, before and after.
+  // Takes rounds of steps while they unfold facets, or are few; `suspects` are the facets that may
+  // be folded, before and after.
   void take_rounds(const Stage& stage, std::vector<int32_t>& suspects) {
-    size_t fewest = SIZE_MAX;
-    for (int round = 0, idle = 0; round < stage.rounds && idle < kPatience; ++round) {
+    size_t fewest = SIZE_MAX, idle = 0;
+    const auto most = static_cast<size_t>(kIdle * static_cast<double>(c_.walls.size()));
+    for (int round = 0; round < stage.rounds && idle <= most; ++round) {
       throw_if_cancelled(c_.progress);
       std::vector<int32_t> vertices = folded_vertices(suspects, stage.dented);
       if (vertices.empty()) return;
-      idle = vertices.size() < fewest ? 0 : idle + 1;
+      idle = vertices.size() < fewest ? 0 : idle + vertices.size();
       fewest = std::min(fewest, vertices.size());
       for (int ring = 0; ring < stage.rings; ++ring) vertices = with_neighbours(vertices);
       suspects = facets_round(vertices);

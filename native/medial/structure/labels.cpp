@@ -62,7 +62,7 @@ std::vector<Edge> labels_of(const Facets& facets, const Run& run) {
   for (size_t before = unknown.size() + 1; !unknown.empty() && unknown.size() < before;) {
     before = unknown.size();
     std::vector<std::pair<int32_t, Edge>> found;
-    for (const int32_t f : unknown) found.push_back({f, label_around(facets, labels, f)});
+    for (const int32_t f : unknown) found.emplace_back(f, label_around(facets, labels, f));
     for (const auto& [f, label] : found) labels[f] = label;
     std::erase_if(unknown, [&](int32_t f) { return labels[f] != kUnknown; });
   }

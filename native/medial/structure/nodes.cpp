@@ -34,11 +34,10 @@ class Clusters {
   bool is_place(int32_t v) const {
     const auto at = curves_.at_vertex[v];
     if (at.size() == 1) return true;
-    for (const int32_t e : at) {
-      if (curves_.of_edge[e] != curves_.of_edge[at[0]]) return true;
-      if (!curves_.curves[curves_.of_edge[e]].is_long()) return true;
-    }
-    return false;
+    return std::any_of(at.begin(), at.end(), [&](int32_t e) {
+      const int32_t curve = curves_.of_edge[e];
+      return curve != curves_.of_edge[at[0]] || !curves_.curves[curve].is_long();
+    });
   }
 
   void find_places() {
