@@ -15,6 +15,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -32,6 +33,7 @@ from .core.batch.option_words import (
     settings_from,
 )
 from .core.batch.outputs import Files
+from .core.batch.parts import items_of_parts
 from .core.errors import (
     Cancelled,
     DegenerateInputError,
@@ -47,7 +49,14 @@ from .core.files.write import FORMATS
 from .core.machine import native
 from .core.machine.job import Job, Outcome, Task
 from .core.machine.memory_limit import MemoryLimit
-from .core.settings import BallSettings, Settings, Side, SkeletonSettings, ThicknessSettings
+from .core.settings import (
+    BallSettings,
+    Division,
+    Settings,
+    Side,
+    SkeletonSettings,
+    ThicknessSettings,
+)
 from .core.solid.measurement import UNKNOWN
 
 DONE, FAILED, USAGE, INPUT, CANCELLED, THIN, UNMEASURED = range(7)
@@ -303,6 +312,7 @@ def _add_files(
 ) -> argparse._ArgumentGroup:
     """Adds the arguments that all kinds of work share; returns the group of the files, for more of them."""
     add_options(parser.add_argument_group("memory"), MemoryLimit)
+    add_options(parser.add_argument_group("parts"), Division)
     files = parser.add_argument_group("files")
     files.add_argument("--frames", metavar="A-B", help="such as 1-250, 1-250:10 or 1,5,9-12")
     files.add_argument(
@@ -342,6 +352,7 @@ def _complete(wanted: argparse.Namespace) -> None:
     """Settings, inputs, the pattern of outputs and frames, or an error when they do not fit together."""
     *wanted.inputs, output = wanted.paths
     wanted.work, wanted.limit = wanted.work_from(wanted), settings_from(wanted, MemoryLimit)
+    wanted.division = settings_from(wanted, Division)
     wanted.frames = None if wanted.frames is None else parse_frames(wanted.frames)
     if "" in wanted.paths:
         raise ValueError(
@@ -475,7 +486,7 @@ def _raise(error: Exception) -> Any:
 def _run(items: Iterable[Item], wanted: argparse.Namespace, console: Console) -> int:
     """All items; one that fails, however it does, does not stop the others."""
     code, thin, unknown, files = DONE, False, False, Files(wanted.inputs)
-    for item in items:
+    for item in _divided(items, wanted):
         try:
             files.claim(item.output)
             report = _done(item, wanted, console)
@@ -492,6 +503,20 @@ def _run(items: Iterable[Item], wanted: argparse.Namespace, console: Console) ->
     if code != DONE:
         return code
     return THIN if thin else UNMEASURED if unknown else DONE
+
+
+def _divided(items: Iterable[Item], wanted: argparse.Namespace) -> Iterator[Item]:
+    """The items, or with --each-part those of the connected parts of each."""
+    settings = sampling_from(wanted)
+    for item in items:
+        if not wanted.division.each_part:
+            yield item
+            continue
+        try:
+            found = items_of_parts(item, settings)
+        except Exception as error:  # whatever reading raises
+            found = [replace(item, read=partial(_raise, error))]
+        yield from found
 
 
 def _done(item: Item, wanted: argparse.Namespace, console: Console) -> dict[str, Any]:

@@ -18,7 +18,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .core.axis import compute as axis
+from .core.axis import each_part
 from .core.axis.compute import Computation
+from .core.axis.each_part import EachPart
 from .core.axis.medial_axis import MedialAxis
 from .core.errors import (
     Cancelled,
@@ -69,6 +71,7 @@ __all__ = [
     "CoverMode",
     "Criteria",
     "DegenerateInputError",
+    "EachPart",
     "ExportError",
     "Form",
     "InvalidInputError",
@@ -86,6 +89,7 @@ __all__ = [
     "Side",
     "SidesFrom",
     "compute",
+    "compute_each_part",
     "cover_by_balls",
     "extract",
     "read",
@@ -135,6 +139,35 @@ def compute(
     """
     wanted = Settings(**_checked(settings, list(OPTIONS)))
     return axis.compute_axis(_shape(points, triangles, normals), wanted, progress)
+
+
+def compute_each_part(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    normals: ArrayLike | None = None,
+    *,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> EachPart:
+    """The medial axis of each connected part of a mesh, as if the others were not there.
+
+    Parameters
+    ----------
+    points, triangles, normals, progress, **settings
+        As of `compute`.
+
+    Returns
+    -------
+    each : EachPart
+        `computations` of the parts, their `numbers`, and `warnings` about sheets without thickness, which are left
+        out.
+
+    Raises
+    ------
+    NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
+    """
+    wanted = Settings(**_checked(settings, list(OPTIONS)))
+    return each_part.compute_each_part(_shape(points, triangles, normals), wanted, progress)
 
 
 def extract(computation: Computation, **thresholds: Any) -> MedialAxis:

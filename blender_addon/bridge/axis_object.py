@@ -73,7 +73,11 @@ is_result, result_of, check_writable = RESULT.has, RESULT.of, RESULT.check_writa
 
 
 def write_result(
-    source: bpy.types.Object, computation: Computation, frame: np.ndarray, look: Look = ALL
+    source: bpy.types.Object,
+    computation: Computation,
+    frame: np.ndarray,
+    look: Look = ALL,
+    product: Product = RESULT,
 ) -> bpy.types.Object:
     """Make the result of a source, or update the existing one; all or nothing.
 
@@ -85,6 +89,8 @@ def write_result(
     frame : (4, 4) float64
         Where the axis lies in the world; rotation and translation only.
     look : Look
+    product : Product
+        Of the whole source, or of one of its parts.
 
     Raises
     ------
@@ -93,7 +99,7 @@ def write_result(
     """
     box = _box(computation.chosen.samples.points)
     axis, settings = _shown(computation.axis, box, look), computation.settings
-    result, is_new = RESULT.write_mesh(source, partial(_axis_mesh, axis, look))
+    result, is_new = product.write_mesh(source, partial(_axis_mesh, axis, look))
     if is_new:
         result.data.materials.append(radius_material())
         result.color = FLAT

@@ -26,6 +26,8 @@ SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
 DENSITY = "ma_density"  # how densely that lies: a sentence
 SECONDS = "ma_seconds"
 
+OF_PART = "ma_of_part"  # the connected part of the source, as in the name of the object
+
 KEPT_SCALE = "Medial Axis Scale"  # the constraint that keeps the scale of an output at 1
 
 
@@ -67,11 +69,14 @@ class Product:
         Custom properties that objects of this kind, and no others, have.
     type : str
         Blender's type of these objects.
+    part : str
+        Of which connected part of a source objects are made; empty for those that are made of the whole.
     """
 
     suffix: str
     marks: tuple[str, ...]
     type: str = "MESH"
+    part: str = ""
 
     def has(self, thing: bpy.types.Object) -> bool:
         """Whether an object is of this kind."""
@@ -79,7 +84,9 @@ class Product:
 
     def of(self, source: bpy.types.Object) -> bpy.types.Object | None:
         """The object of this kind that the next computation of a source updates."""
-        return output_of(source, self.has)
+        return output_of(
+            source, lambda thing: self.has(thing) and thing.get(OF_PART, "") == self.part
+        )
 
     def check_writable(self, source: bpy.types.Object) -> None:
         """Raise InvalidInputError when the object that was made of a source cannot be updated now."""

@@ -492,6 +492,21 @@ class Look(Options):
 LOOKS = options_of(Look)
 
 
+@dataclass(frozen=True)
+class Division(Options):
+    """How a mesh is divided before anything is computed of it."""
+
+    each_part: bool = switch(
+        "Each Part by Itself",
+        "Each connected part of a mesh is a solid of its own, with a result of its own; parts without "
+        "thickness are left out. Off: parts that overlap are one solid",
+        default=False,
+    )
+
+
+DIVISION = options_of(Division)
+
+
 # --- thickness
 
 

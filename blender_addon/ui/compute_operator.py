@@ -3,6 +3,7 @@
 they run in one go."""
 
 import time
+from functools import partial
 
 import bpy
 
@@ -33,7 +34,8 @@ class ComputeOperator(FromSelection):
     A subclass names its `product` and has three steps: `check_writable(thing)` raises MedialAxisError when the
     product of a source cannot be written now; `work(shape)` gives the function that a task calls with
     its progress; `write(thing, value, frame)` makes an object of the value that this function returned, or returns
-    None when there is nothing to make. A subclass that does not compute from a shape has its own `read`.
+    None when there is nothing to make. A subclass that does not compute from a shape has its own `read`; one that
+    computes parts of a shape by themselves has its own `divided`, and `write_part` for these.
     `summary(value)` and `value.warnings` are for people.
 
     In a script the result is selected afterwards, as with Blender's own operators. In a window the source stays
@@ -98,6 +100,13 @@ class ComputeOperator(FromSelection):
         """The argument of `work`; it has the `frame` that `write` gets."""
         return read_object(thing, depsgraph)
 
+    def divided(self, shape):
+        """The shapes to compute, by the names of the parts, and warnings; the whole shape has no name."""
+        return {"": shape}, ()
+
+    def settle(self, made):
+        """Called when all is written, with the objects that were made or updated."""
+
     def _stop_watching(self, context):
         context.window_manager.event_timer_remove(self._timer)
         current_job.finish(self._job)
@@ -127,24 +136,31 @@ class ComputeOperator(FromSelection):
             try:
                 self.check_writable(thing)
                 shape = self.read(thing, depsgraph)
-                tasks.append(Task(thing.name, self.work(shape)))
+                parts, warnings = self.divided(shape)
             except MedialAxisError as error:
                 self._tell(context, "ERROR", f"'{thing.name}': {error}")
                 continue
             world = thing.evaluated_get(depsgraph).matrix_world.copy()
             uid = getattr(thing, "session_uid", None)
             state = state_of(thing, depsgraph)
-            found.append(Source(thing.name, uid, shape.frame, world, state))
+            for warning in warnings:
+                self._tell(context, "WARNING", f"'{thing.name}': {warning}")
+            for name, part in parts.items():
+                tasks.append(Task(f"{thing.name} {name}".rstrip(), self.work(part)))
+                found.append(Source(thing.name, uid, shape.frame, world, state, name))
         return found, tasks
 
     def _write(self, context, found, outcomes):
-        made = []
+        made, failed = [], {}
         for source, outcome in zip(found, outcomes, strict=True):
             try:
                 made.append(self._write_one(context, source, outcome))
             except MedialAxisError as error:
-                self._tell(context, "ERROR", f"'{source.name}': {error}")
+                failed.setdefault(source.name, []).append((source.part, error))
+        for name, errors in failed.items():
+            self._tell(context, "ERROR", f"'{name}': {_sentence(errors)}")
         made = [thing for thing in made if thing is not None]
+        self.settle(made)
         if self.select_result:
             _select(context, made)
         current_job.settle()
@@ -160,7 +176,8 @@ class ComputeOperator(FromSelection):
             )
             return None
         start = time.perf_counter()
-        made = self.write(thing, outcome.value, source.frame)
+        write = partial(self.write_part, source.part) if source.part else self.write
+        made = write(thing, outcome.value, source.frame)
         if made is not None and made != thing:
             follow(made, thing, source.world, self.parent)
         if made is not None:
@@ -176,6 +193,12 @@ class ComputeOperator(FromSelection):
             text = f"'{source.name}': {self.summary(outcome.value)}; {seconds:.2f} s"
             self._tell(context, "INFO", text)
         return made
+
+
+def _sentence(errors):
+    """The error of a source, or of its parts together."""
+    part, error = errors[0]
+    return f"{len(errors):,} parts have no result: {error}" if part else str(error)
 
 
 def _select(context, made):

@@ -5,6 +5,7 @@ from functools import partial
 
 import bpy
 
+from ..bridge.axes_of_parts import remove_other_parts, write_result_of_part
 from ..bridge.axis_object import check_writable, write_result
 from ..bridge.output_object import is_gone, source_of
 from ..bridge.report_object import (
@@ -17,8 +18,18 @@ from ..bridge.report_object import (
 )
 from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
 from ..core.axis.compute import compute_axis
+from ..core.errors import MedialAxisError
+from ..core.samples.mesh_parts import split
 from ..core.samples.sampling_report import report_sampling
-from ..core.settings import LOOKS, OPTIONS, SAMPLING_OPTIONS, Form, Look, applies_to_form
+from ..core.settings import (
+    DIVISION,
+    LOOKS,
+    OPTIONS,
+    SAMPLING_OPTIONS,
+    Form,
+    Look,
+    applies_to_form,
+)
 from ..core.solid.reconstruction import reconstruct
 from . import current_job
 from .compute_operator import ComputeOperator
@@ -33,7 +44,7 @@ from .properties import (
 from .translation import say
 
 
-@with_options(OPTIONS | LOOKS)
+@with_options(OPTIONS | LOOKS | DIVISION)
 class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
     """Compute the medial axis of the selected objects, with the radius at every point"""
 
@@ -54,7 +65,14 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
                 if name == "crisp":
                     row.active = settings.crisp_is_possible
                 row.prop(self, name)
+        self.layout.prop(self, "each_part")
         draw_sampling(self.layout.box().column(), self, settings.options_of_faces)
+
+    def divided(self, shape):
+        if not self.each_part:
+            return super().divided(shape)
+        found = split(shape, settings_from(self))
+        return {found.words(part.number): part.shape for part in found.parts}, found.warnings
 
     def work(self, shape):
         return partial(compute_axis, shape, settings_from(self), limit=memory_limit())
@@ -63,6 +81,16 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
         if computation.axis.is_empty:
             return None
         return write_result(thing, computation, frame, settings_from(self, Look))
+
+    def write_part(self, part, thing, computation, frame):
+        if computation.axis.is_empty:
+            raise MedialAxisError(computation.warnings[-1])
+        look = settings_from(self, Look)
+        return write_result_of_part(thing, part, computation, frame, look)
+
+    def settle(self, made):
+        if self.each_part:
+            remove_other_parts(made)
 
     def summary(self, computation):
         axis, chosen = computation.axis, computation.chosen

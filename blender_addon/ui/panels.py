@@ -92,6 +92,7 @@ class VIEW3D_PT_medial_axis_method(Closed, bpy.types.Panel):
         draw_more_of_form(column, settings)
         for name in ("rule", "criteria", "limit_set", "sides"):
             column.prop(settings, name)
+        column.prop(settings, "each_part")
 
 
 class VIEW3D_PT_medial_axis_show(Closed, bpy.types.Panel):

@@ -25,6 +25,7 @@ from ..core.errors import MedialAxisError
 from ..core.options import Choice, Integer, Number, Switch, options_of
 from ..core.settings import (
     ANALYSED,
+    DIVISION,
     LOOKS,
     OPTIONS,
     SAMPLING_OPTIONS,
@@ -108,7 +109,7 @@ def settings_from(properties, kind=Settings):
     )
 
 
-def copy_settings(source, target, options=OPTIONS | LOOKS) -> None:
+def copy_settings(source, target, options=OPTIONS | LOOKS | DIVISION) -> None:
     """Set the properties of an operator button to those of a panel."""
     for name in options:
         if hasattr(target, name):
@@ -208,7 +209,7 @@ _ANALYSED = {name: OPTIONS[name] for name in (*ANALYSED, *SAMPLING_OPTIONS)}
 _LIVE = {name: option for name, option in OPTIONS.items() if name not in _ANALYSED} | LOOKS
 
 
-@with_options(_ANALYSED)
+@with_options(_ANALYSED | DIVISION)
 @with_options(_LIVE, _refilter)
 class MedialAxisPanelSettings(bpy.types.PropertyGroup):
     """The settings of the sidebar panel; those that need no other analysis act on the result at once."""

@@ -44,6 +44,7 @@ class Source:
     frame: object  # (4, 4) float64
     world: object  # its matrix when it was read
     state: object = None  # its shape and scale when it was read, as source_state has them
+    part: str = ""  # the connected part of it that is computed; empty for the whole
 
     def find(self):
         """The object, or None when it is gone."""

@@ -35,6 +35,7 @@ DATA = {
     "property int place\n",
     "{} Part {}",
     "{} Parts",
+    "{} Medial Axes",
     " Medial Axis",
     " Small Mesh",
     "Medial Axis Wires",

@@ -62,6 +62,7 @@ NOT_RUN = {
     "python3 -m pytest": "runs tests",
     "python3 tests/addon/run.py": "runs tests",
     "python3 -m lab.breaking": "tries as long as it is told",
+    "python3 -m lab.corpus": "fetches packages; test_corpus.py runs it on a folder",
     "python3 -m lab.race": "half an hour; its parts have tests of their own in test_race.py",
     "python3 lab/benchmarks/": "minutes, with meshes of the optional data folder",
     "python3 lab/mutations/sweep.py": "half an hour; test_mutations.py tries that every fault fits",

@@ -3,6 +3,7 @@
 
 import json
 
+import medial_axis
 import numpy as np
 import pytest
 from medial_axis import cli
@@ -95,11 +96,61 @@ def test_results_tell_the_parts(tmp_path, capsys):
 def test_a_split_shape_keeps_what_is_known():
     points, triangles = THREE
     shape = Shape(points, triangles, points + 1.0, sharp_edges=np.array([[0, 1], [0, 9], [24, 25]]))
-    parts = split(shape)
+    parts = split(shape, Settings())
     assert [part.number for part in parts.parts] == [1, 3] and parts.count == 3
     (warning,) = parts.warnings
-    assert warning.startswith("1 of 3 connected parts were left out because they have no thickness")
+    assert warning.startswith("1 of 3 connected parts are sheets without thickness")
     last = parts.parts[1].shape
     assert np.array_equal(last.points[last.triangles], points[triangles[-12:]])
     assert np.array_equal(last.normals, last.points + 1.0)
     assert last.sharp_edges.tolist() == [[0, 1]]
+
+
+def test_each_part_in_a_program():
+    found = medial_axis.compute_each_part(*THREE, sampling="surface", samples=1500)
+    assert found.numbers == (1, 3)
+    (warning,) = found.warnings
+    assert warning.startswith("1 of 3 connected parts are sheets without thickness")
+    for one, place in zip(found.computations, (0.5, 3.5), strict=True):
+        assert one.axis.level.betti == (1, 0, 0)
+        assert abs(one.axis.vertices.mean(axis=0)[0] - place) < 0.05
+    alone = medial_axis.compute(*cube(), sampling="surface", samples=1500)
+    assert np.array_equal(found.computations[0].axis.vertices, alone.axis.vertices)
+    with pytest.raises(medial_axis.DegenerateInputError, match="found 1 without"):
+        medial_axis.compute_each_part(*SHEET)
+    with pytest.raises(medial_axis.InvalidInputError, match="found points only"):
+        medial_axis.compute_each_part(THREE[0], np.zeros((0, 3), int))
+
+
+def test_a_wavy_sheet_is_left_out():
+    points, triangles = grid(20)
+    wavy = np.column_stack((points[:, :2], 0.1 * np.sin(18.0 * points[:, 0]))) + 5.0
+    parts = split(Shape(*meshes.join(cube(), (wavy, triangles))), Settings())
+    assert [part.number for part in parts.parts] == [1] and parts.count == 2
+
+
+def test_each_part_can_be_cancelled_and_watched():
+    progress = medial_axis.Progress()
+    medial_axis.compute_each_part(*THREE, progress=progress, sampling="surface", samples=800)
+    assert progress.fraction == pytest.approx(1.0)
+    progress.cancel()
+    with pytest.raises(medial_axis.Cancelled):
+        medial_axis.compute_each_part(*THREE, progress=progress)
+
+
+def test_each_part_on_the_command_line(tmp_path, capsys):
+    np.savez(tmp_path / "a.npz", points=THREE[0], triangles=THREE[1])
+    np.savez(tmp_path / "sheet.npz", points=SHEET[0], triangles=SHEET[1])
+    paths = [str(tmp_path / name) for name in ("a.npz", "sheet.npz", "out")]
+    (tmp_path / "out").mkdir()
+    code = cli.main([*paths, "--each-part", "--json", "--samples", "1500"])
+    one, three, sheet = map(json.loads, capsys.readouterr().out.splitlines())
+    assert (code, sheet["status"]) == (cli.INPUT, "failed")
+    assert "found 1 without" in sheet["error"]
+    assert (one["part"], three["part"]) == (1, 3)
+    assert one["warnings"][0].startswith("1 of 3 connected parts are sheets")
+    assert three["warnings"] == [] and three["mesh"]["parts"] == 1
+    assert sorted(path.name for path in (tmp_path / "out").glob("*.ma")) == ["a_1.ma", "a_3.ma"]
+    assert cli.main([*paths, "--each-part", "--json", "--samples", "1500"]) == cli.INPUT
+    again = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [report["status"] for report in again] == ["kept", "kept", "failed"]

@@ -66,6 +66,8 @@ class Item:
     output : Path
     read : callable
         It returns the shape, and warnings.
+    part : int or None
+        The number of the connected part of the shape, from 1, that this item is; None for the whole.
     """
 
     input: str
@@ -73,12 +75,14 @@ class Item:
     frame: int | None
     output: Path
     read: Callable[[], tuple[Shape, tuple[str, ...]]]
+    part: int | None = None
 
     @property
     def name(self) -> str:
         """Return the name of this item in messages."""
         name = Path(self.input).name if self.object is None else self.object
-        return name if self.frame is None else f"{name}, frame {self.frame}"
+        frame = "" if self.frame is None else f", frame {self.frame}"
+        return name + frame + ("" if self.part is None else f", part {self.part}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,6 +234,8 @@ def report_path(output: Path) -> Path:
 
 def _place(item: Item) -> dict[str, Any]:
     place = {"input": item.input, "object": item.object, "frame": item.frame}
+    if item.part is not None:
+        place["part"] = item.part
     return {**place, "output": str(item.output)}
 
 

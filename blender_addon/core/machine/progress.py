@@ -21,14 +21,21 @@ class Progress:
         self._before = 0.0  # this share of the work was done before the running call
         self._share = 1.0  # the running call is this share of the work
         self._end = 1.0  # the next calls end at this share of the work
+        self._section = 0.0, 1.0
         self._running: Any = self._module.Progress()
         self._cancelled = False
         self._pass = 1
 
     def until(self, fraction: float) -> None:
         """Let the next calls end at this fraction; the rest belongs to calls after the next `until`."""
+        begin, end = self._section
         with self._lock:
-            self._end = fraction
+            self._end = begin + (end - begin) * fraction
+
+    def begin_section(self, begin: float, end: float) -> None:
+        """Let the work that follows, with its own calls of `until`, go from one share of the whole to another."""
+        self._section = begin, end
+        self.until(1.0)
 
     def part(self, share: float = 1.0) -> Any:
         """Return a `_medial.Progress` for the next call, which is a `share` of the work left up to the last `until`."""

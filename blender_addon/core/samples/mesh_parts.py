@@ -10,11 +10,15 @@ import numpy as np
 
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
-from .outward_faces import TURNED
+from ..settings import SidesFrom
+from .outward_faces import TURNED, outward_shape
+from .sample_spacing import first_pass
+from .sides import resolve_sides_of_samples
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..settings import Settings
     from .shape import Shape
 
 
@@ -72,7 +76,7 @@ class PartShape:
 
 @dataclass(frozen=True, eq=False)
 class SplitShape:
-    """The connected parts of a shape that have thickness.
+    """The connected parts of a shape that bound a solid.
 
     Parameters
     ----------
@@ -90,7 +94,7 @@ class SplitShape:
         if not (left := self.count - len(self.parts)):
             return ()
         return (
-            f"{left:,} of {self.count:,} connected parts were left out because they have no thickness; "
+            f"{left:,} of {self.count:,} connected parts are sheets without thickness and were left out; "
             "give them thickness (a Solidify modifier)",
         )
 
@@ -99,8 +103,10 @@ class SplitShape:
         return f"{number:0{len(str(self.count))}d}"
 
 
-def split(shape: Shape) -> SplitShape:
-    """Split a shape into its connected parts, without those that have no thickness.
+def split(shape: Shape, settings: Settings) -> SplitShape:
+    """Split a shape into its connected parts, without those that lie in a plane or are sheets.
+
+    Open faces are a sheet where they would not decide what is inside, because too few of them bound a solid.
 
     Raises
     ------
@@ -114,21 +120,28 @@ def split(shape: Shape) -> SplitShape:
             "Expected faces for Each Part by Itself, found points only; switch it off"
         )
     with native.own_errors() as module:
-        part, _, is_flat = module.mesh_parts(shape.points, shape.triangles)
+        part, is_open, is_flat = module.mesh_parts(shape.points, shape.triangles)
     order = np.argsort(part, kind="stable")
     ends = np.cumsum(np.bincount(part[part >= 0], minlength=len(is_flat)))
     groups = np.split(order[np.count_nonzero(part < 0) :], ends[:-1])
-    found = tuple(
-        PartShape(number + 1, _some_faces(shape, faces))
-        for number, faces in enumerate(groups)
-        if len(faces) and not is_flat[number]
-    )
+    thick = np.flatnonzero(~is_flat).tolist()
+    parts = [PartShape(number + 1, _some_faces(shape, groups[number])) for number in thick]
+    found = tuple(p for p in parts if not (is_open[p.number - 1] and _is_sheet(p.shape, settings)))
     if not found:
         raise DegenerateInputError(
             f"Expected connected parts with thickness, found {len(is_flat):,} without; give them "
             "thickness (a Solidify modifier, or an extrusion)"
         )
     return SplitShape(found, len(is_flat))
+
+
+def _is_sheet(shape: Shape, settings: Settings) -> bool:
+    read = outward_shape(shape)
+    with native.own_errors() as module:
+        gaps = module.open_edges(read.points, read.triangles)
+    spacing = first_pass(read, settings).spacing
+    sides = resolve_sides_of_samples(settings.sides, read, gaps, spacing)
+    return settings.sides is SidesFrom.AUTOMATIC and sides.source is not SidesFrom.SURFACE
 
 
 def _some_faces(shape: Shape, faces: NDArray[np.intp]) -> Shape:

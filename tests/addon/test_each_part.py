@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Each Part by Itself: an axis of each connected part in one collection, as one step, or nothing."""
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, compute, link, medial_objects, select
+
+EACH = {"form": "CLEAN", "sampling": "SURFACE", "samples": 800, "each_part": True}
+
+
+def boxes(count=5, sheet=True):
+    """Boxes in a row, the first two overlapping, and a flat sheet behind them."""
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+    quads = np.array(
+        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    )
+    places = [0.5, 0.0, 3.0, 6.0, 9.0, 12.0][:count]
+    points = np.concatenate([corners + np.array((place, 0.1 * place, 0)) for place in places])
+    faces = [*np.concatenate([quads + 8 * i for i in range(count)]).tolist()]
+    if sheet:
+        faces.append([len(points) + i for i in range(4)])
+        points = np.concatenate((points, corners[:4] @ np.diag((1, 2, 2)) + (0, 5, 0)))
+        faces[-1] = [faces[-1][i] for i in (0, 1, 3, 2)]
+    return link("Boxes", points, faces)
+
+
+def axes(source):
+    return sorted((t for t in medial_objects() if t["ma_source"] == source), key=lambda t: t.name)
+
+
+def test_five_boxes_give_five_axes_in_one_collection():
+    source = boxes()
+    compute(**EACH)
+    found = axes(source)
+    assert [thing.name for thing in found] == [f"Boxes Medial Axis {n}" for n in range(1, 6)]
+    (collection,) = {c for thing in found for c in thing.users_collection}
+    assert collection.name == "Boxes Medial Axes" and len(collection.objects) == 5
+    assert all(thing.parent == source and thing["ma_pieces"] == 1 for thing in found)
+    assert "1 of 6 connected parts are sheets" in bpy.context.scene.medial_axis.note
+    assert addon("bridge.axis_object").result_of(source) is None
+
+
+def test_the_whole_and_its_parts_are_updated_by_themselves():
+    source = boxes(3, sheet=False)
+    compute(**{**EACH, "each_part": False})
+    whole = addon("bridge.axis_object").result_of(source)
+    assert whole["ma_pieces"] == 2  # two overlap
+    assert whole["ma_mesh"] == "3 connected parts"
+    select(source)
+    compute(**EACH)
+    first = axes(source)
+    select(first[-1])
+    compute(**EACH)
+    assert axes(source) == first and len(first) == 4
+    mesh = bpy.data.meshes.new("One")
+    mesh.from_pydata(
+        [tuple(v.co) for v in source.data.vertices[:8]],
+        [],
+        [tuple(p.vertices) for p in source.data.polygons[:6]],
+    )
+    source.data = mesh
+    select(source)
+    compute(**EACH)
+    assert [thing.name for thing in axes(source)] == ["Boxes Medial Axis", "Boxes Medial Axis 1"]
+
+
+def test_it_is_one_step_of_undo():
+    boxes(2)
+    bpy.ops.ed.undo_push(message="before")
+    compute(**EACH)
+    bpy.ops.ed.undo_push(message="Compute Medial Axis")
+    assert len(medial_objects()) == 2
+    bpy.ops.ed.undo()
+    assert not medial_objects()
+    assert not [c for c in bpy.data.collections if c.name.endswith("Medial Axes")]
+
+
+def test_a_refusal_and_a_cancelled_job_leave_nothing(monkeypatch):
+    link("Sheet", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
+    with pytest.raises(RuntimeError, match="found 1 without"):
+        compute(**EACH)
+    select(boxes(2))
+    operators = addon("ui.compute_operator")
+
+    def cancelled(task):
+        raise addon("core.errors").Cancelled("cancelled")
+
+    monkeypatch.setattr(operators, "run_task", cancelled)
+    with pytest.raises(RuntimeError):
+        compute(**EACH)
+    assert not medial_objects()
+    assert not [c for c in bpy.data.collections if c.name.endswith("Medial Axes")]
