@@ -133,7 +133,7 @@ def shows_well(source: bpy.types.Object, found: SamplingReport) -> bool:
     except InvalidInputError:
         return False
     vertices = len(source.data.vertices)
-    enough = vertices == len(found.shape.points) and vertices >= _ENOUGH * len(found.vertices)
+    enough = found.shape.has_vertices(vertices) and vertices >= _ENOUGH * len(found.vertices)
     return enough and keeps_rows(source)
 
 
@@ -150,7 +150,7 @@ def write_on_source(
     """
     check_source_writable(source)
     vertices, original = len(found.shape.points), len(source.data.vertices)
-    if vertices != original:
+    if not found.shape.has_vertices(original):
         raise InvalidInputError(
             f"Expected as many vertices with modifiers as without for Write To Source, found "
             f"{vertices:,} and {original:,}; apply the modifiers, or choose Write To Copy"

@@ -114,7 +114,7 @@ def _add_spline(
 
 def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> NDArray[np.int64]:
     """(v,) the point of the shape for each vertex of a mesh: its own, or the nearest where modifiers make others."""
-    if len(source.data.vertices) == len(shape.points):
+    if shape.has_vertices(len(source.data.vertices)):
         rows = row_of_vertices(source)
         if rows is not None:
             return rows

@@ -145,7 +145,7 @@ def show_limit(carrier: bpy.types.Object, found: Measurement, parts: ThinParts) 
 
 
 def scale_on(carrier: bpy.types.Object) -> ThicknessScale | None:
-    """What the colours of a carrier stand for; None where an older version made them."""
+    """The scale that the colours of a carrier stand for; None where an older version made them."""
     return ThicknessScale(*carrier[SCALE]) if SCALE in carrier else None
 
 
@@ -154,7 +154,7 @@ def _has_own(source: bpy.types.Object, found: Measurement) -> bool:
     if source.type != "MESH" or source.data.library is not None or source.mode != "OBJECT":
         return False
     mesh = source.data
-    if len(mesh.vertices) != len(found.shape.points):
+    if not found.shape.has_vertices(len(mesh.vertices)):
         return False
     mesh.calc_loop_triangles()
     return len(mesh.loop_triangles) == len(found.shape.triangles)

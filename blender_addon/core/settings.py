@@ -33,6 +33,7 @@ class SidesFrom(Enum):
     NORMALS = "NORMALS"
     TIGHT_COCONE = "TIGHT_COCONE"
     POLES = "POLES"
+    WRAP = "WRAP"
 
 
 class SamplingMode(Enum):
@@ -99,6 +100,7 @@ MEGABYTE = 1 << 20  # bytes
 ANALYSED = ("side", "sides", "sampling")
 # These options determine how faces are sampled; the choice of Sampling determines which of them matter.
 SAMPLING_OPTIONS = (
+    "wrap_opening",
     "samples",
     "spacing",
     "epsilon",
@@ -127,7 +129,7 @@ def applies(
 
     `of_faces` are the options that matter for Vertices, too (`Settings.options_of_faces`).
     """
-    if name == "epsilon" or name not in SAMPLING_OPTIONS:
+    if name in ("epsilon", "wrap_opening") or name not in SAMPLING_OPTIONS:
         return True
     if sampling is SamplingMode.VERTICES:
         return name in of_faces
@@ -249,6 +251,11 @@ class Settings(Options):
                 "Balls inside and outside, labelled from the points alone: keeps cavities and thin "
                 "walls, which Tight Cocone fills; faces are ignored",
             ),
+            SidesFrom.WRAP: (
+                "Wrap",
+                "A closed surface that is wrapped round the faces, a little outside of them, for faces "
+                "that bound nothing; openings up to Wrap Opening are closed",
+            ),
         },
     )
     rule: Rule = choice(
@@ -336,6 +343,15 @@ class Settings(Options):
         limits=(100, 5_000_000),
         soft_limits=(10_000, 1_000_000),
     )
+    wrap_opening: float = number(
+        "Wrap Opening",
+        "The width of openings that Inside From Wrap closes, in percent of the diagonal; smaller "
+        "ones show more detail and take longer",
+        default=1.0,
+        limits=(0.1, 50.0),
+        soft_maximum=10.0,
+        unit="%",
+    )
     sharp_angle: float = number(
         "Sharp Angle",
         "Edges are sharp where the directions of their faces differ by clearly more "
@@ -375,7 +391,7 @@ class Settings(Options):
     @property
     def crisp_is_possible(self) -> bool:
         """Whether Crisp can change anything: the axis is a level, and the faces may decide what is inside."""
-        of_faces = self.sides in (SidesFrom.AUTOMATIC, SidesFrom.SURFACE)
+        of_faces = self.sides in (SidesFrom.AUTOMATIC, SidesFrom.SURFACE, SidesFrom.WRAP)
         return of_faces and self.form_of_side is not Form.PUBLISHED
 
     @property

@@ -6,7 +6,7 @@ import bpy
 from ..bridge import axis_object, output_object, sequence_objects
 from ..bridge.wires import width_of, wires_of
 from ..core.machine import native
-from ..core.settings import Form, Side
+from ..core.settings import Form, Side, SidesFrom
 from . import current_job
 from .figures import (
     draw_details,
@@ -92,6 +92,8 @@ class VIEW3D_PT_medial_axis_method(Closed, bpy.types.Panel):
         draw_more_of_form(column, settings)
         for name in ("rule", "criteria", "limit_set", "sides"):
             column.prop(settings, name)
+        if settings.sides == SidesFrom.WRAP.name:
+            column.prop(settings, "wrap_opening")
         column.prop(settings, "each_part")
 
 

@@ -32,6 +32,7 @@ from ..core.settings import (
     Look,
     SamplingMode,
     Settings,
+    SidesFrom,
     applies,
 )
 from . import current_job
@@ -88,6 +89,8 @@ def draw_sampling(layout, properties, of_faces=()):
     """
     chosen = SamplingMode[properties.sampling]
     for name in SAMPLING_OPTIONS:
+        if name == "wrap_opening" and properties.sides != SidesFrom.WRAP.name:
+            continue
         row = layout.row()
         row.active = applies(name, chosen, properties.spacing, of_faces)
         row.prop(properties, name)

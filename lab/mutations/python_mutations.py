@@ -199,9 +199,9 @@ MUTATIONS = (
     ),
     _bug(
         "solid/thickness_colours.py",
-        "return BLUE * red, (2.0 - BLUE) * red",
-        "return BLUE * red, 0.0",
-        "red is not half-way between the colours of thickness",
+        "found = np.where(lengths < self.limit, below, above)",
+        "found = np.where(lengths <= self.limit, below, above)",
+        "what is as thick as the limit has the colours of what is thinner",
         "test_thickness.py",
         "test_colours.py",
     ),

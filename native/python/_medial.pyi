@@ -1245,6 +1245,42 @@ def mesh_parts(
         A corner is no row of the points, or a coordinate is not finite.
     """
 
+def wrap(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    opening: float,
+    distance: float,
+    *,
+    progress: Progress | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """A closed surface round faces that may bound nothing, by CGAL's alpha wrapping.
+
+    It is as if a ball as wide as the openings rolled over the faces and stopped at a distance from them (Portaneri,
+    Rouxel-Labbe, Hemmer, Cohen-Steiner & Alliez 2022).
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+    opening : float
+        The width of the openings that are closed, as a share of the diagonal of the bounding box of the faces.
+    distance : float
+        How far outside of the faces the surface lies, as such a share.
+    progress : Progress, optional
+
+    Returns
+    -------
+    points : (k, 3) float64
+    triangles : (l, 3) int32
+        Closed, without self-intersections, outward.
+
+    Raises
+    ------
+    InvalidInputError
+        No face has an area, or the module was compiled with a CGAL older than 5.5.
+    Cancelled
+    """
+
 def outward_faces(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],

@@ -7,6 +7,7 @@
 #include "bindings.h"
 #include "delaunay/polygon_triangles.h"
 #include "delaunay/samples.h"
+#include "delaunay/wrap.h"
 #include "docstrings.h"
 #include "inside/buried.h"
 #include "inside/mesh_parts.h"
@@ -58,6 +59,18 @@ py::tuple faces_of_solid(const py::object& points, const py::object& triangles, 
   for (const FaceReading one : found.reading) reading.push_back(static_cast<uint8_t>(one));
   return py::make_tuple(array_of<int32_t>(std::move(found.triangles)),
                         array_of<uint8_t>(std::move(reading)), found.patches, found.unseen);
+}
+
+py::tuple wrapped_faces(const py::object& points, const py::object& triangles, double opening,
+                        double distance, Progress* progress) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  Wrapping found = [&, row_span = rows.span(), face_span = faces.span()] {
+    const py::gil_scoped_release release;
+    return wrap(row_span, face_span, opening, distance, {1, progress});
+  }();
+  return py::make_tuple(array_of<double>(std::move(found.rows)),
+                        array_of<int32_t>(std::move(found.triangles)));
 }
 
 py::tuple parts_of_mesh(const py::object& points, const py::object& triangles) {
@@ -186,6 +199,8 @@ void bind_surfaces(py::module_& m) {
   m.def("solid_betti", &betti_of_solid, docs::solid_betti, py::arg("points"), py::arg("triangles"));
   m.def("outward_faces", &faces_of_solid, docs::outward_faces, py::arg("points"),
         py::arg("triangles"), py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("wrap", &wrapped_faces, docs::wrap, py::arg("points"), py::arg("triangles"),
+        py::arg("opening"), py::arg("distance"), py::kw_only(), py::arg("progress") = nullptr);
   m.def("mesh_parts", &parts_of_mesh, docs::mesh_parts, py::arg("points"), py::arg("triangles"));
   m.def("polygon_edges", &edges_of_polygons, docs::polygon_edges, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));

@@ -21,6 +21,7 @@ from medial_axis.core.settings import (
     SamplingMode,
     Settings,
     Side,
+    SidesFrom,
     SkeletonSettings,
     ThicknessSettings,
 )
@@ -147,6 +148,7 @@ STARTS = (
     replace(FEW, sampling=SamplingMode.SURFACE, form=Form.CURVE),
     replace(FEW, sampling=SamplingMode.ADAPTIVE, form=Form.CLEAN),
     replace(FEW, sampling=SamplingMode.VERTICES, form=Form.PUBLISHED, criteria=Criteria.ANGLE),
+    replace(FEW, sampling=SamplingMode.SURFACE, sides=SidesFrom.WRAP, wrap_opening=5.0),
 )
 
 

@@ -292,10 +292,11 @@ def test_public_headers_see_only_public_ones(path):
 
 
 def test_cgal_has_one_home():
-    """Triangulations of points and of polygons, and of balls for rivals; all set CGAL up alike."""
+    """Triangulations of points and of polygons, wrapping, and balls of rivals; all set CGAL up alike."""
     units = (
         "delaunay/polygon_triangles.cpp",
         "delaunay/triangulation.cpp",
+        "delaunay/wrap.cpp",
         "rivals/power_shape.cpp",
     )
     homes = [MEDIAL / unit for unit in units]

@@ -16,7 +16,7 @@ from ..samples.mesh_parts import MeshCounts, mesh_counts
 from ..samples.outward_faces import reading_counts
 from ..samples.shape import Shape
 from ..samples.solid_faces import triangles_of_places
-from ..settings import Form, Settings
+from ..settings import Form, Settings, SidesFrom
 from .axis_warnings import axis_warnings
 from .extract import extract
 from .medial_axis import MedialAxis
@@ -132,7 +132,9 @@ def compute_axis(
     share = 1.0 if form is Form.PUBLISHED else _ANALYSIS
     begun = begin(shape, settings, progress, limit, share)
     shape, chosen = begun.shape, begun.chosen
-    settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling, form=form)
+    wraps = settings.sides is SidesFrom.WRAP
+    sides = SidesFrom.WRAP if wraps else chosen.sides.source
+    settings = replace(settings, sides=sides, sampling=chosen.sampling, form=form)
     axis = extract(chosen.samples, settings, begun.progress)
     return Computation(
         axis=axis,

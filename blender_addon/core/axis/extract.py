@@ -6,6 +6,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..machine import native
 from ..settings import Form, Settings
 from .levels import extract_level
@@ -44,9 +46,21 @@ def extract(
         axis = _published(samples.analysis, settings, progress and progress.part())
     else:
         axis = extract_level(samples, settings, progress)
+    if samples.offset > 0.0:
+        axis = _with_less_radius(axis, samples.offset)
     if samples.rows is None:
         return axis
     return replace(axis, generators=samples.rows[axis.generators])
+
+
+def _with_less_radius(axis: MedialAxis, offset: float) -> MedialAxis:
+    """Return the axis of samples that lie outside of the surface that is meant, with the radii up to that surface."""
+    level = axis.level
+    if level is not None:
+        level = replace(level, exact_radius=np.maximum(level.exact_radius - offset, 0.0))
+    structure = axis.structure and axis.structure.with_less_radius(offset)
+    radius = np.maximum(axis.radius - offset, 0.0)
+    return replace(axis, radius=radius, level=level, structure=structure)
 
 
 def _published(analysis: Any, settings: Settings, progress: Any | None) -> MedialAxis:

@@ -111,6 +111,11 @@ class Structure:
         changed = {name: getattr(self, name) * scale for name in lengths}
         return replace(self, part_area=self.part_area * scale**2, **changed)
 
+    def with_less_radius(self, offset: float) -> Structure:
+        """Return the structure of an axis whose radii are less by an offset."""
+        names = [name for name in FIELDS if name.endswith("_radius")]
+        return replace(self, **{n: np.maximum(getattr(self, n) - offset, 0.0) for n in names})
+
 
 FIELDS = tuple(Structure.__dataclass_fields__)
 _NAMES = {name: name for name in FIELDS} | {"facet_edges": "edges"}

@@ -108,6 +108,8 @@ class AnalysedSamples:
         The wanted distance of neighbours at each sample; None where the points are vertices.
     partners : (n,) int32 or None
         The row of the sample on the opposite wall, or -1; None where samples were not taken in pairs.
+    offset : float
+        How far outside of the surface that is meant the samples lie; radii are less by this.
     """
 
     points: NDArray[np.float64]
@@ -128,6 +130,7 @@ class AnalysedSamples:
     patches: NDArray[np.int32] | None = None
     apart: NDArray[np.float64] | None = None
     partners: NDArray[np.int32] | None = None
+    offset: float = 0.0
 
     @property
     def walls_to_show(self) -> Walls | None:

@@ -66,6 +66,7 @@ def analyse_vertices(request: Request, sides: Sides, share: float) -> AnalysedSa
         by_faces=by_faces,
         solid=solid_faces(shape, sides.source),
         patches=patches_of(shape, request.settings) if by_surface else None,
+        offset=shape.offset,
     )
 
 
@@ -116,6 +117,7 @@ def analyse_samples(
         patches=patches_of(request.shape, request.settings, samples),
         apart=apart_of(samples),
         partners=samples.partners if request.settings.pairs else None,
+        offset=request.shape.offset,
     )
 
 

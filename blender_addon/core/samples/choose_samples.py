@@ -29,11 +29,13 @@ from .sharp_angle import sharp_angle_of
 from .sides import decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
+from .wrapped_faces import without_wrap, wrap_reason, wrapped_shape
 
 if TYPE_CHECKING:
     from .shape import Shape
 
 
+_WRAPPING = 0.4  # of the analysis
 # The budget counts as spent from this share on: all spacings are scaled to meet it, which is not exact.
 _SPENT = 0.97
 
@@ -64,8 +66,14 @@ def begin(
     start = time.perf_counter()
     progress = progress or Progress()
     progress.until(share)
-    shape = outward_shape(shape)
-    chosen = choose_samples(shape, settings, progress, limit)
+    if settings.sides is SidesFrom.WRAP:
+        shape = wrapped_shape(shape, settings, progress.part(_WRAPPING))
+        chosen = choose_samples(shape, without_wrap(settings), progress, limit)
+        sides = replace(chosen.sides, reason=wrap_reason(shape, settings))
+        chosen = replace(chosen, sides=sides)
+    else:
+        shape = outward_shape(shape)
+        chosen = choose_samples(shape, settings, progress, limit)
     progress.until(1.0)
     return Begun(shape, chosen, progress, start)
 
@@ -165,7 +173,15 @@ def _vertices(request: Request, why: str, share: float = 1.0) -> ChosenSamples:
     used = used_by_sides(sides.source, shape.triangles, shape.normals)
     edges = (shape.triangles, sharp_angle_of(shape, request.settings), shape.sharp_edges)
     divided = edges if sides.source is SidesFrom.SURFACE else None
-    key = key_of(request.bounding_sphere, sides.source, shape.points, shape.rows, used, divided)
+    key = key_of(
+        request.bounding_sphere,
+        sides.source,
+        shape.points,
+        shape.rows,
+        used,
+        divided,
+        shape.offset,
+    )
     samples = CACHE.get(key)
     if samples is None:
         samples = _kept(key, analyse_vertices(request, sides, share))
@@ -257,7 +273,7 @@ def _pass(
     """
     shape, settings, progress = request.shape, request.settings, request.progress
     options = {**_options(shape, settings), **amount}
-    surface = (shape.points, shape.triangles, shape.sharp_edges)
+    surface = (shape.points, shape.triangles, shape.sharp_edges, shape.offset)
     key = key_of(request.bounding_sphere, sides.source, surface, tuple(options.items()), spacing)
     found = CACHE.get(key)
     if found is None:

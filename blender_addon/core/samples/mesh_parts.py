@@ -136,12 +136,14 @@ def split(shape: Shape, settings: Settings) -> SplitShape:
 
 
 def _is_sheet(shape: Shape, settings: Settings) -> bool:
+    if settings.sides is not SidesFrom.AUTOMATIC:
+        return False
     read = outward_shape(shape)
     with native.own_errors() as module:
         gaps = module.open_edges(read.points, read.triangles)
     spacing = first_pass(read, settings).spacing
     sides = resolve_sides_of_samples(settings.sides, read, gaps, spacing)
-    return settings.sides is SidesFrom.AUTOMATIC and sides.source is not SidesFrom.SURFACE
+    return sides.source is not SidesFrom.SURFACE
 
 
 def _some_faces(shape: Shape, faces: NDArray[np.intp]) -> Shape:

@@ -39,6 +39,8 @@ class Shape:
         The rows that the points have in a larger cloud; None where there is no larger cloud.
     reading : (m,) uint8 or None
         How `outward_faces.outward_shape` read each triangle; None before.
+    offset : float
+        How far outside of the surface that is meant the faces lie: those of a wrap do.
     """
 
     points: NDArray[np.float64]
@@ -50,6 +52,11 @@ class Shape:
     of_samples: bool = True
     rows: NDArray[np.int32] | None = None
     reading: NDArray[np.uint8] | None = None
+    offset: float = 0.0
+
+    def has_vertices(self, count: int) -> bool:
+        """Whether the points may be `count` vertices of an object, as those of a wrap never are."""
+        return len(self.points) == count and self.offset == 0.0
 
     @cached_property
     def volume(self) -> float:

@@ -27,7 +27,7 @@ _WIDEST = 1.5  # multiples of the limit to which the colours reach at least
 
 @dataclass(frozen=True)
 class ThicknessScale:
-    """What the colours of thickness stand for.
+    """The lengths that the colours of thickness stand for.
 
     Parameters
     ----------

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inside From Wrap: faces that bound nothing get a closed surface, and radii are those up to the faces."""
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.axis.compute import compute, refilter
+from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
+from support.meshes import icosphere, write_off
+from support.thick_meshes import block
+
+
+def settings(**others):
+    return Settings(sides=SidesFrom.WRAP, **others)
+
+
+def torn(share=0.85, seed=3):
+    """Some faces of a ball of radius 1, each apart, a bit out of place, and turned at random."""
+    points, triangles = icosphere(3)
+    random = np.random.default_rng(seed)
+    kept = triangles[random.random(len(triangles)) < share]
+    corners = points[kept] + random.normal(scale=0.01, size=(len(kept), 1, 3))
+    turned = random.random(len(kept)) < 0.5
+    corners[turned] = corners[turned][:, ::-1]
+    return corners.reshape(-1, 3), np.arange(3 * len(kept)).reshape(-1, 3).astype(np.int32)
+
+
+def test_the_wrap_is_closed_outward_and_at_its_distance(medial):
+    points, triangles = torn()
+    wrapped, faces = medial.wrap(points, triangles, 0.1, 0.005)
+    assert medial.open_edges(wrapped, faces) == 0
+    assert medial.solid_betti(wrapped, faces) == (1, 0, 0)
+    a, b, c = (wrapped[faces[:, k]] for k in range(3))
+    assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 > 4.0
+    diagonal = np.linalg.norm(np.ptp(points, axis=0))
+    away = medial.surface_distances(wrapped, points, triangles)
+    assert np.median(away) == pytest.approx(0.005 * diagonal, rel=0.05)
+    assert away.min() > 0.0045 * diagonal, "no face sticks out"
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1.0, 1e12])
+def test_a_scale_changes_nothing_but_the_scale(medial, scale):
+    points, triangles = torn()
+    wrapped, faces = medial.wrap(points, triangles, 0.1, 0.005)
+    other, same = medial.wrap(points * scale, triangles, 0.1, 0.005)
+    assert len(same) == pytest.approx(len(faces), rel=0.05)
+    assert np.ptp(other, axis=0) == pytest.approx(scale * np.ptp(wrapped, axis=0), rel=1e-3)
+
+
+def test_a_soup_has_the_axis_of_its_ball():
+    found = compute(
+        *torn(), settings(wrap_opening=8.0, samples=3000, sampling=SamplingMode.SURFACE)
+    )
+    assert found.axis.level.betti == (1, 0, 0)
+    assert found.settings.sides is SidesFrom.WRAP
+    assert "a wrap of the faces" in str(found.sides) and "closes openings of less than" in str(
+        found.sides
+    )
+    largest = found.axis.radius.max()
+    assert 0.9 < largest < 1.0, "up to the faces and not to the wrap"
+
+
+def test_radii_are_those_up_to_the_faces():
+    """A block, which needs no wrap: its largest ball has half its least extent, now and for other thresholds."""
+    points, triangles = block(1.0, 0.7, 0.4)
+    options = settings(samples=3000, sampling=SamplingMode.SURFACE)
+    found = compute(points, triangles, options)
+    assert found.axis.radius.max() == pytest.approx(0.2, rel=1e-3)
+    again = refilter(found.key, settings(samples=3000, sampling=SamplingMode.SURFACE, theta=0.7))
+    assert again.radius.max() == pytest.approx(0.2, rel=1e-3)
+    assert found.axis.structure.part_least_radius.max() <= found.axis.radius.max()
+
+
+def test_the_same_faces_without_a_wrap_have_their_own_analysis():
+    shape = block(1.0, 0.7, 0.4)
+    wrapped = compute(*shape, settings(samples=3000, sampling=SamplingMode.SURFACE))
+    plain = compute(*shape, Settings(samples=3000, sampling=SamplingMode.SURFACE))
+    assert wrapped.key != plain.key and plain.axis.radius.max() == pytest.approx(0.2, rel=1e-9)
+
+
+def test_points_alone_are_refused():
+    with pytest.raises(InvalidInputError, match="Expected faces for Inside From Wrap"):
+        compute(np.random.default_rng(0).random((100, 3)), np.zeros((0, 3), np.int32), settings())
+
+
+def test_the_command_line_wraps(tmp_path, capsys):
+    source = write_off(tmp_path / "torn.off", torn())
+    words = [str(source), str(tmp_path / "torn.ply"), "--sides", "wrap", "--wrap-opening", "8"]
+    assert cli.main([*words, "--samples", "3000", "--sampling", "surface", "--json"]) == cli.DONE
+    assert "a wrap of the faces" in (tmp_path / "torn.ply.json").read_text(encoding="utf-8")
