@@ -8,6 +8,7 @@ import bpy
 from ..bridge.axes_of_parts import remove_other_parts, write_result_of_part
 from ..bridge.axis_object import check_writable, write_result
 from ..bridge.output_object import is_gone, source_of
+from ..bridge.parts_objects import MOST
 from ..bridge.report_object import (
     check_report_writable,
     check_source_writable,
@@ -18,7 +19,7 @@ from ..bridge.report_object import (
 )
 from ..bridge.surface_object import check_surface_writable, is_surface, write_surface
 from ..core.axis.compute import compute_axis
-from ..core.errors import MedialAxisError
+from ..core.errors import InvalidInputError, MedialAxisError
 from ..core.samples.mesh_parts import split
 from ..core.samples.sampling_report import report_sampling
 from ..core.settings import (
@@ -72,6 +73,11 @@ class OBJECT_OT_medial_axis(ComputeOperator, bpy.types.Operator):
         if not self.each_part:
             return super().divided(shape)
         found = split(shape, settings_from(self))
+        if len(found.parts) > MOST:
+            raise InvalidInputError(
+                f"Expected at most {MOST:,} connected parts, found {len(found.parts):,}; delete or "
+                "merge some of them, or switch Each Part by Itself off"
+            )
         return {found.words(part.number): part.shape for part in found.parts}, found.warnings
 
     def work(self, shape):

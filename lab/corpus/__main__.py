@@ -28,13 +28,17 @@ def main(words: list[str] | None = None) -> int:
     csv = options.output / "corpus.csv"
     last = table.read_csv(csv) if csv.exists() else []
     before = table.read_csv(options.against) if options.against else last
-    ran = table.compared(_rows(wanted(options), options), before)
-    names = {row["mesh"] for row in ran}
-    rest = [row for row in last if options.only and row["mesh"] not in names]
-    rows = sorted([*ran, *rest], key=lambda row: (row["source"], row["mesh"]))
-    table.write_csv(rows, csv)
-    (options.output / "corpus.md").write_text(table.page(rows), encoding="utf-8")
-    print(table.summary(ran))
+    found = wanted(options)
+    ran: list[table.Row] = []
+    try:
+        run_all(found, options, ran)
+    finally:  # an interrupted run keeps what it has
+        ran = table.compared(ran, before)
+        is_whole = len(ran) == len(found) and not options.only
+        rows = ran if is_whole else table.merged(ran, last)
+        table.write_csv(rows, csv)
+        (options.output / "corpus.md").write_text(table.page(rows), encoding="utf-8")
+        print(table.summary(ran))
     return 0
 
 
@@ -66,9 +70,9 @@ def wanted(options: argparse.Namespace) -> list[Mesh]:
     return found
 
 
-def _rows(found: list[Mesh], options: argparse.Namespace) -> list[table.Row]:
-    """A row of each mesh, and the contact sheet where it is wanted."""
-    rows, pictures = [], []
+def run_all(found: list[Mesh], options: argparse.Namespace, rows: list[table.Row]) -> None:
+    """Add a row of each mesh, and make the contact sheet where it is wanted."""
+    pictures = []
     limits = Limits(options.seconds, options.megabytes)
     with tempfile.TemporaryDirectory(prefix="corpus_") as folder:
         for number, mesh in enumerate(found):
@@ -82,7 +86,6 @@ def _rows(found: list[Mesh], options: argparse.Namespace) -> list[table.Row]:
                 pictures.append((f"{mesh.path.stem}\n{rows[-1]['betti']}", drawn))
         if pictures:
             picture.sheet(pictures, options.output / "corpus.png")
-    return rows
 
 
 if __name__ == "__main__":

@@ -79,6 +79,13 @@ def compared(rows: Iterable[Row], before: Iterable[Row]) -> list[Row]:
     return [{**row, "changed": _difference(row, old)} for row in rows]
 
 
+def merged(rows: Iterable[Row], before: Iterable[Row]) -> list[Row]:
+    """The rows with those of meshes that did not run now, in order."""
+    now = {row["mesh"]: row for row in rows}
+    kept = {row["mesh"]: {**row, "changed": ""} for row in before}
+    return sorted((kept | now).values(), key=lambda row: (row["source"], row["mesh"]))
+
+
 def _difference(row: Row, old: dict[str, Row]) -> str:
     if not old:
         return ""

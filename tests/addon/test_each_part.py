@@ -81,6 +81,10 @@ def test_a_refusal_and_a_cancelled_job_leave_nothing(monkeypatch):
     with pytest.raises(RuntimeError, match="found 1 without"):
         compute(**EACH)
     select(boxes(2))
+    with monkeypatch.context() as few:
+        few.setattr(addon("ui.operators"), "MOST", 1)
+        with pytest.raises(RuntimeError, match="at most 1 connected parts, found 2"):
+            compute(**EACH)
     operators = addon("ui.compute_operator")
 
     def cancelled(task):
