@@ -13,11 +13,11 @@ from scene import MODULE, addon, compute, ellipsoid, link, result_of
 
 SAMPLING = (
     "sampling",
-    "wrap_opening",
     "samples",
     "spacing",
     "epsilon",
     "budget",
+    "wrap_opening",
     "sharp_angle",
     "smooth",
     "keep_vertices",

@@ -17,6 +17,7 @@ HIDDEN = {
     "core/batch/outputs.py",
     "core/machine/free_memory.py",
     "core/batch/option_words.py",
+    "core/files/thickness_page.py",
     "core/machine/cache.py",
     "ui/translation.py",
 }
