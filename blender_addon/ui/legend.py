@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small pictures in the panel: the scale of colours as a legend, and a traffic light."""
 
+import math
+
 import bpy
 import bpy.utils.previews
 
@@ -47,9 +49,8 @@ def draw_thickness_legend(layout, scale, shares, texts):
     positions = scale.positions((bounds[:-1] + bounds[1:]) / 2)
     most = max(max(shares), 1e-12)
     for position, share in zip(positions.tolist(), shares, strict=True):
-        level = round(_LEVELS * share / most) if share > 0.0 else 0
-        level = max(level, 1) if share > 0.0 else 0
-        colour = colours([position], 0.0, 1.0)[0, :3].tolist()
+        level = math.ceil(_LEVELS * share / most)  # the least share is seen, too
+        colour = tuple(colours([position], 0.0, 1.0)[0, :3].tolist())
         name = "thickness " + " ".join(f"{channel:.3f}" for channel in colour)
         bars.label(text="", icon_value=_icon(f"{name} {level}", (colour, level)))
         steps.label(text="", icon_value=_icon(name, (colour, _LEVELS)))
@@ -91,7 +92,7 @@ def _pixels(what):
     if what in _LIGHTS:
         return _disc(_LIGHTS[what])
     if isinstance(what, int):
-        return _bar(colours([what], 0, _STEPS - 1)[0, :3].tolist(), _LEVELS)
+        return _bar(tuple(colours([what], 0, _STEPS - 1)[0, :3].tolist()), _LEVELS)
     return _bar(*what)
 
 

@@ -201,6 +201,11 @@ def test_usual_limits_follow_the_unit_of_the_scene():
     assert "Unit Scale to 0.001" in note(bpy.context, source)
 
 
+def test_the_legend_has_bars():
+    pixels = np.reshape(addon("ui.legend")._pixels(((0.1, 0.2, 0.3), 4)), (32, 32, 4))
+    assert (pixels[:8, :, 3] == 1.0).all() and (pixels[8:, :, 3] == 0.0).all()
+
+
 def test_what_was_measured_is_exported(tmp_path):
     source = torus()
     export = bpy.ops.export_scene.medial_axis_thickness

@@ -527,10 +527,9 @@ def scene_what_comes_after():
     look("4-thickness-panel")
     yield from click(*at(MEASURE_THICKNESS))
     yield from until(lambda: addon("bridge.thickness_object").carrier_of(source) is not None)
-    look("5-thickness")
-    show_colours()
     yield patience(1.0)
-    look("6-thickness-in-colours")
+    look("5-thickness-in-colours")
+    assert addon("ui.show").shows_colours(viewport().spaces.active), "they are switched on"
     show_colours()
     yield from fold(THICKNESS)
 
