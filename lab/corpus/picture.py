@@ -38,10 +38,13 @@ def draw(mesh: Path, axis: Path, picture: Path) -> None:
     corners = shape.points[shape.triangles]
     pieces, rows = _pieces(found)
     image = np.full((PIXELS[1], PIXELS[0], 3), WHITE)
-    middle, scale = _fit(corners.reshape(-1, 3))
-    surface = _spread(corners, np.zeros(corners.shape[:2]))[0]
+    middle, scale = _fit(shape.points)
+    surface, places, radii = shape.points, found.vertices, found.radius
+    if len(corners):
+        surface, _ = _spread(corners, np.zeros(corners.shape[:2]))
+    if len(pieces):
+        places, radii = _spread(pieces, found.radius[rows])
     _splat(image, (surface - middle) * scale, np.tile(SURFACE, (len(surface), 1)))
-    places, radii = _spread(pieces, found.radius[rows])
     shades = colours(radii, *radius_range(found.radius))[:, :3].astype(float)
     _splat(image, (places - middle) * scale, shades ** (1 / 2.2))
     header = f"P6 {PIXELS[0]} {PIXELS[1]} 255\n".encode()

@@ -113,6 +113,14 @@ def test_doubled_faces(medial, again):
     assert (read[12:] == read[12:, :1]).all()
 
 
+def test_a_sheet_of_doubled_faces_keeps_one_of_each(medial):
+    """To leave out both would leave no edge open, and no face."""
+    points, triangles = grid(5)
+    read, reading, _, _ = medial.outward_faces(points, np.concatenate((triangles, triangles)))
+    assert np.array_equal(read[:32], triangles)
+    assert (reading[:32] == 0).all() and (reading[32:] == REPEATED).all()
+
+
 def test_a_wall_between_two_rooms_drawn_from_both_sides(medial):
     """Two boxes share a wall, of which each has its own faces: they bound one solid as they are."""
     mesh = meshes.join(cube(), cube((1, 0, 0)))

@@ -122,6 +122,11 @@ bool repeats(const OutwardFaces& faces) {
          faces.reading.end();
 }
 
+bool leaves_faces(const OutwardFaces& faces) {
+  return std::any_of(faces.reading.begin(), faces.reading.end(),
+                     [](FaceReading reading) { return reading <= FaceReading::turned; });
+}
+
 }  // namespace
 
 OutwardFaces outward_faces(std::span<const Vec3> rows, std::span<const Triangle> triangles,
@@ -143,6 +148,7 @@ OutwardFaces outward_faces(std::span<const Vec3> rows, std::span<const Triangle>
     OutwardFaces read = turned_outward(triangles, distinct, repeated, run);
     const int64_t now_open = open_edges_of(read.triangles);
     const bool last = now_open == 0 || !repeats(read);
+    if (!leaves_faces(read)) break;
     if (now_open < open || (now_open == open && repeated == Repeated::first)) {
       best = std::move(read);
       open = now_open;

@@ -31,8 +31,8 @@ struct OutwardFaces {
 // if most of the area that rays decide about is turned; where their own faces differ, they look to
 // where rays meet an even number of faces. One of several equal faces stays, or none of an even
 // number where this leaves fewer edges open. Nothing is changed that would leave more edges open
-// than the faces as they were given. Throws InvalidInputError for a corner outside the rows and for
-// rows that are not finite.
+// than the faces as they were given, or no face at all. Throws InvalidInputError for a corner
+// outside the rows and for rows that are not finite.
 OutwardFaces outward_faces(std::span<const Vec3> rows, std::span<const Triangle> triangles,
                            const Run& run);
 
