@@ -37,7 +37,7 @@ RESULT, REBUILD = (
     (150, 283),
     (150, 413),
 )  # where there is a result; the second, when the first is closed
-REPORT = (102, 419)
+REPORT = (102, 442)
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 384), (102, 410)
 MEASURE_THICKNESS = (102, 432)
 REBUILD_SOLID = (102, 443)
@@ -476,7 +476,7 @@ def scene_sampling():
     assert "samples of the surface: the vertices" in result["ma_sampled"]
     assert abs(attribute(result.data, "ma_radius").max() - 1.0) < 0.02
     select(cube)
-    yield from click(*at(SAMPLING))
+    yield from fold(SAMPLING)
     look("opened")
     yield from click(*at(REPORT))
     yield report_exists
