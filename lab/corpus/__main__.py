@@ -11,6 +11,7 @@ that differ from corpus.csv as it was there, or from another table, are marked. 
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -32,7 +33,7 @@ def main(words: list[str] | None = None) -> int:
     ran: list[table.Row] = []
     try:
         run_all(found, options, ran)
-    finally:  # an interrupted run keeps what it has
+    finally:  # a run that is stopped keeps what it has
         ran = table.compared(ran, before)
         is_whole = len(ran) == len(found) and not options.only
         rows = ran if is_whole else table.merged(ran, last)
@@ -89,4 +90,5 @@ def run_all(found: list[Mesh], options: argparse.Namespace, rows: list[table.Row
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     sys.exit(main())
