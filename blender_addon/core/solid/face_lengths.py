@@ -32,12 +32,11 @@ if TYPE_CHECKING:
     from ..samples.shape import Shape
     from ..settings import Settings, ThicknessSettings
 
-# Two places are on opposite sides of a wall if their normals differ by 120 degrees or more.
+# Edges between points whose normals differ by 120 degrees or more lead round a wall, and not along it.
 _WALL = math.cos(math.radians(120.0))
-# The mesh itself shows its thickness where its edges are at most this number of spacings long, except on
-_COARSE = 3.0
-_SOME = 0.1  # of its area; a coarser one is cut until edges are so many spacings long:
-_FINE = 1.5
+# The mesh itself shows its thickness where its edges are at most this number of spacings long. If they are longer on
+# a larger share of the area, faces are cut until no edge is longer than the other number of spacings.
+_COARSE, _SOME, _FINE = 4.0, 0.1, 1.5
 _REFLEX, _CONVEX = 1, 2  # kinds of edges
 _ASIDE = 1e-3  # rays begin beside the edges of triangles, by this share of the way to the middle
 _BURIED = 1e-6  # a larger share of the area that bounds nothing calls for samples

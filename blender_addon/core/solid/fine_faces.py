@@ -4,12 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    _Columns = NDArray[
+        Any
+    ]  # (3, n), turned until the edge that differs from the others comes first
+    # Which of the triangles have such a piece, its corners, and the kinds of its edges.
+    _Part = tuple[NDArray[np.bool_], tuple[NDArray[Any], ...], tuple[NDArray[Any], ...]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,13 +149,17 @@ def _pieces(
     return pieces
 
 
-def _halves(corners, kinds, middles, _lengths):  # type: ignore[no-untyped-def]
+def _halves(
+    corners: _Columns, kinds: _Columns, middles: _Columns, _lengths: _Columns
+) -> list[_Part]:
     (a, b, c), (ab, bc, ca), m, inner = corners, kinds, middles[0], np.zeros_like(kinds[0])
     every = np.ones(len(a), bool)
     return [(every, (a, m, c), (ab, inner, ca)), (every, (m, b, c), (ab, bc, inner))]
 
 
-def _thirds(corners, kinds, middles, lengths):  # type: ignore[no-untyped-def]
+def _thirds(
+    corners: _Columns, kinds: _Columns, middles: _Columns, lengths: _Columns
+) -> list[_Part]:
     (a, b, c), (ab, bc, ca), inner = corners, kinds, np.zeros_like(kinds[0])
     m, n = middles[1], middles[2]  # of bc and ca
     every, to_m = np.ones(len(a), bool), lengths[1] >= lengths[2]
@@ -162,7 +172,9 @@ def _thirds(corners, kinds, middles, lengths):  # type: ignore[no-untyped-def]
     ]
 
 
-def _quarters(corners, kinds, middles, _lengths):  # type: ignore[no-untyped-def]
+def _quarters(
+    corners: _Columns, kinds: _Columns, middles: _Columns, _lengths: _Columns
+) -> list[_Part]:
     (a, b, c), (ab, bc, ca), (m, n, k) = corners, kinds, middles
     every, inner = np.ones(len(a), bool), np.zeros_like(ab)
     return [

@@ -20,8 +20,8 @@ constexpr double kCoordinate = 4.0 * std::numeric_limits<float>::epsilon();
 // Curved triangles know the surface up to this share of their bulge next to vertices, and up to the
 // other one between those.
 constexpr double kUnknown = 1.0 / 64, kUnknownBetween = 1.0 / 4;
-// Of the places that a ball touches, one opposite counts: those up to so much farther away, whose
-// normals differ from that of the first place by 120 degrees or more.
+// A ball lies between walls if one of the places that it touches, up to so much of its radius, is
+// opposite: the normal there differs from that of the first place by 120 degrees or more.
 constexpr double kTouched = 0.03, kOpposite = -0.5;
 // It is looked for from half of the way to the place opposite, up to so far from there, in radii.
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
