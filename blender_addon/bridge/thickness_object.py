@@ -179,8 +179,7 @@ def _write_copy(
         copy.color = FLAT
         copy.show_in_front = True  # it lies on its source
     place(copy, frame)
-    duplicates = found.chosen.samples.analysis.duplicates
-    remember(copy, source, found.samples, duplicates, found.warnings)
+    remember(copy, source, found.samples, found.duplicates, found.warnings)
     return copy
 
 

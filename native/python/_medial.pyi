@@ -542,6 +542,81 @@ class ThicknessMode:
     normals are used; what tapers reads too thick."""
 
 @final
+class BallFaces:
+    """The faces of a solid, flat or smooth, as walls that balls touch.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    triangles : (m, 3) int32
+        Rows of `vertices`, outward; the whole boundary of a solid.
+    sharp_angle, sharp_edges, smooth
+        As of `sample_surface`.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
+    def __init__(
+        self,
+        vertices: NDArray[np.float64],
+        triangles: NDArray[np.int32],
+        *,
+        sharp_angle: float = ...,
+        sharp_edges: NDArray[np.int32] | None = None,
+        smooth: bool = True,
+        progress: Progress | None = None,
+        threads: int = 0,
+    ) -> None: ...
+    def creases(self) -> tuple[NDArray[np.int32], NDArray[np.bool_], NDArray[np.int32]]:
+        """(e, 2) int32: rows of the vertices at the ends of each sharp or open edge; (e,) bool: whether the solid is
+        convex there; (c,) int32: rows of the vertices at corners and at tips."""
+    def inscribed_balls(
+        self,
+        points: NDArray[np.float64],
+        face: NDArray[np.int32],
+        spacing: NDArray[np.float64],
+        normals: NDArray[np.float64] | None = None,
+        *,
+        progress: Progress | None = None,
+        threads: int = 0,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The largest balls in the solid that touch its faces at given places.
+
+        Parameters
+        ----------
+        points : (n, 3) float64
+            On the faces.
+        face : (n,) int32
+            The triangle on which each point lies; -1 if it is unknown.
+        spacing : (n,) float64
+            Closer than this to a point, faces that look almost as it does belong to its surroundings: the distance at
+            which triangles tell the curvature of the surface.
+        normals : (n, 3) float64, optional
+            Of the faces there: unit, outward. Where one is zero, there is no ball. Without them, the points are moved
+            to the smooth surface of their faces, and have its normals.
+        progress : Progress, optional
+        threads : int
+            0: as many as the machine has. The result does not depend on it.
+
+        Returns
+        -------
+        diameters : (n,) float64
+            Infinite where nothing is opposite.
+        walls : (n,) float64
+            The same between walls: where the ball touches, up to 3 % of its radius, a place whose normal differs by
+            120 degrees or more, the one that does; else infinite.
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
+
+@final
 class WallThickness:
     """How thick a solid is at its samples, or how wide the gap; made by `MedialAnalysis.thickness`."""
 
@@ -1135,6 +1210,28 @@ def surface_patches(
     of_samples : (n, 2) int32
         Of each sample, or of each vertex without samples: its patch and -1; both patches, lower first, where two meet;
         twice -1 where more meet, and on no triangle. Samples that close openings have one more patch.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+
+def spread_lengths(
+    lengths: NDArray[np.float64],
+    own: NDArray[np.float64],
+    points: NDArray[np.float64],
+    edges: NDArray[np.int32],
+) -> NDArray[np.float64]:
+    """(n,) float64: lengths with those of the nearest points, along edges, where they are infinite.
+
+    A length reaches points up to twice itself away. Where none does, the largest of `own` nearby counts.
+
+    Parameters
+    ----------
+    lengths, own : (n,) float64
+    points : (n, 3) float64
+    edges : (e, 2) int32
+        Rows of the points.
 
     Raises
     ------

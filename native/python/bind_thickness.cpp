@@ -2,14 +2,20 @@
 // This binds thickness for Python: its modes, its result, and the patches of thin parts.
 #include <medial/thickness.h>
 
+#include <array>
+#include <memory>
+#include <optional>
+
 #include "arrays.h"
 #include "base/parallel.h"
 #include "base/patches.h"
 #include "base/point_tree.h"
 #include "base/rows.h"
 #include "bindings.h"
+#include "contact/inscribed_balls.h"
 #include "docstrings.h"
 #include "inside/surface.h"
+#include "thickness/extrapolation.h"
 
 namespace medial::python {
 namespace {
@@ -48,6 +54,96 @@ py::array nearest_rows(const py::object& sites, const py::object& queries) {
   return array_of<int32_t>(std::move(result));
 }
 
+void require_places(size_t wanted, size_t found, const char* name) {
+  if (wanted == found) return;
+  throw InvalidInputError("Expected one row of " + std::string(name) + " per point, found " +
+                          std::to_string(found) + " for " + std::to_string(wanted) +
+                          " points; pass all of them.");
+}
+
+void require_faces(std::span<const int32_t> face, size_t count) {
+  for (const int32_t row : face) {
+    if (row >= -1 && (row < 0 || static_cast<size_t>(row) < count)) continue;
+    throw InvalidInputError("Expected face as rows of the " + std::to_string(count) +
+                            " triangles or -1, found " + std::to_string(row) + "; check it.");
+  }
+}
+
+std::unique_ptr<Faces> faces_of(const py::object& vertices, const py::object& triangles,
+                                double sharp_angle, const py::object& sharp_edges, bool smooth,
+                                Progress* progress, int threads) {
+  const Points rows(vertices, "vertices");
+  const Triangles corners(triangles);
+  const EdgeRows marked(sharp_edges);
+  const FacesInput input{rows.span(), corners.span(), {}, sharp_angle, marked.span(), smooth};
+  const Run run{thread_count(thread_argument(threads)), progress};
+  const py::gil_scoped_release release;
+  return std::make_unique<Faces>(input, input.vertices, run);
+}
+
+py::tuple creases_of(const Faces& faces) {
+  std::vector<int32_t> ends;
+  std::vector<uint8_t> convex;
+  const auto& edges = faces.creases().edges;
+  for (size_t e = 0; e < edges.size(); ++e) {
+    if (edges[e].crease == Crease::none) continue;
+    for (const int32_t end : edges[e].ends) ends.push_back(faces.mesh().row[end]);
+    convex.push_back(faces.is_convex_crease(static_cast<int32_t>(e)));
+  }
+  std::vector<int32_t> corners;
+  for (size_t p = 0; p < faces.creases().corner.size(); ++p) {
+    if (faces.creases().corner[p]) corners.push_back(faces.mesh().row[p]);
+  }
+  const auto count = static_cast<py::ssize_t>(convex.size());
+  return py::make_tuple(array_of<int32_t>(std::move(ends)).attr("reshape")(count, 2),
+                        array_of<uint8_t>(std::move(convex)).attr("view")("bool"),
+                        array_of<int32_t>(std::move(corners)));
+}
+
+py::tuple balls_in_faces(const Faces& faces, const py::object& points, const py::object& face,
+                         const py::array_t<double, py::array::c_style>& spacing,
+                         const py::object& normals, Progress* progress, int threads) {
+  const Points rows(points, "points");
+  std::optional<Points> directions;
+  if (!normals.is_none()) directions.emplace(normals, "normals");
+  FacePlaces places{
+      rows.span(), ids_of(face, "face"), {spacing.data(), static_cast<size_t>(spacing.size())}};
+  if (directions) places.normals = directions->span();
+  const size_t count = places.points.size();
+  if (directions) require_places(count, places.normals.size(), "normals");
+  require_places(count, places.triangle.size(), "face");
+  require_places(count, places.spacing.size(), "spacing");
+  const Run run{thread_count(thread_argument(threads)), progress};
+  InscribedBalls found;
+  {
+    const py::gil_scoped_release release;
+    require_finite(places.points, "point");
+    require_faces(places.triangle, faces.triangles());
+    found = inscribed_balls(faces, places, run);
+  }
+  return py::make_tuple(array_of<double>(std::move(found.diameter)),
+                        array_of<double>(std::move(found.wall)));
+}
+
+py::array spread_lengths(const py::array_t<double, py::array::c_style>& lengths,
+                         const py::array_t<double, py::array::c_style>& own,
+                         const py::object& points, const py::object& edges) {
+  const Points rows(points, "points");
+  const auto places = rows.span();
+  const EdgeRows edge_rows(edges);
+  const auto ends = edge_rows.span();
+  require_places(places.size(), static_cast<size_t>(lengths.size()), "lengths");
+  require_places(places.size(), static_cast<size_t>(own.size()), "own");
+  std::vector<double> values(lengths.data(), lengths.data() + lengths.size());
+  const std::span<const double> own_values(own.data(), static_cast<size_t>(own.size()));
+  {
+    const py::gil_scoped_release release;
+    for (const auto& [p, q] : ends) require_faces(std::array{p, q}, places.size());
+    spread(values, own_values, places, {ends.begin(), ends.end()}, {thread_count(0)});
+  }
+  return array_of<double>(std::move(values));
+}
+
 }  // namespace
 
 void bind_thickness(py::module_& m) {
@@ -68,6 +164,16 @@ void bind_thickness(py::module_& m) {
           docs::WallThickness_measured);
   m.def("patches", &patches_of, docs::patches, py::arg("triangles"), py::arg("wanted"),
         py::arg("vertices"));
+  py::class_<Faces>(m, "BallFaces", docs::BallFaces, py::is_final(), py::module_local())
+      .def(py::init(&faces_of), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
+           py::arg("sharp_angle") = FacesInput{}.sharp_angle, py::arg("sharp_edges") = py::none(),
+           py::arg("smooth") = true, py::arg("progress") = nullptr, py::arg("threads") = 0)
+      .def("creases", &creases_of, docs::BallFaces_creases)
+      .def("inscribed_balls", &balls_in_faces, docs::BallFaces_inscribed_balls, py::arg("points"),
+           py::arg("face"), py::arg("spacing"), py::arg("normals") = py::none(), py::kw_only(),
+           py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("spread_lengths", &spread_lengths, docs::spread_lengths, py::arg("lengths"), py::arg("own"),
+        py::arg("points"), py::arg("edges"));
   m.def("nearest", &nearest_rows, docs::nearest, py::arg("sites"), py::arg("queries"));
 }
 

@@ -9,6 +9,7 @@ from medial_axis import cli
 from medial_axis.core.files.write_thickness import export_thickness
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Between, Edges, SamplingMode, Settings, ThicknessSettings
+from medial_axis.core.solid.face_lengths import MeasuredFaces
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_parts import find_thin_parts
 from scipy.spatial import cKDTree
@@ -103,15 +104,31 @@ THIN_THINGS = [
 ]
 
 
+def assert_below_rays(found, medial):
+    """In the middles of the measured triangles, and next to their corners away from edges."""
+    points, triangles = found.shape.points, found.shape.triangles
+    normals = normals_of(points, triangles)[found.surface.face_of_triangles]
+    reach = np.full(len(normals), np.linalg.norm(np.ptp(points, axis=0)))
+    middles = found.points[found.triangles].mean(axis=1)
+
+    def check(places, values):
+        way = medial.wall_distances(places, normals, reach, points, triangles)
+        known = np.isfinite(values)
+        assert (values <= (1 + 1e-6) * way + found.slack)[known].all()
+
+    check(middles, found.of_triangles)
+    for corner in found.triangles.T:
+        beside = found.points[corner] + 1e-3 * (middles - found.points[corner])
+        check(beside, np.where(found.at_edge[corner], np.inf, found.lengths[corner]))
+
+
 @pytest.mark.parametrize("edges", list(Edges))
 @pytest.mark.parametrize(("mesh", "limit"), THIN_THINGS)
-def test_no_value_exceeds_what_rays_find(mesh, limit, edges):
-    """The lengths at the samples, at the triangles and at the vertices of the shape are those of the close walls."""
+def test_no_value_exceeds_what_rays_find(medial, mesh, limit, edges):
+    """The lengths at the points and at the triangles of a solid that its faces bound."""
     found = measured(*mesh, limit=limit, edges=edges)
-    walls, spacing = found.walls, found.chosen.samples.walls.spacing.max()
-    of_samples, of_triangles = values_near(found, walls.points, spacing)
-    assert (of_samples <= walls.distance).all() and (of_triangles <= walls.distance).all()
-    assert found.minimum <= walls.distance.min(initial=np.inf)
+    assert isinstance(found.chosen, MeasuredFaces)
+    assert_below_rays(found, medial)
     parts = find_thin_parts(found, limit)
     thin = found.of_triangles < limit - found.slack
     np.testing.assert_array_equal(parts.patch_of_triangles >= 0, thin)
@@ -119,7 +136,7 @@ def test_no_value_exceeds_what_rays_find(mesh, limit, edges):
 
 
 @pytest.mark.parametrize("seed", repeats(12))
-def test_fuzzed_thin_parts(seed):
+def test_fuzzed_thin_parts(medial, seed):
     """Plates, and fins on one or two blocks, turned, moved and of any size."""
     rng = np.random.default_rng(seed)
     mesh = cube_with_fin(rng.uniform(0.05, 0.6), 10 ** rng.uniform(-5.0, -1.5))
@@ -133,9 +150,12 @@ def test_fuzzed_thin_parts(seed):
     wanted = ThicknessSettings(edges=list(Edges)[seed % 3])
     shape = Shape(points, mesh[1].astype(np.int32))
     found = measure_thickness(shape, Settings(sampling=sampling, samples=2_000), wanted)
-    walls, reach = found.walls, 1.5 * found.chosen.samples.walls.spacing.max()
-    for least in values_near(found, walls.points, reach):
-        assert (least <= walls.distance).all()
+    if isinstance(found.chosen, MeasuredFaces):
+        assert_below_rays(found, medial)
+    else:
+        walls, reach = found.walls, 1.5 * found.chosen.samples.walls.spacing.max()
+        for least in values_near(found, walls.points, reach):
+            assert (least <= walls.distance).all()
     assert found.triangles.max() < len(found.points) == len(found.lengths) == len(found.at_edge)
     assert len(find_thin_parts(found, 2 * found.minimum).patch_of_faces) == len(mesh[1])
 
@@ -270,6 +290,7 @@ def test_what_is_unknown_is_a_number_and_an_exit_code(tmp_path, monkeypatch):
 
     nothing = lambda shape, *_: close_walls.no_close_walls(shape)
     monkeypatch.setattr(thickness, "close_walls", nothing)
+    monkeypatch.setattr(thickness, "are_enough", lambda *_: False)
     source = write(tmp_path / "plate.off", *box(1.0, 1.0, 1e-5))
     output = tmp_path / "plate.json"
     assert cli.main(["thickness", str(source), str(output), "--limit", "0.02"]) == cli.UNMEASURED

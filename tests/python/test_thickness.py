@@ -19,6 +19,7 @@ from medial_axis.core.settings import (
     Settings,
     ThicknessSettings,
 )
+from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_parts import find_thin_parts
 from support import inputs
@@ -136,12 +137,78 @@ def test_ellipsoid_against_shrinking_balls():
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     truth, touched = shrinking_ball(points, normals, surface)
     assert_bars(balls.lengths[some], truth)
+    assert np.abs(balls.lengths[some] / truth - 1).mean() < 0.004
     others = surface[touched] / axes**2
     others /= np.linalg.norm(others, axis=1)[:, None]
     wall = (normals * others).sum(axis=1) < -0.52
     assert wall.sum() > 100
     assert_bars(walls.lengths[some][wall], truth[wall])
     assert (walls.lengths[some] > 0.99 * truth).all(), "what is filled is no less than the ball"
+
+
+WEDGE = (
+    np.array([(x, y, z) for y in (0.0, 0.7) for x, z in ((0, 0), (1, 0), (0.94, 0.342))], float),
+    np.array(
+        [(0, 1, 2), (3, 5, 4), (0, 4, 1), (0, 3, 4), (1, 5, 2), (1, 4, 5), (2, 3, 0), (2, 5, 3)]
+    ),
+)
+
+
+def widths_in_convex(points, faces, mesh):
+    """(n,) the largest ball that touches a place of a face and no other plane, in closed form."""
+    vertices, triangles = mesh
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    apart = 1.0 - normals[faces] @ normals.T
+    away = (normals * a).sum(axis=1) - points @ normals.T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return 2 * np.where(apart > 1e-9, away / apart, np.inf).min(axis=1)
+
+
+@pytest.mark.parametrize("mesh", [block(1, 0.7, 0.05), BOX, WEDGE], ids=["plate", "box", "wedge"])
+def test_balls_between_flat_faces_are_exact_up_to_the_edges(mesh):
+    vertices, triangles = moved(mesh, 1.0, 3, False)
+    mesh = vertices.astype(np.float32).astype(float), triangles
+    found = measure(mesh, edges=Edges.BALL)
+    inside = ~found.at_edge
+    truth = widths_in_convex(found.points[inside], found.surface.faces[inside], mesh)
+    np.testing.assert_allclose(found.lengths[inside], truth, rtol=1e-4, atol=1e-6)
+    walls = measure(mesh)
+    assert (walls.lengths[inside] >= (1 - 1e-6) * found.lengths[inside]).all()
+
+
+def rounded_disc(thickness=5.0, radius=60.0, edge=1.5):
+    turn = np.linspace(0.0, np.pi / 2, 7)
+    inner, low = radius - edge + edge * np.sin(turn), edge - edge * np.cos(turn)
+    profile = [*zip(inner, low, strict=True), *zip(inner[::-1], thickness - low[::-1], strict=True)]
+    return lathe([(0.0, 0.0), *profile, (0.0, thickness)])
+
+
+def test_flat_faces_stay_flat_beside_bevels(medial):
+    """In the thickness, and where the smooth surface is sampled."""
+    mesh = rounded_disc()
+    found = measure(mesh, Settings())
+    flat = np.hypot(*found.points[:, :2].T) < 57.0
+    assert flat.sum() > 1000 and found.lengths[flat] == pytest.approx(5.0, rel=1e-6)
+    samples = medial.sample_surface(*mesh, count=4000, smooth=True)
+    flat = np.hypot(*samples.points[:, :2].T) < 58.0
+    assert np.abs(np.abs(samples.points[flat, 2] - 2.5) - 2.5).max() < 1e-9
+
+
+def test_faces_are_cut_alike_on_both_sides_of_every_edge():
+    vertices, triangles = BOX
+    sharp = np.array([(0, 1), (0, 2), (0, 4)], np.int32)
+    fine = cut_faces(coarse_faces(vertices, triangles, sharp, np.array([1, 2, 2], np.int8)), 0.06)
+    corners = fine.points[fine.triangles]
+    ways = corners - np.roll(corners, 1, axis=1)
+    assert np.linalg.norm(ways, axis=2).max() <= 0.06
+    areas = np.linalg.norm(np.cross(ways[:, 0], ways[:, 1]), axis=1) / 2
+    assert areas.min() > 0 and areas.sum() == pytest.approx(2.76)
+    assert len(fine.edges()) == 3 * len(fine.triangles) / 2
+    lengths = np.linalg.norm(ways, axis=2)[:, [1, 2, 0]]
+    assert lengths[fine.kinds == 1].sum() == pytest.approx(2 * 0.4)
+    assert lengths[fine.kinds == 2].sum() == pytest.approx(2 * 1.7)
 
 
 def test_stairs_against_rays():
@@ -182,7 +249,7 @@ def test_what_has_no_walls_is_as_thick_as_its_largest_ball():
     corners = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
     found = measure((corners, np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])))
     # The corner that is opposite to the face of the largest ball is out of its reach.
-    assert np.median(found.lengths) == pytest.approx(2 / np.sqrt(3), rel=0.01)
+    assert np.median(found.lengths) == pytest.approx(2 / np.sqrt(3), rel=0.02)
     cube = measure(block(1, 1, 1))
     assert np.median(cube.lengths) == pytest.approx(1.0, rel=0.01)
     assert np.percentile(cube.lengths, 1) > 0.95

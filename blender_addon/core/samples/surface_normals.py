@@ -85,19 +85,26 @@ def _are_corners(shape: Shape, chosen: ChosenSamples) -> bool:
 def _of_triangles(
     points: NDArray[np.float64], triangles: NDArray[np.int32], sharp_angle: float, source: str
 ) -> SurfaceNormals:
-    """Average the normals of the triangles at each point, weighted by area."""
+    """Take the mean normals of the triangles at each point."""
+    normals, faces = mean_normals(points, triangles)
+    at_edge = np.zeros(len(points), bool)
+    for corner in triangles.T:
+        turned = np.einsum("ij,ij->i", normals[corner], faces) < math.cos(sharp_angle)
+        at_edge[corner[turned]] = True
+    return SurfaceNormals(normals, at_edge, _sentence(source))
+
+
+def mean_normals(
+    points: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(n, 3) the unit means of the normals of the triangles at each point, weighted by area, and (f, 3) these."""
     a, b, c = (points[triangles[:, corner]] for corner in range(3))
     faces = cross(b - a, c - a)
     normals = np.empty_like(points)
     for axis in range(3):
         weights = np.repeat(faces[:, axis], 3)
         normals[:, axis] = np.bincount(triangles.ravel(), weights, len(points))
-    normals, faces = unit(normals), unit(faces)
-    at_edge = np.zeros(len(points), bool)
-    for corner in triangles.T:
-        turned = np.einsum("ij,ij->i", normals[corner], faces) < math.cos(sharp_angle)
-        at_edge[corner[turned]] = True
-    return SurfaceNormals(normals, at_edge, _sentence(source))
+    return unit(normals), unit(faces)
 
 
 def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -41,7 +41,9 @@ class MeasuredSurface:
     faces : (n,) int32 or None
         The face of the shape on which each point lies; -1 where there is none.
     at_most : (f,) float64
-        The shortest way to an opposite wall that rays found at each triangle; infinite where they found none.
+        The shortest way to an opposite wall that was found at each triangle itself; infinite where there is none.
+    face_of_triangles : (f,) int32 or None
+        The face of the shape in which each triangle lies; None where they lie in none.
     """
 
     points: NDArray[np.float64]
@@ -50,6 +52,7 @@ class MeasuredSurface:
     at_edge: NDArray[np.bool_]
     faces: NDArray[np.int32] | None
     at_most: NDArray[np.float64]
+    face_of_triangles: NDArray[np.int32] | None = None
 
 
 def bounded(

@@ -14,6 +14,7 @@ from ..samples.surface_normals import cross
 from ..settings import Between, Edges, ThicknessSettings
 from .bounded_lengths import MeasuredSurface
 from .close_walls import CloseWalls, is_shorter, rounding_of
+from .face_lengths import MeasuredFaces
 from .thin_faces import face_of_triangles, thinnest_of_faces
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ class Measurement:
     Parameters
     ----------
     shape : Shape
-    chosen : ChosenSamples
+    chosen : ChosenSamples or MeasuredFaces
     settings : ThicknessSettings
         The settings of the measurement; the limit is not used here.
     surface : MeasuredSurface
@@ -54,7 +55,7 @@ class Measurement:
     """
 
     shape: Shape
-    chosen: ChosenSamples
+    chosen: ChosenSamples | MeasuredFaces
     settings: ThicknessSettings
     surface: MeasuredSurface
     measured: NDArray[np.bool_]
@@ -68,7 +69,16 @@ class Measurement:
     @property
     def samples(self) -> int:
         """The number of samples, which are the first points of the surface."""
+        if isinstance(self.chosen, MeasuredFaces):
+            return len(self.surface.points)
         return len(self.chosen.samples.points)
+
+    @property
+    def duplicates(self) -> int:
+        """The number of samples that were merged into an earlier one with the same coordinates."""
+        if isinstance(self.chosen, MeasuredFaces):
+            return 0
+        return int(self.chosen.samples.analysis.duplicates)
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -95,17 +105,22 @@ class Measurement:
         """(f,) the median of the lengths at the corners, so that no single sample decides.
 
         Where one or two corners lie on an edge, which belongs to two faces, it is no less than the largest length at
-        the other corners. It is no more than the way to a wall that rays found there.
+        the other corners. It is no more than the way to a wall that rays found there. By the faces, it is that length,
+        and where all corners lie on edges, that of the middle.
         """
         values, on_edge = self.lengths[self.triangles].T, self.at_edge[self.triangles].T
         a, b, c = values
         median = np.maximum(np.minimum(a, b), np.minimum(np.maximum(a, b), c))
-        mixed = on_edge.any(axis=0)
+        mixed = on_edge.any(axis=0) & ~on_edge.all(axis=0)
         others = np.where(on_edge[:, mixed], -np.inf, values[:, mixed]).max(axis=0)
-        median[mixed] = np.maximum(median[mixed], others)
+        by_faces = isinstance(self.chosen, MeasuredFaces)
+        median[mixed] = others if by_faces else np.maximum(median[mixed], others)
         if self.settings.between is Between.GAP:  # no wall faces the corner of a solid
             median[on_edge.all(axis=0)] = np.inf
-        return np.minimum(median, self.surface.at_most)
+        at_most = self.surface.at_most
+        if by_faces:
+            return np.where(np.isfinite(at_most), at_most, median)
+        return np.minimum(median, at_most)
 
     @cached_property
     def areas(self) -> NDArray[np.float64]:
@@ -144,6 +159,8 @@ class Measurement:
     @cached_property
     def of_vertices(self) -> NDArray[np.float64]:
         """(v,) the length at each vertex of the shape, taken from the nearest sample and from walls that rays found."""
+        if isinstance(self.chosen, MeasuredFaces):
+            return self.lengths[self.chosen.row]
         samples = self.chosen.samples
         if self.samples == len(self.shape.points) and samples.kinds is None:
             return self.lengths[: self.samples]
@@ -157,7 +174,9 @@ class Measurement:
         """(m,) the triangle that represents each face of the shape, the thinnest one in it; -1 where there is none."""
         if self.triangles is self.shape.triangles:
             return np.arange(len(self.triangles), dtype=np.int32)
-        inside = face_of_triangles(self.triangles, self.at_edge, self.surface.faces)
+        inside = self.surface.face_of_triangles
+        if inside is None:
+            inside = face_of_triangles(self.triangles, self.at_edge, self.surface.faces)
         return thinnest_of_faces(
             self.shape, self.points, self.triangles, self.of_triangles, self.at_edge, inside
         )
@@ -169,7 +188,7 @@ class Measurement:
             self.lengths,
             self.measured,
             self.points,
-            self.chosen.samples.points,
+            self.points[: self.samples],
             self.shape.points,
         )
         return sum(x.nbytes for x in arrays) + 40 * len(self.triangles)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from dataclasses import astuple, replace
 from typing import TYPE_CHECKING
@@ -12,21 +13,30 @@ import numpy as np
 from ..machine import native
 from ..machine.cache import CACHE, key_of
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.progress import Progress
 from ..samples.choose_samples import begin
 from ..samples.density import percent
 from ..samples.nearness import sample_of_row
 from ..samples.noise import noise_of
+from ..samples.outward_faces import outward_shape, reading_warnings
 from ..samples.sampling_warnings import sampling_warnings
-from ..samples.surface_normals import SurfaceNormals, measured_surface, surface_normals, unit
+from ..samples.sides import resolve_sides
+from ..samples.surface_normals import (
+    SurfaceNormals,
+    mean_normals,
+    measured_surface,
+    surface_normals,
+    unit,
+)
 from ..settings import Between, Edges, Noise, SamplingMode, Settings, ThicknessSettings
 from .bounded_lengths import MeasuredSurface, bounded
-from .close_walls import close_walls
+from .close_walls import close_walls, no_close_walls
+from .face_lengths import MeasuredFaces, are_enough, lengths_by_faces
 from .measurement import UNKNOWN, Measurement
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..machine.progress import Progress
     from ..samples.chosen import ChosenSamples
     from ..samples.shape import Shape
 
@@ -41,7 +51,7 @@ def measure_thickness(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> Measurement:
-    """Measure a shape by its axis, which is computed unless the cache has it.
+    """Measure a shape by its faces, or where these do not enclose a solid by its axis, unless the cache has that.
 
     Parameters
     ----------
@@ -57,6 +67,60 @@ def measure_thickness(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     settings = replace(settings, side=wanted.side)
+    start, progress, shape = time.perf_counter(), progress or Progress(), outward_shape(shape)
+    if are_enough(shape, settings, wanted):
+        return _kept(_by_faces(shape, settings, wanted, progress, start))
+    return _kept(_by_axis(shape, settings, wanted, progress, limit))
+
+
+def _kept(found: Measurement) -> Measurement:
+    CACHE.put(found.key, found, found.bytes)
+    return found
+
+
+def _by_faces(
+    shape: Shape,
+    settings: Settings,
+    wanted: ThicknessSettings,
+    progress: Progress,
+    start: float,
+) -> Measurement:
+    surface, measured, row, cut = lengths_by_faces(shape, settings, wanted, progress)
+    count = len(surface.points)
+    reason = f"{count:,} places on the faces" if cut else f"The {count:,} vertices, by the faces"
+    sides = resolve_sides(settings.sides, shape.triangles, 0, None)
+    noise = 0.0
+    if not cut:
+        normals, _ = mean_normals(surface.points, surface.triangles)
+        noise = noise_of(surface.points, surface.triangles, normals)
+    found = Measurement(
+        shape=shape,
+        chosen=MeasuredFaces(reason, sides, row),
+        settings=wanted,
+        surface=surface,
+        measured=measured,
+        normals="The normals are those of the faces",
+        noise=noise,
+        warnings=(),
+        seconds=time.perf_counter() - start,
+        walls=no_close_walls(shape),
+        key=key_of(
+            "thickness by faces",
+            (shape.points, shape.triangles, shape.sharp_edges, shape.shaded_smooth),
+            astuple(settings),
+            astuple(replace(wanted, limit=0.0)),
+        ),
+    )
+    return replace(found, warnings=(*reading_warnings(shape), *_warnings(found)))
+
+
+def _by_axis(
+    shape: Shape,
+    settings: Settings,
+    wanted: ThicknessSettings,
+    progress: Progress,
+    limit: MemoryLimit,
+) -> Measurement:
     begun = begin(shape, settings, progress, limit)
     shape, chosen = begun.shape, begun.chosen
     surface = measured_surface(shape, chosen)
@@ -86,9 +150,7 @@ def measure_thickness(
             "thickness", chosen.samples.key, astuple(settings), astuple(replace(wanted, limit=0.0))
         ),
     )
-    found = replace(found, warnings=(*sampling_warnings(shape, chosen), *_warnings(found)))
-    CACHE.put(found.key, found, found.bytes)
-    return found
+    return replace(found, warnings=(*sampling_warnings(shape, chosen), *_warnings(found)))
 
 
 def kept_measurement(key: str) -> Measurement | None:

@@ -152,6 +152,21 @@ Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
   return foot;
 }
 
+Foot Faces::lifted(int32_t triangle, const Vec3& from) const {
+  if (!is_curved(triangle)) return foot_on(triangle, from);
+  const Patch patch = surface_->patch(triangle);
+  const auto corners = patch.controls();
+  const Barycentric at = closest_on_flat(corners[0], corners[1], corners[2], from);
+  const Vec3 point = patch.point(at);
+  return {triangle, at, point, medial::distance(from, point)};
+}
+
+std::vector<int32_t> Faces::places_in_tree() const {
+  std::vector<int32_t> places(order_.size());
+  for (size_t i = 0; i < order_.size(); ++i) places[order_[i]] = static_cast<int32_t>(i);
+  return places;
+}
+
 Foot Faces::foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
                           const Vec3& from) {
   const Barycentric at = closest_on_patch(patch, start, from);

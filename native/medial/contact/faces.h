@@ -32,6 +32,8 @@ class Faces {
   const TriangleMesh& mesh() const { return mesh_; }
   size_t bytes() const;
   const Creases& creases() const { return creases_; }
+  // Returns how many rows of triangles the input had.
+  size_t triangles() const { return triangle_of_.size(); }
   // Returns the triangle of the mesh for a row of the input, or -1 if it was left out.
   int32_t triangle_of(int32_t row) const { return row < 0 ? -1 : triangle_of_[row]; }
   // Returns the edge from a corner of a triangle to the next one.
@@ -42,6 +44,8 @@ class Faces {
   // Returns whether an edge is sharp, and the solid is convex there.
   bool is_convex_crease(int32_t edge) const { return separates_[edge] == kConvex; }
 
+  // Returns how far the surface is at most from the flat triangle.
+  double bulge(int32_t triangle) const { return bulge_.empty() ? 0 : bulge_[triangle]; }
   bool is_curved(int32_t triangle) const { return !bulge_.empty() && bulge_[triangle] > 0; }
   Vec3 point(int32_t triangle, const Barycentric& at) const;
   Vec3 normal(int32_t triangle, const Barycentric& at) const {
@@ -57,9 +61,42 @@ class Faces {
   Foot descend_again(const Foot& before, const Vec3& from) const;
   // Returns the nearest place of all faces if it is nearer than a distance.
   std::optional<Foot> nearer(const Vec3& from, double than) const;
+  // Returns the foot on the flat triangle, lifted to the surface: close to the nearest place of a
+  // curved triangle, and sooner found.
+  Foot lifted(int32_t triangle, const Vec3& from) const;
+  // Returns the nearest lifted foot of all faces that is nearer than a distance, without those that
+  // `ignored` is true of. Where very many faces are about as far away, as those of a sphere are
+  // from its centre, it may be one of the others.
+  template <typename Ignored>
+  std::optional<Foot> nearer_by_lift(const Vec3& from, double than, const Ignored& ignored) const {
+    std::optional<Foot> best;
+    double within = than;
+    int in_vain = 0;
+    const auto visit = [&](const Node& leaf) {
+      ++in_vain;
+      for (int32_t i = leaf.begin; i < leaf.end; ++i) {
+        const Foot foot = lifted(order_[i], from);
+        const bool first = best && foot.distance == within && foot.triangle < best->triangle;
+        if (!(foot.distance < within || first) || ignored(foot)) continue;
+        best = foot;
+        within = foot.distance;
+        in_vain = 0;
+      }
+    };
+    const auto bound = [&](const Node& node) {
+      return in_vain > kMostInVain ? HUGE_VAL : medial::squared_distance(node.box, from);
+    };
+    if (nodes_.empty()) return best;
+    visit_nearest(
+        nodes_, 0, bound, [&] { return within * within; }, visit);
+    return best;
+  }
+  // Returns where each triangle is in the search tree, where neighbours are close to each other.
+  std::vector<int32_t> places_in_tree() const;
 
  private:
   static constexpr uint8_t kConvex = 2;
+  static constexpr int kMostInVain = 64;
 
   struct Node : TreeNode {
     OrientedBox box;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/pn_triangles.h"
 
+#include <limits>
 #include <numbers>
 
 #include "base/union_find.h"
@@ -10,6 +11,71 @@ namespace {
 
 // Sides closer than about 6 degrees do not determine the direction of their edge.
 constexpr double kParallel = 0.1;
+// Coordinates may have been float32, so triangles of one plane are so far from it.
+constexpr double kPlane = 4.0 * std::numeric_limits<float>::epsilon();
+// A flat part that is so many times as large as all others at a vertex is a wall beside a bevel.
+constexpr double kDominant = 8;
+
+// The flat parts of a mesh: triangles that lie in one plane and are joined by edges.
+struct FlatParts {
+  std::vector<int32_t> part;   // per triangle
+  std::vector<double> area;    // per triangle: of its part
+  std::vector<uint8_t> alone;  // per triangle: it is the whole part
+};
+
+double height_over(const TriangleMesh& mesh, int32_t triangle, const Edge& edge, int32_t other) {
+  const Triangle& t = mesh.triangles[other];
+  const Vec3& third = mesh.points[t[0] + t[1] + t[2] - edge[0] - edge[1]];
+  return std::abs(dot(mesh.normal[triangle], third - mesh.points[edge[0]]));
+}
+
+FlatParts flat_parts(const TriangleMesh& mesh, const Creases& creases) {
+  const size_t count = mesh.triangles.size();
+  double largest = 0;
+  for (const Vec3& p : mesh.points) largest = std::max(largest, max_abs(p));
+  UnionFind joined(count);
+  for (const MeshEdge& edge : creases.edges) {
+    if (edge.crease != Crease::none || !edge.manifold) continue;
+    const auto& [s, t] = edge.triangles;
+    const double off =
+        std::min(height_over(mesh, s, edge.ends, t), height_over(mesh, t, edge.ends, s));
+    if (off <= kPlane * largest) joined.unite(s, t);
+  }
+  const auto parts = std::move(joined).representatives();
+  FlatParts flat{{parts.begin(), parts.end()}, {}, {}};
+  std::vector<double> area(count, 0);
+  std::vector<int32_t> members(count, 0);
+  for (size_t t = 0; t < count; ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3& p = mesh.points[a];
+    area[flat.part[t]] += length(cross(mesh.points[b] - p, mesh.points[c] - p));
+    ++members[flat.part[t]];
+  }
+  for (const int32_t part : flat.part) {
+    flat.area.push_back(area[part]);
+    flat.alone.push_back(members[part] == 1);
+  }
+  return flat;
+}
+
+// The largest flat part at a vertex, and the area of the next one.
+struct Largest {
+  int32_t part = -1;
+  bool alone = true;
+  double area = 0, next = 0;
+
+  void add(const FlatParts& flat, int32_t triangle) {
+    if (flat.part[triangle] == part) return;
+    const double found = flat.area[triangle];
+    next = std::max(next, std::min(area, found));
+    if (!(found > area)) return;
+    part = flat.part[triangle];
+    alone = flat.alone[triangle] != 0;
+    area = found;
+  }
+  // Returns whether a triangle counts for the normal: where one part dominates, only its own do.
+  bool counts(int32_t of) const { return of == part || alone || area < kDominant * next; }
+};
 
 // Returns a third of the chord, made tangent to both sides. Its length is not kept; neither is it
 // with one side.
@@ -129,16 +195,24 @@ void CurvedSurface::add_normals(const Creases& creases) {
     }
   }
   const auto root = std::move(corners).representatives();
+  const FlatParts flat = flat_parts(mesh_, creases);
+  const auto count = static_cast<int32_t>(root.size());
   fan_of_.resize(mesh_.triangles.size());
   std::vector<int32_t> fan(root.size(), -1);
-  for (int32_t c = 0; c < static_cast<int32_t>(root.size()); ++c) {
-    const int32_t t = c / 3;
+  std::vector<Largest> largest;
+  for (int32_t c = 0; c < count; ++c) {
     if (fan[root[c]] < 0) {
-      fan[root[c]] = static_cast<int32_t>(fan_normals_.size());
-      fan_normals_.emplace_back();
+      fan[root[c]] = static_cast<int32_t>(largest.size());
+      largest.emplace_back();
     }
-    Vec3& sum = fan_normals_[fan_of_[t][c % 3] = fan[root[c]]];
-    sum = sum + mesh_.corner_angle(t, c % 3) * mesh_.normal[t];
+    fan_of_[c / 3][c % 3] = fan[root[c]];
+    largest[fan[root[c]]].add(flat, c / 3);
+  }
+  fan_normals_.resize(largest.size());
+  for (int32_t c = 0; c < count; ++c) {
+    const int32_t t = c / 3, f = fan_of_[t][c % 3];
+    if (!largest[f].counts(flat.part[t])) continue;
+    fan_normals_[f] = fan_normals_[f] + mesh_.corner_angle(t, c % 3) * mesh_.normal[t];
   }
   for (Vec3& normal : fan_normals_) normal = normalized(normal);
   split_steep_fans(creases.sharp_angle);

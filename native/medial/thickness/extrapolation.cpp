@@ -115,8 +115,12 @@ class Spreading {
 void extrapolate(std::vector<double>& values, std::span<const double> own,
                  std::span<const Vec3> points, const Tangents& tangents, const Edges& edges,
                  const Significance& significance, const Run& run) {
-  Spreading to_others(values, points, paths(values, points, tangents, edges, significance, run),
-                      run);
+  spread(values, own, points, paths(values, points, tangents, edges, significance, run), run);
+}
+
+void spread(std::vector<double>& values, std::span<const double> own, std::span<const Vec3> points,
+            std::vector<Edge> ends, const Run& run) {
+  Spreading to_others(values, points, std::move(ends), run);
   to_others.spread();
   to_others.spread(own);
 }
