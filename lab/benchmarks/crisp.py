@@ -3,20 +3,31 @@
 
     python3 lab/benchmarks/crisp.py [--output table.md] [--shapes box wedge] [--samples 4000 20000] [--seeds 0 1 2]
         [--form clean] [--float32] [--as-is] [--no-crisp]
+    python3 lab/benchmarks/crisp.py --meshes fandisk_large.off [--samples 8000 20000] [--no-crisp]
 
 Each mesh is turned at random by its seed, sampled as Sampling Surface does, and its axis computed with the default
 settings. Rows: exact, the places of the Voronoi diagram; relaxed, what is shown without crisp places; crisp, what is
-shown with them, where the product has them. docs/lab/crisp.md says what the columns are.
+shown with them, where the product has them. docs/lab/crisp.md says what the columns are. Meshes are files of the data
+folder; they are not turned, and what is known of their axes is measured only.
 """
 
 import sys
 import time
 
 import _module
+import numpy as np
 
 medial = _module.load()
 
-from support import crisp_measures, crisp_runs, crisp_solids  # noqa: E402  (found through _module)
+import medial_axis  # noqa: E402  (found through _module)
+from support import (  # noqa: E402
+    crisp_measures,
+    crisp_runs,
+    crisp_solids,
+    crossing_triangles,
+    distance,
+    meshes,
+)
 
 HEADER = ["shape", "samples", "seed", "places", "facets", "err mean/99/max", "r-d mean/max"]
 HEADER += [
@@ -31,6 +42,10 @@ HEADER += [
     "pieces, Euler",
     "s",
 ]
+
+MESH_HEADER = ["mesh", "samples", "facets", "r-d mean/99/max", "gap mean/95/max", "turn mean/95"]
+MESH_HEADER += ["folds", "crossings", "s"]
+SHARP = 32.0  # degrees between the faces of an edge that has a gap
 
 
 def rows(case: crisp_runs.Case, crisp: bool) -> list[list[str]]:
@@ -68,10 +83,53 @@ def spread(values: crisp_measures.Spread) -> str:
     return f"{values.mean:.1e} {values.p99:.1e} {values.most:.1e}"
 
 
+def mesh_row(name: str, count: int, crisp: bool) -> list[str]:
+    points, triangles = meshes.read(_module.DATA / name)
+    start = time.perf_counter()
+    made = medial_axis.compute(points, triangles, sampling="surface", samples=count, crisp=crisp)
+    seconds = time.perf_counter() - start
+    output = crisp_measures.output_of(made, np.eye(3))
+    samples = len(made.chosen.samples.points)
+    corners = points[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    spacing = np.sqrt(np.linalg.norm(normals, axis=1).sum() / (np.sqrt(3.0) * samples))
+    ends = points[sharp_edges(points, triangles, normals)]
+    share = np.linspace(0.0, 1.0, 4)[:, None]
+    edges = (ends[:, None, 0] * (1.0 - share) + ends[:, None, 1] * share).reshape(-1, 3)
+    gap = distance.to_triangles(edges, output.cells()) / spacing
+    off = np.abs(output.radius - distance.to_triangles(output.vertices, corners))
+    turns = crisp_measures.rim_turns(output)
+    return [
+        name,
+        str(samples),
+        str(len(output.across)),
+        spread(crisp_measures.Spread.of(off / np.linalg.norm(np.ptp(points, axis=0)))),
+        f"{gap.mean():.2f} {np.quantile(gap, 0.95):.2f} {gap.max():.1f}",
+        f"{turns.mean():.1f} {np.quantile(turns, 0.95):.0f}",
+        str(int(output.rings().folded().sum())),
+        str(len(crossing_triangles.crossing_pairs(output.vertices, output.triangles))),
+        f"{seconds:.1f}",
+    ]
+
+
+def sharp_edges(points, triangles, normals):
+    """(e, 2) convex edges whose faces differ by more than `SHARP`."""
+    normals = normals / np.linalg.norm(normals, axis=1)[:, None]
+    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    order = np.lexsort(sides.T[::-1])
+    pair = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
+    first, second = order[pair] // 3, order[pair + 1] // 3
+    edges = sides[order[pair]]
+    beyond = points[triangles[second]].mean(axis=1) - points[edges[:, 0]]
+    bent = np.einsum("ei,ei->e", normals[first], normals[second]) < np.cos(np.radians(SHARP))
+    return edges[bent & (np.einsum("ei,ei->e", normals[first], beyond) < 0.0)]
+
+
 def main() -> None:
     parser = _module.parser(__doc__)
     names = crisp_solids.NAMES
     parser.add_argument("--shapes", nargs="+", default=list(names), choices=names)
+    parser.add_argument("--meshes", nargs="+", help="files of the data folder, instead of shapes")
     parser.add_argument("--samples", nargs="+", type=int, default=[4_000, 20_000])
     parser.add_argument("--seeds", nargs="+", type=int, default=[0])
     parser.add_argument("--form", default="clean", choices=("clean", "curve"))
@@ -79,6 +137,14 @@ def main() -> None:
     parser.add_argument("--as-is", action="store_true", help="do not turn the meshes")
     parser.add_argument("--no-crisp", action="store_true", help="leave crisp places out")
     options = parser.parse_args()
+    if options.meshes:
+        table = [
+            mesh_row(name, count, not options.no_crisp)
+            for name in options.meshes
+            for count in options.samples
+        ]
+        _module.publish(_module.markdown(MESH_HEADER, table), options.output)
+        return
     wanted = [False, True] if crisp_runs.knows_crisp() and not options.no_crisp else [False]
     table = [
         row

@@ -18,6 +18,7 @@
 #include "contact/least_distance.h"
 #include "contact/touching_ball.h"
 #include "shapes.h"
+#include "skeleton/focal_line.h"
 #include "skeleton/level.h"
 
 namespace medial {
@@ -163,6 +164,63 @@ TEST(ConvexCreases, OfPatchesBelowTheSpacingDivideNothing) {
   const auto place = creases.nearer({1.5, 0.1, 0.2}, HUGE_VAL);
   ASSERT_TRUE(place);
   EXPECT_FALSE(creases.divides(place->edge));
+}
+
+// A ridge between two large slopes whose line is a zigzag of short edges.
+TEST(ConvexCreases, OfAZigzagAreJaggedAndHaveNoCornersInside) {
+  test::Mesh mesh;
+  const int steps = 40;
+  for (int i = 0; i <= steps; ++i) {
+    const double x = i, y = i % 2 ? 0.4 : -0.4;
+    mesh.vertices.insert(mesh.vertices.end(), {{x, -20, -20}, {x, y, -std::abs(y)}, {x, 20, -20}});
+  }
+  for (int i = 0; i < steps; ++i) {
+    for (const int k : {0, 1}) {
+      const int a = 3 * i + k, b = a + 3, c = a + 4, d = a + 1;
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  }
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  const ConvexCreases creases(faces, 1);
+  const auto found = creases.nearer({20, 0, 0}, 2);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(creases.is_jagged(found->edge));
+  for (int i = 1; i < steps; ++i) EXPECT_FALSE(creases.is_corner(3 * i + 1)) << i;
+}
+
+TEST(FocalLine, PlacesGoOntoTheirLineAndThoseFarOffHaveNone) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < 40; ++i) places.push_back({0.25 * i, 1e-7 * (i % 3), -1e-7 * (i % 2)});
+  places.push_back({5.1, 0.3, 0});
+  const std::vector<double> spacing(places.size(), 1);
+  const auto found = straightened(places, spacing, {});
+  EXPECT_FALSE(found.back());
+  for (size_t i = 0; i + 1 < places.size(); ++i) {
+    ASSERT_TRUE(found[i]);
+    EXPECT_LT(distance(*found[i], places[i]), 1e-6);
+  }
+}
+
+// A rim runs along four knots, goes back over half a segment and round a flap over a knot.
+TEST(FocalLine, IsCoveredOnceAndFacetsStayBetweenTwoKnots) {
+  std::vector<Vec3> knots{{0, 0, 0}, {1, 0, 0}, {2, 0.1, 0}, {3, 0.1, 0}};
+  std::vector<OnLine> at{{{0, 0}, 0}, {{0, 1}, 0.6}, {{0, 1}, 0.2},  {{1, 2}, 0.5},
+                         {{3, 3}, 0}, {{0, 1}, 0.9}, {{1, 2}, 0.25}, {{2, 3}, 0.5}};
+  const std::vector<Edge> rims{{0, 1}, {1, 2}, {2, 3}, {3, 7}, {4, 7}, {5, 6}};
+  const std::vector<int32_t> web{0, 1, 2, 3, 4, 5, 6, 7};
+  cover_once(knots, rims, web, at);
+  const auto place = [&](int32_t v) {
+    const Vec3 &from = knots[at[v].knots[0]], &to = knots[at[v].knots[1]];
+    return from + at[v].share * (to - from);
+  };
+  double length = 0;
+  for (const auto& [a, b] : rims) length += distance(place(a), place(b));
+  EXPECT_NEAR(length, distance(place(0), place(4)), 0.01);
+  EXPECT_EQ(place(1), place(2));
+  EXPECT_EQ(place(5), place(6));
+  EXPECT_EQ(place(0), (Vec3{0, 0, 0}));
+  EXPECT_EQ(place(4), (Vec3{3, 0.1, 0}));
 }
 
 TEST(FlatPolygon, TellsFoldsFromDents) {

@@ -155,6 +155,21 @@ def rim_length(output: Output) -> float:
     return float(np.linalg.norm(b - a, axis=1).sum())
 
 
+def rim_turns(output: Output) -> Array:
+    """Degrees by which the rim turns at each vertex with two of its edges, where these have a length."""
+    edges = rim_edges(output)
+    ends = np.concatenate((edges, edges[:, ::-1]))
+    ends = ends[np.lexsort(ends.T[::-1])]
+    inner = np.flatnonzero(np.bincount(ends[:, 0], minlength=len(output.vertices)) == 2)
+    first = np.searchsorted(ends[:, 0], inner)
+    ways = output.vertices[ends[np.column_stack((first, first + 1)), 1]]
+    ways = ways - output.vertices[inner][:, None]
+    length = np.linalg.norm(ways, axis=2)
+    ways = ways[length.min(axis=1) > 1e-9 * np.linalg.norm(np.ptp(output.vertices, axis=0))]
+    cosine = -np.einsum("vi,vi->v", *ways.transpose(1, 0, 2)) / np.linalg.norm(ways, axis=2).prod(1)
+    return np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+
+
 def facet_area(output: Output) -> float:
     a, b, c = output.vertices[output.triangles].transpose(1, 0, 2)
     return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

@@ -11,6 +11,7 @@ namespace {
 
 constexpr int32_t kLeafOfCreases = 4;
 constexpr double kBendsApart = 8;    // spacings between the bends of a line that is meant so
+constexpr double kNearBend = 4;      // spacings from a bend of a zigzag to its straight edges
 constexpr double kLeastPatch = 100;  // squares of the spacing
 constexpr int kCreaseSteps = 16;
 constexpr double kCreasePrecision = 1e-12;  // as a share of the edge
@@ -49,7 +50,8 @@ void join_small(const TriangleMesh& mesh, std::span<const MeshEdge> edges,
 ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
     : faces_(faces),
       corner_(faces.mesh().points.size(), 0),
-      divides_(faces.creases().edges.size(), 0) {
+      divides_(faces.creases().edges.size(), 0),
+      jagged_(faces.creases().edges.size(), 0) {
   const auto& edges = faces.creases().edges;
   for (size_t e = 0; e < edges.size(); ++e) {
     if (!faces.is_convex_crease(static_cast<int32_t>(e))) continue;
@@ -57,8 +59,7 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
     for (const int32_t end : edges[e].ends) corner_[end] = faces.creases().corner[end];
   }
   if (segments_.empty()) return;
-  find_corners(spacing);
-  find_patches(spacing);
+  find_corners(find_patches(spacing), spacing);
   const auto box = [&](int32_t e) {
     Box around = {};
     for (const int32_t t : edges[e].triangles) {
@@ -86,35 +87,52 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
   build_tree(nodes_, 0, static_cast<int32_t>(segments_.size()), kLeafOfCreases, describe, split);
 }
 
-// A bend that has another one close by is part of a zigzag. Where three creases meet is a corner in
-// any case.
-void ConvexCreases::find_corners(double spacing) {
-  std::vector<int32_t> creases_at(corner_.size(), 0);
-  for (const MeshEdge& edge : faces_.creases().edges) {
-    if (edge.crease == Crease::none) continue;
-    for (const int32_t end : edge.ends) ++creases_at[end];
-  }
+// A bend that has another one close by is part of a zigzag, and so is an end or a meeting of
+// creases there, unless three patches meet in it.
+void ConvexCreases::find_corners(std::span<const int32_t> patch, double spacing) {
   std::vector<int32_t> bends;
   std::vector<Vec3> places;
   for (size_t v = 0; v < corner_.size(); ++v) {
-    if (!corner_[v] || creases_at[v] != 2) continue;
+    if (!corner_[v] || meets_three(static_cast<int32_t>(v), patch)) continue;
     bends.push_back(static_cast<int32_t>(v));
     places.push_back(faces_.mesh().points[v]);
   }
   const PointTree tree = PointTree::sorted(places, {});
   std::vector<Neighbour> near;
+  std::vector<Vec3> jagged;
   for (size_t i = 0; i < bends.size(); ++i) {
     tree.find(places[i], 2, near);
-    if (near.size() == 2 && near[1].distance < kBendsApart * spacing) corner_[bends[i]] = kJagged;
+    if (near.size() < 2 || !(near[1].distance < kBendsApart * spacing)) continue;
+    corner_[bends[i]] = 0;
+    jagged.push_back(places[i]);
+  }
+  find_zigzags(jagged, spacing);
+}
+
+void ConvexCreases::find_zigzags(std::span<const Vec3> bends, double spacing) {
+  if (bends.empty()) return;
+  const PointTree tree = PointTree::sorted(bends, {});
+  const auto& points = faces_.mesh().points;
+  for (const int32_t e : segments_) {
+    const auto& [a, b] = faces_.creases().edges[e].ends;
+    for (const Vec3& place : {points[a], 0.5 * (points[a] + points[b]), points[b]}) {
+      if (tree.has_within(place, kNearBend * spacing)) jagged_[e] = 1;
+    }
   }
 }
 
-bool ConvexCreases::is_jagged(int32_t edge) const {
-  const Edge& ends = faces_.creases().edges[edge].ends;
-  return corner_[ends[0]] == kJagged || corner_[ends[1]] == kJagged;
+// Returns whether at least three patches meet in a vertex.
+bool ConvexCreases::meets_three(int32_t vertex, std::span<const int32_t> patch) const {
+  Edge found{-1, -1};
+  for (const int32_t t : faces_.mesh().fans[vertex]) {
+    if (patch[t] == found[0] || patch[t] == found[1]) continue;
+    if (found[1] >= 0) return true;
+    found[found[0] >= 0] = patch[t];
+  }
+  return false;
 }
 
-void ConvexCreases::find_patches(double spacing) {
+std::vector<int32_t> ConvexCreases::find_patches(double spacing) {
   const auto& mesh = faces_.mesh();
   const auto& edges = faces_.creases().edges;
   UnionFind patches(mesh.triangles.size());
@@ -129,6 +147,7 @@ void ConvexCreases::find_patches(double spacing) {
   for (const int32_t e : segments_) {
     divides_[e] = patch[edges[e].triangles[0]] != patch[edges[e].triangles[1]];
   }
+  return patch;
 }
 
 // Divides the chord and improves the place on the curved edge by secants.

@@ -27,9 +27,9 @@ class ConvexCreases {
   // Returns the nearest place of the creases if it is nearer than a distance.
   std::optional<PlaceOnCrease> nearer(const Vec3& from, double than) const;
   // Returns whether a vertex of the mesh is an end or a bend of convex creases.
-  bool is_corner(int32_t vertex) const { return corner_[vertex] == kCorner; }
-  // Returns whether an edge is part of a zigzag.
-  bool is_jagged(int32_t edge) const;
+  bool is_corner(int32_t vertex) const { return corner_[vertex] != 0; }
+  // Returns whether an edge is part of a zigzag, or near to one.
+  bool is_jagged(int32_t edge) const { return jagged_[edge] != 0; }
   // Returns whether the two sides of an edge are different patches.
   bool divides(int32_t edge) const { return divides_[edge] != 0; }
 
@@ -38,16 +38,18 @@ class ConvexCreases {
     Box box;
   };
 
-  static constexpr uint8_t kCorner = 1, kJagged = 2;
-
-  void find_corners(double spacing);
-  void find_patches(double spacing);
+  // Returns the patch of each triangle.
+  std::vector<int32_t> find_patches(double spacing);
+  void find_corners(std::span<const int32_t> patch, double spacing);
+  void find_zigzags(std::span<const Vec3> bends, double spacing);
+  bool meets_three(int32_t vertex, std::span<const int32_t> patch) const;
   PlaceOnCrease place_on(int32_t edge, const Vec3& from) const;
 
   const Faces& faces_;
   std::vector<int32_t> segments_;  // edges of the mesh, leaf after leaf
   std::vector<uint8_t> corner_;    // per vertex
   std::vector<uint8_t> divides_;   // per edge
+  std::vector<uint8_t> jagged_;    // per edge
   std::vector<Node> nodes_;
 };
 

@@ -152,6 +152,7 @@ CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& trian
   order_rims(state);
   gather_focal_rims(state);
   creases.reach_corners();
+  creases.smooth_zigzags();
   join_seams(state);
   end_wires(state);
   unfold(state);

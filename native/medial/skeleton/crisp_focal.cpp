@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "skeleton/crisp_parts.h"
+#include "skeleton/focal_line.h"
 
 namespace medial {
 namespace {
@@ -46,12 +47,18 @@ class FocalRims {
       if (!changed) break;
     }
     snap_all();
+    cover_line_once();
     place();
   }
 
  private:
   bool is_free(int32_t v) const {
     return c_.made.place[v] == Placing::touching || c_.made.place[v] == Placing::refused;
+  }
+
+  // Among the ripples of a fillet a few vertices find the end of a smooth sheet.
+  bool may_join(int32_t v) const {
+    return is_free(v) || (c_.made.place[v] == Placing::rim && c_.smooth_rim[v].reach > 0);
   }
 
   void find_ends() {
@@ -63,10 +70,25 @@ class FocalRims {
     parallel_for(
         static_cast<int64_t>(rim.size()), c_.run, [&](int64_t i) { found[i] = end_near(rim[i]); },
         16);
+    std::vector<Vec3> places;
+    std::vector<double> spacing;
     for (size_t i = 0; i < rim.size(); ++i) {
       if (!(found[i].radius > 0)) continue;
+      places.push_back(found[i].position);
+      spacing.push_back(c_.spacing_at(rim[i]));
       ends_.push_back(found[i]);
-      spacing_.push_back(c_.spacing_at(rim[i]));
+    }
+    keep_on_line(straightened(places, spacing, c_.run), spacing);
+  }
+
+  void keep_on_line(std::span<const std::optional<Vec3>> places, std::span<const double> spacing) {
+    std::vector<Touch> found;
+    std::swap(ends_, found);
+    for (size_t i = 0; i < found.size(); ++i) {
+      if (!places[i]) continue;
+      ends_.push_back(found[i]);
+      ends_.back().position = *places[i];
+      spacing_.push_back(spacing[i]);
     }
   }
 
@@ -155,17 +177,18 @@ class FocalRims {
     const PointTree tree = PointTree::sorted(places, c_.run);
     web_ = parallel_append<int32_t>(c_.complex.vertices(), c_.run, [&](int64_t id, auto& out, int) {
       const auto v = static_cast<int32_t>(id);
-      if (!is_free(v)) return;
+      if (!may_join(v)) return;
       const Vec3& here = c_.made.position[v];
       const double within = distance_to_line(here) / c_.spacing_at(v);
       if (within > kNearWeb) return;
-      if (within < kNearEnd || !is_sheet(v, ends_[tree.nearest(here).id])) out.push_back(v);
+      const bool at_end = c_.on_rim[v] || within < kNearEnd;
+      if (at_end || !is_sheet(v, ends_[tree.nearest(here).id])) out.push_back(v);
     });
     on_line_ = array<OnLine>(c_.complex.cell.size(), OnLine{}, c_.run);
     for (const int32_t v : web_) on_line_[v].knots = {0, 0};
     for (size_t next = 0; next < web_.size(); ++next) {
       c_.for_edges(web_[next], [&](const Corner&, int32_t other) {
-        if (is_in_web(other) || !is_free(other) || !is_enclosed(other)) return;
+        if (is_in_web(other) || !may_join(other) || !is_enclosed(other)) return;
         on_line_[other].knots = {0, 0};
         web_.push_back(other);
       });
@@ -206,14 +229,6 @@ class FocalRims {
     }
     for (const int32_t v : web_) on_line_[v] = on_line(at[v]);
   }
-
-  // A place between two knots; both are the same at a knot.
-  struct OnLine {
-    Edge knots{-1, -1};
-    double share = 0;  // of the way from the first one to the second one
-
-    bool is_at_knot() const { return knots[0] == knots[1]; }
-  };
 
   // Returns the place on the line that is nearest to another one.
   OnLine on_line(const Vec3& place) const {
@@ -333,6 +348,19 @@ class FocalRims {
       changed |= shorten(before, ring[i].vertex, ring[(i + 1) % ring.size()].vertex);
     }
     return changed;
+  }
+
+  void cover_line_once() {
+    std::vector<Vec3> knots;
+    for (const Touch& knot : knots_) knots.push_back(knot.position);
+    std::vector<Edge> rims;
+    for (const int32_t v : web_) {
+      for (const int32_t other : c_.beside[v]) {
+        if (v < other && is_in_web(other)) rims.push_back({v, other});
+      }
+    }
+    cover_once(knots, rims, web_, on_line_);
+    for (size_t i = knots_.size(); i < knots.size(); ++i) knots_.push_back({knots[i]});
   }
 
   void place() {

@@ -131,10 +131,14 @@ class CreaseRims {
   bool onto_crease(int32_t v);
   // Moves the nearest vertex on a crease to each corner that no vertex has reached.
   void reach_corners();
+  // Smooths the rims that end in zigzags of creases.
+  void smooth_zigzags();
 
  private:
   double reach_of(const PlaceOnCrease& place) const;
   void onto_corner(int32_t v, double within);
+  std::vector<int32_t> on_zigzags();
+  Vec3 end_between(const Edge& samples, int32_t v, const Vec3& on_crease) const;
   bool same_direction(const PlaceOnCrease& a, const PlaceOnCrease& b) const;
   Vec3 direction(int32_t edge) const;
 

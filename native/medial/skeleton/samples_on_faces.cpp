@@ -73,23 +73,35 @@ std::optional<PlaceOnCrease> SamplesOnFaces::crease_between(const Edge& samples,
     const int32_t s = on_crease_[p] ? p : q;
     return creases_.nearer(point(s), kReach * spacing_[s]);
   }
+  const double reach = kReach * std::max(spacing_[p], spacing_[q]);
   for (const Vec3& n : normals_[p]) {
     for (const Vec3& m : normals_[q]) {
-      const auto found = crease_of_planes(samples, n, m, at);
+      const auto meeting = meeting_of_planes(samples, n, m, at);
+      if (!meeting) continue;
+      const auto found = creases_.nearer(*meeting, reach);
       if (found) return found;
     }
   }
   return {};
 }
 
-std::optional<PlaceOnCrease> SamplesOnFaces::crease_of_planes(const Edge& samples, const Vec3& n,
-                                                              const Vec3& m, const Vec3& at) const {
+std::optional<Vec3> SamplesOnFaces::meeting_of_planes(const Edge& samples, const Vec3& at) const {
+  for (const Vec3& n : normals_[samples[0]]) {
+    for (const Vec3& m : normals_[samples[1]]) {
+      const auto found = meeting_of_planes(samples, n, m, at);
+      if (found) return found;
+    }
+  }
+  return {};
+}
+
+std::optional<Vec3> SamplesOnFaces::meeting_of_planes(const Edge& samples, const Vec3& n,
+                                                      const Vec3& m, const Vec3& at) const {
   const auto& [p, q] = samples;
   const Vec3 across = point(q) - point(p);
   const bool convex = dot(across, n) < 0 && dot(across, m) > 0;
   if (!convex || !(dot(n, m) < most_alike_) || !(dot(n, m) > -1)) return {};
-  const double reach = kReach * std::max(spacing_[p], spacing_[q]);
-  return creases_.nearer(apex(point(p), n, point(q), m, at), reach);
+  return apex(point(p), n, point(q), m, at);
 }
 
 EdgeMark SamplesOnFaces::mark(const Edge& samples) const {

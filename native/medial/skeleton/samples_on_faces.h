@@ -33,6 +33,9 @@ class SamplesOnFaces {
   // to `at` as possible; nothing if they do not meet in one. If one sample is on a crease, it is
   // the place of this sample.
   std::optional<PlaceOnCrease> crease_between(const Edge& samples, const Vec3& at) const;
+  // Returns the place nearest to `at` in which the tangent planes at two samples meet; nothing if
+  // they do not meet in a convex edge.
+  std::optional<Vec3> meeting_of_planes(const Edge& samples, const Vec3& at) const;
   EdgeMark mark(const Edge& samples) const;
   // Returns whether a sample is near a place of the faces. Where none is, the faces do not bound
   // the solid: they are inside it, or doubled.
@@ -44,8 +47,9 @@ class SamplesOnFaces {
 
  private:
   void place(int32_t sample, int32_t triangle);
-  std::optional<PlaceOnCrease> crease_of_planes(const Edge& samples, const Vec3& n, const Vec3& m,
-                                                const Vec3& at) const;
+  // The same for one pair of normals.
+  std::optional<Vec3> meeting_of_planes(const Edge& samples, const Vec3& n, const Vec3& m,
+                                        const Vec3& at) const;
 
   const Faces& faces_;
   ConvexCreases creases_;
