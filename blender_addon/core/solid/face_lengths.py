@@ -44,7 +44,7 @@ _BURIED = 1e-6  # a larger share of the area that bounds nothing calls for sampl
 
 @dataclass(frozen=True, eq=False)
 class MeasuredFaces:
-    """What was measured without samples, in the place of `ChosenSamples`.
+    """This says how a shape was measured without samples, in the place of `ChosenSamples`.
 
     Parameters
     ----------

@@ -139,10 +139,15 @@ Vec3 Faces::point(int32_t triangle, const Barycentric& at) const {
 }
 
 Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
+  const Foot flat = flat_foot(triangle, from);
+  if (!is_curved(triangle)) return flat;
+  return foot_on_patch(surface_->patch(triangle), triangle, flat.at, from);
+}
+
+Foot Faces::flat_foot(int32_t triangle, const Vec3& from) const {
   const Triangle& t = mesh_.triangles[triangle];
   const Vec3 &p = mesh_.points[t[0]], &q = mesh_.points[t[1]], &r = mesh_.points[t[2]];
   Foot foot{triangle, closest_on_flat(p, q, r, from), {}, 0};
-  if (is_curved(triangle)) return foot_on_patch(surface_->patch(triangle), triangle, foot.at, from);
   foot.point = p + foot.at.b * (q - p) + foot.at.c * (r - p);
   // The height over the plane has a smaller error than the difference of two places.
   const bool inside = foot.at.a > 0 && foot.at.b > 0 && foot.at.c > 0;
@@ -152,13 +157,9 @@ Foot Faces::foot_on(int32_t triangle, const Vec3& from) const {
   return foot;
 }
 
-Foot Faces::lifted(int32_t triangle, const Vec3& from) const {
-  if (!is_curved(triangle)) return foot_on(triangle, from);
-  const Patch patch = surface_->patch(triangle);
-  const auto corners = patch.controls();
-  const Barycentric at = closest_on_flat(corners[0], corners[1], corners[2], from);
-  const Vec3 point = patch.point(at);
-  return {triangle, at, point, medial::distance(from, point)};
+Foot Faces::lifted(const Foot& flat, const Vec3& from) const {
+  const Vec3 point = surface_->patch(flat.triangle).point(flat.at);
+  return {flat.triangle, flat.at, point, medial::distance(from, point)};
 }
 
 std::vector<int32_t> Faces::places_in_tree() const {

@@ -63,19 +63,26 @@ class Faces {
   std::optional<Foot> nearer(const Vec3& from, double than) const;
   // Returns the foot on the flat triangle, lifted to the surface: close to the nearest place of a
   // curved triangle, and sooner found.
-  Foot lifted(int32_t triangle, const Vec3& from) const;
+  Foot lifted(int32_t triangle, const Vec3& from) const {
+    const Foot flat = flat_foot(triangle, from);
+    return is_curved(triangle) ? lifted(flat, from) : flat;
+  }
   // Returns the nearest lifted foot of all faces that is nearer than a distance, without those that
   // `ignored` is true of. Where very many faces are about as far away, as those of a sphere are
   // from its centre, it may be one of the others.
   template <typename Ignored>
-  std::optional<Foot> nearer_by_lift(const Vec3& from, double than, const Ignored& ignored) const {
+  std::optional<Foot> nearer_by_lift(const Vec3& from, double than, const Ignored& ignored,
+                                     int most_in_vain) const {
     std::optional<Foot> best;
     double within = than;
     int in_vain = 0;
     const auto visit = [&](const Node& leaf) {
       ++in_vain;
       for (int32_t i = leaf.begin; i < leaf.end; ++i) {
-        const Foot foot = lifted(order_[i], from);
+        const int32_t t = order_[i];
+        const Foot flat = flat_foot(t, from);
+        if (flat.distance - bulge(t) > within) continue;
+        const Foot foot = is_curved(t) ? lifted(flat, from) : flat;
         const bool first = best && foot.distance == within && foot.triangle < best->triangle;
         if (!(foot.distance < within || first) || ignored(foot)) continue;
         best = foot;
@@ -84,7 +91,7 @@ class Faces {
       }
     };
     const auto bound = [&](const Node& node) {
-      return in_vain > kMostInVain ? HUGE_VAL : medial::squared_distance(node.box, from);
+      return in_vain > most_in_vain ? HUGE_VAL : medial::squared_distance(node.box, from);
     };
     if (nodes_.empty()) return best;
     visit_nearest(
@@ -96,12 +103,13 @@ class Faces {
 
  private:
   static constexpr uint8_t kConvex = 2;
-  static constexpr int kMostInVain = 64;
 
   struct Node : TreeNode {
     OrientedBox box;
   };
 
+  Foot flat_foot(int32_t triangle, const Vec3& from) const;
+  Foot lifted(const Foot& flat, const Vec3& from) const;
   void find_edges();
   void find_fans();
   void build_tree_of_faces();

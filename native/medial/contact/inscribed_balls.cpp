@@ -25,7 +25,8 @@ constexpr double kUnknown = 1.0 / 64, kUnknownBetween = 1.0 / 4;
 constexpr double kTouched = 0.03, kOpposite = -0.5;
 // It is looked for from half of the way to the place opposite, up to so far from there, in radii.
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
-constexpr double kNothing = 1e-3;     // a ball of so many roundings is none
+constexpr int kMostInVain = 48, kMostBeside = 64;  // leaves of the tree of faces
+constexpr double kNothing = 1e-3;                  // a ball of so many roundings is none
 constexpr int64_t kRunOfPlaces = 64;  // in a run, each ball starts where the one before touched
 
 struct Place {
@@ -84,7 +85,7 @@ class Shrinking {
       return !is_opposite(faces_.lifted(q.triangle, centre));
     };
     const auto other = faces_.nearer_by_lift(centre - kHalfWay * ball.radius * x.normal,
-                                             kReachOpposite * ball.radius, beside);
+                                             kReachOpposite * ball.radius, beside, kMostBeside);
     if (!other) return HUGE_VAL;
     InnerBall found = settled(x, faces_.lifted(other->triangle, centre));
     const auto is_beside = [&](const Foot& q) {
@@ -103,8 +104,8 @@ class Shrinking {
       return q.distance + unknown > found.radius || left_out(q);
     };
     for (int i = 0; i < kMostShrinks && found.radius > kNothing * rounding_; ++i) {
-      const auto inside =
-          faces_.nearer_by_lift(centre_of(x, found.radius), (1 - kInside) * found.radius, outside);
+      const auto inside = faces_.nearer_by_lift(centre_of(x, found.radius),
+                                                (1 - kInside) * found.radius, outside, kMostInVain);
       if (!inside) break;
       found = settled(x, *inside);
     }
