@@ -126,9 +126,12 @@ def compute_axis(
     if form is Form.CURVE:
         limit = limit.used(output=CURVE)
     share = 1.0 if form is Form.PUBLISHED else _ANALYSIS
-    begun = begin(shape, settings, progress, limit, share)
+    begun = begin(shape, settings, progress, limit, share, levels=form is not Form.PUBLISHED)
     shape, chosen = begun.shape, begun.chosen
-    settings = replace(settings, sides=chosen.sides.source, sampling=chosen.sampling, form=form)
+    sides = chosen.sides.source
+    settings = replace(
+        settings, sides=sides, sampling=chosen.sampling, form=form, **chosen.of_pairs
+    )
     axis = extract(chosen.samples, settings, begun.progress)
     return Computation(
         axis=axis,
