@@ -6,6 +6,7 @@
 #include "axis/medial_mesh.h"
 #include "cocone/solid.h"
 #include "cocone/watertight_surface.h"
+#include "inside/doubts.h"
 #include "inside/pockets.h"
 #include "skeleton/hierarchy.h"
 #include "thickness/thickness.h"
@@ -53,6 +54,13 @@ void require_partners(std::span<const int32_t> partners, size_t points) {
     if (row >= -1 && row < static_cast<int64_t>(points)) continue;
     throw InvalidInputError("Expected partners from -1 to below " + std::to_string(points) +
                             ", found " + std::to_string(row) + "; pass rows of the points.");
+  }
+}
+
+void require_reaches(std::span<const double> reach, size_t points) {
+  if (reach.size() != points) {
+    throw InvalidInputError("Expected one reach per point, found " + std::to_string(reach.size()) +
+                            " for " + std::to_string(points) + " points; pass all of them.");
   }
 }
 
@@ -220,6 +228,34 @@ WallThickness MedialAnalysis::thickness(const ThicknessInput& input,
   auto found = medial::thickness(input, options, parts_->samples, facets_of(*parts_),
                                  {parts_->threads, progress});
   found.values = outward_lengths(std::move(found.values), parts_->frame);
+  advance(progress, 1);
+  return found;
+}
+
+Doubts MedialAnalysis::doubts(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                              std::span<const Vec3> normals, std::span<const double> reach,
+                              Progress* progress) const {
+  const Samples& samples = parts_->samples;
+  require_finite(vertices, "vertex");
+  require_corners(triangles, vertices.size());
+  require_normals(normals, samples.point_of_row.size());
+  require_reaches(reach, samples.point_of_row.size());
+  begin_stage(progress, "Topology", 0, 1);
+  const RayCrossings surface(soup(parts_->frame.inward(vertices), triangles), progress);
+  const double unit = parts_->frame.outward(1.0);
+  std::vector<Vec3> normal_of;
+  std::vector<double> reach_of;
+  for (int32_t p = 0; p < samples.count(); ++p) {
+    normal_of.push_back(normals[samples.row[p]]);
+    reach_of.push_back(reach[samples.row[p]] / unit);
+  }
+  Doubts found;
+  for (const auto& [place, gap] :
+       medial::doubts({samples.points, normal_of, reach_of, parts_->triangulation, parts_->voronoi},
+                      surface, parts_->run(progress))) {
+    found.places.push_back(parts_->frame.outward(place));
+    found.gaps.push_back(parts_->frame.outward(gap));
+  }
   advance(progress, 1);
   return found;
 }

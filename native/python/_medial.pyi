@@ -797,6 +797,40 @@ class MedialAnalysis:
         DegenerateInputError
             `TightCocone.encloses` is false.
         """
+    def doubts(
+        self,
+        vertices: NDArray[np.float64],
+        triangles: NDArray[np.int32],
+        normals: NDArray[np.float64],
+        reach: NDArray[np.float64],
+        *,
+        progress: Progress | None = None,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Places where the points are too sparse for the topology of the faces on which they lie: a Voronoi edge meets
+        the faces more often than the sides of its ends demand, or on another wall than a sample of it.
+
+        Parameters
+        ----------
+        vertices : (v, 3) float64
+        triangles : (m, 3) int32
+            The faces, outward.
+        normals : (n, 3) float64
+            Outward normals of the points; zero where there is none.
+        reach : (n,) float64
+            The farthest place of the faces that each point may be the nearest of; what is farther does not count.
+        progress : Progress, optional
+
+        Returns
+        -------
+        places : (k, 3) float64
+            Where Voronoi edges meet the faces.
+        gaps : (k,) float64
+            The distance from there along the edge to where it meets them again, or to the samples.
+
+        Raises
+        ------
+        InvalidInputError, Cancelled
+        """
     def solid_triangles(self) -> NDArray[np.int32]:
         """(f, 3) int32: rows of the facets between inner and outer cells, outward, lowest row first, in lexicographic
         order: the surface as the samples see it. A cell is inner when its Voronoi vertex is; by Tight Cocone, when it

@@ -212,6 +212,28 @@ void bind_analysis(py::module_& m) {
            py::arg("theta") = paper.theta, py::arg("rho") = paper.rho, py::arg("rule") = paper.rule,
            py::arg("criteria") = paper.criteria, py::arg("progress") = nullptr)
       .def(
+          "doubts",
+          [](const MedialAnalysis& a, const py::object& vertices, const py::object& triangles,
+             const py::object& normals,
+             const py::array_t<double, py::array::c_style | py::array::forcecast>& reach,
+             Progress* progress) {
+            const Points corners(vertices, "vertices"), directions(normals, "normals");
+            const Triangles faces(triangles);
+            Doubts found;
+            {
+              const auto corner_span = corners.span(), direction_span = directions.span();
+              const auto face_span = faces.span();
+              const std::span<const double> reaches(reach.data(),
+                                                    static_cast<size_t>(reach.size()));
+              const py::gil_scoped_release release;
+              found = a.doubts(corner_span, face_span, direction_span, reaches, progress);
+            }
+            return py::make_tuple(array_of<double>(std::move(found.places)),
+                                  array_of<double>(std::move(found.gaps)));
+          },
+          docs::MedialAnalysis_doubts, py::arg("vertices"), py::arg("triangles"),
+          py::arg("normals"), py::arg("reach"), py::kw_only(), py::arg("progress") = nullptr)
+      .def(
           "solid_triangles",
           [](const MedialAnalysis& a) {
             std::vector<Triangle> triangles;

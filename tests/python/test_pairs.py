@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Samples in pairs across thin walls: the product with the option on finds the topology of thin solids."""
+"""Samples in pairs across thin walls: with the option, and where Automatic closes its loop, the topology is right."""
+
+import json
 
 import numpy as np
 import pytest
-from medial_axis import library
+from medial_axis import cli, library
+from medial_axis.core.machine import native
+from medial_axis.core.samples import choose_samples
 from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
-from support import thin_solids
+from support import meshes, thin_solids
 
 
 def computed(solid, **options):
@@ -67,3 +71,74 @@ def test_pairs_miss_walls_only_where_these_bend_away():
     places, wanted = walls.wanted(1e-3)
     assert np.allclose(np.sort(wanted), [0.05, np.sqrt(0.025)])
     assert len(places) == 2
+
+
+def plate_with_a_hole(width, thickness):
+    """A plate of 1 by 1 with a square hole."""
+    low, high = 0.5 - width / 2, 0.5 + width / 2
+    bars = [
+        ((0, 0), (low, 1)),
+        ((high, 0), (1, 1)),
+        ((low, 0), (high, low)),
+        ((low, high), (high, 1)),
+    ]
+    boxes = [((*a, 0.0), (*b, thickness)) for a, b in bars]
+    return thin_solids.ThinSolid(thin_solids.union(*boxes), (1, 1, 0), 1.0)
+
+
+@pytest.mark.parametrize(
+    "solid",
+    [
+        thin_solids.plate(0.01),
+        thin_solids.plate(1e-4),
+        thin_solids.profile_t(0.002),
+        thin_solids.shell(0.01),
+        plate_with_a_hole(0.006, 0.005),
+    ],
+    ids=["plate", "foil", "T", "shell", "hole"],
+)
+def test_automatic_finds_thin_walls_and_small_holes(solid):
+    found = library.compute(*thin_solids.turned(solid.mesh), side="inner")
+    assert found.axis.level.betti == solid.betti
+    assert "samples in pairs" in found.chosen.reason and found.settings.pairs
+    assert not found.warnings and found.topology.endswith("as the solid")
+
+
+def test_a_thick_mesh_takes_one_pass_and_the_same_samples(monkeypatch):
+    mesh = thin_solids.turned(meshes.icosphere(2))
+    found = library.compute(*mesh, side="inner")
+    monkeypatch.setattr(choose_samples, "closes", lambda *_: False)
+    plain = library.compute(*mesh, side="inner")
+    assert found.chosen.reason == plain.chosen.reason
+    for name in ("vertices", "radius", "face_vertices"):
+        assert getattr(found.axis, name).tobytes() == getattr(plain.axis, name).tobytes()
+
+
+def test_doubts_are_where_samples_are_too_few_whatever_the_threads():
+    module = native.load()
+    for thickness, some in ((0.002, True), (0.4, False)):
+        points, triangles = thin_solids.turned(plate_with_a_hole(0.1, thickness).mesh)
+        samples = module.sample_surface(points, triangles, count=4000)
+        reach = 1.5 * samples.radius / 0.727
+        found = []
+        for threads in (1, 3):
+            analysis = module.MedialAnalysis(
+                samples.points, triangles, vertices=points, threads=threads
+            )
+            found.append(analysis.doubts(points, triangles, samples.normals, reach))
+        (places, gaps), (again, _) = found
+        assert places.tobytes() == again.tobytes() and len(places) == len(gaps)
+        assert bool(len(places)) == some
+    with pytest.raises(module.InvalidInputError, match="one reach per point"):
+        analysis.doubts(points, triangles, samples.normals, reach[:-1])
+
+
+def test_the_command_line_says_what_was_done(tmp_path):
+    points, triangles = thin_solids.turned(thin_solids.plate(0.002).mesh)
+    rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
+    rows += [f"f {a} {b} {c}" for a, b, c in (triangles + 1).tolist()]
+    (tmp_path / "plate.obj").write_text("\n".join(rows))
+    assert cli.main([str(tmp_path / "plate.obj"), str(tmp_path / "plate.ply")]) == 0
+    report = json.loads((tmp_path / "plate.ply.json").read_text())
+    assert "the walls are thin: samples in pairs" in report["sampled"]
+    assert report["topology"].endswith("as the solid")

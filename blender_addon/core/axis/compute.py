@@ -130,11 +130,13 @@ def compute_axis(
     if form is Form.CURVE:
         limit = limit.used(output=CURVE)
     share = 1.0 if form is Form.PUBLISHED else _ANALYSIS
-    begun = begin(shape, settings, progress, limit, share)
+    begun = begin(shape, settings, progress, limit, share, levels=form is not Form.PUBLISHED)
     shape, chosen = begun.shape, begun.chosen
     wraps = settings.sides is SidesFrom.WRAP
     sides = SidesFrom.WRAP if wraps else chosen.sides.source
-    settings = replace(settings, sides=sides, sampling=chosen.sampling, form=form)
+    settings = replace(
+        settings, sides=sides, sampling=chosen.sampling, form=form, **chosen.of_pairs
+    )
     axis = extract(chosen.samples, settings, begun.progress)
     return Computation(
         axis=axis,

@@ -58,6 +58,8 @@ class Request:
         The number of edges at which the faces of the shape are open.
     bounding_sphere : bool
         The samples are surrounded by a sphere of further points, which give every sample an outer pole.
+    levels : bool
+        The hierarchy will be needed, so it may as well be computed while samples are chosen.
     """
 
     shape: Shape
@@ -66,6 +68,7 @@ class Request:
     limit: MemoryLimit
     gaps: int
     bounding_sphere: bool
+    levels: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -113,7 +113,9 @@ def analyse_samples(
         walls=walls,
         by_faces=by_faces,
         faces=samples.faces,
-        solid=solid_faces(request.shape, sides.source, samples.faces),
+        solid=solid_faces(
+            request.shape, sides.source, samples.faces, flat=not request.settings.smooth
+        ),
         patches=patches_of(request.shape, request.settings, samples),
         apart=apart_of(samples),
         partners=samples.partners if request.settings.pairs else None,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..errors import DegenerateInputError, MemoryLimitError
@@ -29,6 +30,7 @@ from .sharp_angle import sharp_angle_of
 from .sides import decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
+from .topology_loop import are_close, closed, closes
 from .wrapped_faces import without_wrap, wrap_reason, wrapped_shape
 
 if TYPE_CHECKING:
@@ -46,6 +48,7 @@ def begin(
     progress: Progress | None,
     limit: MemoryLimit,
     share: float = 1.0,
+    levels: bool = False,
 ) -> Begun:
     """Begin a computation: turn the faces of a shape outward, choose samples and analyse them.
 
@@ -58,6 +61,8 @@ def begin(
     limit : MemoryLimit
     share : float
         The share of the whole work that the analysis is.
+    levels : bool
+        The hierarchy will be needed.
 
     Raises
     ------
@@ -68,18 +73,22 @@ def begin(
     progress.until(share)
     if settings.sides is SidesFrom.WRAP:
         shape = wrapped_shape(shape, settings, progress.part(_WRAPPING))
-        chosen = choose_samples(shape, without_wrap(settings), progress, limit)
+        chosen = choose_samples(shape, without_wrap(settings), progress, limit, levels)
         sides = replace(chosen.sides, reason=wrap_reason(shape, settings))
         chosen = replace(chosen, sides=sides)
     else:
         shape = outward_shape(shape)
-        chosen = choose_samples(shape, settings, progress, limit)
+        chosen = choose_samples(shape, settings, progress, limit, levels)
     progress.until(1.0)
     return Begun(shape, chosen, progress, start)
 
 
 def choose_samples(
-    shape: Shape, settings: Settings, progress: Progress, limit: MemoryLimit = WHAT_IS_FREE
+    shape: Shape,
+    settings: Settings,
+    progress: Progress,
+    limit: MemoryLimit = WHAT_IS_FREE,
+    levels: bool = False,
 ) -> ChosenSamples:
     """Choose and analyse samples of a shape.
 
@@ -90,23 +99,27 @@ def choose_samples(
         `side` is not AUTOMATIC.
     progress : Progress
     limit : MemoryLimit
+    levels : bool
+        As in `begin`.
 
     Raises
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     try:
-        return _choose(_request(shape, settings, progress, limit))
+        return _choose(_request(shape, settings, progress, limit, levels))
     except MemoryLimitError as error:
         shape, settings, thinned = _thinned(shape, settings, limit, error)
-    return replace(_choose(_request(shape, settings, progress, limit)), thinned=thinned)
+    return replace(_choose(_request(shape, settings, progress, limit, levels)), thinned=thinned)
 
 
-def _request(shape: Shape, settings: Settings, progress: Progress, limit: MemoryLimit) -> Request:
+def _request(
+    shape: Shape, settings: Settings, progress: Progress, limit: MemoryLimit, levels: bool
+) -> Request:
     with native.own_errors() as module:
         gaps = module.open_edges(shape.points, shape.triangles) if len(shape.triangles) else 0
     sphere = settings.side is not Side.INNER
-    return Request(shape, settings, progress, limit, gaps, sphere)
+    return Request(shape, settings, progress, limit, gaps, sphere, levels)
 
 
 def _thinned(
@@ -221,6 +234,13 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
     first = first_pass(shape, settings)
     sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, first.spacing)
     samples, passes = _passes(request, sides, first)
+    closing = closes(request, sides)
+    found = closed(request, samples, partial(_in_pairs, request, sides, first)) if closing else None
+    if found is not None:
+        reason = f"{len(found.samples.points):,} samples of the surface: {why}; {found}"
+        return ChosenSamples(
+            found.samples, SamplingMode.ADAPTIVE, reason, sides, request.gaps, differs=found.differs
+        )
     kind = SamplingMode.SURFACE if passes == 1 else SamplingMode.ADAPTIVE
     reason = f"{len(samples.points):,} samples of the surface: {why}"
     if passes > 1:
@@ -236,6 +256,8 @@ def _passes(request: Request, sides: Sides, first: FirstPass) -> tuple[AnalysedS
     settings, effort = request.settings, EFFORT[request.settings.sampling]
     share = 1.0 if effort.passes == 1 else 0.4
     samples, passes = _pass(request, sides, first.amount, share, first.count), 1
+    if closes(request, sides) and are_close(samples):
+        return samples, passes  # pairs see more between walls than smaller spacings
     while (
         passes < effort.passes
         and (not samples.density.dense_enough or _are_worth_more(request, samples))
@@ -246,6 +268,17 @@ def _passes(request: Request, sides: Sides, first: FirstPass) -> tuple[AnalysedS
         samples, passes = _pass(request, sides, amount, 0.6, spacing=samples.spacing), passes + 1
     request.progress.begin_pass(1)
     return samples, passes
+
+
+def _in_pairs(
+    request: Request, sides: Sides, first: FirstPass, amount: dict[str, Any] | None, flat: bool
+) -> AnalysedSamples:
+    """One pass with pairs; without an amount it is as large as a first pass."""
+    smooth = request.settings.smooth and not flat
+    request = replace(request, settings=replace(request.settings, pairs=True, smooth=smooth))
+    if amount is None:
+        return _pass(request, sides, first.amount, 0.4, first.count)
+    return _pass(request, sides, amount, 0.6, spacing=first.spacing)
 
 
 def _pass(

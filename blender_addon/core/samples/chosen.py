@@ -33,6 +33,8 @@ class ChosenSamples:
         A sentence that explains why there are fewer samples than the settings ask for; or empty.
     sparse : bool
         The faces were sampled because their vertices are too few.
+    differs : bool
+        The topology of the samples differs from that of the faces, although more samples were taken to change that.
     """
 
     samples: AnalysedSamples
@@ -42,6 +44,15 @@ class ChosenSamples:
     gaps: int
     thinned: str = ""
     sparse: bool = False
+    differs: bool = False
+
+    @property
+    def of_pairs(self) -> dict[str, bool]:
+        """The settings of samples in pairs, which Automatic may have taken on the flat faces."""
+        if self.samples.partners is None:
+            return {}
+        solid = self.samples.solid
+        return {"pairs": True, "smooth": False} if solid and solid.flat else {"pairs": True}
 
 
 class OfChosenSamples:

@@ -43,6 +43,12 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
             f"{walls.thickness:.2g}, than the samples, so the inner axis is missing or torn there; "
             "more samples, a smaller Spacing or a larger Budget help"
         )
+    if chosen.differs:
+        yield (
+            "the axis has not as many pieces, loops and cavities as the faces, although "
+            f"{len(samples.points):,} samples were taken: details or gaps are smaller than their "
+            "spacing, or faces pass through each other; a larger Budget may help"
+        )
     if density.share > _SPARSE and not _confirmed_by_faces(chosen):
         yield (
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "

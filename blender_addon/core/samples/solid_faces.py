@@ -28,10 +28,13 @@ class SolidFaces:
     shape : Shape
     face : (n,) int32
         The triangle of the shape on which each sample lies; -1 for a sample that closes an opening.
+    flat : bool
+        The samples lie on the flat faces, whatever the settings say.
     """
 
     shape: Shape
     face: NDArray[np.int32]
+    flat: bool = False
 
     @property
     def arrays(self) -> tuple[NDArray[Any], ...]:
@@ -40,7 +43,7 @@ class SolidFaces:
 
     def options(self, settings: Settings) -> tuple[float, bool]:
         """Return the sharp angle and whether the faces approximate a smooth surface."""
-        return sharp_angle_of(self.shape, settings), settings.smooth
+        return sharp_angle_of(self.shape, settings), settings.smooth and not self.flat
 
     def of_module(self, module: Any, settings: Settings) -> Any:
         """Return the `_medial.Faces`."""
@@ -57,7 +60,10 @@ class SolidFaces:
 
 
 def solid_faces(
-    shape: Shape, source: SidesFrom, face: NDArray[np.int32] | None = None
+    shape: Shape,
+    source: SidesFrom,
+    face: NDArray[np.int32] | None = None,
+    flat: bool = False,
 ) -> SolidFaces | None:
     """Return the faces of a shape if they decide what is inside, and None otherwise.
 
@@ -67,10 +73,12 @@ def solid_faces(
     source : SidesFrom
     face : (n,) int32, optional
         The triangle on which each sample lies; the default is a triangle at each vertex.
+    flat : bool
+        As in `SolidFaces`.
     """
     if source is not SidesFrom.SURFACE or not len(shape.triangles) or not shape.volume > 0:
         return None
-    return SolidFaces(shape, _face_of_vertex(shape) if face is None else face)
+    return SolidFaces(shape, _face_of_vertex(shape) if face is None else face, flat)
 
 
 def triangles_of_places(shape: Shape, settings: Settings) -> int:

@@ -120,6 +120,7 @@ def sample_faces(
             found.triangle[inside],
             found.bend[inside],
             are_paired(found.partner)[inside],
+            np.linalg.norm(found.points - feet, axis=1)[inside],
         ),
         partners=_of_rows(found.partner, bare),
     )

@@ -32,6 +32,10 @@ _MISSED = 0.8
 _FOLLOWED, _FINER = 0.4, 0.25
 # A smaller share of the area may come from single samples, and does not count.
 _SOME = 0.01
+# A smooth surface that leaves its flat faces by more than this share of the distance of walls is none of the solid.
+_BULGING = 0.5
+# A sample is on its flat face up to this share of the spacing.
+_FLAT = 1e-3
 # Walls that stay closer than this number of spacings within the budget do not justify another pass.
 _HOPELESS = 0.5
 
@@ -54,6 +58,8 @@ class Places:
         The curvature of the surface there.
     paired : (n,) bool, optional
         Whether the sample there has a partner on the opposite wall.
+    bulge : (n,) float64, optional
+        The distance of the sample from the flat face.
     """
 
     points: NDArray[np.float64]
@@ -63,6 +69,7 @@ class Places:
     faces: NDArray[np.int32]
     bend: NDArray[np.float64] | None = None
     paired: NDArray[np.bool_] | None = None
+    bulge: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +92,8 @@ class Walls:
     paired : (n,) bool, optional
         Whether the sample there has a partner on the opposite wall. Then the axis is missing only where the walls
         bend away between the samples.
+    bulge : (n,) float64, optional
+        The distance of the sample from the flat face.
     """
 
     points: NDArray[np.float64]
@@ -94,6 +103,7 @@ class Walls:
     faces: NDArray[np.int32]
     bend: NDArray[np.float64] | None = None
     paired: NDArray[np.bool_] | None = None
+    bulge: NDArray[np.float64] | None = None
 
     @cached_property
     def missed(self) -> float:
@@ -103,6 +113,19 @@ class Walls:
     @property
     def are_missed(self) -> bool:
         return self.missed > _SOME
+
+    @property
+    def are_bulging(self) -> bool:
+        """Whether the samples leave the flat faces by more than a share of the distance of the walls."""
+        if self.bulge is None:
+            return False
+        away = self.bulge > _BULGING * self.distance
+        return float(self.area[away].sum()) > _SOME * float(self.area.sum())
+
+    @property
+    def are_flat(self) -> bool:
+        """Whether no sample leaves its flat face by a length that matters."""
+        return self.bulge is not None and bool((self.bulge <= _FLAT * self.spacing).all())
 
     @cached_property
     def thickness(self) -> float:
@@ -186,4 +209,5 @@ def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
         places.faces,
         places.bend,
         places.paired,
+        places.bulge,
     )

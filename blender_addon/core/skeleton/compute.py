@@ -97,7 +97,9 @@ def compute_skeleton(
     DegenerateInputError
         The samples span no volume, enclose nothing, or enclose a solid without a curve.
     """
-    begun = begin(shape, replace(settings, side=Side.INNER), progress, limit, _ANALYSIS)
+    begun = begin(
+        shape, replace(settings, side=Side.INNER), progress, limit, _ANALYSIS, levels=True
+    )
     chosen = begun.chosen
     net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress)
     names = sorted(net.branches)

@@ -114,7 +114,7 @@ def cover_by_balls(
         levels=True,
         triangles=triangles_of_places(shape, replace(settings, form=Form.CLEAN)),
     )
-    begun = begin(shape, settings, progress, limit, _ANALYSIS)
+    begun = begin(shape, settings, progress, limit, _ANALYSIS, levels=True)
     shape, chosen, progress = begun.shape, begun.chosen, begun.progress
     progress.until(_AXIS)
     hierarchy = hierarchy_of(chosen.samples, settings, progress.part())

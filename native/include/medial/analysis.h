@@ -25,6 +25,13 @@ struct AnalysisInput {
   std::optional<std::span<const Vec3>> vertices = {};  // none: `points`
 };
 
+// Holds places where Voronoi edges meet the faces more often than they should, or between samples
+// of another wall, and the distance from there to the next such place, or to the samples.
+struct Doubts {
+  std::vector<Vec3> places;
+  std::vector<double> gaps;
+};
+
 // These options choose how the input is analysed.
 struct AnalysisOptions {
   SidesFrom sides = SidesFrom::automatic;
@@ -80,6 +87,13 @@ class MedialAnalysis {
   // for samples that enclose nothing, Cancelled.
   WallThickness thickness(const ThicknessInput& input, const ThicknessOptions& options = {},
                           Progress* progress = nullptr) const;
+  // Returns the places where the points are too sparse for the topology of the faces on which they
+  // lie. `normals` are one per point, outward, zero where there is none; `reach` is the distance
+  // from each point to the farthest place of the faces that it may be the nearest of. Throws
+  // InvalidInputError, Cancelled.
+  Doubts doubts(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                std::span<const Vec3> normals, std::span<const double> reach,
+                Progress* progress = nullptr) const;
   // Returns the boundary between inner cells and others, as rows. Throws InvalidInputError for
   // sides none.
   std::vector<Triangle> solid_triangles() const;

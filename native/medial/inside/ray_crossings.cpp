@@ -69,7 +69,7 @@ std::optional<RayCrossings::Hit> where_met(const Corners& t, const Vec3& origin,
   const Vec3 normal = cross(t.b - t.a, t.c - t.a);
   const double size = length(normal);
   if (!(size > 0)) return std::nullopt;
-  return RayCrossings::Hit{dot(a, normal) / flux, flux / size};
+  return RayCrossings::Hit{dot(a, normal) / flux, flux / size, (1 / size) * normal};
 }
 
 }  // namespace

@@ -20,10 +20,11 @@ class RayCrossings {
   // segment, is so close that doubles cannot decide.
   std::optional<int> operator()(const Vec3& origin, const Vec3& direction,
                                 double reach = HUGE_VAL) const;
-  // Holds where the ray meets a triangle, and the cosine between the triangle's normal and the ray,
-  // which is negative where the ray enters.
+  // Holds where the ray meets a triangle, the cosine between the triangle's normal and the ray,
+  // which is negative where the ray enters, and the unit normal.
   struct Hit {
     double at, cosine;
+    Vec3 normal;
   };
   // Finds all triangles that the ray meets up to `reach`, in no order. The triangle on which the
   // ray starts, against its normal, is omitted.
