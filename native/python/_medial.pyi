@@ -1427,7 +1427,8 @@ def outward_faces(
     Patches for which rays do not decide keep the side of most of
     their faces, or are turned where most of the others are; where their own faces differ, they look to where rays meet
     an even number of faces. One of several equal faces stays, or none of an even number where this leaves fewer edges
-    open; no reading leaves more edges open than the faces as they were given. Rows with the same coordinates are one. The result does not depend on the threads.
+    open; no reading leaves more edges open than the faces as they were given. Rows with the same coordinates are one.
+    The result does not depend on the threads.
 
     Parameters
     ----------

@@ -93,7 +93,7 @@ def _rows(found: Measurement, parts: ThinParts, unit: str) -> str:
     if parts.limit > 0.0:
         cells["Limit"] = _length(parts.limit, unit)
         cells["Thinner than the limit"] = (
-            f"{share_text(parts.share)} of the surface, {len(parts.patches):,} patches"
+            f"{share_text(parts.share)} of the surface, {_patches_text(len(parts.patches))}"
         )
     if found.unmeasured > 0.0:
         cells["Unknown"] = f"{share_text(found.unmeasured)} of the surface"
@@ -179,6 +179,10 @@ def _figure(pixels: NDArray[np.uint8], text: str) -> str:
         f'<figure><img src="data:image/png;base64,{data}" alt="{html.escape(text)}">'
         f"<figcaption>{html.escape(text)}</figcaption></figure>"
     )
+
+
+def _patches_text(count: int) -> str:
+    return "1 patch" if count == 1 else f"{count:,} patches"
 
 
 def _length(value: float, unit: str) -> str:
