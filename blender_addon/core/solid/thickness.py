@@ -18,7 +18,7 @@ from ..samples.nearness import sample_of_row
 from ..samples.noise import noise_of
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.surface_normals import SurfaceNormals, measured_surface, surface_normals, unit
-from ..settings import Between, Edges, Noise, SamplingMode, Settings, ThicknessSettings
+from ..settings import Between, Edges, Form, Noise, SamplingMode, Settings, ThicknessSettings
 from .bounded_lengths import MeasuredSurface, bounded
 from .close_walls import close_walls
 from .measurement import UNKNOWN, Measurement
@@ -57,7 +57,8 @@ def measure_thickness(
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     settings = replace(settings, side=wanted.side)
-    begun = begin(shape, settings, progress, limit)
+    # A thickness needs no level, so Automatic need not see to the topology of one.
+    begun = begin(shape, replace(settings, form=Form.PUBLISHED), progress, limit)
     shape, chosen = begun.shape, begun.chosen
     surface = measured_surface(shape, chosen)
     known = surface_normals(shape, chosen, surface, settings.sharp_angle)
