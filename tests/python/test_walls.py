@@ -75,7 +75,7 @@ def test_close_walls_are_refined_within_the_budget(sampling):
 
 def test_no_samples_are_spent_on_walls_that_stay_too_close():
     found = computed(plate(0.0002))
-    assert found.points < 2_500 and found.missed > 0.8
+    assert found.points < 2_500 and found.missed == 0.0  # pairs see the sheet
 
 
 @pytest.mark.parametrize("seed", repeats(4))
@@ -92,7 +92,7 @@ def test_fuzzed_plates(seed):
 @pytest.mark.parametrize("thickness", [3e-5, 1e-5, 1e-6])
 def test_a_sheet_of_some_thickness_is_not_taken_for_one_without(thickness):
     """The samples are 0.034 apart; one looks 3.4e-5 off the surface for its two sides."""
-    found = computed(plate(thickness))
+    found = computed(plate(thickness), SamplingMode.SURFACE)
     (text,) = said(found)
     assert f"about {thickness:.2g}," in text and found.missed > 0.95
     assert found.chosen.samples.buried == 0
@@ -224,7 +224,7 @@ def test_the_report_has_the_share(tmp_path, capsys):
     lines += [" ".join(map(str, (3, *row))) for row in triangles.tolist()]
     (tmp_path / "plate.off").write_text("\n".join(lines))
     words = [str(tmp_path / "plate.off"), str(tmp_path / "plate.ma")]
-    assert cli.main([*words, "--samples", "2000", "--budget", "4000", "--json"]) == 0
+    assert cli.main([*words, "--samples", "2000", "--sampling", "surface", "--json"]) == 0
     report = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert report["missed"] > 0.8
     assert any("missing or torn" in text for text in report["warnings"])

@@ -28,7 +28,7 @@ from ..samples.surface_normals import (
     surface_normals,
     unit,
 )
-from ..settings import Between, Edges, Noise, SamplingMode, Settings, ThicknessSettings
+from ..settings import Between, Edges, Form, Noise, SamplingMode, Settings, ThicknessSettings
 from .bounded_lengths import MeasuredSurface, bounded
 from .close_walls import close_walls, no_close_walls
 from .face_lengths import MeasuredFaces, are_enough, lengths_by_faces
@@ -121,7 +121,8 @@ def _by_axis(
     progress: Progress,
     limit: MemoryLimit,
 ) -> Measurement:
-    begun = begin(shape, settings, progress, limit)
+    # A thickness needs no level, so Automatic need not see to the topology of one.
+    begun = begin(shape, replace(settings, form=Form.PUBLISHED), progress, limit)
     shape, chosen = begun.shape, begun.chosen
     surface = measured_surface(shape, chosen)
     known = surface_normals(shape, chosen, surface, settings.sharp_angle)

@@ -22,8 +22,8 @@ struct NearPart {
   Vec3 at(const Hit& hit) const { return from + hit.at * direction; }
 };
 
-// Returns how far the Voronoi vertex of a cell is along the line of the edge. The samples are
-// `below` the direction if they are counter-clockwise about it.
+// Returns how far the Voronoi vertex of a cell is along the line of an edge; it is infinitely far
+// for an infinite cell.
 double place_on_line(const Vec3& middle, const Vec3& direction, const Triangulation& triangulation,
                      const Voronoi& voronoi, int32_t cell) {
   if (!triangulation.is_infinite(cell)) return dot(voronoi.centre[cell] - middle, direction);
