@@ -193,7 +193,7 @@ class KnotChains {
   };
 
   // Returns the knot in which an interval of a chain is drawn together.
-  int32_t joined(const Chain& chain, const Interval& interval, std::vector<Vec3>& knots) const {
+  static int32_t joined(const Chain& chain, const Interval& interval, std::vector<Vec3>& knots) {
     if (interval[0] == chain.begin()) return chain.knots.front().id;
     if (interval[1] == chain.end()) return chain.knots.back().id;
     const double way = 0.5 * (interval[0] + interval[1]);
