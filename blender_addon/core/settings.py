@@ -348,7 +348,7 @@ class Settings(Options):
         "The width of openings that Inside From Wrap closes, in percent of the diagonal; smaller "
         "ones show more detail and take longer",
         default=1.0,
-        limits=(0.1, 50.0),
+        limits=(0.25, 50.0),
         soft_maximum=10.0,
         unit="%",
     )

@@ -392,11 +392,12 @@ def options(random):
     found["samples"] = int(random.integers(100, 800))
     found["budget"] = int(random.integers(100, 2000))
     found["spacing"] = chosen(random, (0.0, 3.0, 10.0))
+    found["wrap_opening"] = chosen(random, (5.0, 50.0))
     left_out = random.random(len(found)) < 0.3
     return {
         name: value
         for (name, value), out in zip(found.items(), left_out)
-        if not out or name in ("samples", "budget")
+        if not out or name in ("samples", "budget", "wrap_opening")
     }
 
 
