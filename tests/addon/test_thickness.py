@@ -390,7 +390,7 @@ def test_minimum_is_seen_from_near_also_where_much_is_thin():
 
 
 def test_shares_are_written_out():
-    share_text = addon("ui.figures").share_text
+    share_text = addon("core.samples.density").share_text
     shown = {
         0.0: "0 %",
         0.00004: "0.004 %",
