@@ -109,7 +109,6 @@ def check_made(name):
         for attribute_name in ATTRIBUTES[name]:
             assert np.isfinite(attribute(mesh, attribute_name)).all(), attribute_name
         if name == "medial_axis":
-            wrapped = (
-                other["ma_sides"] == "WRAP"
-            )  # sheets without thickness have a radius of 0 there
-            assert radii_are_sound(mesh) or (wrapped and (attribute(mesh, "ma_radius") >= 0).all())
+            # Sheets without thickness have a radius of 0 in a wrap.
+            wrapped = other["ma_sides"] == "WRAP" and (attribute(mesh, "ma_radius") >= 0).all()
+            assert wrapped or radii_are_sound(mesh)

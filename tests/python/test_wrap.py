@@ -89,3 +89,26 @@ def test_the_command_line_wraps(tmp_path, capsys):
     words = [str(source), str(tmp_path / "torn.ply"), "--sides", "wrap", "--wrap-opening", "8"]
     assert cli.main([*words, "--samples", "3000", "--sampling", "surface", "--json"]) == cli.DONE
     assert "a wrap of the faces" in (tmp_path / "torn.ply.json").read_text(encoding="utf-8")
+
+
+def test_faces_on_a_line_are_refused(medial):
+    """CGAL ends the process where no face has an area."""
+    points = np.outer(np.arange(6.0), (0.0, 0.0, 0.7))
+    with pytest.raises(medial.InvalidInputError, match="found none with an area"):
+        medial.wrap(points, np.arange(6, dtype=np.int32).reshape(2, 3), 0.5, 0.025)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_thin_soups_are_wrapped_or_refused(medial, seed):
+    """Needles, flat and doubled faces, far apart or of one size, with numbers that are not round."""
+    random = np.random.default_rng(seed)
+    for _ in range(8):
+        thin = 10.0 ** random.choice([-300, -30, -17, -9, -3, 0], size=3)
+        points = random.normal(size=(12, 3)) * thin + random.choice([0.0, 1.0, 1e9])
+        triangles = random.integers(0, len(points), size=(6, 3), dtype=np.int32)
+        try:
+            wrapped, faces = medial.wrap(points, triangles, 0.3, 0.015)
+        except medial.InvalidInputError as refused:
+            assert "found none with an area" in str(refused)
+        else:
+            assert np.isfinite(wrapped).all() and medial.open_edges(wrapped, faces) == 0

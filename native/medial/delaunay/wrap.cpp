@@ -55,8 +55,10 @@ struct Frame {
   }
   Point in(const Vec3& p) const {
     const Vec3 q = (1 / diagonal) * (p - middle);
-    return {q.x, q.y, q.z};
+    return {not_tiny(q.x), not_tiny(q.y), not_tiny(q.z)};
   }
+  // Products of the coordinates must not underflow: CGAL would divide by them.
+  static double not_tiny(double x) { return std::abs(x) < 1e-40 ? 0 : x; }
   Vec3 out(const Point& p) const { return middle + diagonal * Vec3{p.x(), p.y(), p.z()}; }
 };
 
@@ -83,10 +85,11 @@ Wrapping wrap(std::span<const Vec3> rows, std::span<const Triangle> triangles, d
   std::vector<Point> points;
   points.reserve(rows.size());
   for (const Vec3& p : rows) points.push_back(frame.in(p));
+  // CGAL leaves out faces without an area, and crashes if no other is left.
   std::vector<std::array<size_t, 3>> faces;
   faces.reserve(triangles.size());
   for (const auto& [a, b, c] : triangles) {
-    if (a == b || b == c || c == a) continue;
+    if (CGAL::collinear(points[a], points[b], points[c])) continue;
     faces.push_back({static_cast<size_t>(a), static_cast<size_t>(b), static_cast<size_t>(c)});
   }
   if (faces.empty()) throw InvalidInputError("Expected faces to wrap, found none with an area");
