@@ -395,7 +395,7 @@ OPEN: dict[tuple[str, int], dict[str, float]] = {
     ("cylinder", 4_000): {"cov": 2e-3, "cov_99": 3e-4, "folds": 4, "crossings": 10},
     ("cylinder", 20_000): {"folds": 15, "crossings": 30},
     ("cone", 4_000): {"cov": 3e-3, "cov_99": 2e-4, "folds": 5, "crossings": 15},
-    ("cone", 20_000): {"folds": 8, "crossings": 10},
+    ("cone", 20_000): {"err": 6e-3, "cov": 4e-3, "cov_99": 2e-3, "folds": 8, "crossings": 10},
     ("stadium", 4_000): {"err": 1.5e-3, "cov": 2.5e-3, "cov_99": 3e-4, "folds": 6, "crossings": 10},
     ("stadium", 20_000): {"folds": 20, "crossings": 40},
     ("oblate", 4_000): {"err": 3e-3, "err_99": 8e-4, "cov": 1.5e-3, "folds": 5},

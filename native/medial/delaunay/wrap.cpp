@@ -57,7 +57,7 @@ struct Frame {
     const Vec3 q = (1 / diagonal) * (p - middle);
     return {not_tiny(q.x), not_tiny(q.y), not_tiny(q.z)};
   }
-  // Products of the coordinates must not underflow: CGAL would divide by them.
+  // Products of shares of the diagonal must not underflow: CGAL would divide by them.
   static double not_tiny(double x) { return std::abs(x) < 1e-40 ? 0 : x; }
   Vec3 out(const Point& p) const { return middle + diagonal * Vec3{p.x(), p.y(), p.z()}; }
 };
