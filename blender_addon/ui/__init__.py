@@ -10,6 +10,7 @@ from ..core.machine import native
 
 def _modules() -> tuple[ModuleType, ...]:
     from . import (
+        apply_later,
         asset_library,
         balls,
         command,
@@ -46,6 +47,7 @@ def _modules() -> tuple[ModuleType, ...]:
 
     return (
         translation,
+        apply_later,
         properties,
         thickness_properties,
         self_test_operator,
