@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .directions import facet_vectors
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -81,8 +83,10 @@ def ranges_of(hierarchy: Any) -> dict[str, SliderRange]:
     ----------
     hierarchy : _medial.Hierarchy
     """
-    area = _areas(hierarchy) * (hierarchy.facet_spacings > 1.0)
-    ends = hierarchy.vertices[hierarchy.edges]
+    vertices = hierarchy.vertices
+    vectors = facet_vectors(vertices, hierarchy.facet_offsets, hierarchy.facet_vertices)
+    area = np.linalg.norm(vectors, axis=1) * (hierarchy.facet_spacings > 1.0)
+    ends = vertices[hierarchy.edges]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     found = {
         "simplify": slider_range(100 * hierarchy.facet_sheet, area),
@@ -90,17 +94,3 @@ def ranges_of(hierarchy: Any) -> dict[str, SliderRange]:
         "limb": slider_range(100 * hierarchy.edge_limb, length),
     }
     return {name: one for name, one in found.items() if one is not None}
-
-
-def _areas(hierarchy: Any) -> NDArray[np.float64]:
-    """(f,) the areas of the facets."""
-    offsets, places = hierarchy.facet_offsets, hierarchy.vertices[hierarchy.facet_vertices]
-    facets = len(offsets) - 1
-    if not facets:
-        return np.zeros(0)
-    starts = offsets[:-1]
-    towards = np.arange(1, len(places) + 1)
-    towards[offsets[1:] - 1] = starts
-    first = np.repeat(places[starts], np.diff(offsets), axis=0)
-    twice = np.add.reduceat(np.cross(places - first, places[towards] - first), starts, axis=0)
-    return 0.5 * np.linalg.norm(twice, axis=1)

@@ -28,7 +28,7 @@ PATIENCE = 90.0
 # (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 to 5.2 draw it.
 TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's own tab Animation
 COMPUTE = (102, 50)
-CANCEL = (30, 50)
+CANCEL = (48, 50)
 RECONSTRUCT = (102, 81)  # where there are points without faces
 THETA_LEFT, THETA_RIGHT = (120, 127), (50, 127)
 SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 105), (50, 105)
