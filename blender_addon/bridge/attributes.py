@@ -97,6 +97,9 @@ _STRUCTURE = (
     Attribute("ma_kind", "kind", "POINT", "INT", np.int32),
 )
 
+# Directions of facets and of edges without one; no field of an axis, for they follow from it.
+NORMAL, TANGENT = "ma_normal", "ma_tangent"
+
 EPSILON = Attribute("ma_epsilon", "epsilon", "POINT", "FLOAT", np.float32)
 SAMPLE_ATTRIBUTES = (
     EPSILON,

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from ..core.axis.colours import radius_range as colours_of_radii
+from ..core.axis.crumbs import crumbs_below, without_crumbs
 from ..core.axis.cut import pieces, within_box, without_small_pieces
 from ..core.axis.verdict import verdict
 from ..core.options import Choice
@@ -35,6 +36,7 @@ from .output_object import (
     remember,
     replace_mesh,
 )
+from .slider_ranges import remember_ranges
 from .structure_object import remember_structure
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
@@ -50,6 +52,7 @@ UNBOUNDED = "ma_unbounded"
 ZERO_AREA = "ma_zero_area"
 BOX = "ma_box"  # of the samples: three lowest coordinates, three highest
 PIECES = "ma_pieces"
+CRUMBS = "ma_crumbs_hidden"  # pieces that are not there because they are crumbs
 HIDDEN = "ma_hidden"  # facets that are not there because of the look
 LIGHT = "ma_light"
 VERDICT = "ma_verdict"  # the sentence that matters most
@@ -63,7 +66,7 @@ REFUSED = "ma_refused"  # vertices at which no ball fits the faces
 MESH = "ma_mesh"  # a sentence: the connected parts of the source, and how they were read
 TURNED = "ma_turned"  # triangles of the source that looked inward and were read the other way round
 # The whole axis, its own master.
-ALL = Look(within=0.0)
+ALL = Look(within=0.0, crumbs=0.0)
 # The values of options that earlier versions did not have.
 _EARLIER = {"form": Form.PUBLISHED, "crisp": False}
 
@@ -180,9 +183,9 @@ def _box(points: np.ndarray) -> list[float]:
 
 
 def _shown(axis: MedialAxis, box: Sequence[float] | None, look: Look) -> MedialAxis:
-    """The part of an axis that the look leaves; the whole axis where nothing would be left, and where it is a level."""
+    """The part of an axis that the look leaves; the whole axis where nothing would be left."""
     if axis.level is not None:
-        return axis
+        return without_crumbs(axis, look.crumbs)
     if box is not None and len(box) == 6:
         low, high = np.reshape(box, (2, 3))
         near = within_box(axis, low, high, look.within)
@@ -215,6 +218,7 @@ def _remember_shown(
     result[UNBOUNDED] = axis.unbounded
     result[ZERO_AREA] = axis.zero_area
     result[HIDDEN] = whole.facets - axis.facets
+    result[CRUMBS] = crumbs_below(whole, look.crumbs) if axis is not whole else 0
     result[PIECES] = len(np.unique(pieces(axis))) if axis.level is None else axis.level.betti[0]
     result[ONLY_RATIO], result[ONLY_ANGLE] = _only(axis, settings)
     _remember_level(result, axis)
@@ -224,6 +228,7 @@ def _remember_shown(
     by_radius = look.colours and not _shows_parts(axis, look)
     remember_colours(result, RADIUS.name if by_radius else "", start, end)
     remember_structure(result, axis)
+    remember_ranges(result, axis)
     result.update_tag()
 
 

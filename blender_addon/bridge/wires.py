@@ -2,6 +2,8 @@
 """Edges without a face and single points as tubes and balls: Blender draws them as hairlines, and renders none.
 
 They are made by a modifier of Geometry Nodes, so the mesh itself, its counts and what is exported of it stay the axis.
+No tube and no ball is thicker than the ball of the axis there. The more of them there are, the fewer faces each has:
+Blender makes them anew in its main thread after every change.
 """
 
 from __future__ import annotations
@@ -11,16 +13,22 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
+from .attributes import RADIUS
 from .material import radius_material
+from .nodes.inputs import input_of, row_of, set_inputs
+from .nodes.tree import Tree
 
 if TYPE_CHECKING:
     from ..core.axis.medial_axis import MedialAxis
 
 NAME = "Medial Axis Wires"
 WIRES = "ma_wires"  # how many edges without a face and single points a result has
-_WIDTH = "Width"
+DETAIL = "ma_wires_detail"  # Sides and Subdivisions as they were set by the numbers of wires
+_WIDTH, _SIDES, _SUBDIVISIONS = "Width", "Sides", "Subdivisions"
 _THIN = 0.004  # radius of a tube, as a share of the size of the axis
 _THICKER = 2.0  # balls than tubes
+_MOST_FACES = 80_000  # of all tubes, and of all balls
+_FACES_OF_BALLS = {3: 320, 2: 80, 1: 20}  # by Subdivisions
 
 
 def show_wires(thing: bpy.types.Object, axis: MedialAxis) -> None:
@@ -28,7 +36,8 @@ def show_wires(thing: bpy.types.Object, axis: MedialAxis) -> None:
 
     Where an artist removed the modifier from an object that had wires, it does not come back.
     """
-    count, before = _loose(axis), thing.get(WIRES, 0)
+    points = _single_points(axis)
+    count, before = len(axis.edges) + points, thing.get(WIRES, 0)
     thing[WIRES] = count
     modifier = thing.modifiers.get(NAME)
     if count and not before and modifier is None:
@@ -36,11 +45,20 @@ def show_wires(thing: bpy.types.Object, axis: MedialAxis) -> None:
         modifier.node_group = _group()
         modifier.show_in_editmode = False
         modifier.show_expanded = False
-        width = width_of(modifier)
-        if width is not None:
-            _set(*width, _THIN * _size(axis))
+        set_inputs(modifier, {_WIDTH: _THIN * _size(axis)})
+        thing.pop(DETAIL, None)
     elif modifier is not None and not count:
         thing.modifiers.remove(modifier)
+        return
+    if modifier is not None:
+        _set_detail(thing, modifier, detail_of(len(axis.edges), points))
+
+
+def detail_of(edges: int, points: int) -> tuple[int, int]:
+    """(sides of each tube, subdivisions of each ball) for these numbers of them; 0 where there are too many to show."""
+    sides = min(8, _MOST_FACES // max(edges, 1))
+    fitting = (n for n, faces in _FACES_OF_BALLS.items() if points * faces <= _MOST_FACES)
+    return (sides if sides >= 3 else 0), next(fitting, 0)
 
 
 def wires_of(thing: bpy.types.Object) -> bpy.types.Modifier | None:
@@ -51,35 +69,35 @@ def wires_of(thing: bpy.types.Object) -> bpy.types.Modifier | None:
 
 def width_of(modifier: bpy.types.Modifier) -> tuple[Any, str] | None:
     """(owner, path) of the width of the tubes, as `layout.prop` wants them; None where the input is gone."""
-    sockets = _width_sockets(modifier.node_group)
-    if not sockets:
-        return None
-    identifier = sockets[0].identifier
-    if hasattr(modifier, "properties"):  # from 5.2
-        return getattr(modifier.properties.inputs, identifier), "value"
-    return modifier, f'["{identifier}"]'
+    return row_of(modifier, _WIDTH) if _has_inputs(modifier.node_group, _WIDTH) else None
 
 
-def _width_sockets(tree: bpy.types.NodeTree | None) -> list[Any]:
+def _has_inputs(tree: bpy.types.NodeTree | None, *names: str) -> bool:
     if tree is None:
-        return []
+        return False
     sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs  # from 4.0
-    return [socket for socket in sockets if socket.name == _WIDTH]
+    return set(names) <= {socket.name for socket in sockets}
 
 
-def _set(owner: Any, path: str, value: float) -> None:
-    if path == "value":
-        owner.value = value
-    else:
-        owner[path[2:-2]] = value
+def _set_detail(
+    thing: bpy.types.Object, modifier: bpy.types.Modifier, detail: tuple[int, int]
+) -> None:
+    """Set the numbers of faces that fit the number of wires, unless an artist has chosen others."""
+    names = (_SIDES, _SUBDIVISIONS)
+    if not _has_inputs(modifier.node_group, *names):  # of an older version
+        return
+    kept = thing.get(DETAIL)
+    if kept is None or [input_of(modifier, name) for name in names] == list(kept):
+        set_inputs(modifier, dict(zip(names, detail, strict=True)))
+        thing[DETAIL] = detail
 
 
-def _loose(axis: MedialAxis) -> int:
-    """The number of edges without a facet, and of vertices without a facet and an edge."""
+def _single_points(axis: MedialAxis) -> int:
+    """The number of vertices without a facet and an edge."""
     used = np.zeros(len(axis.vertices), np.bool_)
     used[axis.face_vertices] = True
     used[axis.edges.ravel()] = True
-    return len(axis.edges) + int(np.count_nonzero(~used))
+    return int(np.count_nonzero(~used))
 
 
 def _size(axis: MedialAxis) -> float:
@@ -88,94 +106,96 @@ def _size(axis: MedialAxis) -> float:
 
 
 def _group() -> bpy.types.NodeTree:
-    """The node group, made where the file has none with a width; other changes that an artist made in it stay."""
-    found = bpy.data.node_groups.get((NAME, None))
-    return found if _width_sockets(found) else _new_group()
+    """The node group, made where the file has none with these inputs; other changes that an artist made in it stay."""
+    inputs = (_WIDTH, _SIDES, _SUBDIVISIONS)
+    for found in bpy.data.node_groups:
+        if found.library is None and found.name.startswith(NAME) and _has_inputs(found, *inputs):
+            return found
+    return _new_group()
 
 
 def _new_group() -> bpy.types.NodeTree:
-    tree = bpy.data.node_groups.new(NAME, "GeometryNodeTree")
-    _add_sockets(tree)
-    node = _Nodes(tree)
-    given, result = node("NodeGroupInput"), node("NodeGroupOutput")
-    tubes, balls = _tubes(node, given), _balls(node, given)
-    round_parts, whole = node("GeometryNodeJoinGeometry"), node("GeometryNodeJoinGeometry")
-    painted = node("GeometryNodeSetMaterial")
-    painted.inputs[2].default_value = radius_material()
-    node.link(balls, round_parts.inputs[0])
-    node.link(tubes, round_parts.inputs[0])
-    node.link(round_parts.outputs[0], painted.inputs[0])
-    for geometry in (painted.outputs[0], given.outputs[0]):  # the last to be linked comes first
-        node.link(geometry, whole.inputs[0])
-    node.link(whole.outputs[0], result.inputs[0])
-    return tree
+    tree = Tree(NAME)
+    width = tree.number(
+        _WIDTH, 0.01, "The radius of tubes; where balls are smaller, it is theirs", "DISTANCE"
+    )
+    sides = tree.input(
+        "NodeSocketInt",
+        _SIDES,
+        8,
+        "Of each tube; below 3 there are none",
+        min_value=0,
+        max_value=64,
+    )
+    level = tree.input(
+        "NodeSocketInt",
+        _SUBDIVISIONS,
+        3,
+        "Of each ball; below 1 there are none",
+        min_value=0,
+        max_value=6,
+    )
+    parts = (_tubes(tree, width, sides), _balls(tree, width, level))
+    painted = tree.node(
+        "GeometryNodeSetMaterial",
+        _joined(tree, *parts),
+        named={"Material": radius_material()},
+    )
+    return tree.output(_joined(tree, tree.geometry, painted))
 
 
-class _Nodes:
-    """Makes nodes of a tree from left to right. Sockets go by number, for their names differ between versions."""
-
-    def __init__(self, tree: bpy.types.NodeTree) -> None:
-        self.tree = tree
-        self.link = tree.links.new
-
-    def __call__(self, kind: str) -> Any:
-        node = self.tree.nodes.new(kind)
-        number = len(self.tree.nodes)
-        node.location = (200 * (number % 8), -200 * (number // 8))
-        return node
-
-    def without(self, kind: str) -> Any:
-        """True where an element has no neighbours, as an input node counts them."""
-        no = self("FunctionNodeBooleanMath")
-        no.operation = "NOT"
-        self.link(self(kind).outputs[0], no.inputs[0])
-        return no.outputs[0]
+def _joined(tree: Tree, *parts: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+    """The parts as one geometry, the first of them first."""
+    whole = tree.node("GeometryNodeJoinGeometry")
+    for part in reversed(parts):  # the last to be linked comes first
+        tree.group.links.new(part, whole.node.inputs[0])
+    return whole
 
 
-def _add_sockets(tree: bpy.types.NodeTree) -> None:
-    if hasattr(tree, "interface"):  # from 4.0
-        new = tree.interface.new_socket
-        new("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
-        width = new(_WIDTH, in_out="INPUT", socket_type="NodeSocketFloat")
-        new("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
-        tree.is_modifier = True
-    else:
-        tree.inputs.new("NodeSocketGeometry", "Geometry")
-        width = tree.inputs.new("NodeSocketFloatDistance", _WIDTH)
-        tree.outputs.new("NodeSocketGeometry", "Geometry")
-    width.min_value = 0.0
-    width.default_value = 0.01
-    if hasattr(width, "subtype"):
-        width.subtype = "DISTANCE"
+def _without(tree: Tree, kind: str, if_shown: bpy.types.NodeSocket) -> bpy.types.NodeSocket:
+    """True where an element has no neighbours, as an input node counts them, and is to be shown."""
+    return tree.logic("AND", tree.logic("NOT", tree.node(kind)), if_shown)
 
 
-def _tubes(node: _Nodes, given: Any) -> Any:
+def _tubes(
+    tree: Tree, width: bpy.types.NodeSocket, sides: bpy.types.NodeSocket
+) -> bpy.types.NodeSocket:
     """Tubes along the edges that have no face."""
-    curves, mesh = node("GeometryNodeMeshToCurve"), node("GeometryNodeCurveToMesh")
-    circle = node("GeometryNodeCurvePrimitiveCircle")
-    circle.inputs[0].default_value = 8
-    node.link(given.outputs[1], circle.inputs[4])
-    node.link(given.outputs[0], curves.inputs[0])
-    node.link(node.without("GeometryNodeInputMeshEdgeNeighbors"), curves.inputs[1])
-    node.link(curves.outputs[0], mesh.inputs[0])
-    node.link(circle.outputs[0], mesh.inputs[1])
-    next(s for s in mesh.inputs if s.name == "Fill Caps").default_value = True
-    return mesh.outputs[0]
+    shown = tree.compare("GREATER_THAN", sides, 2.5)
+    alone = _without(tree, "GeometryNodeInputMeshEdgeNeighbors", shown)
+    curves = tree.node("GeometryNodeMeshToCurve", tree.geometry, alone)
+    radius = tree.math("MINIMUM", width, tree.attribute(RADIUS.name))
+    curves = tree.node("GeometryNodeSetCurveRadius", named={"Curve": curves, "Radius": radius})
+    circle = tree.node(
+        "GeometryNodeCurvePrimitiveCircle",
+        named={"Resolution": tree.math("MAXIMUM", sides, 3.0), "Radius": 1.0},
+    )
+    tubes = tree.node(
+        "GeometryNodeCurveToMesh",
+        named={"Curve": curves, "Profile Curve": circle, "Fill Caps": True},
+    )
+    scale = tubes.node.inputs.get("Scale")  # where it exists, radii of curves have no effect
+    if scale is not None:
+        tree.group.links.new(radius, scale)
+    return tubes
 
 
-def _balls(node: _Nodes, given: Any) -> Any:
+def _balls(
+    tree: Tree, width: bpy.types.NodeSocket, level: bpy.types.NodeSocket
+) -> bpy.types.NodeSocket:
     """Balls at the vertices that have no edge."""
-    points, balls = node("GeometryNodeMeshToPoints"), node("GeometryNodeInstanceOnPoints")
-    ball, real = node("GeometryNodeMeshIcoSphere"), node("GeometryNodeRealizeInstances")
-    ball.inputs[1].default_value = 3
-    thicker = node("ShaderNodeMath")
-    thicker.operation = "MULTIPLY"
-    thicker.inputs[1].default_value = _THICKER
-    node.link(given.outputs[1], thicker.inputs[0])
-    node.link(thicker.outputs[0], ball.inputs[0])
-    node.link(given.outputs[0], points.inputs[0])
-    node.link(node.without("GeometryNodeInputMeshVertexNeighbors"), points.inputs[1])
-    node.link(points.outputs[0], balls.inputs[0])
-    node.link(ball.outputs[0], balls.inputs[2])
-    node.link(balls.outputs[0], real.inputs[0])
-    return real.outputs[0]
+    shown = tree.compare("GREATER_THAN", level, 0.5)
+    alone = _without(tree, "GeometryNodeInputMeshVertexNeighbors", shown)
+    radius = tree.attribute(RADIUS.name)
+    size = tree.math("MINIMUM", tree.math("MULTIPLY", width, _THICKER), radius)
+    points = tree.node(
+        "GeometryNodeMeshToPoints", named={"Mesh": tree.geometry, "Selection": alone}
+    )
+    ball = tree.node(
+        "GeometryNodeMeshIcoSphere",
+        named={"Radius": 1.0, "Subdivisions": tree.math("MAXIMUM", level, 1.0)},
+    )
+    balls = tree.node(
+        "GeometryNodeInstanceOnPoints", named={"Points": points, "Instance": ball, "Scale": size}
+    )
+    return tree.node("GeometryNodeRealizeInstances", balls)

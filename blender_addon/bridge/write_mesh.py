@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 import bpy
 import numpy as np
 
+from ..core.axis.directions import facet_vectors, units, wire_tangents
 from ..core.axis.medial_axis import no_edges
 from ..core.axis.structure import SEAM
 from ..core.axis.turning import with_facets_turned
 from ..core.errors import InvalidInputError
 from ..core.machine.native import own_errors
-from .attributes import attributes, level_attributes, structure_attributes
+from .attributes import NORMAL, TANGENT, attributes, level_attributes, structure_attributes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -44,13 +45,24 @@ def new_axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
     structure = axis.structure
     shown = axis if structure is None else with_facets_turned(axis, structure.turned)
     mesh = new_mesh(shown, name, attributes(), axis.edges)
-    if axis.level is None:
-        return mesh
     with _removed_on_error(mesh):
+        _add_directions(mesh, shown)
+        if axis.level is None:
+            return mesh
         _add_attributes(mesh, axis.level, level_attributes())
         if structure is not None:
             _add_structure(mesh, structure)
     return mesh
+
+
+def _add_directions(mesh: bpy.types.Mesh, axis: MedialAxis) -> None:
+    """Add normals of facets and tangents of edges without a facet, along which instances can be turned."""
+    vectors = facet_vectors(axis.vertices, axis.face_offsets, axis.face_vertices)
+    along = np.zeros((len(mesh.edges), 3))
+    along[len(along) - len(axis.edges) :] = wire_tangents(axis.vertices, axis.edges)
+    for name, domain, found in ((NORMAL, "FACE", units(vectors)), (TANGENT, "EDGE", along)):
+        data = mesh.attributes.new(name, "FLOAT_VECTOR", domain).data
+        data.foreach_set("vector", found.astype(np.float32).ravel())
 
 
 def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:

@@ -494,6 +494,13 @@ class Look(Options):
         limits=(0.0, 1000.0),
         soft_maximum=5.0,
     )
+    crumbs: float = number(
+        "Crumbs",
+        "Pieces of a clean form or a curve without facets that are smaller than so many spacings of the "
+        "samples are not shown, unless the closed faces have them, too; 0: all pieces",
+        default=1.0,
+        limits=(0.0, 4.0),
+    )
     smallest_island: float = number(
         "Smallest Island",
         "Pieces of an axis as published with fewer of its facets than this are not shown; "

@@ -10,10 +10,12 @@ from ..core.machine import native
 
 def _modules() -> tuple[ModuleType, ...]:
     from . import (
+        apply_later,
         asset_library,
         balls,
         command,
         compute_sequence,
+        convert_to_curve,
         current_job,
         export_axis,
         export_thickness,
@@ -46,6 +48,7 @@ def _modules() -> tuple[ModuleType, ...]:
 
     return (
         translation,
+        apply_later,
         properties,
         thickness_properties,
         self_test_operator,
@@ -72,6 +75,7 @@ def _modules() -> tuple[ModuleType, ...]:
         compute_sequence,
         menus,
         reduce,
+        convert_to_curve,
         node_groups,
         manual,
         current_job,

@@ -34,6 +34,9 @@ def draw_result(context, layout, result):
         draw_wrapped(context, layout, text, "MESH_DATA")
     if hidden := result.get(axis_object.HIDDEN, 0):
         draw_wrapped(context, layout, f"{hidden:,} facets are not shown", "INFO")
+    if crumbs := result.get(axis_object.CRUMBS, 0):
+        text = "1 crumb is not shown" if crumbs == 1 else f"{crumbs:,} crumbs are not shown"
+        draw_wrapped(context, layout, text, "INFO")
     figures = {"Radius": _range_text(context, *axis_object.radius_range(result))}
     if seconds := result.get(output_object.SECONDS):
         figures["Time"] = f"{seconds:.2f} s"

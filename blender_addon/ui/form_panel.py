@@ -2,25 +2,30 @@
 """The rows of the panel that choose the form of the axis."""
 
 from ..core.settings import Form, applies_to_form
-from .properties import settings_from
+from .properties import settings_from, shown_result
+from .ranged_sliders import row_of_slider
 
 _SLIDERS = ("simplify", "erode", "limb")
 
 
-def draw_form(layout, panel):
+def draw_form(context, layout, panel):
     """Form, and the slider that matters most for it."""
     layout.prop(panel, "form")
-    for name in _that_apply(panel)[:1]:
-        layout.prop(panel, name, slider=True)
+    _draw_sliders(context, layout, panel, _that_apply(panel)[:1])
 
 
-def draw_more_of_form(layout, panel):
+def draw_more_of_form(context, layout, panel):
     """The other sliders of the form, and whether its places are crisp."""
-    for name in _that_apply(panel)[1:]:
-        layout.prop(panel, name, slider=True)
+    _draw_sliders(context, layout, panel, _that_apply(panel)[1:])
     row = layout.row()
     row.active = settings_from(panel).crisp_is_possible
     row.prop(panel, "crisp")
+
+
+def _draw_sliders(context, layout, panel, names):
+    result = shown_result(context)
+    for name in names:
+        layout.prop(panel, row_of_slider(context, name, result), slider=True)
 
 
 def _that_apply(panel):

@@ -17,6 +17,7 @@ _PLACES = (
     ("bpy.ops.object.medial_axis_sampling_report*", "user_guide.html#report-sampling"),
     ("bpy.ops.object.medial_axis_nodes*", "user_guide.html#live-in-geometry-nodes"),
     ("bpy.ops.object.medial_axis_reduce*", "small_mesh.html"),
+    ("bpy.ops.object.medial_axis_to_curve*", "user_guide.html#forms"),
     ("bpy.ops.object.medial_axis_rebuild*", "user_guide.html#rebuild-solid"),
     ("bpy.ops.wm.medial_axis_asset_library*", "user_guide.html#live-in-geometry-nodes"),
     ("bpy.ops.object.medial_axis_sequence*", "user_guide.html#animation"),

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..bridge.nodes.groups import GROUPS, add_modifier
+from ..bridge.nodes.groups import GROUPS, add_few_balls, add_modifier
 from ..bridge.read_axis import find_axis
 from .translation import say
 
@@ -31,7 +31,11 @@ class OBJECT_OT_medial_axis_nodes(bpy.types.Operator):
         return True
 
     def execute(self, context):
-        add_modifier(find_axis(context.active_object), self.group)
+        axis = find_axis(context.active_object)
+        if self.group == "BALLS":
+            add_few_balls(axis)
+        else:
+            add_modifier(axis, self.group)
         return {"FINISHED"}
 
 

@@ -89,7 +89,7 @@ class VIEW3D_PT_medial_axis_method(Closed, bpy.types.Panel):
 
     def draw(self, context):
         settings, column = context.scene.medial_axis, settings_column(self.layout)
-        draw_more_of_form(column, settings)
+        draw_more_of_form(context, column, settings)
         for name in ("rule", "criteria", "limit_set", "sides"):
             column.prop(settings, name)
         if settings.sides == SidesFrom.WRAP.name:
@@ -117,6 +117,8 @@ class VIEW3D_PT_medial_axis_show(Closed, bpy.types.Panel):
         column.prop(settings, "parent")
         if Form[settings.form] is Form.PUBLISHED:
             column.prop(settings, "smallest_island", slider=True)
+        else:
+            column.prop(settings, "crumbs", slider=True)
         modifier = wires_of(thing)
         if modifier is not None and (width := width_of(modifier)):
             column.prop(*width, text="Wire Width")
@@ -208,7 +210,7 @@ def _shown(context):
 
 def _draw_settings(context, layout):
     settings, column = context.scene.medial_axis, settings_column(layout)
-    draw_form(column, settings)
+    draw_form(context, column, settings)
     for name in ("theta", "rho"):
         column.prop(settings, name, slider=True)
     if result := shown_result(context):
@@ -249,14 +251,16 @@ def _draw_compute(context, layout):
 
 
 def _draw_progress(context, layout, job):
+    whole = layout.row(align=True)
+    whole.scale_y = 1.5  # as the button that is here otherwise, so that nothing below moves
     if bpy.app.version >= (5, 0):  # after such a bar, 4.3 draws the next label as a full one
-        layout.progress(factor=job.fraction, text=f"{say(job.stage)}, {100 * job.fraction:.0f} %")
+        whole.progress(factor=job.fraction, text=f"{say(job.stage)}, {100 * job.fraction:.0f} %")
     else:
-        row = layout.row()
+        row = whole.row(align=True)
         row.enabled = False
         bar = context.window_manager.medial_axis_progress
         row.prop(bar, "percentage", text=say(job.stage), slider=True)
-    layout.operator("object.medial_axis_cancel", icon="CANCEL")
+    whole.operator("object.medial_axis_cancel", text="", icon="CANCEL")
 
 
 def _draw_colours(context, layout):

@@ -5,6 +5,7 @@ import ctypes
 import inspect
 import math
 from dataclasses import replace
+from functools import partial
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
@@ -35,7 +36,8 @@ from ..core.settings import (
     SidesFrom,
     applies,
 )
-from . import current_job
+from . import apply_later, current_job
+from .ranged_sliders import with_shares
 from .translation import IN_CONTEXT
 
 # These words of a FloatProperty follow from the unit of its option.
@@ -171,7 +173,9 @@ def _refilter(panel, context):
     """Apply new thresholds to the shown result at once, as long as its analysis is kept."""
     panel.note = ""
     result = shown_result(context)
-    if result is None or is_gone(result) or current_job.job() is not None:
+    if result is None or is_gone(result):
+        return
+    if current_job.job() is not None and not apply_later.runs():
         return
     try:
         panel.note = _refilter_result(result, panel)
@@ -184,15 +188,28 @@ def _refilter_result(result, panel) -> str:
     wanted = settings_from(panel)
     analysed = {name: getattr(kept, name) for name in _ANALYSED}
     wanted = replace(wanted, **analysed)  # others need another analysis
-    axis = refilter(result[ANALYSIS], wanted)
+    show = partial(_show_refiltered, settings_from(panel, Look))
+    if apply_later.needs_thread(result, _levels_stay(kept, wanted)):
+        apply_later.request(result, wanted, show)
+        return ""
+    return show(result, wanted, refilter(result[ANALYSIS], wanted))
+
+
+def _show_refiltered(look, result, wanted, axis) -> str:
     if axis is None:
         return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
     if axis.is_empty:
         return "No facet passes these conditions; the medial axis was left as it was"
     topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
     settings = replace(wanted, form=wanted.form_of_side)
-    update_result(result, axis, settings, topology, settings_from(panel, Look))
+    update_result(result, axis, settings, topology, look)
     return ""
+
+
+def _levels_stay(kept, wanted) -> bool:
+    """Whether two settings choose among the levels of the same hierarchy."""
+    names = ("theta", "rho", "rule", "criteria", "crisp")
+    return all(getattr(kept, name) == getattr(wanted, name) for name in names)
 
 
 def needs_analysis(result, panel) -> bool:
@@ -214,6 +231,7 @@ _LIVE = {name: option for name, option in OPTIONS.items() if name not in _ANALYS
 
 @with_options(_ANALYSED | DIVISION)
 @with_options(_LIVE, _refilter)
+@with_shares(shown_result)
 class MedialAxisPanelSettings(bpy.types.PropertyGroup):
     """The settings of the sidebar panel; those that need no other analysis act on the result at once."""
 

@@ -25,6 +25,8 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
         if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
             for operator, icon in SKELETON_OPERATORS.items():
                 copy_all(context, self.layout.operator(operator, icon=icon))
+            if bpy.ops.object.medial_axis_to_curve.poll():
+                self.layout.operator("object.medial_axis_to_curve", icon="OUTLINER_OB_CURVE")
         for thing in _shown(context):
             _draw_figures(context, self.layout.column(), thing)
 

@@ -10,6 +10,7 @@ from scene import (
     attribute,
     compute,
     ellipsoid,
+    link,
     medial_objects,
     positions,
     result_of,
@@ -18,6 +19,7 @@ from scene import (
     torus,
     world_positions,
 )
+from support.messy import crossing_plates
 
 EVEN = {"sampling": "SURFACE", "samples": 1_500}
 
@@ -364,19 +366,60 @@ def test_wires_have_faces_when_they_are_seen_and_none_in_the_mesh():
 
 def test_wires_are_as_thin_as_wanted():
     source, result = curve_of_a_torus()
-    module = addon("bridge.wires")
-    owner, path = module.width_of(wires_on(result))
+    inputs = addon("bridge.nodes.inputs")
     for width in (0.001, 0.05):
-        module._set(owner, path, width)
-        result.update_tag()
+        inputs.set_inputs(wires_on(result), {"Width": width})
         bpy.context.view_layer.update()
         height = np.ptp(positions(evaluated(result))[:, 2])
         assert height == pytest.approx(np.ptp(positions(result.data)[:, 2]) + 2 * width, abs=0.01)
     select(source)
     compute(form="CURVE", theta=0.5)
-    owner, path = module.width_of(wires_on(result))
-    kept = owner.value if path == "value" else owner[path[2:-2]]
+    kept = inputs.input_of(wires_on(result), "Width")
     assert kept == pytest.approx(0.05), "what the artist chose stays"
+
+
+def test_no_tube_and_no_ball_is_thicker_than_the_ball_of_the_axis():
+    _, result = curve_of_a_torus()
+    inputs = addon("bridge.nodes.inputs")
+    inputs.set_inputs(wires_on(result), {"Width": 100.0})
+    radius = attribute(result.data, "ma_radius")
+    height = np.ptp(positions(evaluated(result))[:, 2])
+    assert height <= np.ptp(positions(result.data)[:, 2]) + 2.001 * radius.max()
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
+    ball = bpy.context.object
+    compute(form="CLEAN")
+    point = result_of(ball)
+    inputs.set_inputs(wires_on(point), {"Width": 100.0})
+    size = np.ptp(positions(evaluated(point)), axis=0)
+    assert size == pytest.approx([2.0, 2.0, 2.0], rel=0.02)
+
+
+def test_many_wires_have_tubes_of_few_sides_or_none():
+    wires, inputs = addon("bridge.wires"), addon("bridge.nodes.inputs")
+    assert wires.detail_of(100, 1) == (8, 3)
+    assert wires.detail_of(20_000, 2_000) == (4, 1)
+    assert wires.detail_of(200_000, 20_000) == (0, 0)
+    source, result = curve_of_a_torus()
+    assert [inputs.input_of(wires_on(result), n) for n in ("Sides", "Subdivisions")] == [8, 3]
+    edges = len(result.data.edges)
+    inputs.set_inputs(wires_on(result), {"Sides": 0})
+    assert not len(evaluated(result).polygons) and len(evaluated(result).edges) == edges
+    select(source)
+    compute(form="CURVE", theta=0.5)
+    assert inputs.input_of(wires_on(result), "Sides") == 0, "what the artist chose stays"
+
+
+def test_crumbs_are_hidden_and_counted():
+    source = link("Plates", *crossing_plates())
+    settings = {"form": "CLEAN", "sampling": "SURFACE", "samples": 1500}
+    compute(crumbs=0.0, **settings)
+    result = result_of(source)
+    whole, pieces = len(result.data.vertices), result["ma_pieces"]
+    assert result["ma_crumbs_hidden"] == 0
+    select(source)
+    compute(**settings)
+    assert len(result.data.vertices) < whole and 0 < result["ma_crumbs_hidden"] < pieces
+    assert result["ma_pieces"] == pieces and result.data.validate() is False
 
 
 def test_exports_are_those_of_the_mesh(tmp_path):

@@ -41,6 +41,7 @@ DATA = {
     " Small Mesh",
     "Medial Axis Wires",
     "Fill Caps",
+    "Profile Curve",
     "step {}",
     " Medial Axis Sequence",
     " Skeleton Sequence",

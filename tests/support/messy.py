@@ -88,6 +88,19 @@ def crossing_boxes() -> Mesh:
     return meshes.join(*bars)
 
 
+def crossing_plates(count: int = 25, seed: int = 3) -> Mesh:
+    """Thin boxes that cross each other, every second one without two of its sides."""
+    rng = np.random.default_rng(seed)
+    vertices, triangles = meshes.box((1, 1, 1), (1.0, 1.0, 1.0))
+    parts = []
+    for number in range(count):
+        turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+        size = (*(0.5 * rng.random(2) + 0.05), 0.01 + 0.02 * rng.random())
+        kept = triangles[: 8 if number % 2 else 12]
+        parts.append((vertices * size @ turn.T + 3 * rng.random(3), kept))
+    return meshes.join(*parts)
+
+
 def open_box() -> Mesh:
     """A box without its lid."""
     vertices, triangles = meshes.box((6, 5, 4))

@@ -7,7 +7,10 @@ import numpy as np
 
 
 def same_axis(a: Any, b: Any) -> bool:
-    """Whether two `MedialAxis` have equal arrays, also in their levels and structures."""
+    """Whether two `MedialAxis` have equal arrays, also in their levels and structures.
+
+    What only the window shows, crumbs and ranges of sliders, is in no file and does not count.
+    """
     if (a.level is None) != (b.level is None):
         return False
     if (a.structure is None) != (b.structure is None):
@@ -18,5 +21,5 @@ def same_axis(a: Any, b: Any) -> bool:
         np.array_equal(getattr(one, name), getattr(other, name))
         for one, other in pairs
         for name in one.__dataclass_fields__
-        if name not in ("level", "structure")
+        if name not in ("level", "structure", "crumb", "ranges")
     )

@@ -9,12 +9,16 @@ from pathlib import Path
 
 import bpy
 
+from ..mesh_arrays import read_positions
 from ..wires import wires_of
 from . import balls, filter, rebuild, thickness_colour
+from .inputs import set_inputs
+from .merging import merging_distance
 
 FILE = "medial_axis_nodes.blend"
 CATALOGUE_FILE = "blender_assets.cats.txt"
 CATALOGUE = "0d5dd5d2-6c05-4d0c-8a7a-6d1f5a0c6c1e"  # any UUID, always the same
+_MOST_BALLS = 4_000  # about so many balls are left
 _BUILT_BY = "ma_nodes"  # identifies our groups after someone renamed them
 
 
@@ -71,6 +75,14 @@ def add_modifier(thing: bpy.types.Object, key: str) -> bpy.types.NodesModifier:
             modifier=name, index=list(thing.modifiers).index(wires)
         )
     return thing.modifiers[name]
+
+
+def add_few_balls(thing: bpy.types.Object) -> bpy.types.NodesModifier:
+    """The modifier with the group of balls, merged so that a few thousand are left, which Blender draws fast."""
+    modifier = add_modifier(thing, "BALLS")
+    distance = merging_distance(read_positions(thing.data), _MOST_BALLS)
+    set_inputs(modifier, {"Merge": distance})
+    return modifier
 
 
 def write_library(folder: Path) -> None:

@@ -161,7 +161,12 @@ def refiltered_topology(key: str, axis: MedialAxis, wanted: Form) -> str:
     return "" if samples is None else topology_sentence(axis, wanted, samples)
 
 
-def refilter(key: str, settings: Settings) -> MedialAxis | None:
-    """Extract the axis of a kept analysis for other thresholds; None when the analysis is no longer kept."""
+def refilter(key: str, settings: Settings, progress: Progress | None = None) -> MedialAxis | None:
+    """Extract the axis of a kept analysis for other thresholds; None when the analysis is no longer kept.
+
+    Raises
+    ------
+    OutOfMemoryError, Cancelled
+    """
     samples = CACHE.get(key)
-    return None if samples is None else extract(samples, settings)
+    return None if samples is None else extract(samples, settings, progress)

@@ -23,7 +23,9 @@ def pieces(axis: MedialAxis) -> NDArray[np.int64]:
     """(f,) the number of the connected piece of each facet; piece 0 has the most facets."""
     if not axis.facets:
         return np.zeros(0, np.int64)
-    label = _labels(axis)[axis.face_vertices[axis.face_offsets[:-1]]]
+    starts = axis.face_offsets[:-1]
+    label = lowest_of_piece(len(axis.vertices), starts, axis.face_vertices)
+    label = label[axis.face_vertices[starts]]
     _, piece, counts = np.unique(label, return_inverse=True, return_counts=True)
     order = np.argsort(-counts, kind="stable")
     rank = np.empty_like(order)
@@ -80,15 +82,27 @@ def with_facets(axis: MedialAxis, keep: NDArray[np.bool_]) -> MedialAxis:
     )
 
 
-def _labels(axis: MedialAxis) -> NDArray[np.int64]:
-    """(v,) the lowest vertex of the piece of each vertex.
+def lowest_of_piece(
+    vertices: int, starts: NDArray[np.integer], corners: NDArray[np.integer]
+) -> NDArray[np.int64]:
+    """(v,) the lowest vertex of the piece of each vertex; facets or edges join their corners.
 
     Every facet hooks the labels of its corners to the lowest of them, and labels of labels are followed, until nothing
     changes.
+
+    Parameters
+    ----------
+    vertices : int
+        Their number.
+    starts : (f,) int
+        The first corner of each facet.
+    corners : (c,) int
     """
-    starts, corners = axis.face_offsets[:-1], axis.face_vertices
-    facet_of_corner = np.repeat(np.arange(axis.facets), np.diff(axis.face_offsets))
-    label = np.arange(len(axis.vertices))
+    label = np.arange(vertices)
+    if not len(starts):
+        return label
+    sizes = np.diff(starts, append=len(corners))
+    facet_of_corner = np.repeat(np.arange(len(starts)), sizes)
     while True:
         lowest = np.minimum.reduceat(label[corners], starts)[facet_of_corner]
         hooked = label.copy()

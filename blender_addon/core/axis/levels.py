@@ -14,7 +14,9 @@ import numpy as np
 from ..machine import native
 from ..machine.cache import CACHE
 from ..settings import Form, Settings
+from .crumbs import crumb_sizes
 from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
+from .slider_range import ranges_of
 from .structure import structure_of
 
 if TYPE_CHECKING:
@@ -81,6 +83,8 @@ def extract_level(
             limb=100 * level.limb,
             betti=level.betti,
             place=_placing(level, hierarchy, settings),
+            crumb=crumb_sizes(level, samples),
+            ranges=samples.levels.kept("ranges", hierarchy, ranges_of),
         ),
         structure=structure_of(level, samples) if len(level.facet_of) else None,
     )

@@ -11,6 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from .slider_range import SliderRange
     from .structure import Structure
 
 
@@ -40,6 +41,11 @@ class LevelValues:
     place : (v,) int32
         How each vertex was placed: VORONOI, REFUSED, TOUCHING, ON_RIM, ON_CREASE or IN_CORNER. Without crisp places,
         and on curves, all are VORONOI.
+    crumb : (v,) float32 or None
+        The size of the piece of each vertex in spacings of the samples, infinite where it is no crumb (`crumbs.py`);
+        None where it is not known.
+    ranges : dict of SliderRange
+        The ranges of Simplify, Erode and Limbs, by the names of the settings; empty where they are not known.
     """
 
     exact: NDArray[np.float64]
@@ -49,6 +55,8 @@ class LevelValues:
     limb: NDArray[np.float32]
     betti: tuple[int, int, int]
     place: NDArray[np.int32]
+    crumb: NDArray[np.float32] | None = None
+    ranges: dict[str, SliderRange] = field(default_factory=dict)
 
     @property
     def is_crisp(self) -> NDArray[np.bool_]:

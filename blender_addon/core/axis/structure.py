@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..machine import native
+from .spacing import spacing_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,10 +20,6 @@ SEAM, RIM, CREASE = 1, 2, 3  # values of `Structure.seam` and `curve_kind`
 JUNCTION, CORNER = 2, 4  # values of `Structure.kind` and `node_kind`
 CURVE_NAMES = {SEAM: "seam", RIM: "rim", CREASE: "crease"}
 NODE_NAMES = {JUNCTION: "junction", CORNER: "corner"}
-# Spacings of vertices are measured, and may be as large as the solid at sharp edges; this multiple of the median is
-# the largest one that counts.
-_LARGEST = 3.0
-_PER_HOLE = 1.0 / 0.85  # spacings to the radius of the hole round a sample
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,15 +132,6 @@ def structure_of(level: Any, samples: AnalysedSamples) -> Structure:
             generators=level.generators,
             wires=level.wires,
             patches=patches,
-            spacing=_spacing(samples),
+            spacing=spacing_of(samples),
         )
     return Structure(**{ours: getattr(found, theirs) for ours, theirs in _NAMES.items()})
-
-
-def _spacing(samples: AnalysedSamples) -> NDArray[np.float64]:
-    """(n,) the distance of neighbours at each sample; duplicates have 0."""
-    if samples.apart is not None:
-        return samples.apart
-    spacing, found = np.zeros(len(samples.points)), samples.analysis.spacing * _PER_HOLE
-    spacing[samples.analysis.samples] = np.minimum(found, _LARGEST * float(np.median(found)))
-    return spacing

@@ -63,7 +63,9 @@ def from_arrays(arrays: Mapping[str, NDArray]) -> MedialAxis:
         exact_radius=arrays["radius"],
         betti=(pieces, loops, cavities),
         place=arrays.get("place", np.zeros(len(arrays["radius"]), np.int32)),
-        **{name: arrays[name] for name in ("sheet", "erosion", "limb")},
+        sheet=arrays["sheet"],
+        erosion=arrays["erosion"],
+        limb=arrays["limb"],
     )
     fields |= {"vertices": arrays["shown"], "radius": arrays["shown_radius"], "level": level}
     if "part" in arrays:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 from ..machine import native
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -20,12 +22,23 @@ class Levels:
 
     def __init__(self) -> None:
         self._newest: tuple[tuple[Any, ...], Any] | None = None
+        self._of_newest: tuple[Any, dict[str, Any]] = None, {}
 
     @property
     def bytes(self) -> int:
         """The memory that the hierarchy takes."""
         newest = self._newest
         return 0 if newest is None else int(newest[1].bytes)
+
+    def kept(self, name: str, hierarchy: Any, make: Callable[[Any], Any]) -> Any:
+        """Return what `make` makes of a hierarchy, made once as long as the hierarchy is the newest one."""
+        of, found = self._of_newest
+        if of is not hierarchy:
+            found = {}
+            self._of_newest = hierarchy, found
+        if name not in found:
+            found[name] = make(hierarchy)
+        return found[name]
 
     def hierarchy(
         self,
@@ -63,6 +76,7 @@ class Levels:
         newest = self._newest
         if newest is not None and newest[0] == thresholds:
             return newest[1]
+        self._of_newest = None, {}
         newest = self._newest = None  # frees its memory before another hierarchy takes as much
         with native.own_errors() as module:
             hierarchy = analysis.hierarchy(

@@ -5,6 +5,7 @@ A scene is a generator; what it yields is how many seconds Blender's own loop ru
 on, or a function to wait for.
 """
 
+import contextlib
 import json
 import os
 import subprocess
@@ -27,9 +28,10 @@ PATIENCE = 90.0
 # (left, down) in pixels from the top right corner of the sidebar, as Blender 3.4 to 5.2 draw it.
 TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's own tab Animation
 COMPUTE = (102, 50)
-CANCEL = (102, 71)
+CANCEL = (48, 50)
 RECONSTRUCT = (102, 81)  # where there are points without faces
 THETA_LEFT, THETA_RIGHT = (120, 127), (50, 127)
+SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 105), (50, 105)
 GERMAN_TAB = (13, 270)
 # Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
 SAMPLING, SKELETON, THICKNESS = (185, 206), (150, 258), (150, 284)
@@ -262,6 +264,72 @@ def scene_compute_drag_undo():
     assert facets() == dragged
     look("redone")
     assert analyses() == before
+
+
+def scene_sliders_with_escape():
+    """Simplify runs over what can go; of a large result it acts in the thread, and Escape leaves the old one."""
+    monkey()
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield patience(1.0)
+    show_colours()
+    panel, name = bpy.context.scene.medial_axis, "Suzanne Medial Axis"
+    whole = facets()
+    yield from drag(at(SIMPLIFY_LEFT), at(SIMPLIFY_RIGHT))
+    yield patience(0.7)
+    look("dragged")
+    assert 0.0 < panel.simplify_share < 1.0, f"the slider was missed: {panel.simplify_share}"
+    assert bpy.data.objects[name]["ma_simplify"] == panel.simplify > 0.0
+    assert facets() < whole
+    yield from key("ctrl+z")
+    assert facets() == whole and bpy.context.scene.medial_axis.simplify_share == 0.0
+
+    later = addon("ui.apply_later")
+    later.SAMPLES = 0  # every result is large
+    yield from drag(at(SIMPLIFY_LEFT), at(SIMPLIFY_RIGHT))
+    yield no_update
+    yield patience(1.0)
+    look("dragged-in-the-thread")
+    panel = bpy.context.scene.medial_axis
+    assert facets() < whole and bpy.data.objects[name]["ma_simplify"] == panel.simplify
+    yield from key("ctrl+z")
+    assert facets() == whole
+    with held(addon("core.axis.compute"), "extract"):
+        bpy.context.scene.medial_axis.erode_share = 0.5
+        yield job_exists
+        yield 0.5
+        look("in-the-thread")
+        yield from key("Escape")
+    yield no_update
+    assert facets() == whole
+    assert "cancelled" in bpy.context.scene.medial_axis.note
+    bpy.context.scene.medial_axis.form = "CURVE"
+    yield no_update
+    yield patience(1.0)
+    look("curve")
+    assert facets() == 0
+
+
+def no_update():
+    return no_job() and not addon("ui.apply_later").waits()
+
+
+@contextlib.contextmanager
+def held(module, name):
+    """A function of a module that waits until its progress is cancelled."""
+    kept = getattr(module, name)
+
+    def wait(samples, settings, progress=None):
+        while not progress.cancelled:
+            time.sleep(0.05)
+        raise addon("core.errors").Cancelled("cancelled")
+
+    setattr(module, name, wait)
+    try:
+        yield
+    finally:
+        setattr(module, name, kept)
 
 
 def start_long_run():

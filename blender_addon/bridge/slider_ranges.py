@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The ranges of sliders on the object of a result: lengths and shares, so that files keep them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..core.axis.slider_range import SliderRange
+
+if TYPE_CHECKING:
+    import bpy
+
+    from ..core.axis.medial_axis import MedialAxis
+
+RANGES = {"simplify": "ma_simplify_range", "erode": "ma_erode_range", "limb": "ma_limb_range"}
+
+
+def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:
+    """Keep the ranges of a level on its object, or forget older ones."""
+    ranges = {} if axis.level is None else axis.level.ranges
+    for name, key in RANGES.items():
+        if name in ranges:
+            result[key] = [*ranges[name].lengths, *ranges[name].shares]
+        else:
+            result.pop(key, None)
+
+
+def range_on(result: bpy.types.Object | None, name: str) -> SliderRange | None:
+    """The range of a slider; None where the result has none, or someone changed it to what is none."""
+    found = None if result is None else result.get(RANGES[name])
+    try:
+        lengths, shares = np.array(found, np.float64).reshape(2, -1)
+    except (TypeError, ValueError):
+        return None
+    rising = len(lengths) > 1 and (np.diff(lengths) > 0).all() and (np.diff(shares) > 0).all()
+    return SliderRange(tuple(lengths), tuple(shares)) if rising else None

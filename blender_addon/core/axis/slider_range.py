@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The lengths over which the sliders of a level act, and the share of what can go that each of them takes away.
+
+Simplify drops whole sheets, Erode facets, and Limbs edges, each at its own length. On one model all of them go below
+3 % of the diagonal, on another nothing does. A slider that runs over shares acts from end to end on both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .directions import facet_vectors
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_BEYOND = 1.02  # this multiple of the largest length takes away everything
+_STEPS = 256  # shares are told apart up to one of so many parts
+
+
+@dataclass(frozen=True)
+class SliderRange:
+    """A rising curve from (0, 0) to (a length beyond the largest one, 1).
+
+    At a length at which a part of the whole goes at once, such as a large sheet, the share is in the middle of the two
+    that are possible, so that a slider between them shows the nearer one.
+
+    Parameters
+    ----------
+    lengths, shares : tuple of k float
+        Both rise; the lengths are in percent of the diagonal.
+    """
+
+    lengths: tuple[float, ...]
+    shares: tuple[float, ...]
+
+    def share(self, length: float) -> float:
+        """Return the share at a length."""
+        return float(np.interp(length, self.lengths, self.shares))
+
+    def length(self, share: float) -> float:
+        """Return the length at a share; it is the other direction of `share`."""
+        return float(np.interp(share, self.shares, self.lengths))
+
+
+def slider_range(values: NDArray, weights: NDArray) -> SliderRange | None:
+    """Make the range of things that go at given lengths; None where nothing can go.
+
+    Parameters
+    ----------
+    values : (n,) float
+        The largest length at which each thing stays. Things of length 0 are never there, and infinite ones never go.
+    weights : (n,) float
+        How much each thing counts.
+    """
+    goes = (values > 0.0) & np.isfinite(values) & (weights > 0.0)
+    if not goes.any():
+        return None
+    found, which = np.unique(values[goes].astype(np.float64), return_inverse=True)
+    gone = np.cumsum(np.bincount(which.ravel(), weights[goes]))
+    gone = gone / gone[-1]
+    middle = 0.5 * (gone + np.concatenate([[0.0], gone[:-1]]))
+    bins = np.floor(_STEPS * middle)
+    differs = np.diff(bins) > 0
+    kept = np.concatenate([[True], differs]) | np.concatenate([differs, [True]])
+    return SliderRange(
+        (0.0, *found[kept].tolist(), float(_BEYOND * found[-1])),
+        (0.0, *middle[kept].tolist(), 1.0),
+    )
+
+
+def ranges_of(hierarchy: Any) -> dict[str, SliderRange]:
+    """Return the ranges of Simplify, Erode and Limbs, by the names of the settings; what takes nothing away has none.
+
+    Sheets and their facets count by their area, without those that are never shown because they are no thicker than
+    the spacing of the samples. Wires count by their length, on the level without sheets, so that no slider changes the
+    range of another one.
+
+    Parameters
+    ----------
+    hierarchy : _medial.Hierarchy
+    """
+    vertices = hierarchy.vertices
+    vectors = facet_vectors(vertices, hierarchy.facet_offsets, hierarchy.facet_vertices)
+    area = np.linalg.norm(vectors, axis=1) * (hierarchy.facet_spacings > 1.0)
+    ends = vertices[hierarchy.edges]
+    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    found = {
+        "simplify": slider_range(100 * hierarchy.facet_sheet, area),
+        "erode": slider_range(100 * hierarchy.facet_erosion, area),
+        "limb": slider_range(100 * hierarchy.edge_limb, length),
+    }
+    return {name: one for name, one in found.items() if one is not None}

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The distance of neighbours at each analysed sample."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..samples.analysed import AnalysedSamples
+
+# Spacings of vertices are measured, and may be as large as the solid at sharp edges; this multiple of the median is
+# the largest one that counts.
+_LARGEST = 3.0
+_PER_HOLE = 1.0 / 0.85  # spacings to the radius of the hole round a sample
+
+
+def spacing_of(samples: AnalysedSamples) -> NDArray[np.float64]:
+    """(n,) the distance of neighbours at each sample; duplicates have 0."""
+    if samples.apart is not None:
+        return samples.apart
+    spacing, found = np.zeros(len(samples.points)), samples.analysis.spacing * _PER_HOLE
+    spacing[samples.analysis.samples] = np.minimum(found, _LARGEST * float(np.median(found)))
+    return spacing

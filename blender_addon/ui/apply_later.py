@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sliders of large results: the new axis is extracted in the job's thread, and the old one stays until it is there.
+
+Blender draws nothing while a property's update runs, so small results alone are updated in it. An update of a large
+one begins when the slider has rested for a moment.
+"""
+
+import time
+from functools import partial
+
+import bpy
+
+from ..bridge.axis_object import ANALYSIS, BETTI
+from ..bridge.output_object import POINTS, is_gone
+from ..bridge.wires import WIRES
+from ..core.axis.compute import refilter
+from ..core.errors import Cancelled, MedialAxisError
+from ..core.machine.job import Task
+from . import current_job
+from .translation import say
+
+SAMPLES = 60_000  # results of more samples are updated in the thread
+THRESHOLD_SAMPLES = 30_000  # the same where another hierarchy is needed
+WIRES_AND_LOOPS = 10_000  # results of more wires, or of a tenth as many pieces and loops
+_REST = 0.25  # seconds that a slider rests before the update begins
+
+_wanted = None  # the update that waits: (session, name of the result, settings)
+_asked = 0.0
+_write = None  # called with the result, the settings, the axis
+_running = False
+
+
+def needs_thread(result, levels_stay):
+    """Whether an update of this result takes longer than a moment.
+
+    Parameters
+    ----------
+    result : Object
+    levels_stay : bool
+        The settings choose among the levels of the same hierarchy.
+    """
+    if bpy.app.background or not bpy.context.window_manager.windows:
+        return False
+    loops = sum(result.get(BETTI, (0,)))
+    most = SAMPLES if levels_stay else THRESHOLD_SAMPLES
+    many = max(result.get(WIRES, 0), 10 * loops) > WIRES_AND_LOOPS
+    return many or result.get(POINTS, 0) > most
+
+
+def request(result, settings, write):
+    """Have a result updated soon; a later request takes the place of this one.
+
+    `write(result, settings, axis)` gives the result another axis in the main thread and returns a sentence or "".
+    """
+    global _wanted, _asked, _write
+    _wanted, _asked, _write = (result.name, settings), time.monotonic(), write
+    if not bpy.app.timers.is_registered(_begin):
+        bpy.app.timers.register(_begin, first_interval=_REST)
+
+
+def waits():
+    """Whether an update waits for its beginning."""
+    return _wanted is not None
+
+
+def runs():
+    """Whether the computation that runs is such an update."""
+    return _running
+
+
+def _begin():
+    """Begins the update that waits, or looks again in a moment."""
+    if _wanted is None:
+        return None
+    rested = time.monotonic() - _asked >= _REST
+    if not rested or current_job.job() is not None:
+        return _REST
+    window = bpy.context.window_manager.windows[0]
+    with bpy.context.temp_override(window=window):
+        bpy.ops.object.medial_axis_apply("INVOKE_DEFAULT")
+    return None
+
+
+class OBJECT_OT_medial_axis_apply(bpy.types.Operator):
+    """Apply the settings of the panel to the medial axis"""
+
+    bl_idname = "object.medial_axis_apply"
+    bl_label = "Apply to Medial Axis"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, _context):
+        return waits() and current_job.job() is None
+
+    def invoke(self, context, _event):
+        global _wanted, _running
+        (self._name, self._settings), _wanted = _wanted, None
+        result = bpy.data.objects.get(self._name)
+        if is_gone(result):
+            return {"CANCELLED"}
+        self._key, _running = result[ANALYSIS], True
+        work = partial(_extract, self._key, self._settings)
+        self._job = current_job.start([Task(self._name, work)], "medial axis")
+        self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        current_job.show(context)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self._job.cancel()
+            return {"RUNNING_MODAL"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        if waits():  # the slider went on, so this is for nothing
+            self._job.cancel()
+        if not self._job.done:
+            current_job.show(context)
+            return {"PASS_THROUGH"}
+        self._stop_watching(context)
+        context.scene.medial_axis.note = self._apply()
+        return {"FINISHED"}
+
+    def cancel(self, context):
+        """Blender ends the operator: its window closes, a file is loaded, Blender quits."""
+        self._job.stop()
+        self._stop_watching(context)
+
+    def _stop_watching(self, context):
+        global _running
+        _running = False
+        context.window_manager.event_timer_remove(self._timer)
+        current_job.finish(self._job)
+
+    def _apply(self):
+        """Write what was extracted; returns a sentence for the panel, or nothing."""
+        try:
+            (outcome,) = self._job.outcomes()
+            if outcome.error is not None:
+                raise outcome.error
+            result = bpy.data.objects.get(self._name)
+            if is_gone(result) or result.get(ANALYSIS) != self._key:
+                return ""
+            return _write(result, self._settings, outcome.value)
+        except Cancelled as error:
+            return "" if waits() else say(str(error))
+        except MedialAxisError as error:
+            return str(error)
+
+
+def _extract(key, settings, progress):
+    return refilter(key, settings, progress)
+
+
+def register():
+    bpy.utils.register_class(OBJECT_OT_medial_axis_apply)
+
+
+def unregister():
+    global _wanted, _running
+    _wanted, _running = None, False
+    if bpy.app.timers.is_registered(_begin):
+        bpy.app.timers.unregister(_begin)
+    bpy.utils.unregister_class(OBJECT_OT_medial_axis_apply)

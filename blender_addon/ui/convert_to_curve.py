@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Convert to Curve: the loose edges of a medial axis as a curve object."""
+
+import bpy
+
+from ..bridge.curve_object import write_curve
+from ..bridge.read_axis import find_axis
+from ..bridge.wires import WIRES
+from ..core.errors import MedialAxisError
+from .object_menus import register_with_entry, unregister_with_entry
+from .translation import say
+
+
+class OBJECT_OT_medial_axis_to_curve(bpy.types.Operator):
+    bl_idname = "object.medial_axis_to_curve"
+    bl_label = "Convert to Curve"
+    bl_description = (
+        "Make a curve object of the loose edges of the medial axis, with its radius at every point; "
+        "the medial axis stays"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        axis = find_axis(context.active_object)
+        if axis is None or not axis.get(WIRES, 0):
+            cls.poll_message_set(say("Select a medial axis with loose edges, as of Form Curve"))
+            return False
+        return True
+
+    def execute(self, context):
+        try:
+            made = write_curve(find_axis(context.active_object))
+        except MedialAxisError as error:
+            self.report({"ERROR"}, say(str(error)))
+            return {"CANCELLED"}
+        if context.mode == "OBJECT":
+            for thing in context.selected_objects:
+                thing.select_set(False)
+            made.select_set(True)
+            context.view_layer.objects.active = made
+        return {"FINISHED"}
+
+
+def _menu(self, _context):
+    self.layout.operator("object.medial_axis_to_curve", icon="OUTLINER_OB_CURVE")
+
+
+CLASSES = (OBJECT_OT_medial_axis_to_curve,)
+
+
+def register():
+    register_with_entry(CLASSES, _menu)
+
+
+def unregister():
+    unregister_with_entry(CLASSES, _menu)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sliders of the panel run over what can go; what is stored, keyed and kept in files is the length."""
+
+import bpy
+import pytest
+from scene import addon, compute, ellipsoid, result_of, select
+
+EVEN = {"sampling": "SURFACE", "samples": 1_500, "form": "CLEAN"}
+
+
+def panel():
+    return bpy.context.scene.medial_axis
+
+
+def shown_row(name):
+    sliders, properties = addon("ui.ranged_sliders"), addon("ui.properties")
+    return sliders.row_of_slider(bpy.context, name, properties.shown_result(bpy.context))
+
+
+@pytest.fixture
+def result():
+    source = ellipsoid()
+    compute(**EVEN)
+    select(source)
+    return result_of(source)
+
+
+def facets(thing):
+    return len(thing.data.polygons)
+
+
+def test_half_of_a_slider_is_half_of_what_can_go(result):
+    whole = facets(result)
+    panel().erode_share = 0.5
+    assert 0.2 * whole < facets(result) < 0.8 * whole
+    assert panel().erode_share == pytest.approx(0.5, abs=1e-3)
+    assert result["ma_erode"] == pytest.approx(panel().erode) and 0 < panel().erode < 100
+    panel().erode_share = 1.0
+    assert facets(result) == 0 and panel().erode_share == 1.0
+    panel().erode_share = 0.0
+    assert facets(result) == whole and panel().erode == 0.0
+
+
+def test_without_a_range_the_length_is_shown(result):
+    assert shown_row("erode") == "erode_share" and shown_row("simplify") == "simplify_share"
+    assert shown_row("theta") == "theta"
+    result["ma_erode_range"] = [0.0, 1.0, 0.0]  # as no version writes it
+    assert shown_row("erode") == "erode"
+    select()
+    assert shown_row("simplify") == "simplify"
+
+
+def test_keys_are_of_the_length(result):
+    scene = bpy.context.scene
+    for frame, length in ((1, 0.0), (11, 2.0)):
+        panel().simplify = length
+        scene.keyframe_insert("medial_axis.simplify", frame=frame)
+    scene.frame_set(11)
+    assert panel().simplify == pytest.approx(2.0)
+    assert shown_row("simplify") == "simplify" and shown_row("erode") == "erode_share"
+
+
+def test_files_keep_lengths_and_ranges(result, tmp_path):
+    panel().erode_share = 0.5
+    length, name = panel().erode, result.name
+    path = str(tmp_path / "kept.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert panel().erode == pytest.approx(length)
+    select(bpy.data.objects[name])
+    assert shown_row("erode") == "erode_share"
+    assert panel().erode_share == pytest.approx(0.5, abs=1e-3)
+    panel().erode_share = 0.25
+    assert "no longer in memory" in panel().note
+
+
+def test_a_published_axis_has_no_ranges(result):
+    panel().form = "PUBLISHED"
+    assert not [key for key in result.keys() if key.endswith("_range")]  # noqa: SIM118

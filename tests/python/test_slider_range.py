@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The ranges of sliders: half of what can go goes at one half, and lengths and shares are one curve."""
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute, extract_axis
+from medial_axis.core.axis.slider_range import slider_range
+from medial_axis.core.settings import Form, SamplingMode, Settings
+from support.meshes import box
+
+
+def test_lengths_and_shares_are_one_curve():
+    rng = np.random.default_rng(5)
+    found = slider_range(rng.lognormal(size=20_000), rng.random(20_000))
+    assert len(found.lengths) < 600
+    assert (np.diff(found.lengths) > 0).all() and (np.diff(found.shares) > 0).all()
+    for share in (0.0, 0.01, 0.3, 0.5, 0.98, 1.0):
+        assert found.share(found.length(share)) == pytest.approx(share, abs=1e-12)
+
+
+def test_half_means_half():
+    rng = np.random.default_rng(6)
+    values, weights = rng.lognormal(sigma=2.0, size=5000), rng.random(5000)
+    found = slider_range(values, weights)
+    for share in (0.0, 0.1, 0.5, 0.9, 1.0):
+        gone = weights[values <= found.length(share)].sum() / weights.sum()
+        assert gone == pytest.approx(share, abs=0.005)
+
+
+def test_one_large_sheet_goes_in_the_middle_of_its_share():
+    found = slider_range(np.array([1.0, 2.0, 3.0]), np.array([1.0, 8.0, 1.0]))
+    assert found.length(0.49) < 2.0 < found.length(0.51)
+    assert found.length(1.0) > 3.0
+
+
+def test_what_cannot_go_has_no_range():
+    assert slider_range(np.array([np.inf, 0.0]), np.ones(2)) is None
+    assert slider_range(np.zeros(0), np.zeros(0)) is None
+
+
+def test_sliders_of_a_box_act_from_end_to_end():
+    points, triangles = box()
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=2000)
+    computation = compute(points, triangles, settings)
+    ranges = computation.axis.level.ranges
+    whole = computation.axis.facets
+    erode = ranges["erode"]
+    half, none = (
+        extract_axis(computation, Settings(**kept(erode=erode.length(share))))
+        for share in (0.5, 1.0)
+    )
+    assert 0.3 * whole < half.facets < 0.7 * whole and none.facets == 0
+    bare = extract_axis(computation, Settings(**kept(simplify=ranges["simplify"].length(1.0))))
+    assert bare.facets == 0
+    curve = extract_axis(
+        computation, Settings(**kept(form=Form.CURVE, limb=ranges["limb"].length(1.0)))
+    )
+    assert len(curve.edges) == 0 or np.isinf(curve.level.limb).all()
+
+
+def kept(**changed):
+    return {"sampling": SamplingMode.SURFACE, "samples": 2000, **changed}
