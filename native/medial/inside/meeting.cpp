@@ -78,20 +78,20 @@ bool do_edges_touch(const ThreePoints& s, const ThreePoints& t, double within) {
 
 }  // namespace
 
-Meeting meeting_of(const Corners& first, const Corners& second, double within) {
+TriangleMeeting meeting_of(const Corners& first, const Corners& second, double within) {
   const ThreePoints s{first.a, first.b, first.c}, t{second.a, second.b, second.c};
   const Vec3 normal_of_t = unit_normal(t), normal_of_s = unit_normal(s);
   const Heights over_t = heights_over(t, normal_of_t, s);
-  if (are_on_one_side(over_t, within)) return Meeting::none;
+  if (are_on_one_side(over_t, within)) return TriangleMeeting::none;
   const Heights over_s = heights_over(s, normal_of_s, t);
-  if (are_on_one_side(over_s, within)) return Meeting::none;
+  if (are_on_one_side(over_s, within)) return TriangleMeeting::none;
   if (passes_through(s, over_t, t, normal_of_t, within) ||
       passes_through(t, over_s, s, normal_of_s, within)) {
-    return Meeting::crossed;
+    return TriangleMeeting::crossed;
   }
   const bool touch = rests_on(s, over_t, t, normal_of_t, within) ||
                      rests_on(t, over_s, s, normal_of_s, within) || do_edges_touch(s, t, within);
-  return touch ? Meeting::touch : Meeting::none;
+  return touch ? TriangleMeeting::touch : TriangleMeeting::none;
 }
 
 }  // namespace medial

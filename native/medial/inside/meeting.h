@@ -8,12 +8,12 @@
 
 namespace medial {
 
-enum class Meeting : uint8_t {
+enum class TriangleMeeting : uint8_t {
   none,
   touch,    // they are within a distance of each other
   crossed,  // an edge of one passes through the middle of the other, farther than that on each side
 };
 
-Meeting meeting_of(const Corners& s, const Corners& t, double within);
+TriangleMeeting meeting_of(const Corners& s, const Corners& t, double within);
 
 }  // namespace medial

@@ -188,9 +188,9 @@ class PlacesOfParts {
           near.any_met(near[face], [&](int32_t other) {
             const int32_t q = parts_.part[other];
             if (q <= p || are_known(p, q)) return false;
-            const Meeting found = meeting_of(corners(face), corners(other), together_);
-            if (found == Meeting::crossed) crossed[p] = crossed[q] = 1;
-            if (found == Meeting::touch) out.emplace_back(p, q);
+            const TriangleMeeting found = meeting_of(corners(face), corners(other), together_);
+            if (found == TriangleMeeting::crossed) crossed[p] = crossed[q] = 1;
+            if (found == TriangleMeeting::touch) out.emplace_back(p, q);
             return false;
           });
         });
@@ -268,8 +268,23 @@ class PlacesOfParts {
     }
   }
 
+  // Returns the centre of the area of faces, which is no corner of them.
+  Vec3 middle_of(std::span<const int32_t> faces) const {
+    const Vec3& from = rows_[triangles_[faces.front()][0]];
+    Vec3 sum;
+    double whole = 0;
+    for (const int32_t face : faces) {
+      const auto& [a, b, c] = corners(face);
+      const double area = length(cross(b - a, c - a));
+      sum = sum + (area / 3) * ((a - from) + (b - from) + (c - from));
+      whole += area;
+    }
+    return whole > 0 ? from + (1 / whole) * sum : from;
+  }
+
+  // Returns what a cone from there to the faces holds; negative where they look inward.
   double volume_of(std::span<const int32_t> faces) const {
-    const Vec3& origin = rows_[triangles_[faces.front()][0]];
+    const Vec3 origin = middle_of(faces);
     double volume = 0;
     for (const int32_t face : faces) {
       const auto& [a, b, c] = corners(face);
