@@ -30,7 +30,7 @@ def row(mesh: Mesh, run: Run) -> Row:
     """The result of one mesh."""
     report, faces = run.report, run.report.get("mesh") or {}
     parts = [f"{faces.get('parts', '')}"]
-    parts += [f"{faces[kind]} {kind}" for kind in ("open", "flat", "turned") if faces.get(kind)]
+    parts += [f"{faces[kind]} {kind}" for kind in ("open", "sheets", "turned") if faces.get(kind)]
     return {
         "changed": "",
         "mesh": mesh.name,

@@ -1376,6 +1376,32 @@ def mesh_parts(
         A corner is no row of the points, or a coordinate is not finite.
     """
 
+def part_places(
+    points: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.bool_], NDArray[np.uint8]]:
+    """The connected parts of faces as `mesh_parts` finds them, and how they lie to each other.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+
+    Returns
+    -------
+    part : (m,) int32
+    open : (k,) bool
+        As of `mesh_parts`.
+    place : (k,) uint8
+        0 for a part that meets no other one, 1 for one that touches others and shares no volume with them, 2 for one
+        that lies inside another part, 3 for one that shares a part of its volume with others, and 4 for a sheet without
+        thickness, which meets nothing. Parts touch where they are within the rounding of their corners to float32.
+
+    Raises
+    ------
+    InvalidInputError
+        A corner is no row of the points, or a coordinate is not finite.
+    """
+
 def wrap(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],

@@ -12,6 +12,7 @@
 #include "inside/buried.h"
 #include "inside/mesh_parts.h"
 #include "inside/outward_faces.h"
+#include "inside/part_places.h"
 #include "inside/solid_betti.h"
 #include "inside/surface.h"
 #include "inside/walls.h"
@@ -83,6 +84,23 @@ py::tuple parts_of_mesh(const py::object& points, const py::object& triangles) {
   return py::make_tuple(array_of<int32_t>(std::move(found.part)),
                         array_of<bool>(std::move(found.open)),
                         array_of<bool>(std::move(found.flat)));
+}
+
+py::tuple places_of_parts(const py::object& points, const py::object& triangles) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  auto [parts, places] = [&, row_span = rows.span(), face_span = faces.span()] {
+    const py::gil_scoped_release release;
+    MeshParts found = mesh_parts(row_span, face_span, all_cores());
+    std::vector<uint8_t> kinds;
+    for (const PartPlace place : part_places(row_span, face_span, found, all_cores())) {
+      kinds.push_back(static_cast<uint8_t>(place));
+    }
+    return std::pair(std::move(found), std::move(kinds));
+  }();
+  return py::make_tuple(array_of<int32_t>(std::move(parts.part)),
+                        array_of<bool>(std::move(parts.open)),
+                        array_of<uint8_t>(std::move(places)));
 }
 
 py::tuple edges_of_polygons(const py::object& face_offsets, const py::object& face_vertices,
@@ -202,6 +220,8 @@ void bind_surfaces(py::module_& m) {
   m.def("wrap", &wrapped_faces, docs::wrap, py::arg("points"), py::arg("triangles"),
         py::arg("opening"), py::arg("distance"), py::kw_only(), py::arg("progress") = nullptr);
   m.def("mesh_parts", &parts_of_mesh, docs::mesh_parts, py::arg("points"), py::arg("triangles"));
+  m.def("part_places", &places_of_parts, docs::part_places, py::arg("points"),
+        py::arg("triangles"));
   m.def("polygon_edges", &edges_of_polygons, docs::polygon_edges, py::arg("face_offsets"),
         py::arg("face_vertices"), py::arg("vertices"));
   m.def("polygon_triangles", &triangles_of_polygons, docs::polygon_triangles, py::arg("points"),

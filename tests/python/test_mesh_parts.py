@@ -10,7 +10,7 @@ from medial_axis import cli
 from medial_axis.core.axis.compute import compute_axis
 from medial_axis.core.samples.mesh_parts import split
 from medial_axis.core.samples.shape import Shape
-from medial_axis.core.settings import SamplingMode, Settings
+from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from support import meshes, messy
@@ -74,6 +74,45 @@ def test_touching_parts(medial):
     assert part[-1] == -1 and not is_open.any()
 
 
+def wavy(size=20):
+    points, triangles = grid(size)
+    return np.column_stack((points[:, :2], 0.1 * np.sin(18.0 * points[:, 0]))), triangles
+
+
+PLACES = {
+    "apart": ([cube(), cube((3, 0, 0)), cube((0, 1.01, 0))], "aaa"),
+    "touching at a corner": ([cube(), cube((1, 1, 1))], "tt"),
+    "touching at a part of a face": ([cube(), cube((1, 0.25, 0.25), 0.5)], "tt"),
+    "touching along edges": ([cube(), cube((1.0, 0.3, 1.0)), cube((0, 5, 0))], "tta"),
+    "inside": ([cube((-1.5,) * 3, 3.0), cube((-0.5,) * 3)], "aw"),
+    "a cavity": ([cube((-1.5,) * 3, 3.0), inward(cube((-0.5,) * 3))], "aw"),
+    "inside, on the floor": ([cube((0, 0, 0), 3.0), cube((1, 1, 0))], "aw"),
+    "overlapping": ([cube(), cube((0.3, 0.4, 0.2)), cube((4, 0, 0))], "ooa"),
+    "overlapping, edges in the middles of faces": ([cube(), cube((0.5, 0.5, 0.5))], "oo"),
+    "overlapping, with faces in one plane": ([cube(), cube((0.5, 0, 0))], "oo"),
+    "mirrored": ([meshes.icosphere(3), meshes.icosphere(3, 1.0, (0.5, 0, 0))], "oo"),
+    "sheets": ([cube(), wavy(), SHEET], "ass"),
+    "an open box": ([cube(), (cube((0.5, 0.5, 0.5))[0], cube()[1][2:])], "oo"),
+}
+
+
+@pytest.mark.parametrize("name", PLACES)
+@pytest.mark.parametrize("pose", [None, 1e-9, 1e6])
+def test_places_of_parts(medial, name, pose):
+    """Also turned and rounded to float32, for a thousandth of nothing is not a distance."""
+    parts, expected = PLACES[name]
+    points, triangles = meshes.join(*parts)
+    if pose is not None:
+        turn = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
+        points = (pose * (points @ turn)).astype(np.float32).astype(float)
+    part, is_open, place = medial.part_places(points, triangles)
+    assert "".join("atwos"[kind] for kind in place) == expected
+    known = medial.mesh_parts(points, triangles)
+    assert np.array_equal(part, known[0]) and np.array_equal(is_open, known[1])
+    again = medial.part_places(points, triangles[::-1])[2]
+    assert sorted(again) == sorted(place)
+
+
 # --- in the product
 
 
@@ -81,8 +120,8 @@ def test_results_tell_the_parts(tmp_path, capsys):
     points, triangles = meshes.join(THREE, inward(cube((0, 3, 0))))
     found = compute_axis(Shape(points, triangles), Settings(**FEW))
     assert str(found.mesh) == (
-        "4 connected parts; 1 of them open; 1 of them without thickness; "
-        "1 of them with faces that were turned"
+        "4 connected parts; 1 of them open; 1 of them with faces that were turned; "
+        "3 of them apart from all others; 1 of them without thickness"
     )
     assert str(compute_axis(Shape(*cube()), Settings(**FEW)).mesh) == ""
     assert compute_axis(Shape(found.chosen.samples.points, triangles[:0]), Settings()).mesh is None
@@ -90,7 +129,30 @@ def test_results_tell_the_parts(tmp_path, capsys):
     words = [str(tmp_path / "a.npz"), str(tmp_path / "b.ma"), "--json", "--samples", "1500"]
     assert cli.main(words) == cli.DONE
     told = json.loads(capsys.readouterr().out)["mesh"]
-    assert told == {"faces": 54, "parts": 4, "open": 1, "flat": 1, "turned": 1}
+    table = told.pop("table")
+    assert {kind: count for kind, count in told.items() if count} == (
+        {"faces": 54, "parts": 4, "open": 1, "turned": 1, "apart": 3, "sheets": 1}
+    )
+    assert table[1] == {"part": 2, "faces": 18, "turned": 0, "open": True, "place": "sheet"}
+    assert (table[3]["turned"], table[3]["place"], len(table)) == (12, "apart", 4)
+
+
+def test_a_wrap_is_not_counted():
+    settings = Settings(sides=SidesFrom.WRAP, wrap_opening=5.0, **FEW)
+    found = compute_axis(Shape(*THREE), settings)
+    assert (found.mesh.faces, found.mesh.parts, found.mesh.sheets) == (42, 3, 1)
+
+
+def test_a_large_sheet_is_left_out_of_the_whole():
+    """Less than three quarters of all faces bound the solid then."""
+    points, triangles = wavy()
+    found = compute_axis(
+        Shape(*meshes.join(cube(), (9.0 * points + 2.0, triangles))), Settings(**FEW)
+    )
+    assert found.axis.level is not None and found.axis.level.betti == (1, 0, 0)
+    assert (found.settings.sides, found.mesh.sheets) == (SidesFrom.SURFACE, 1)
+    assert found.warnings[0].startswith("722 of 734 faces are sheets without thickness")
+    assert found.axis.vertices.min() > -0.01 and found.axis.vertices.max() < 1.01
 
 
 def test_a_split_shape_keeps_what_is_known():
@@ -123,9 +185,8 @@ def test_each_part_in_a_program():
 
 
 def test_a_wavy_sheet_is_left_out():
-    points, triangles = grid(20)
-    wavy = np.column_stack((points[:, :2], 0.1 * np.sin(18.0 * points[:, 0]))) + 5.0
-    parts = split(Shape(*meshes.join(cube(), (wavy, triangles))), Settings())
+    points, triangles = wavy()
+    parts = split(Shape(*meshes.join(cube(), (points + 5.0, triangles))), Settings())
     assert [part.number for part in parts.parts] == [1] and parts.count == 2
 
 

@@ -6,9 +6,22 @@ import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute, refilter
 from medial_axis.core.errors import InvalidInputError
-from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import (
+    Between,
+    SamplingMode,
+    Settings,
+    SidesFrom,
+    ThicknessSettings,
+)
+from medial_axis.core.solid.thickness import measure_thickness
 from support.meshes import icosphere, write_off
-from support.thick_meshes import block
+from support.thick_meshes import block, joined
+
+WIDTHS = [
+    (Between.WALL, block(1.0, 0.7, 0.05), 0.05),
+    (Between.GAP, joined(block(1.0, 0.7, 0.4), block(1.0, 0.7, 0.4, (0.0, 0.0, 0.45))), 0.05),
+]
 
 
 def settings(**others):
@@ -112,3 +125,17 @@ def test_thin_soups_are_wrapped_or_refused(medial, seed):
             assert "found none with an area" in str(refused)
         else:
             assert np.isfinite(wrapped).all() and medial.open_edges(wrapped, faces) == 0
+
+
+@pytest.mark.parametrize(("between", "mesh", "width"), WIDTHS)
+def test_lengths_are_those_between_the_faces(between, mesh, width):
+    found = measure_thickness(
+        Shape(*mesh),
+        settings(samples=4000, sampling=SamplingMode.SURFACE),
+        ThicknessSettings(between=between),
+    )
+    facing = np.isfinite(found.lengths)
+    assert facing.sum() > 200
+    assert np.median(found.lengths[facing]) == pytest.approx(width, rel=5e-3)
+    assert found.shape.offset > 0.01 * width, "the walls of the wrap are elsewhere"
+    assert sum("walls of the wrap" in sentence for sentence in found.warnings) == 1

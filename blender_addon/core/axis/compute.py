@@ -146,7 +146,7 @@ def compute_axis(
         topology=topology_sentence(axis, wanted, chosen.samples),
         seconds=begun.seconds,
         turned=reading_counts(shape)["turned"],
-        mesh=mesh_counts(shape),
+        mesh=mesh_counts(begun.given),
     )
 
 

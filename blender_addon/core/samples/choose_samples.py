@@ -24,6 +24,7 @@ from .chosen import Begun, ChosenSamples
 from .closing_samples import close_openings
 from .density import percent
 from .effort import EFFORT
+from .mesh_parts import without_sheets
 from .outward_faces import outward_shape
 from .sample_spacing import FirstPass, first_pass, next_amount
 from .sharp_angle import sharp_angle_of
@@ -71,16 +72,18 @@ def begin(
     start = time.perf_counter()
     progress = progress or Progress()
     progress.until(share)
+    given = shape
     if settings.sides is SidesFrom.WRAP:
         shape = wrapped_shape(shape, settings, progress.part(_WRAPPING))
         chosen = choose_samples(shape, without_wrap(settings), progress, limit, levels)
         sides = replace(chosen.sides, reason=wrap_reason(shape, settings))
         chosen = replace(chosen, sides=sides)
     else:
-        shape = outward_shape(shape)
+        given = outward_shape(shape)
+        shape = without_sheets(given, settings)
         chosen = choose_samples(shape, settings, progress, limit, levels)
     progress.until(1.0)
-    return Begun(shape, chosen, progress, start)
+    return Begun(shape, chosen, progress, start, given)
 
 
 def choose_samples(

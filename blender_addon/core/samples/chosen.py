@@ -84,12 +84,15 @@ class Begun:
         For the rest of the work.
     start : float
         The time of `time.perf_counter` at which the computation began.
+    given : Shape
+        The shape before its sheets were left out, or before it was wrapped.
     """
 
     shape: Shape
     chosen: ChosenSamples
     progress: Progress
     start: float
+    given: Shape
 
     @property
     def seconds(self) -> float:

@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from enum import IntEnum
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
-from ..settings import SidesFrom
-from .outward_faces import TURNED, outward_shape
+from ..settings import SamplingMode, SidesFrom
+from .outward_faces import OF_SHEETS, TURNED, outward_shape
 from .sample_spacing import first_pass
 from .sides import resolve_sides_of_samples
 
@@ -21,42 +22,156 @@ if TYPE_CHECKING:
     from ..settings import Settings
     from .shape import Shape
 
+MOST_ROWS = 1000  # of the table of parts
+
+
+class Place(IntEnum):
+    """How a connected part lies to the others, as `_medial.part_places` numbers it."""
+
+    APART = 0
+    TOUCHING = 1
+    WITHIN = 2
+    OVERLAPPING = 3
+    SHEET = 4
+
+
+@dataclass(frozen=True)
+class PartCounts:
+    """A connected part of the faces, with its number from 1, in the order of the first faces of all parts.
+
+    Parameters
+    ----------
+    part : int
+    faces : int
+    turned : int
+        The number of its faces that were read the other way round.
+    open : bool
+    place : str
+        `apart`, `touching`, `within` (another part), `overlapping` or `sheet` (without thickness).
+    """
+
+    part: int
+    faces: int
+    turned: int
+    open: bool
+    place: str
+
 
 @dataclass(frozen=True)
 class MeshCounts:
-    """The numbers of faces, of connected parts, and of parts of a kind: open, without thickness, with turned faces."""
+    """The numbers of faces, of connected parts, and of parts of a kind.
+
+    Parameters
+    ----------
+    faces : int
+    parts : int
+    open : int
+    turned : int
+        Parts with faces that were read the other way round.
+    overlapping : int
+        Parts that share some of their volume with others; together they are one solid.
+    within, touching, apart : int
+        Parts that lie inside another one; that only touch others; that do neither.
+    sheets : int
+        Parts without thickness.
+    table : tuple of PartCounts
+        The first parts, at most `MOST_ROWS`; empty for one part.
+    """
 
     faces: int
     parts: int
-    open: int
-    flat: int
-    turned: int
+    open: int = 0
+    turned: int = 0
+    overlapping: int = 0
+    within: int = 0
+    touching: int = 0
+    apart: int = 0
+    sheets: int = 0
+    table: tuple[PartCounts, ...] = ()
 
     def __str__(self) -> str:
         """Return a sentence; it is empty for one part."""
         if self.parts < 2:
             return ""
-        told = [f"{self.parts:,} connected parts"]
-        if self.open:
-            told.append(f"{self.open:,} of them open")
-        if self.flat:
-            told.append(f"{self.flat:,} of them without thickness")
-        if self.turned:
-            told.append(f"{self.turned:,} of them with faces that were turned")
-        return "; ".join(told)
+        kinds = {
+            "open": self.open,
+            "with faces that were turned": self.turned,
+            "overlapping others": self.overlapping,
+            "inside another": self.within,
+            "only touching others": self.touching,
+            "apart from all others": self.apart,
+            "without thickness": self.sheets,
+        }
+        told = [f"{count:,} of them {kind}" for kind, count in kinds.items() if count]
+        return "; ".join((f"{self.parts:,} connected parts", *told))
 
 
 def mesh_counts(shape: Shape) -> MeshCounts | None:
-    """Count the connected parts of a shape that `outward_shape` has read; None where there are no faces."""
+    """Count the connected parts of a shape as it was given or read; None where there are no faces."""
     if not len(shape.triangles):
         return None
     with native.own_errors() as module:
-        part, is_open, is_flat = module.mesh_parts(shape.points, shape.triangles)
-    turned = np.zeros(len(is_open), bool)
-    if shape.reading is not None:
-        turned[part[(shape.reading == TURNED) & (part >= 0)]] = True
-    kinds = (int(np.count_nonzero(rows)) for rows in (is_open, is_flat, turned))
-    return MeshCounts(len(shape.triangles), len(is_open), *kinds)
+        part, is_open, place = module.part_places(shape.points, shape.triangles)
+    known, count = part >= 0, len(place)
+    turned = np.zeros(len(part), bool) if shape.reading is None else shape.reading == TURNED
+    faces_of = np.bincount(part[known], minlength=count)
+    turned_of = np.bincount(part[known & turned], minlength=count)
+    lying = np.bincount(place, minlength=len(Place)).tolist()
+    return MeshCounts(
+        faces=len(part),
+        parts=count,
+        open=int(np.count_nonzero(is_open)),
+        turned=int(np.count_nonzero(turned_of)),
+        overlapping=lying[Place.OVERLAPPING],
+        within=lying[Place.WITHIN],
+        touching=lying[Place.TOUCHING],
+        apart=lying[Place.APART],
+        sheets=lying[Place.SHEET],
+        table=_table(faces_of, turned_of, is_open, place) if count > 1 else (),
+    )
+
+
+def _table(
+    faces: NDArray[np.intp],
+    turned: NDArray[np.intp],
+    is_open: NDArray[np.bool_],
+    place: NDArray[np.uint8],
+) -> tuple[PartCounts, ...]:
+    return tuple(
+        PartCounts(
+            part=row + 1,
+            faces=int(faces[row]),
+            turned=int(turned[row]),
+            open=bool(is_open[row]),
+            place=Place(int(place[row])).name.lower(),
+        )
+        for row in range(min(len(place), MOST_ROWS))
+    )
+
+
+def without_sheets(shape: Shape, settings: Settings) -> Shape:
+    """Leave out the connected parts without thickness where the faces decide what is inside only without them.
+
+    `Shape.reading` says which faces were left out. They and their vertices count for nothing.
+
+    Parameters
+    ----------
+    shape : Shape
+        With faces that look outward.
+    settings : Settings
+    """
+    if settings.sampling is SamplingMode.VERTICES or not _is_sheet(shape, settings):
+        return shape
+    with native.own_errors() as module:
+        part, _, place = module.part_places(shape.points, shape.triangles)
+    of_sheets = (place == Place.SHEET)[part] & (part >= 0)
+    if not of_sheets.any() or (of_sheets | (part < 0)).all():
+        return shape
+    triangles = np.where(of_sheets[:, None], shape.triangles[:, :1], shape.triangles)
+    reading = np.zeros(len(part), np.uint8) if shape.reading is None else shape.reading
+    reading = np.where(of_sheets, np.uint8(OF_SHEETS), reading)
+    found = replace(shape, triangles=triangles, reading=reading, of_samples=False)
+    return shape if _is_sheet(found, settings) else found
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,11 +251,14 @@ def split(shape: Shape, settings: Settings) -> SplitShape:
 
 
 def _is_sheet(shape: Shape, settings: Settings) -> bool:
-    if settings.sides is not SidesFrom.AUTOMATIC:
+    """Whether faces bound too little of a solid to decide what is inside, as they should."""
+    if settings.sides is not SidesFrom.AUTOMATIC or not len(shape.triangles):
         return False
     read = outward_shape(shape)
     with native.own_errors() as module:
         gaps = module.open_edges(read.points, read.triangles)
+    if not gaps:
+        return False
     spacing = first_pass(read, settings).spacing
     sides = resolve_sides_of_samples(settings.sides, read, gaps, spacing)
     return sides.source is not SidesFrom.SURFACE

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
     from .shape import Shape
 
-TURNED, REPEATED, WITHOUT_CORNERS = 1, 2, 3  # values of `Shape.reading`; 0 as given
+# Values of `Shape.reading`; 0 as given.
+TURNED, REPEATED, WITHOUT_CORNERS, OF_SHEETS = 1, 2, 3, 4
 
 
 def outward_shape(shape: Shape) -> Shape:
@@ -42,11 +43,12 @@ def outward_shape(shape: Shape) -> Shape:
 def reading_counts(shape: Shape) -> dict[str, int]:
     """Return how many faces were read the other way round, and how many were left out and why."""
     reading = np.zeros(0, np.uint8) if shape.reading is None else shape.reading
-    counts = np.bincount(reading, minlength=4)
+    counts = np.bincount(reading, minlength=5)
     return {
         "turned": int(counts[TURNED]),
         "repeated": int(counts[REPEATED]),
         "without_corners": int(counts[WITHOUT_CORNERS]),
+        "of_sheets": int(counts[OF_SHEETS]),
     }
 
 
@@ -67,3 +69,8 @@ def reading_warnings(shape: Shape) -> Iterator[str]:
         )
     if repeated := counts["repeated"]:
         yield f"{repeated:,} of {faces:,} faces lie on another face with the same corners and were left out"
+    if of_sheets := counts["of_sheets"]:
+        yield (
+            f"{of_sheets:,} of {faces:,} faces are sheets without thickness and were left out; "
+            "give them thickness (a Solidify modifier)"
+        )

@@ -151,7 +151,34 @@ def _by_axis(
             "thickness", chosen.samples.key, astuple(settings), astuple(replace(wanted, limit=0.0))
         ),
     )
+    found = _up_to_faces(found)
     return replace(found, warnings=(*sampling_warnings(shape, chosen), *_warnings(found)))
+
+
+def _up_to_faces(found: Measurement) -> Measurement:
+    """Return lengths between the faces, inside of a wrap or outside of it, instead of those between its walls."""
+    if not (more := _wider(found)):
+        return found
+
+    def widened(lengths: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.maximum(lengths + more, 0.0)
+
+    surface, walls = found.surface, found.walls
+    return replace(
+        found,
+        surface=replace(
+            surface, lengths=widened(surface.lengths), at_most=widened(surface.at_most)
+        ),
+        walls=replace(
+            walls, distance=widened(walls.distance), at_vertices=widened(walls.at_vertices)
+        ),
+    )
+
+
+def _wider(found: Measurement) -> float:
+    """How much farther apart than the walls of a wrap its faces are."""
+    gap = found.settings.between is Between.GAP
+    return (2.0 if gap else -2.0) * found.shape.offset
 
 
 def kept_measurement(key: str) -> Measurement | None:
@@ -190,6 +217,13 @@ def _noise(chosen: ChosenSamples, surface: NDArray[np.int32], known: SurfaceNorm
 
 
 def _warnings(found: Measurement) -> Iterator[str]:
+    if (more := _wider(found)) > 0.0:
+        yield f"gaps are those between the faces: wider by {more:.3g} than between the walls of the wrap"
+    elif more < 0.0:
+        yield (
+            f"thickness is that of the faces: less by {-more:.3g} than between the walls of the wrap; "
+            "sheets have none"
+        )
     if found.noise >= _TOO_MUCH:
         yield (
             "the points scatter by a fifth of their spacing or more: no figure is honest; smooth them "
