@@ -4,7 +4,7 @@
 from ..core.settings import Form, applies_to_form
 from .properties import settings_from
 
-_SLIDERS = ("simplify", "erode", "limb")
+_SLIDERS = ("simplify", "erode", "spike", "limb")
 
 
 def draw_form(layout, panel):
