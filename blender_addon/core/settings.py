@@ -115,7 +115,7 @@ SAMPLING_OPTIONS = (
 
 def applies_to_form(name: str, form: Form) -> bool:
     """Whether an option changes anything for a Form."""
-    if name in ("simplify", "erode"):
+    if name in ("simplify", "erode", "spike"):
         return form is Form.CLEAN
     if name in ("limb", "crisp"):
         return form is not Form.PUBLISHED
@@ -175,6 +175,15 @@ class Settings(Options):
         "Erode",
         "Let the rims of sheets recede to where they are thicker than this, in percent of the "
         "diagonal of the bounding box",
+        default=0.0,
+        limits=(0.0, 100.0),
+        soft_maximum=10.0,
+        unit="%",
+    )
+    spike: float = number(
+        "Spikes",
+        "Drop spikes: what of a sheet lies in none of its discs that are thicker than this, in percent of the diagonal "
+        "of the bounding box; rims of broad parts stay",
         default=0.0,
         limits=(0.0, 100.0),
         soft_maximum=10.0,

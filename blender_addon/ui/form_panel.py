@@ -5,7 +5,7 @@ from ..core.settings import Form, applies_to_form
 from .properties import settings_from, shown_result
 from .ranged_sliders import row_of_slider
 
-_SLIDERS = ("simplify", "erode", "limb")
+_SLIDERS = ("simplify", "erode", "spike", "limb")
 
 
 def draw_form(context, layout, panel):

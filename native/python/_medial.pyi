@@ -443,6 +443,16 @@ class Hierarchy:
     def vertex_erosion(self) -> NDArray[np.float32]:
         """(v,) float32: the same of each vertex."""
     @property
+    def facet_spike(self) -> NDArray[np.float32]:
+        """(f,) float32: the largest thickness of a facet in whose disc of the sheet the facet lies, as a share of the
+        diagonal; at least that of all that has to burn before. Computed when it is first read."""
+    @property
+    def edge_spike(self) -> NDArray[np.float32]:
+        """(e,) float32: the same of each edge."""
+    @property
+    def vertex_spike(self) -> NDArray[np.float32]:
+        """(v,) float32: the same of each vertex."""
+    @property
     def edge_limb(self) -> NDArray[np.float32]:
         """(e,) float32: length of the branch of each edge, as a share of the diagonal: how long it is, or how far its
         tip sticks out, whichever is less; 0 where the edge goes with a facet."""
@@ -458,13 +468,14 @@ class Hierarchy:
         sheet: float = 0.0,
         spacings: float = 0.0,
         erosion: float = 0.0,
+        spike: float = 0.0,
         limb: float = 0.04,
         relaxed: bool = False,
         round_limbs: bool = False,
         crisp: bool = False,
         progress: Progress | None = None,
     ) -> Level:
-        """The level at some thresholds. A facet stays if it exceeds the first three. A vertex or an edge stays if it
+        """The level at some thresholds. A facet stays if it exceeds the first four. A vertex or an edge stays if it
         does, or if it exceeds `limb`. What no threshold takes away always stays.
 
         Parameters
@@ -475,6 +486,9 @@ class Hierarchy:
             The same in local spacings of the samples; default 0. 1 drops what the samples cannot tell from noise.
         erosion : float
             Thickness of the facet itself, as a share of the diagonal; default 0. Rims recede.
+        spike : float
+            Thickness of the sheet in a disc round the facet, likewise; default 0. Narrow parts go, rims of broad parts
+            stay.
         limb : float
             Length of the branch of a wire, as a share of the diagonal; default 0.04.
         relaxed : bool

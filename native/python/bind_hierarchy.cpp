@@ -212,21 +212,37 @@ void bind_hierarchy(py::module_& m) {
                                return h.parts().limb;
                              }),
                              docs::Hierarchy_vertex_limb)
+      .def_property_readonly("facet_spike", part_property<float>([](const Hierarchy& h) -> auto& {
+                               return spikes(h.parts(), {h.parts().threads}).facet;
+                             }),
+                             docs::Hierarchy_facet_spike)
+      .def_property_readonly(
+          "edge_spike",
+          [](const Hierarchy& h) {
+            const SpikeValues& values = spikes(h.parts(), {h.parts().threads});
+            return edge_values(
+                h, [&](const auto& parts, int32_t e) { return values.of_edge(parts.partner[e]); });
+          },
+          docs::Hierarchy_edge_spike)
+      .def_property_readonly("vertex_spike", part_property<float>([](const Hierarchy& h) -> auto& {
+                               return spikes(h.parts(), {h.parts().threads}).vertex;
+                             }),
+                             docs::Hierarchy_vertex_spike)
       .def_property_readonly(
           "timings", [](const Hierarchy& h) { return seconds(h.timings()); },
           docs::Hierarchy_timings)
       .def(
           "extract",
-          [](const Hierarchy& h, double sheet, double spacings, double erosion, double limb,
-             bool relaxed, bool round_limbs, bool crisp, Progress* progress) {
+          [](const Hierarchy& h, double sheet, double spacings, double erosion, double spike,
+             double limb, bool relaxed, bool round_limbs, bool crisp, Progress* progress) {
             const py::gil_scoped_release release;
-            return h.extract({sheet, spacings, erosion, limb, round_limbs, relaxed, crisp},
+            return h.extract({sheet, spacings, erosion, spike, limb, round_limbs, relaxed, crisp},
                              progress);
           },
           docs::Hierarchy_extract, py::kw_only(), py::arg("sheet") = LevelOptions{}.sheet,
           py::arg("spacings") = LevelOptions{}.spacings,
-          py::arg("erosion") = LevelOptions{}.erosion, py::arg("limb") = LevelOptions{}.limb,
-          py::arg("relaxed") = LevelOptions{}.relaxed,
+          py::arg("erosion") = LevelOptions{}.erosion, py::arg("spike") = LevelOptions{}.spike,
+          py::arg("limb") = LevelOptions{}.limb, py::arg("relaxed") = LevelOptions{}.relaxed,
           py::arg("round_limbs") = LevelOptions{}.round_limbs,
           py::arg("crisp") = LevelOptions{}.crisp, py::arg("progress") = nullptr);
 }

@@ -25,7 +25,7 @@ SAMPLING = (
     "seed",
 )
 OPTIONS = (
-    *("form", "simplify", "erode", "limb", "crisp"),
+    *("form", "simplify", "erode", "spike", "limb", "crisp"),
     *("theta", "rho", "side", "sides", "rule", "criteria", "limit_set"),
     *SAMPLING,
 )

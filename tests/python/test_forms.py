@@ -238,7 +238,7 @@ def test_what_applies_to_a_form():
                if applies_to_form(name, form)}
         for form in Form
     }  # fmt: skip
-    assert acts[Form.CLEAN] == {"simplify", "erode", "limb", "crisp", "theta"}
+    assert acts[Form.CLEAN] == {"simplify", "erode", "spike", "limb", "crisp", "theta"}
     assert acts[Form.PUBLISHED] == {"limit_set", "theta"}
     assert acts[Form.CURVE] == {"limb", "crisp", "theta"}
 

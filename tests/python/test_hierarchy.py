@@ -28,12 +28,15 @@ THRESHOLDS = [
     {"erosion": 0.002},
     {"erosion": 0.02, "limb": 0.01},
     {"sheet": 0.02, "erosion": 0.01, "limb": 0.1},
+    {"spike": 0.005},
+    {"spike": 0.03, "sheet": 0.01, "limb": 0.0},
+    {"spike": math.inf},
     {"sheet": math.inf},
     {"sheet": math.inf, "limb": 0.0},
     {"sheet": math.inf, "limb": math.inf},
 ]
 
-KEYS = ("sheet", "spacings", "erosion")  # of facets
+KEYS = ("sheet", "spacings", "erosion", "spike")  # of facets
 
 
 def random_points(seed, count=None):
@@ -221,7 +224,7 @@ def test_levels_are_what_lies_above_their_thresholds(sampled, name, noise):
         assert np.array_equal(np.sort(level.facet_of), facets), chosen
         assert np.array_equal(np.sort(level.edge_of), wires), chosen
         assert np.array_equal(np.sort(level.vertex_of), vertices), chosen
-        for stricter in ({"sheet": 0.03}, {"erosion": 0.01}, {"spacings": 3.0}, {"limb": 0.2}):
+        for stricter in (*({key: 0.02} for key in KEYS), {"spacings": 3.0}, {"limb": 0.2}):
             both = {key: max(chosen.get(key, 0.0), stricter.get(key, 0.0)) for key in KEYS}
             both["limb"] = max(chosen.get("limb", 0.04), stricter.get("limb", 0.0))
             inner = hierarchy.extract(**both)

@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 SIXTEEN = [
     *({"sheet": s, "limb": c} for s in (0.0, 0.003, 0.01, 0.03) for c in (0.0, 0.04)),
     *({"spacings": s} for s in (0.5, 1.0, 2.0)),
-    *({"erosion": s} for s in (0.003, 0.02)),
+    *({name: 0.01} for name in ("erosion", "spike")),
     {"sheet": 0.01, "erosion": 0.01, "limb": 0.02},
     {"sheet": np.inf},
     {"sheet": np.inf, "limb": np.inf},
@@ -32,7 +32,7 @@ class Levels:
         self.hull = np.unique(analysis.edges[~analysis.bounded])
         self.values = {
             name: tuple(getattr(h, f"{kind}_{name}") for kind in ("facet", "edge", "vertex"))
-            for name in ("sheet", "spacings", "erosion")
+            for name in ("sheet", "spacings", "erosion", "spike")
         }
         self.values["limb"] = (
             np.zeros(len(h.generators), np.float32),
@@ -40,12 +40,15 @@ class Levels:
             h.vertex_limb,
         )
 
-    def alive(self, sheet=0.0, spacings=0.0, erosion=0.0, limb=0.04):
+    def alive(self, sheet=0.0, spacings=0.0, erosion=0.0, spike=0.0, limb=0.04):
         """(facets, edges, vertices) bool: what a level consists of."""
         result = []
         for kind in range(3):
             here = np.ones(len(self.values["sheet"][kind]), bool)
-            for name, threshold in (("sheet", sheet), ("spacings", spacings), ("erosion", erosion)):
+            wanted = {"sheet": sheet, "spacings": spacings, "erosion": erosion, "spike": spike}
+            for name, threshold in wanted.items():
+                if name == "spike" and threshold == 0.0:
+                    continue  # facets of thickness 0 are in the disc of thicker ones, or not
                 value = self.values[name][kind]
                 here &= (value > threshold) | np.isinf(value)
             result.append(here | (self.values["limb"][kind] > limb) if kind else here)

@@ -116,6 +116,7 @@ def _wanted(settings: Settings) -> dict[str, Any]:
         "spacings": 1.0,
         "sheet": settings.simplify / 100,
         "erosion": settings.erode / 100,
+        "spike": settings.spike / 100,
         "limb": limb,
         "relaxed": True,
         "round_limbs": True,

@@ -14,12 +14,13 @@ namespace medial {
 using Betti = std::array<int64_t, 3>;  // components, tunnels, cavities
 
 // These options choose which cells stay, and how they are shown. A cell stays if it exceeds the
-// first three thresholds, or the fourth one; cells that the collapse left always stay. Infinity
+// first four thresholds, or the fifth one; cells that the collapse left always stay. Infinity
 // removes every cell that can be removed.
 struct LevelOptions {
   double sheet = 0;          // least thickness of its sheet, as a share of the diagonal
   double spacings = 0;       // the same in local spacings of the samples
   double erosion = 0;        // the same of the facet itself, as a share of the diagonal
+  double spike = 0;          // least thickness of a disc of its sheet round it, likewise
   double limb = 0.04;        // least length of its branch, likewise; vertices and edges only
   bool round_limbs = false;  // keep wires with a loose end only in round limbs
   // Wires are smoothed, divided anew and fitted to the samples round them; rims are smoothed.

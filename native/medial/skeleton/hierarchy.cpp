@@ -119,6 +119,8 @@ void collapse_all(Hierarchy::Parts& made, const Facets& facets, const FacetWeigh
                made.values = values_of_facets(complex, collapse, weight, sheets, burning,
                                               facets.significance.spacing, alone);
              });
+    made.thickness =
+        kept(in_units(burning.thickness, quiet, [&](int64_t) { return complex.diagonal; }));
     burning = {};
     watch.lap("wires");
   }
@@ -225,8 +227,9 @@ size_t Hierarchy::bytes() const {
   const Parts& p = *parts_;
   const InnerComplex& c = p.complex;
   return size_of(c.cell, c.position, c.radius, c.ends, c.generators, c.offsets, c.corners, c.shrunk,
-                 c.bubbles, p.partner, p.values.facet, p.values.vertex, p.limb, p.row, p.outside,
-                 p.sine, p.rho, p.crisp.position, p.crisp.radius, p.crisp.place) +
+                 c.bubbles, p.partner, p.thickness, p.values.facet, p.values.vertex, p.limb, p.row,
+                 p.outside, p.sine, p.rho, p.crisp.position, p.crisp.radius, p.crisp.place) +
+         (c.dual.size() + c.cell.size()) * sizeof(float) +  // of `spikes`, known or not
          p.samples.bytes() + (p.faces ? p.faces->bytes() : 0);
 }
 const Timings& Hierarchy::timings() const { return parts_->timings; }

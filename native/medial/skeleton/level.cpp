@@ -7,6 +7,7 @@
 #include "skeleton/betti.h"
 #include "skeleton/relax.h"
 #include "skeleton/round_limbs.h"
+#include "skeleton/teeth.h"
 
 namespace medial {
 namespace {
@@ -282,14 +283,27 @@ bool exceeds(const Thickness& value, const LevelOptions& t) {
          exceeds(value.erosion, t.erosion);
 }
 
+const SpikeValues& spikes(const Hierarchy::Parts& h, const Run& run) {
+  std::call_once(h.spikes_known, [&] {
+    // The values outlive the arena.
+    h.spikes =
+        spike_values(h.complex, h.partner, h.thickness, {run.threads, run.progress, nullptr});
+  });
+  return h.spikes;
+}
+
 Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run) {
   const InnerComplex& complex = h.complex;
+  const SpikeValues* broad = t.spike > 0 ? &spikes(h, run) : nullptr;
   Alive alive{array<uint8_t>(complex.generators.size(), run),
               array<uint8_t>(complex.ends.size(), run), array<uint8_t>(complex.cell.size(), run)};
-  parallel_for(complex.facets(), run,
-               [&](int64_t f) { alive.facet[f] = exceeds(h.values.facet[f], t); });
+  parallel_for(complex.facets(), run, [&](int64_t f) {
+    alive.facet[f] = exceeds(h.values.facet[f], t) && (!broad || exceeds(broad->facet[f], t.spike));
+  });
   parallel_for(complex.vertices(), run, [&](int64_t v) {
-    alive.vertex[v] = exceeds(h.values.vertex[v], t) || h.limb[v] > t.limb;
+    alive.vertex[v] =
+        (exceeds(h.values.vertex[v], t) && (!broad || exceeds(broad->vertex[v], t.spike))) ||
+        h.limb[v] > t.limb;
   });
   parallel_for(complex.edges(), run, [&](int64_t e) {
     const int32_t partner = h.partner[e];
@@ -303,10 +317,12 @@ Level level(const Hierarchy::Parts& h, const LevelOptions& options, const Run& r
   check(options.sheet, "sheet");
   check(options.spacings, "spacings");
   check(options.erosion, "erosion");
+  check(options.spike, "spike");
   check(options.limb, "limb");
   begin_stage(run.progress, "Limbs", 0, 0.3);
   const Run quiet{run.threads, nullptr, run.arena};
   Alive alive = alive_at(h, options, quiet);
+  if (options.relaxed && options.spike > 0) trim_teeth(h.complex, alive, quiet);
   if (options.round_limbs) shed_flat_limbs(h, options, alive, run);
   begin_stage(run.progress, "Level", 0.3, options.relaxed ? 0.6 : 1);
   throw_if_cancelled(run.progress);

@@ -4,11 +4,14 @@
 
 #include <medial/hierarchy.h>
 
+#include <mutex>
+
 #include "base/frame.h"
 #include "base/point_tree.h"
 #include "base/stopwatch.h"
 #include "skeleton/betti.h"
 #include "skeleton/crisp.h"
+#include "skeleton/spikes.h"
 
 namespace medial {
 
@@ -18,6 +21,9 @@ struct Hierarchy::Parts {
   InnerComplex complex;
   Array<int32_t> partner;  // as in Collapse
   Values values;
+  Array<float> thickness;  // per facet: its erosion thickness itself, as a share of the diagonal
+  mutable SpikeValues spikes;  // computed when a level first asks for it
+  mutable std::once_flag spikes_known;
   Array<float> limb;                   // per vertex
   Array<double> sine, rho;             // per facet, as in Significance
   std::unique_ptr<const Faces> faces;  // null if there are none
@@ -38,6 +44,9 @@ struct Hierarchy::Parts {
 
 // Returns whether a cell with this value is above the thresholds.
 bool exceeds(const Thickness& value, const LevelOptions& t);
+
+// Returns the values by which spikes are dropped.
+const SpikeValues& spikes(const Hierarchy::Parts& h, const Run& run);
 
 // Returns the cells of a level.
 Alive alive_at(const Hierarchy::Parts& h, const LevelOptions& t, const Run& run);

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The slider Spikes: narrow parts of sheets go, rims of broad parts stay, and the topology is that of the solid."""
+
+import medial_axis
+import numpy as np
+import pytest
+from medial_axis.core.axis.levels import hierarchy_of
+from support import measure
+from support.levels import betti_of_mesh
+from support.thick_meshes import block
+
+TAB = 0.15  # half of its width
+
+
+@pytest.fixture(scope="module")
+def tabbed():
+    """A plate of 4 by 4 with a tab of 2 by 0.3 at its rim."""
+    x = np.array([-2.0, 2.0, 4.0])
+    y = np.array([-2.0, -TAB, TAB, 2.0])
+    outline = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[2], y[1])]
+    outline += [(x[2], y[2]), (x[1], y[2]), (x[1], y[3]), (x[0], y[3])]
+    flat = np.array(outline)
+    n = len(flat)
+    points = np.concatenate([np.column_stack((flat, np.full(n, z))) for z in (-0.05, 0.05)])
+    caps = [(0, 1, 6), (0, 6, 7), (1, 2, 5), (1, 5, 6), (2, 3, 4), (2, 4, 5)]
+    faces = [(a + n, b + n, c + n) for a, b, c in caps] + [(c, b, a) for a, b, c in caps]
+    for i in range(n):
+        j = (i + 1) % n
+        faces += [(i, j, j + n), (i, j + n, i + n)]
+    return points, np.array(faces, np.int32)
+
+
+def shown(shape, **settings):
+    found = medial_axis.compute(*shape, sampling="surface", samples=8000, **settings)
+    return found, found.axis
+
+
+def area_of(axis, beyond):
+    """The areas up to and beyond a place in X."""
+    fans = measure.fan_triangles(axis.vertices, axis.face_offsets, axis.face_vertices)
+    size = np.linalg.norm(np.cross(fans[:, 1] - fans[:, 0], fans[:, 2] - fans[:, 0]), axis=1) / 2
+    out = fans[:, :, 0].mean(axis=1) > beyond
+    return size[~out].sum(), size[out].sum()
+
+
+def test_a_tab_goes_and_the_plate_keeps_its_rim(tabbed):
+    _, whole = shown(tabbed)
+    diagonal = np.linalg.norm(np.ptp(tabbed[0], axis=0))
+    amount = 100 * 2 * TAB / diagonal
+    _, opened = shown(tabbed, spike=amount)
+    _, eroded = shown(tabbed, erode=amount)
+    body, tab = area_of(whole, 2.2)
+    assert area_of(opened, 2.2)[1] < 0.02 * tab < tab
+    opened_body, eroded_body = area_of(opened, 2.2)[0], area_of(eroded, 2.2)[0]
+    assert opened_body > 0.8 * body, "without the narrow sheets into its edges"
+    assert eroded_body < 0.9 * opened_body
+    assert opened.level.betti == (1, 0, 0)
+
+
+def test_levels_are_nested_and_zero_changes_nothing(tabbed):
+    found, _ = shown(tabbed)
+    hierarchy = hierarchy_of(found.chosen.samples, found.settings, None)
+    before = hierarchy.extract(spacings=1.0)
+    same = hierarchy.extract(spacings=1.0, spike=0.0)
+    assert np.array_equal(before.facet_of, same.facet_of)
+    for spike in (0.005, 0.01, 0.03, 0.1):
+        level = hierarchy.extract(spacings=1.0, spike=spike)
+        assert level.betti == hierarchy.betti
+        assert np.isin(level.facet_of, before.facet_of).all()
+        assert (hierarchy.facet_spike[level.facet_of] > spike).all()
+        before = level
+    assert len(before.facet_of) < len(same.facet_of)
+
+
+def test_any_number_of_threads_gives_the_same_values(tabbed, medial):
+    points = shown(tabbed)[0].chosen.samples.points
+    one, three = (
+        medial.MedialAnalysis(points, tabbed[1], vertices=tabbed[0], threads=n)
+        .hierarchy()
+        .facet_spike
+        for n in (1, 3)
+    )
+    assert np.array_equal(one, three) and np.isfinite(one).all() and one.max() > 0.1
+
+
+@pytest.mark.parametrize("spike", [0.005, 0.02, 0.1])
+def test_levels_without_teeth_have_the_topology_of_the_solid(spike):
+    """Levels for the eye lose facets that stick out of their rims."""
+    found, _ = shown(block(2.0, 1.5, 1.0))
+    hierarchy = hierarchy_of(found.chosen.samples, found.settings, None)
+    bare = hierarchy.extract(spacings=1.0, spike=spike)
+    level = hierarchy.extract(spacings=1.0, spike=spike, relaxed=True)
+    assert np.isin(level.facet_of, bare.facet_of).all()
+    assert 0 < len(level.facet_of) < len(bare.facet_of) or len(bare.facet_of) == 0
+    assert level.betti == bare.betti == (1, 0, 0)
+    assert betti_of_mesh(level) == (1, 1)
