@@ -14,7 +14,12 @@ if TYPE_CHECKING:
 
     from ..core.axis.medial_axis import MedialAxis
 
-RANGES = {"simplify": "ma_simplify_range", "erode": "ma_erode_range", "limb": "ma_limb_range"}
+RANGES = {
+    "simplify": "ma_simplify_range",
+    "erode": "ma_erode_range",
+    "spike": "ma_spike_range",
+    "limb": "ma_limb_range",
+}
 
 
 def remember_ranges(result: bpy.types.Object, axis: MedialAxis) -> None:

@@ -182,8 +182,8 @@ class Settings(Options):
     )
     spike: float = number(
         "Spikes",
-        "Drop spikes: what of a sheet lies in none of its discs that are thicker than this, in percent of the diagonal "
-        "of the bounding box; rims of broad parts stay",
+        "Drop the narrow parts of sheets, which lie in none of their discs that are thicker than this, in percent "
+        "of the diagonal of the bounding box; rims of broad parts stay",
         default=0.0,
         limits=(0.0, 100.0),
         soft_maximum=10.0,

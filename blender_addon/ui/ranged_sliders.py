@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Simplify, Erode and Limbs of the panel as shares of what can go: what files and keyframes keep stays the length.
+"""The four sliders of Form in the panel as shares of what can go: files and keyframes keep the length.
 
 The lengths over which a slider acts differ from model to model, so each result comes with a range for each slider.
 Without a result, or where the length is keyed or driven, the panel shows the length itself.
@@ -17,6 +17,8 @@ _ABOUT = {
     "simplify": "The share of the sheets that is dropped, by area, the thinnest first: 0 drops none, 1 all that can "
     "go; sheets go whole, and what joins the others stays as edges",
     "erode": "The share of the sheets that recedes from the rims, by area: at 0 nothing does, at 1 all that can go",
+    "spike": "The share of the sheets that is dropped, by area, the narrowest parts first: 0 drops none, "
+    "1 all that can go",
     "limb": "The share of the branches of loose edges that is dropped, by length, the shortest first: 0 drops none, "
     "1 all that can go",
 }

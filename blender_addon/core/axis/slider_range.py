@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The lengths over which the sliders of a level act, and the share of what can go that each of them takes away.
 
-Simplify drops whole sheets, Erode facets, and Limbs edges, each at its own length. On one model all of them go below
-3 % of the diagonal, on another nothing does. A slider that runs over shares acts from end to end on both.
+Simplify drops whole sheets, Erode and Spikes facets, and Limbs edges, each at its own length. On one model all of
+them go below 3 % of the diagonal, on another nothing does. A slider that runs over shares acts from end to end
+on both.
 """
 
 from __future__ import annotations
@@ -73,7 +74,7 @@ def slider_range(values: NDArray, weights: NDArray) -> SliderRange | None:
 
 
 def ranges_of(hierarchy: Any) -> dict[str, SliderRange]:
-    """Return the ranges of Simplify, Erode and Limbs, by the names of the settings; what takes nothing away has none.
+    """Return the ranges of the four sliders, by the names of the settings; what takes nothing away has none.
 
     Sheets and their facets count by their area, without those that are never shown because they are no thicker than
     the spacing of the samples. Wires count by their length, on the level without sheets, so that no slider changes the
@@ -91,6 +92,7 @@ def ranges_of(hierarchy: Any) -> dict[str, SliderRange]:
     found = {
         "simplify": slider_range(100 * hierarchy.facet_sheet, area),
         "erode": slider_range(100 * hierarchy.facet_erosion, area),
+        "spike": slider_range(100 * hierarchy.facet_spike, area),
         "limb": slider_range(100 * hierarchy.edge_limb, length),
     }
     return {name: one for name, one in found.items() if one is not None}
