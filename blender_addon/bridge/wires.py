@@ -27,7 +27,7 @@ DETAIL = "ma_wires_detail"  # Sides and Subdivisions as they were set by the num
 _WIDTH, _SIDES, _SUBDIVISIONS = "Width", "Sides", "Subdivisions"
 _THIN = 0.004  # radius of a tube, as a share of the size of the axis
 _THICKER = 2.0  # balls than tubes
-_MOST_FACES = 80_000  # of all tubes, and of all balls
+_MOST_FACES = 200_000  # of all tubes, and of all balls
 _FACES_OF_BALLS = {3: 320, 2: 80, 1: 20}  # by Subdivisions
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import bpy
 import numpy as np
 
-from ..core.axis.directions import facet_vectors, units, wire_tangents
+from ..core.axis.directions import wire_tangents
 from ..core.axis.medial_axis import no_edges
 from ..core.axis.structure import SEAM
 from ..core.axis.turning import with_facets_turned
@@ -57,12 +57,18 @@ def new_axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
 
 def _add_directions(mesh: bpy.types.Mesh, axis: MedialAxis) -> None:
     """Add normals of facets and tangents of edges without a facet, along which instances can be turned."""
-    vectors = facet_vectors(axis.vertices, axis.face_offsets, axis.face_vertices)
-    along = np.zeros((len(mesh.edges), 3))
-    along[len(along) - len(axis.edges) :] = wire_tangents(axis.vertices, axis.edges)
-    for name, domain, found in ((NORMAL, "FACE", units(vectors)), (TANGENT, "EDGE", along)):
-        data = mesh.attributes.new(name, "FLOAT_VECTOR", domain).data
-        data.foreach_set("vector", found.astype(np.float32).ravel())
+    normals = np.empty(3 * len(mesh.polygons), np.float32)
+    mesh.polygons.foreach_get("normal", normals)
+    _add_vectors(mesh, NORMAL, "FACE", normals)
+    if len(axis.edges):
+        along = np.zeros((len(mesh.edges), 3), np.float32)
+        along[len(along) - len(axis.edges) :] = wire_tangents(axis.vertices, axis.edges)
+        _add_vectors(mesh, TANGENT, "EDGE", along.ravel())
+
+
+def _add_vectors(mesh: bpy.types.Mesh, name: str, domain: str, vectors: np.ndarray) -> None:
+    data = mesh.attributes.new(name, "FLOAT_VECTOR", domain).data
+    data.foreach_set("vector", vectors)
 
 
 def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:

@@ -397,7 +397,7 @@ def test_no_tube_and_no_ball_is_thicker_than_the_ball_of_the_axis():
 def test_many_wires_have_tubes_of_few_sides_or_none():
     wires, inputs = addon("bridge.wires"), addon("bridge.nodes.inputs")
     assert wires.detail_of(100, 1) == (8, 3)
-    assert wires.detail_of(20_000, 2_000) == (4, 1)
+    assert wires.detail_of(50_000, 3_000) == (4, 1)
     assert wires.detail_of(200_000, 20_000) == (0, 0)
     source, result = curve_of_a_torus()
     assert [inputs.input_of(wires_on(result), n) for n in ("Sides", "Subdivisions")] == [8, 3]

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute, extract_axis
+from medial_axis.core.axis.directions import facet_areas
 from medial_axis.core.axis.slider_range import slider_range
 from medial_axis.core.settings import Form, SamplingMode, Settings
 from support.meshes import box
@@ -36,6 +37,15 @@ def test_one_large_sheet_goes_in_the_middle_of_its_share():
 def test_what_cannot_go_has_no_range():
     assert slider_range(np.array([np.inf, 0.0]), np.ones(2)) is None
     assert slider_range(np.zeros(0), np.zeros(0)) is None
+
+
+def test_areas_are_those_of_polygons():
+    angles = np.linspace(0.0, 2.0 * np.pi, 6, endpoint=False)
+    hexagon = np.column_stack([np.cos(angles), np.sin(angles), np.full(6, 3.0)])
+    triangle = np.array([[0.0, 0, 0], [0, 2, 0], [0, 0, 2]])
+    vertices, corners = np.concatenate([triangle, hexagon]), np.arange(9, dtype=np.int32)
+    found = facet_areas(vertices, np.array([0, 3, 9], np.int32), corners)
+    assert found == pytest.approx([2.0, 1.5 * np.sqrt(3.0)])
 
 
 def test_sliders_of_a_box_act_from_end_to_end():

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .directions import facet_vectors
+from .directions import facet_areas
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -84,15 +84,16 @@ def ranges_of(hierarchy: Any) -> dict[str, SliderRange]:
     ----------
     hierarchy : _medial.Hierarchy
     """
-    vertices = hierarchy.vertices
-    vectors = facet_vectors(vertices, hierarchy.facet_offsets, hierarchy.facet_vertices)
-    area = np.linalg.norm(vectors, axis=1) * (hierarchy.facet_spacings > 1.0)
-    ends = vertices[hierarchy.edges]
+    vertices, limb = hierarchy.vertices, hierarchy.edge_limb
+    area = facet_areas(vertices, hierarchy.facet_offsets, hierarchy.facet_vertices)
+    area *= hierarchy.facet_spacings > 1.0
+    alone = np.flatnonzero(limb > 0.0)
+    ends = vertices[hierarchy.edges[alone]]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     found = {
         "simplify": slider_range(100 * hierarchy.facet_sheet, area),
         "erode": slider_range(100 * hierarchy.facet_erosion, area),
         "spike": slider_range(100 * hierarchy.facet_spike, area),
-        "limb": slider_range(100 * hierarchy.edge_limb, length),
+        "limb": slider_range(100 * limb[alone], length),
     }
     return {name: one for name, one in found.items() if one is not None}
