@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from medial_axis import cli, library
 from medial_axis.core.machine import native
+from medial_axis.core.machine.progress import Progress
 from medial_axis.core.samples import choose_samples
 from medial_axis.core.samples.buried_samples import find_bare, on_flat_faces
 from medial_axis.core.samples.shape import Shape
@@ -66,6 +67,16 @@ def test_small_faces_at_a_sharp_edge_and_narrow_slots_are_not_buried():
         bare, buried = find_bare(shape, *on_flat_faces(shape, found, 0.03), 0.03)
         assert buried == 0 and bare.all() == (mesh[0] is tip)
         assert find_bare(shape, *on_flat_faces(shape, found, 0.03), 0.03, gaps=True)[0].all()
+
+
+def test_every_share_of_the_rest_leaves_room_for_the_next_one():
+    progress, seen = Progress(), []
+    up, mesh = np.array([(0.0, 0.0, 1.0)]), thin_solids.plate(0.5).mesh
+    for _ in range(4):
+        progress.begin_share(0.3)
+        native.load().wall_distances(up, up, np.ones(1), *mesh, progress=progress.part())
+        seen.append(progress.fraction)
+    assert np.allclose(seen, 1 - 0.7 ** np.arange(1, 5))
 
 
 def test_a_second_pass_follows_curved_walls():
