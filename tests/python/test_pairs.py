@@ -14,6 +14,7 @@ from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
 from support import thin_solids
+from support.readers import area_of
 
 
 def computed(solid, **options):
@@ -77,6 +78,14 @@ def test_every_share_of_the_rest_leaves_room_for_the_next_one():
         native.load().wall_distances(up, up, np.ones(1), *mesh, progress=progress.part())
         seen.append(progress.fraction)
     assert np.allclose(seen, 1 - 0.7 ** np.arange(1, 5))
+
+
+def test_crisp_places_do_not_fold_the_rim_of_a_foil():
+    """The samples are 13 times as far apart as the walls; needles between them once let vertices go far astray."""
+    solid = thin_solids.plate(0.001)
+    axis = library.compute(*thin_solids.turned(solid.mesh), side="inner").axis
+    faces = np.split(axis.face_vertices, axis.face_offsets[1:-1])
+    assert 0.99 < area_of(axis.vertices, faces) / solid.area < 1.01
 
 
 def test_a_second_pass_follows_curved_walls():
