@@ -1053,7 +1053,8 @@ def sample_surface(
     pairs : bool
         Where walls are closer than two spacings, samples lie opposite each other: each has its partner where the ball
         that touches the surface there from inside touches the wall that looks the other way. The facets between
-        partners are pieces of the sheet between the walls, however close these are. Default: without.
+        partners are pieces of the sheet between the walls, however close these are. Across gaps it is the same, by
+        the ball outside, but these samples are no partners. Default: without.
     seed : int
     progress : Progress, optional
     threads : int

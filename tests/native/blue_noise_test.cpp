@@ -232,6 +232,22 @@ TEST(WalkFromEdge, GoesStraightOverAPlane) {
   EXPECT_GT(walks, 300);
 }
 
+TEST(MirroredRows, AWalkAlongASideGoesStraightOn) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {1, 3, 2}, {3, 4, 2}, {2, 4, 5}, {0, 2, 5}};
+  const TriangleMesh mesh = make_mesh(points, triangles, {1, nullptr});
+  const Creases creases = find_creases(mesh, 1, {}, false, {1, nullptr});
+  const int32_t edge = creases.find(0, 1);
+  for (const double distance_walked : {0.5, 1.5}) {
+    const auto found = walk_from_edge(mesh, creases, creases.edges[edge], 0, 1.0, distance_walked);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->at.a + found->at.b + found->at.c, 1, 1e-12);
+    const CurvedSurface surface(mesh, creases, false, {1, nullptr});
+    const Vec3 goal{1, distance_walked, 0};
+    EXPECT_LT(distance(surface.point(found->triangle, found->at), goal), 1e-12);
+  }
+}
+
 // A dihedral angle of 90 degrees is sharp at 80 and not at 100, and a fold of two boxes' worth of
 // corners ends its chains.
 TEST(Creases, AreSharpFromTheirAngleOn) {

@@ -192,6 +192,40 @@ TEST(Pairs, OfAHollowTorusGiveAClosedSheet) {
   EXPECT_EQ(level_of(mesh, samples, true).betti, (Betti{1, 2, 1}));
 }
 
+// The solid is two plates of 0.2, one 0.1 above the other.
+TEST(OppositeWalls, AColumnGoesThroughWallsAndGapsInTurn) {
+  test::Mesh mesh;
+  for (const double up : {0.0, 0.3}) {
+    const auto first = static_cast<int32_t>(mesh.vertices.size());
+    for (const double z : {up, up + 0.2}) {
+      for (const auto& [x, y] :
+           {std::pair(0, 0), std::pair(9, 0), std::pair(9, 9), std::pair(0, 9)}) {
+        mesh.vertices.push_back({static_cast<double>(x), static_cast<double>(y), z});
+      }
+    }
+    for (const auto& [a, b, c] : kBoxTriangles) {
+      mesh.triangles.push_back({a + first, b + first, c + first});
+    }
+  }
+  const TriangleMesh plates = make_mesh(mesh.vertices, mesh.triangles, {1, nullptr});
+  const Creases creases = find_creases(plates, 0.5, {}, false, {1, nullptr});
+  const CurvedSurface surface(plates, creases, false, {1, nullptr});
+  const OppositeWalls walls(surface, creases);
+  constexpr std::array<double, 4> expected{0, 0.2, 0.3, 0.5};
+  std::vector<ColumnPlace> column;
+  for (const double reach : {1.0, 0.45, 0.25}) {
+    walls.column({0, {0.4, 0.3, 0.3}}, reach, column);
+    std::vector<double> heights;
+    for (const ColumnPlace& p : column) {
+      heights.push_back(surface.point(p.place.triangle, p.place.at).z);
+    }
+    ASSERT_EQ(heights.size(), reach == 1.0 ? 4 : reach == 0.45 ? 3 : 1) << reach;
+    for (size_t i = 0; i < heights.size(); ++i) {
+      EXPECT_NEAR(heights[i], expected[i], 1e-12);
+    }
+  }
+}
+
 TEST(Pairs, PartnersHaveToFitThePoints) {
   const test::Mesh mesh = plate(0.01);
   SurfaceSamples samples = paired(mesh, 500);

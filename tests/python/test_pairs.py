@@ -7,10 +7,14 @@ import numpy as np
 import pytest
 from medial_axis import cli, library
 from medial_axis.core.machine import native
+from medial_axis.core.machine.progress import Progress
 from medial_axis.core.samples import choose_samples
+from medial_axis.core.samples.buried_samples import find_bare, on_flat_faces
+from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
 from support import thin_solids
+from support.readers import area_of
 
 
 def computed(solid, **options):
@@ -35,6 +39,53 @@ def test_flat_thin_walls_have_whole_sheets_with_few_samples(solid):
     assert tuple(level.betti) == solid.betti
     assert len(found.chosen.samples.points) < 4200
     assert not any("walls are closer" in warning for warning in found.warnings)
+
+
+@pytest.mark.parametrize(
+    "solid",
+    [
+        thin_solids.slot(1e-4),
+        thin_solids.layers(0.002),
+        thin_solids.layers(0.002, thickness=0.004),
+        thin_solids.bent_gap(0.003),
+    ],
+    ids=["slot", "plates", "foils", "bent"],
+)
+def test_no_sheet_crosses_a_narrow_gap(solid):
+    """The samples are 0.03 apart."""
+    found = computed(solid, sampling="surface", samples=4000)
+    assert tuple(found.axis.level.betti) == solid.betti
+    assert found.chosen.samples.buried == 0
+
+
+def test_small_faces_at_a_sharp_edge_and_narrow_slots_are_not_buried():
+    """The samples are 0.03 apart, so that one looks 3e-5 off the surface for its two sides."""
+    tip = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]) * 1e-3 + [0, 0, 1]
+    faces = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)], np.int32)
+    for mesh in ((tip, faces), thin_solids.slot(2e-5).mesh):
+        shape = Shape(*thin_solids.turned(mesh))
+        found = native.load().sample_surface(shape.points, shape.triangles, count=4000)
+        bare, buried = find_bare(shape, *on_flat_faces(shape, found, 0.03), 0.03)
+        assert buried == 0 and bare.all() == (mesh[0] is tip)
+        assert find_bare(shape, *on_flat_faces(shape, found, 0.03), 0.03, gaps=True)[0].all()
+
+
+def test_every_share_of_the_rest_leaves_room_for_the_next_one():
+    progress, seen = Progress(), []
+    up, mesh = np.array([(0.0, 0.0, 1.0)]), thin_solids.plate(0.5).mesh
+    for _ in range(4):
+        progress.begin_share(0.3)
+        native.load().wall_distances(up, up, np.ones(1), *mesh, progress=progress.part())
+        seen.append(progress.fraction)
+    assert np.allclose(seen, 1 - 0.7 ** np.arange(1, 5))
+
+
+def test_crisp_places_do_not_fold_the_rim_of_a_foil():
+    """The samples are 13 times as far apart as the walls; needles between them once let vertices go far astray."""
+    solid = thin_solids.plate(0.001)
+    axis = library.compute(*thin_solids.turned(solid.mesh), side="inner").axis
+    faces = np.split(axis.face_vertices, axis.face_offsets[1:-1])
+    assert 0.99 < area_of(axis.vertices, faces) / solid.area < 1.01
 
 
 def test_a_second_pass_follows_curved_walls():

@@ -150,3 +150,24 @@ def wedge(degrees: float = 2.0) -> ThinSolid:
         j = (i + 1) % 3
         rows += [(i, j, 3 + j), (i, 3 + j, 3 + i)]
     return ThinSolid((points, np.array(rows, np.int32)), (1, 0, 0), 1 - 2 * angle)
+
+
+def slot(gap: float) -> ThinSolid:
+    """A block with a narrow slot; the area is a lower bound."""
+    low, high = 0.5 - gap / 2, 0.5 + gap / 2
+    boxes = ((0, 0, 0), (1, 1, 0.2)), ((0, 0, 0.2), (low, 1, 0.4)), ((high, 0, 0.2), (1, 1, 0.4))
+    return ThinSolid(union(*boxes), (1, 0, 0), 0.0)
+
+
+def layers(gap: float, thickness: float = 0.1) -> ThinSolid:
+    """Two plates above each other that one side joins; the area is a lower bound."""
+    high = thickness + gap
+    plates = [((0, 0, z), (1, 1, z + thickness)) for z in (0.0, high)]
+    return ThinSolid(union(*plates, ((0, 0, 0), (0.1, 1, high))), (1, 0, 0), 0.0)
+
+
+def bent_gap(gap: float) -> ThinSolid:
+    """A gap round an edge, between a block and what is joined to it far from there; the area is a lower bound."""
+    block = ((0, 0, 0), (0.6, 1, 0.6))
+    above = ((0, 0, 0.6 + gap), (0.6 + gap, 1, 1)), ((0.6 + gap, 0, 0), (1, 1, 1))
+    return ThinSolid(union(block, *above, ((0, 0, -0.2), (1, 1, 0))), (1, 0, 0), 0.0)

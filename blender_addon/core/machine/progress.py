@@ -21,6 +21,7 @@ class Progress:
         self._before = 0.0  # this share of the work was done before the running call
         self._share = 1.0  # the running call is this share of the work
         self._end = 1.0  # the next calls end at this share of the work
+        self._last = 1.0  # where the last `until` let them end
         self._section = 0.0, 1.0
         self._running: Any = self._module.Progress()
         self._cancelled = False
@@ -30,7 +31,13 @@ class Progress:
         """Let the next calls end at this fraction; the rest belongs to calls after the next `until`."""
         begin, end = self._section
         with self._lock:
-            self._end = begin + (end - begin) * fraction
+            self._end = self._last = begin + (end - begin) * fraction
+
+    def begin_share(self, share: float) -> None:
+        """Let the next calls end after a share of the work left up to the last `until`."""
+        with self._lock:
+            done = self._before + self._share * self._running.fraction
+            self._end = done + share * max(0.0, self._last - done)
 
     def begin_section(self, begin: float, end: float) -> None:
         """Let the work that follows, with its own calls of `until`, go from one share of the whole to another."""

@@ -24,6 +24,8 @@ _OFF = 1e-3
 # Next to buried parts of the surface, parts of the solid leave clefts. Samples cannot resolve clefts narrower than this
 # share of the spacing and would bridge them only in places, so no sample is taken in such clefts.
 _CLEFT = 0.25
+# Samples in pairs across gaps resolve clefts, too, unless more than this share of them is buried where parts overlap.
+_FEW = 0.002
 _ROUNDINGS = 4  # a wall thinner than this number of roundings to float32, in which meshes are stored, is a sheet
 _ON_SIDE = 1e-6  # partners may lie on a side of their triangle, up to this barycentric coordinate
 _BESIDE = 1.5  # clefts are looked for up to this distance from buried samples, in spacings
@@ -34,8 +36,11 @@ def find_bare(
     feet: NDArray[np.float64],
     normals: NDArray[np.float64],
     spacing: float,
-) -> NDArray[np.bool_]:
-    """(n,) mark the samples that lie between inside and outside; the others are buried.
+    gaps: bool = False,
+) -> tuple[NDArray[np.bool_], int]:
+    """(n,) mark the samples that are taken, and count those left out because the surface bounds nothing there.
+
+    Samples in gaps too narrow for them are not taken either, but do not count.
 
     Parameters
     ----------
@@ -44,17 +49,36 @@ def find_bare(
         As `on_flat_faces` returns them.
     spacing : float
         The distance of neighbours.
+    gaps : bool
+        Samples are in pairs across gaps, so none is too narrow.
     """
     # Faces that cannot be turned outward, for more edges would be open then, may bound a negative volume: all samples
     # would be left out.
     if shape.volume < 0:
-        return np.ones(len(feet), bool)
-    found = _are_buried(shape, feet, normals, _OFF * spacing)
+        return np.ones(len(feet), bool), 0
+    narrow, found = _are_buried(shape, feet, normals, _OFF * spacing)
+    if gaps and np.count_nonzero(found) <= _FEW * len(found):
+        return ~found, int(np.count_nonzero(found))
+    bare = _outside_clefts(shape, feet, normals, spacing, found)
+    count = int(np.count_nonzero(~bare))
+    if gaps or np.array_equal(narrow, found):
+        return bare, count
+    return _outside_clefts(shape, feet, normals, spacing, narrow), count
+
+
+def _outside_clefts(
+    shape: Shape,
+    feet: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    spacing: float,
+    buried: NDArray[np.bool_],
+) -> NDArray[np.bool_]:
+    """(n,) mark the samples that are neither buried nor in clefts next to buried ones."""
     with native.own_errors() as module:
-        beside = np.flatnonzero(near(feet, feet[found], _BESIDE * spacing))
+        beside = np.flatnonzero(near(feet, feet[buried], _BESIDE * spacing))
         outward = feet[beside] + _CLEFT * spacing * normals[beside]
         above = module.winding_number(outward, shape.points, shape.triangles)
-    bare = ~found
+    bare = ~buried
     bare[beside[above > 0.5]] = False
     return bare
 
@@ -70,29 +94,30 @@ def bounding_share(shape: Shape, spacing: float) -> float:
     """
     corners = shape.points[shape.triangles[some_of(len(shape.triangles))]]
     normals, areas = unit_normals(corners)
-    buried = _are_buried(shape, corners.mean(axis=1), normals, _OFF * spacing)
+    buried, _ = _are_buried(shape, corners.mean(axis=1), normals, _OFF * spacing)
     return 1.0 - float(areas[buried].sum() / areas.sum())
 
 
 def _are_buried(
     shape: Shape, points: NDArray[np.float64], normals: NDArray[np.float64], off: float
-) -> NDArray[np.bool_]:
-    """(n,) mark the points at which the surface bounds nothing.
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """(n,) mark the points at which the surface bounds nothing, with those in gaps narrower than `off`, and without.
 
-    Both sides are tested at the distance `off`; behind a wall that is thinner than this, at half of its thickness. A
-    wall no thicker than the rounding of its corners to float32 is a sheet without thickness.
+    Both sides are tested at the distance `off`, and closer where that is beyond a thin wall or gap. Walls and gaps no
+    thicker than the rounding of their corners to float32 are none.
     """
     faces = (shape.points, shape.triangles)
     rounding = _ROUNDINGS * float(np.finfo(np.float32).eps) * float(np.abs(shape.points).max())
     with native.own_errors() as module:
-        found = module.buried(points, normals, off, *faces).copy()
-        rows = np.flatnonzero(found)
-        reach = np.full(len(rows), 2.0 * off)
-        thick = module.wall_distances(points[rows], normals[rows], reach, *faces)
-        thin = np.isfinite(thick) & (thick > rounding)
-        rows, half = rows[thin], thick[thin, None] / 2.0
-        found[rows] = module.buried(points[rows], half * normals[rows], 1.0, *faces)
-    return found
+        narrow = module.buried(points, normals, off, *faces).copy()
+        rows = np.flatnonzero(narrow)
+        far, close, below = (
+            module.winding_number(points[rows] + away * normals[rows], *faces) > 0.5
+            for away in (off, rounding, -rounding)
+        )
+    found = narrow.copy()
+    narrow[rows], found[rows] = far == below, close == below
+    return narrow, found & narrow
 
 
 def on_flat_faces(

@@ -99,7 +99,9 @@ def sample_faces(
     spacing = mean_spacing(found.area, len(found.points))
     feet, outward = on_flat_faces(shape, found, spacing)
     every = gaps > 0 and not closed
-    bare = np.ones(len(feet), bool) if every else find_bare(shape, feet, outward, spacing)
+    bare, buried = np.ones(len(feet), bool), 0
+    if not every:
+        bare, buried = find_bare(shape, feet, outward, spacing, options["pairs"])
     _check_some(bare)
     inside, radius = bare & _are_inside_faces(found.kind), found.radius
     return FaceSamples(
@@ -110,7 +112,7 @@ def sample_faces(
         faces=found.triangle[bare],
         radius=radius[bare],
         spacing=spacing,
-        buried=int(np.count_nonzero(~bare)),
+        buried=buried,
         closing=0,
         places=Places(
             feet[inside],

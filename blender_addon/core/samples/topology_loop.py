@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 _LEVELS = 0.9  # the share of all work that ends with the first hierarchy
 _PASSES = 6  # the most passes with pairs
+_OF_REST = (
+    0.3  # the share of the work left that a pass is shown as: nobody knows how many there will be
+)
 _REACH = 1.5  # no place of a surface is farther from its samples than this number of spacings
 # The spacing at a doubt is this share of its gap, but not more and not less than these shares of the spacing there.
 _OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25
@@ -162,6 +165,7 @@ def _best(
     flat = _is_flat(start.samples)
     for number in range(1, _PASSES + 1):
         request.progress.begin_pass(number + 1)
+        request.progress.begin_share(_OF_REST)
         try:
             samples = take(amount, flat)
         except MemoryLimitError:
@@ -180,6 +184,7 @@ def _best(
         flat = flat or _is_flat(samples)
         amount = _finer(request, trial, number, left)
     request.progress.begin_pass(1)
+    request.progress.begin_share(1.0)
     return best, found
 
 

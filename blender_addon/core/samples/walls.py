@@ -32,7 +32,8 @@ _MISSED = 0.8
 _FOLLOWED, _FINER = 0.4, 0.25
 # A smaller share of the area may come from single samples, and does not count.
 _SOME = 0.01
-# A smooth surface that leaves its flat faces by more than this share of the distance of walls is none of the solid.
+# A smooth surface that leaves its flat faces by more than this share of the distance of walls, or of samples, is none
+# of the solid.
 _BULGING = 0.5
 # A sample is on its flat face up to this share of the spacing.
 _FLAT = 1e-3
@@ -116,10 +117,10 @@ class Walls:
 
     @property
     def are_bulging(self) -> bool:
-        """Whether the samples leave the flat faces by more than a share of the distance of the walls."""
+        """Whether the samples leave the flat faces by more than a share of the distance of walls, or of samples."""
         if self.bulge is None:
             return False
-        away = self.bulge > _BULGING * self.distance
+        away = self.bulge > _BULGING * np.minimum(self.distance, self.spacing)
         return float(self.area[away].sum()) > _SOME * float(self.area.sum())
 
     @property

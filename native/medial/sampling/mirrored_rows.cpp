@@ -6,6 +6,9 @@ namespace {
 
 // limit around a vertex, where rounding could continue the walk for ever
 constexpr int kMostTriangles = 1 << 12;
+// A way out of a triangle that is longer than the way to its third corner by more than rounding is
+// none: the walk is parallel to a side.
+constexpr double kPastCorner = 1 + 1e-9;
 
 // Holds a triangle in the plane: the edge where the walk enters is on the x axis, and the third
 // corner above it.
@@ -86,7 +89,10 @@ std::optional<SurfacePlace> walk_from_edge(const TriangleMesh& mesh, const Creas
     // The walk leaves through the edge from `out` to the third corner.
     const int out = along * flat.y - into * (flat.x - start) >= 0;
     const double from = out ? flat.width : 0, slope = flat.x - from;
-    const double way = (from - start) * flat.y / (along * flat.y - into * slope);
+    // A walk along a side of the triangle leaves it at the third corner.
+    const double to_corner = flat.y / into;
+    double way = (from - start) * flat.y / (along * flat.y - into * slope);
+    if (!(way < kPastCorner * to_corner)) way = to_corner;
     if (!(way < distance)) {
       const double at_third = distance * into / flat.y;
       const double at_end = (start + distance * along - at_third * flat.x) / flat.width;

@@ -19,6 +19,8 @@ constexpr double kPrecise = 1e-12;  // in barycentric coordinates
 constexpr double kTouching = 1e-9;
 // Walls closer than this share of the reach meet there.
 constexpr double kMeeting = 1e-8;
+constexpr size_t kMostInColumn = 32;
+constexpr double kTight = 0.5;  // of the reach, up to which places are tight
 
 }  // namespace
 
@@ -53,9 +55,9 @@ Vec3 OppositeWalls::point(int32_t triangle, const Barycentric& at) const {
 }
 
 // Returns the nearest place of the triangles that face a normal; of equally near ones that of the
-// lowest triangle.
+// lowest triangle. The sign is negative where normals of triangles are to be turned around.
 OppositeWalls::Touch OppositeWalls::nearest_facing(const Vec3& centre, const Vec3& normal,
-                                                   double than) const {
+                                                   double than, double sign) const {
   Touch best;
   double within = than * than;
   visit_nearest(
@@ -64,7 +66,7 @@ OppositeWalls::Touch OppositeWalls::nearest_facing(const Vec3& centre, const Vec
       [&](const Node& leaf) {
         for (int32_t i = leaf.begin; i < leaf.end; ++i) {
           const int32_t t = order_[i];
-          if (!(dot(mesh_.normal[t], normal) < -kFacing)) continue;
+          if (!(sign * dot(mesh_.normal[t], normal) < -kFacing)) continue;
           const auto& [p, q, r] = mesh_.triangles[t];
           const Barycentric at =
               closest_on_flat(mesh_.points[p], mesh_.points[q], mesh_.points[r], centre);
@@ -81,12 +83,13 @@ OppositeWalls::Touch OppositeWalls::nearest_facing(const Vec3& centre, const Vec
 
 // The ball shrinks to touch the place that lies deepest in it, until it holds none.
 std::optional<OppositeWalls::Touch> OppositeWalls::touch(const Vec3& from, const Vec3& normal,
-                                                         double reach) const {
+                                                         double reach, double sign) const {
   double radius = 0.5 * reach;
   Touch touch;
   if (normal == Vec3{} || nodes_.empty()) return {};
   for (int i = 0; i < kMostShrinkings; ++i) {
-    const Touch next = nearest_facing(from - radius * normal, normal, (1 - kTouching) * radius);
+    const Touch next =
+        nearest_facing(from - radius * normal, normal, (1 - kTouching) * radius, sign);
     if (next.triangle < 0) break;
     const Vec3 back = from - next.point;
     const double depth = dot(back, normal);
@@ -96,33 +99,82 @@ std::optional<OppositeWalls::Touch> OppositeWalls::touch(const Vec3& from, const
   }
   if (touch.triangle < 0) return {};
   const Vec3 away = normalized(from - radius * normal - touch.point);
-  if (!(-dot(away, mesh_.normal[touch.triangle]) > kUpright)) return {};
+  if (!(-sign * dot(away, mesh_.normal[touch.triangle]) > kUpright)) return {};
   return touch;
 }
 
-std::optional<WallPlace> OppositeWalls::operator()(const SurfacePlace& from, double reach) const {
-  const auto flat = touch(point(from.triangle, from.at), mesh_.normal[from.triangle], reach);
+std::optional<WallPlace> OppositeWalls::operator()(const SurfacePlace& from, double reach,
+                                                   Through through) const {
+  const double sign = through == Through::solid ? 1 : -1;
+  const Vec3 normal = sign * mesh_.normal[from.triangle];
+  const auto flat = touch(point(from.triangle, from.at), normal, reach, sign);
   if (!flat) return {};
   SurfacePlace place{flat->triangle, flat->at};
   const bool inside = flat->at.a > 0 && flat->at.b > 0 && flat->at.c > 0;
-  if (inside || surface_.smooth()) place = on_curved(from, place);
+  if (inside || surface_.smooth()) place = on_curved(from, place, sign);
   const Vec3 there = surface_.point(place.triangle, place.at);
   return WallPlace{place.triangle, place.at,
                    distance(surface_.point(from.triangle, from.at), there)};
 }
 
+void OppositeWalls::column(const SurfacePlace& from, double reach,
+                           std::vector<ColumnPlace>& out) const {
+  out.assign(1, {from});
+  bool beyond = false;
+  const auto add = [&](size_t before, Through through) {
+    const Found found = add_opposite(out, static_cast<int>(before), through, reach);
+    beyond |= found == Found::beyond;
+  };
+  add(0, Through::solid);
+  add(0, Through::gap);
+  for (size_t i = 1; i < out.size() && out.size() < kMostInColumn; ++i) {
+    add(i, out[i].through == Through::gap ? Through::solid : Through::gap);
+  }
+  if (beyond) keep_tight(out);
+}
+
+OppositeWalls::Found OppositeWalls::add_opposite(std::vector<ColumnPlace>& column, int before,
+                                                 Through through, double reach) const {
+  const SurfacePlace from = column[before].place, &first = column[0].place;
+  const auto found = (*this)(from, reach, through);
+  if (!found) return Found::nothing;
+  const bool is_tight = found->distance < kTight * reach;
+  const Vec3 there = surface_.point(found->triangle, found->at);
+  if (before > 0 && distance(there, surface_.point(first.triangle, first.at)) > reach) {
+    return is_tight ? Found::beyond : Found::nothing;
+  }
+  column.push_back({{found->triangle, found->at}, found->distance, before, through, is_tight});
+  return Found::within;
+}
+
+void keep_tight(std::vector<ColumnPlace>& column) {
+  std::vector<int> kept(column.size(), -1);
+  int count = 0;
+  for (size_t i = 0; i < column.size(); ++i) {
+    ColumnPlace next = column[i];
+    if (i > 0) {
+      next.before = kept[next.before];
+      if (!next.is_tight || next.before < 0) continue;
+    }
+    kept[i] = count;
+    column[count++] = next;
+  }
+  column.resize(count);
+}
+
 // Moves a place of the flat wall to where the ball touches the curved one. In each step the curved
 // wall is replaced by its tangent plane. A place that would go farther than the walls are apart
 // stays where it was: there the faces are too coarse for a curved wall.
-SurfacePlace OppositeWalls::on_curved(const SurfacePlace& from, const SurfacePlace& flat) const {
+SurfacePlace OppositeWalls::on_curved(const SurfacePlace& from, const SurfacePlace& flat,
+                                      double sign) const {
   const Vec3 start = surface_.point(from.triangle, from.at);
-  const Vec3 n = surface_.normal(from.triangle, from.at);
+  const Vec3 n = sign * surface_.normal(from.triangle, from.at);
   const Vec3 first = surface_.point(flat.triangle, flat.at);
   SurfacePlace place = flat;
   for (int i = 0; i < kMostSteps; ++i) {
     const PatchExpansion here =
         surface_.patch(place.triangle).polynomial(start).expansion(place.at.b, place.at.c);
-    const Vec3 m = normalized(cross(here.b, here.c));
+    const Vec3 m = sign * normalized(cross(here.b, here.c));
     const double facing = 1 - dot(n, m);
     if (!(facing > 1)) break;
     const double radius = dot(here.point, m) / facing;

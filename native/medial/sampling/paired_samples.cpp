@@ -50,8 +50,10 @@ bool PairedSamples::is_reflex(int32_t edge) const {
   return dot(mesh().points[third] - mesh().points[e.ends[0]], mesh().normal[e.triangles[0]]) > 0;
 }
 
-// Returns the place of a sample on each face from which the solid goes straight down.
-std::vector<SurfacePlace> PairedSamples::places_of(const FixedSample& sample) const {
+// Returns the place of a sample on each face from which the solid, or the gap, is not a wedge that
+// begins there.
+std::vector<SurfacePlace> PairedSamples::places_of(const FixedSample& sample,
+                                                   Through through) const {
   if (sample.edge < 0) {
     if (sample.kind == SampleKind::surface) return {{sample.triangle, sample.at}};
     const double at[3] = {sample.at.a, sample.at.b, sample.at.c};
@@ -65,7 +67,7 @@ std::vector<SurfacePlace> PairedSamples::places_of(const FixedSample& sample) co
   }
   const bool acute =
       places.size() == 2 && dot(normal(e.triangles[0]), normal(e.triangles[1])) < kAcute;
-  if (acute && !is_reflex(sample.edge)) places.clear();
+  if (acute && is_reflex(sample.edge) == (through == Through::gap)) places.clear();
   return places;
 }
 
@@ -81,14 +83,18 @@ std::vector<SurfacePlace> PairedSamples::places_at_vertex(int32_t vertex) const 
 }
 
 std::optional<WallPlace> PairedSamples::wall_opposite(const FixedSample& sample,
-                                                      const SurfacePlace& place) const {
-  return walls_(place, kCloseWalls * sample.radius / kDisk);
+                                                      const SurfacePlace& place,
+                                                      Through through) const {
+  return walls_(place, kCloseWalls * sample.radius / kDisk, through);
 }
 
 PairedSamples::Opposites PairedSamples::opposites_of(const FixedSample& sample) const {
   Opposites found;
-  for (const SurfacePlace& place : places_of(sample)) {
-    if (const auto wall = wall_opposite(sample, place)) found.push_back({place.triangle, *wall});
+  for (const Through through : {Through::solid, Through::gap}) {
+    for (const SurfacePlace& place : places_of(sample, through)) {
+      const auto wall = wall_opposite(sample, place, through);
+      if (wall) found.push_back({place.triangle, *wall, through});
+    }
   }
   return found;
 }
@@ -133,9 +139,11 @@ int32_t PairedSamples::coincident(const FixedSample& sample, double tolerance) c
   return best;
 }
 
-bool PairedSamples::is_crowded(const FixedSample& sample) const {
+// Returns whether one of the samples before a number is too near.
+bool PairedSamples::is_crowded(const FixedSample& sample, size_t before) const {
   bool crowded = false;
   for_near(sample.point, sample.radius, [&](int32_t id, double away) {
+    if (static_cast<size_t>(id) >= before) return;
     const Disk other = disk_of(samples_[id]);
     if (!(away < std::min(sample.radius, other.radius))) return;
     crowded |= other.normal == Vec3{} || dot(other.normal, sample.normal) > 0;
@@ -183,7 +191,7 @@ void PairedSamples::add_on_creases(std::span<const FixedSample> samples) {
       static_cast<int64_t>(samples.size()), run_,
       [&](int64_t i) {
         opposites[i] = opposites_of(samples[i]);
-        rank[i] = samples[i].edge < 0 ? 0 : is_reflex(samples[i].edge) ? 1 : 2;
+        rank[i] = rank_of(samples[i], opposites[i]);
       },
       64);
   // Corners stay where they are, so all of them are there before the partners of the first one.
@@ -191,7 +199,7 @@ void PairedSamples::add_on_creases(std::span<const FixedSample> samples) {
   for (size_t i = 0; i < samples.size(); ++i) {
     if (rank[i] == 0) id[i] = add(samples[i], false);
   }
-  for (uint8_t now = 0; now < 3; ++now) {
+  for (uint8_t now = 0; now < 4; ++now) {
     throw_if_cancelled(run_.progress);
     for (size_t i = 0; i < samples.size(); ++i) {
       if (rank[i] != now || (now > 0 && is_replaced(samples[i]))) continue;
@@ -201,25 +209,47 @@ void PairedSamples::add_on_creases(std::span<const FixedSample> samples) {
   }
 }
 
-void PairedSamples::add_partners(int32_t id, const Opposites& opposites, int depth) {
-  if (depth > kMostReflections) return;
-  for (const auto& [triangle, wall] : opposites) {
-    const FixedSample found = on_surface(surface_, wall.triangle, wall.at, spacing_);
-    link(id, add_partner(found, tolerance_of(samples_[id], wall.distance), depth));
-  }
-  add_outer_edge(id, opposites);
+// Corners come first, and the inner edges of corners before their outer ones.
+uint8_t PairedSamples::rank_of(const FixedSample& sample, const Opposites& opposites) const {
+  if (sample.edge < 0) return 0;
+  if (is_reflex(sample.edge)) return 2;
+  return inside_corner(sample, opposites) ? 1 : 3;
 }
 
-// Where two walls meet in a corner, adds the sample of the outer edge that is opposite to the inner
-// edge.
-void PairedSamples::add_outer_edge(int32_t id, const Opposites& opposites) {
+void PairedSamples::add_partners(int32_t id, const Opposites& opposites, int depth) {
+  if (depth > kMostReflections) return;
+  for (const auto& [triangle, wall, through] : opposites) {
+    const FixedSample found = on_surface(surface_, wall.triangle, wall.at, spacing_);
+    const double tolerance = tolerance_of(samples_[id], wall.distance);
+    const int32_t partner = add_partner(found, tolerance, through, depth);
+    if (through == Through::solid) link(id, partner);
+  }
+  add_outer_edge(id, opposites, depth);
+}
+
+// Returns through what an edge is the inner one of a corner, where two walls or two gaps meet.
+std::optional<Through> PairedSamples::inside_corner(const FixedSample& sample,
+                                                    const Opposites& opposites) const {
+  if (sample.edge < 0) return {};
+  const Through through = is_reflex(sample.edge) ? Through::solid : Through::gap;
+  const auto count = std::count_if(opposites.begin(), opposites.end(),
+                                   [&](const Opposite& o) { return o.through == through; });
+  return count == 2 ? std::optional(through) : std::nullopt;
+}
+
+// Adds the sample of the outer edge of a corner that is opposite to its inner edge.
+void PairedSamples::add_outer_edge(int32_t id, const Opposites& opposites, int depth) {
   const FixedSample sample = samples_[id];
-  if (opposites.size() != 2 || sample.edge < 0 || !is_reflex(sample.edge)) return;
-  const auto& [left, first] = opposites[0];
-  const auto& [right, second] = opposites[1];
-  const Vec3 &n = normal(left), &m = normal(right);
+  const auto through = inside_corner(sample, opposites);
+  if (!through) return;
+  const auto first = std::find_if(opposites.begin(), opposites.end(),
+                                  [&](const Opposite& o) { return o.through == *through; });
+  const auto second = std::find_if(first + 1, opposites.end(),
+                                   [&](const Opposite& o) { return o.through == *through; });
+  const double sign = *through == Through::solid ? 1 : -1;
+  const Vec3 n = sign * normal(first->triangle), m = sign * normal(second->triangle);
   const double cosine = dot(n, m), determinant = 1 - cosine * cosine;
-  const double down = first.distance, across = second.distance;
+  const double down = first->wall.distance, across = second->wall.distance;
   // The point is `down` below one face, and `across` below the other one.
   const Vec3 away =
       ((across * cosine - down) / determinant) * n + ((down * cosine - across) / determinant) * m;
@@ -228,16 +258,25 @@ void PairedSamples::add_outer_edge(int32_t id, const Opposites& opposites) {
   if (!line) return;
   const FixedSample outer = on_edge(surface_, creases_, line->edge, line->share, spacing_);
   const int32_t there = coincident(outer, tolerance);
-  link(there >= 0 ? there : add(outer, true), id);
+  const int32_t other = there >= 0 ? there : add(outer, true);
+  if (*through == Through::solid) link(other, id);
+  if (*through == Through::gap && there < 0) add_partners(other, opposites_of(outer), depth + 1);
 }
 
 // Adds a partner, or finds that it is there. One that is next to a crease moves onto it, and has
-// partners of its own.
-int32_t PairedSamples::add_partner(const FixedSample& found, double tolerance, int depth) {
+// partners of its own. Others have one on their other side.
+int32_t PairedSamples::add_partner(const FixedSample& found, double tolerance, Through through,
+                                   int depth) {
   const int32_t there = coincident(found, tolerance);
   if (there >= 0) return there;
   const auto line = lines_.nearest(walls_.point(found.triangle, found.at), tolerance);
-  if (!line) return add(found, true);
+  if (!line) {
+    const int32_t id = add(found, true);
+    const auto next = through == Through::solid ? Through::gap : Through::solid;
+    const auto wall = wall_opposite(found, {found.triangle, found.at}, next);
+    if (wall) add_partners(id, {{found.triangle, *wall, next}}, depth + 1);
+    return id;
+  }
   const FixedSample moved = on_edge(surface_, creases_, line->edge, line->share, spacing_);
   const int32_t same = coincident(moved, tolerance);
   if (same >= 0) return same;
@@ -273,7 +312,8 @@ void PairedSamples::add_rim(int32_t id, int side) {
   if (!opposite || coincident(inner, 0.5 * away) >= 0) return;
   const FixedSample other = on_surface(surface_, opposite->triangle, opposite->at, spacing_);
   if (coincident(other, 0.5 * away) >= 0) return;
-  add_partners(add(inner, true), {{place->triangle, *opposite}}, 0);
+  const int32_t row = add(inner, true);
+  add_partners(row, opposites_of(inner), 0);
 }
 
 void PairedSamples::add_beside(std::span<const std::array<FixedSample, 2>> rows) {
@@ -288,21 +328,29 @@ void PairedSamples::add_beside(std::span<const std::array<FixedSample, 2>> rows)
   }
 }
 
-// Adds a sample and its partner unless they are there; returns whether they have room.
+// Adds a sample and the places opposite to it unless they are there; returns whether it and those
+// that are tight have room.
 bool PairedSamples::add_member(const FixedSample& sample) {
-  const auto wall = wall_opposite(sample, {sample.triangle, sample.at});
-  const double tolerance = tolerance_of(sample, wall ? wall->distance : sample.radius);
-  if (coincident(sample, tolerance) >= 0) return true;
-  if (is_crowded(sample)) return false;
-  const int32_t id = add(sample, false);
-  if (!wall) return true;
-  const FixedSample partner = on_surface(surface_, wall->triangle, wall->at, spacing_);
-  const int32_t there = coincident(partner, tolerance);
-  if (there < 0 && is_crowded(partner)) return false;
-  if (there < 0) {
-    link(id, add(partner, true));
-  } else if (samples_[id].partner < 0) {
-    samples_[id].partner = there;
+  std::vector<ColumnPlace> column;
+  walls_.column({sample.triangle, sample.at}, kCloseWalls * sample.radius / kDisk, column);
+  const double thickness = column.size() > 1 ? column[1].distance : sample.radius;
+  if (coincident(sample, tolerance_of(sample, thickness)) >= 0) return true;
+  const size_t others = samples_.size();
+  if (is_crowded(sample, others)) return false;
+  std::vector<int32_t> ids{add(sample, false)};
+  for (size_t i = 1; i < column.size(); ++i) {
+    const ColumnPlace& opposite = column[i];
+    ids.push_back(-1);
+    if (ids[opposite.before] < 0) continue;
+    const auto& [triangle, at] = opposite.place;
+    const FixedSample next = on_surface(surface_, triangle, at, spacing_);
+    const int32_t there = coincident(next, tolerance_of(sample, opposite.distance));
+    if (there < 0 && is_crowded(next, others)) {
+      if (opposite.is_tight) return false;
+      continue;
+    }
+    ids[i] = there < 0 ? add(next, true) : there;
+    if (opposite.through == Through::solid) link(ids[opposite.before], ids[i]);
   }
   return true;
 }

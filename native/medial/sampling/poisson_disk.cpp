@@ -257,6 +257,8 @@ struct Dart {
 struct Scratch {
   Neighbourhood near;
   std::vector<Dart> darts;
+  std::vector<ColumnPlace> column;  // of one dart
+  std::vector<PlacedDisk> disks;
 };
 
 void gather(const Blocks& blocks, std::span<const Disk> fixed, BlockKey key, Neighbourhood& near) {
@@ -282,20 +284,41 @@ void read_darts(const Darts& darts, std::span<const uint32_t> ids, double scale,
   }
 }
 
-// Returns the disc of the same size on the opposite wall, if that is close.
-std::optional<PlacedDisk> partner_of(const Dart& dart, double scale, const CurvedSurface& surface,
-                                     const OppositeWalls* walls) {
-  if (!walls) return {};
-  const auto found =
-      (*walls)({dart.place.triangle, dart.place.barycentric()}, kCloseWalls * dart.radius / scale);
-  if (!found) return {};
-  const auto& [triangle, at, thickness] = *found;
-  return PlacedDisk{
-      {surface.point(triangle, at), dart.radius, surface.normal(triangle, at)}, triangle, at};
+// Makes the discs of a column, and returns whether those at the places opposite to the dart have
+// room.
+bool make_disks(const Dart& dart, const CurvedSurface& surface, Scratch& scratch) {
+  scratch.disks.clear();
+  for (const ColumnPlace& opposite : scratch.column) {
+    const auto& [triangle, at] = opposite.place;
+    const auto here = static_cast<int>(scratch.disks.size());
+    const Disk disk{here == 0 ? dart.centre : surface.point(triangle, at), dart.radius,
+                    surface.normal(triangle, at)};
+    if (here > 0 && !scratch.near.free(disk.centre, disk.radius, [&] { return disk.normal; })) {
+      return false;
+    }
+    scratch.disks.push_back({disk, triangle, at});
+    if (here == 0 || opposite.through == Through::gap) continue;
+    scratch.disks[here].to_partner = opposite.before - here;
+    scratch.disks[opposite.before].to_partner = here - opposite.before;
+  }
+  return true;
+}
+
+// Makes the disc of a dart and, if walls or gaps there are close, discs of the same size at all
+// places opposite to it, or at those that are tight. Returns whether they have room.
+bool make_column(const Dart& dart, double scale, const CurvedSurface& surface,
+                 const OppositeWalls* walls, Scratch& scratch) {
+  const SurfacePlace own{dart.place.triangle, dart.place.barycentric()};
+  scratch.column.assign(1, {own});
+  if (walls) walls->column(own, kCloseWalls * dart.radius / scale, scratch.column);
+  if (make_disks(dart, surface, scratch)) return true;
+  const size_t before = scratch.column.size();
+  keep_tight(scratch.column);
+  return scratch.column.size() < before && make_disks(dart, surface, scratch);
 }
 
 // Throws the darts of a block, in an order that depends only on the block and the seed. A dart
-// between close walls stays only if its partner has room, too.
+// between close walls or gaps stays only if the places opposite to it have room, too.
 void throw_darts(const Darts& darts, const Grid& grid, double scale, std::span<const Disk> fixed,
                  const OppositeWalls* walls, int32_t block, Blocks& blocks, Scratch& scratch) {
   const auto ids = blocks.darts[block];
@@ -314,18 +337,11 @@ void throw_darts(const Darts& darts, const Grid& grid, double scale, std::span<c
       return darts.surface.normal(dart.place.triangle, dart.place.barycentric());
     };
     if (!scratch.near.free(dart.centre, dart.radius, normal)) continue;
-    auto partner = partner_of(dart, scale, darts.surface, walls);
-    if (partner && !scratch.near.free(partner->disk.centre, dart.radius,
-                                      [&] { return partner->disk.normal; })) {
-      continue;
+    if (!make_column(dart, scale, darts.surface, walls, scratch)) continue;
+    for (const PlacedDisk& placed : scratch.disks) {
+      scratch.near.add(placed.disk);
+      blocks.placed[block].push_back(placed);
     }
-    const Disk disk{dart.centre, dart.radius, normal()};
-    scratch.near.add(disk);
-    blocks.placed[block].push_back(
-        {disk, dart.place.triangle, dart.place.barycentric(), partner.has_value()});
-    if (!partner) continue;
-    scratch.near.add(partner->disk);
-    blocks.placed[block].push_back(*partner);
   }
 }
 

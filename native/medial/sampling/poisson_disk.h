@@ -18,7 +18,7 @@ struct PlacedDisk {
   Disk disk;
   int32_t triangle;
   Barycentric at;
-  bool paired_with_next = false;  // the next disc is its partner on the opposite wall
+  int to_partner = 0;  // where its partner on the opposite wall is in the list; 0: there is none
 };
 
 // Walls closer than this number of spacings get pairs of samples.
@@ -32,7 +32,8 @@ inline constexpr double kPacking = 0.61;
 // two radii, and their normals are less than a right angle apart: opposite walls of a sheet do not
 // repel each other. The radius of a disc is `scale` times the spacing of its piece. Large discs are
 // placed first. With `walls`, a dart between close walls takes its partner along: the disc of the
-// same size at the place of the opposite wall. Both stay or none does.
+// same size at the place of the opposite wall, and so on through walls and gaps in turn. All of
+// them stay or none does.
 std::vector<PlacedDisk> poisson_disks(const CurvedSurface& surface, std::span<const Piece> pieces,
                                       double scale, std::span<const Disk> fixed, int darts,
                                       uint64_t seed, const Run& run,

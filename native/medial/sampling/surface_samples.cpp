@@ -493,14 +493,10 @@ void append(const Model& model, const Attempt& attempt, SurfaceSamples& samples)
   for (const FixedSample& s : attempt.fixed) {
     add(s.point, s.normal, s.triangle, s.at, s.kind, s.radius, s.partner);
   }
-  bool with_last = false;
-  for (const auto& [disk, triangle, at, with_next] : attempt.placed) {
+  for (const auto& [disk, triangle, at, to_partner] : attempt.placed) {
     const auto own = static_cast<int64_t>(samples.points.size());
     add(disk.centre, disk.normal, triangle, at, SampleKind::surface, disk.radius,
-        with_last   ? own - 1
-        : with_next ? own + 1
-                    : -1);
-    with_last = with_next;
+        to_partner == 0 ? -1 : own + to_partner);
   }
 }
 

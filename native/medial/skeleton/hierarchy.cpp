@@ -156,6 +156,24 @@ void bring_outward(Level& level, const Frame& frame) {
   }
 }
 
+// The umbrellas of samples in pairs hold needles, as on the narrow side of a plate, whose
+// circumcircles are far larger than the holes between the samples. No hole is larger than the ball
+// that holds a few pairs.
+std::vector<double> bounded_spacing(const Samples& samples, std::span<const double> spacing,
+                                    const Run& run) {
+  constexpr size_t kFewPairs = 10;
+  std::vector<double> bounded(spacing.begin(), spacing.end());
+  const auto count = static_cast<int64_t>(samples.row.size());
+  const PointTree tree(std::span(samples.points.data(), samples.row.size()));
+  parallel_for(
+      count, run,
+      [&](int64_t s) {
+        bounded[s] = std::min(bounded[s], tree.reach(samples.points[s], kFewPairs));
+      },
+      256);
+  return bounded;
+}
+
 }  // namespace
 
 Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thresholds& thresholds,
@@ -166,13 +184,16 @@ Hierarchy make_hierarchy(const Samples& samples, const Facets& facets, const Thr
   made.threads = run.threads;
   made.frame = frame;
   Stopwatch watch(made.timings);
+  const std::span<const double> spacing = facets.significance.spacing;
+  std::vector<double> bounded;
   std::optional<SamplesOnFaces> on_faces;
   std::vector<EdgeMark> marks;
   if (faces) {
     // The faces outlive the arena.
     made.faces = std::make_unique<Faces>(*faces, frame.inward(faces->vertices),
                                          Run{run.threads, run.progress, nullptr});
-    on_faces.emplace(*faces, *made.faces, samples, facets.significance.spacing, run);
+    if (!partners.empty()) bounded = bounded_spacing(samples, spacing, run);
+    on_faces.emplace(*faces, *made.faces, samples, partners.empty() ? spacing : bounded, run);
     marks = crease_marks(*on_faces, facets.edges, run);
     watch.lap("faces");
   }
