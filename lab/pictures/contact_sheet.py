@@ -3,9 +3,10 @@
 
     blender --background --factory-startup --python-exit-code 1 --python lab/pictures/contact_sheet.py -- \\
         --zip dist/medial_axis-0.2.0.zip --output pictures [--only cube igea ...] [--forms published clean curve]
+        [--spikes 0 0.5 1]
 
 The surface is translucent, the axis coloured by radius; edges that stand by themselves are tubes. With
---forms there is a row per mesh and a column per form. Every picture is rendered by itself; ImageMagick's `montage`
+--forms there is a row per mesh and a column per form, with --spikes a column per value of Spikes. Every picture is rendered by itself; ImageMagick's `montage`
 puts them side by side. What cannot be computed is printed with what the add-on says. Files come from the folder
 in MEDIAL_AXIS_TEST_DATA; those that are not there are named and left out.
 """
@@ -92,7 +93,10 @@ def main():
     arguments = parse()
     blender_demo.install(arguments.zip)
     if arguments.forms:
-        forms(arguments)
+        columns(arguments, "forms", {form: {"form": form.upper()} for form in arguments.forms})
+        return
+    if arguments.spikes:
+        columns(arguments, "spikes", {f"{value:g}": {"spike": value} for value in arguments.spikes})
         return
     for sheet, made in (("primitives", PRIMITIVES), ("meshes", FILES)):
         folder = arguments.output / sheet
@@ -103,18 +107,18 @@ def main():
             montage(folder, pictures, arguments.output / f"sheet_{sheet}.png")
 
 
-def forms(arguments):
-    """A row per mesh, a column per form."""
-    folder = arguments.output / "forms"
+def columns(arguments, sheet, settings):
+    """A row per mesh, a column per settings, by their names."""
+    folder = arguments.output / sheet
     folder.mkdir(parents=True, exist_ok=True)
     known = {**PRIMITIVES, **FILES}
     pictures = []
     for name in arguments.only or FILES:
-        for form in arguments.forms:
-            picture = f"{name} {form}"
-            if show(name, known[name], folder / f"{picture}.png", form=form.upper()):
+        for column, chosen in settings.items():
+            picture = f"{name} {column}"
+            if show(name, known[name], folder / f"{picture}.png", **chosen):
                 pictures.append(picture)
-    montage(folder, pictures, arguments.output / "sheet_forms.png", len(arguments.forms))
+    montage(folder, pictures, arguments.output / f"sheet_{sheet}.png", len(settings))
 
 
 def parse():
@@ -123,6 +127,7 @@ def parse():
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--only", nargs="+", default=[])
     parser.add_argument("--forms", nargs="+", choices=["clean", "published", "curve"])
+    parser.add_argument("--spikes", nargs="+", type=float)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 
