@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What it costs to read the faces of a mesh, as a share of a click: a Markdown table.
+"""The cost of reading the faces of a mesh, as a share of a click: a Markdown table.
 
     python3 lab/benchmarks/reading_cost.py [--output table.md] [--meshes spot_low.obj ...] [--times 3]
 
