@@ -7,8 +7,8 @@
 
 The surface is translucent, the axis coloured by radius; edges that stand by themselves are tubes. With
 --forms there is a row per mesh and a column per form, with --spikes a column per value of Spikes. Every picture is
-rendered by itself; ImageMagick's `montage` puts them side by side. What cannot be computed is printed with what the add-on says. Files come from the folder
-in MEDIAL_AXIS_TEST_DATA; those that are not there are named and left out.
+rendered by itself; ImageMagick's `montage` puts them side by side. What cannot be computed is printed with what the
+add-on says. Files come from the folder in MEDIAL_AXIS_TEST_DATA; those that are not there are named and left out.
 """
 
 import argparse
