@@ -223,7 +223,12 @@ def test_samples_of_turned_faces(data_file):
 def test_a_shape_says_how_it_was_read():
     shape = Shape(*inward(cube()))
     read = outward_shape(shape)
-    assert reading_counts(read) == {"turned": 12, "repeated": 0, "without_corners": 0}
+    assert reading_counts(read) == {
+        "turned": 12,
+        "repeated": 0,
+        "without_corners": 0,
+        "of_sheets": 0,
+    }
     assert shape.reading is None and outward_shape(read) is read
 
 

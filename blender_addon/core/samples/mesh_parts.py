@@ -93,16 +93,16 @@ class MeshCounts:
         """Return a sentence; it is empty for one part."""
         if self.parts < 2:
             return ""
-        kinds = {
-            "open": self.open,
-            "with faces that were turned": self.turned,
-            "overlapping others": self.overlapping,
-            "inside another": self.within,
-            "only touching others": self.touching,
-            "apart from all others": self.apart,
-            "without thickness": self.sheets,
-        }
-        told = [f"{count:,} of them {kind}" for kind, count in kinds.items() if count]
+        kinds = (
+            (self.open, f"{self.open:,} of them open"),
+            (self.turned, f"{self.turned:,} of them with faces that were turned"),
+            (self.overlapping, f"{self.overlapping:,} of them overlapping others"),
+            (self.within, f"{self.within:,} of them inside another"),
+            (self.touching, f"{self.touching:,} of them only touching others"),
+            (self.apart, f"{self.apart:,} of them apart from all others"),
+            (self.sheets, f"{self.sheets:,} of them without thickness"),
+        )
+        told = [words for count, words in kinds if count]
         return "; ".join((f"{self.parts:,} connected parts", *told))
 
 

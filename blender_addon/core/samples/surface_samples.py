@@ -96,7 +96,7 @@ def sample_faces(
             progress=progress,
             **options,
         )
-    spacing = mean_spacing(found.area, len(found.points))
+    spacing = mean_spacing(found.area, max(1, len(found.points)))
     feet, outward = on_flat_faces(shape, found, spacing)
     every = gaps > 0 and not closed
     bare, buried = np.ones(len(feet), bool), 0

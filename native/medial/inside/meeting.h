@@ -14,6 +14,6 @@ enum class TriangleMeeting : uint8_t {
   crossed,  // an edge of one passes through the middle of the other, farther than that on each side
 };
 
-TriangleMeeting meeting_of(const Corners& s, const Corners& t, double within);
+TriangleMeeting meeting_of(const Corners& first, const Corners& second, double within);
 
 }  // namespace medial
