@@ -99,7 +99,7 @@ class OBJECT_OT_medial_axis_apply(bpy.types.Operator):
         if is_gone(result):
             return {"CANCELLED"}
         self._key, _running = result[ANALYSIS], True
-        work = partial(_extract, self._key, self._settings)
+        work = partial(refilter, self._key, self._settings)
         self._job = current_job.start([Task(self._name, work)], "medial axis")
         self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
         context.window_manager.modal_handler_add(self)
@@ -146,10 +146,6 @@ class OBJECT_OT_medial_axis_apply(bpy.types.Operator):
             return "" if waits() else say(str(error))
         except MedialAxisError as error:
             return str(error)
-
-
-def _extract(key, settings, progress):
-    return refilter(key, settings, progress)
 
 
 def register():
