@@ -12,6 +12,7 @@ import json
 import os
 import shutil
 import subprocess
+import tempfile
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -193,14 +194,11 @@ def run_pytest(blender: Path, *options: str, **environment: str) -> None:
 
 
 def addon(blender: Path, *options: str) -> None:
-    """The tests inside Blender, in as many Blenders as there are cores: each takes some of the files."""
-    count = min(parallel_jobs(), 4)
-    logs = [paths.BUILD / f"addon_{i}.log" for i in range(count)]
-    words = [
-        [*inside(blender), f"--files={i}/{count}", f"--durations={LONGEST}", *options]
-        for i in range(count)
-    ]
-    codes = run_together(words, logs)
+    """The tests inside Blender, in as many Blenders as there are cores: each takes the next file that is left."""
+    logs = [paths.BUILD / f"addon_{i}.log" for i in range(min(parallel_jobs(), 4))]
+    with tempfile.TemporaryDirectory(prefix="medial_axis_claims_") as claims:
+        words = [*inside(blender), f"--claims={claims}", f"--durations={LONGEST}", *options]
+        codes = run_together([words] * len(logs), logs)
     for log in logs:
         print(log.read_text(encoding="utf-8", errors="replace"), flush=True)
     if any(codes):

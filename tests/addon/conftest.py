@@ -14,6 +14,7 @@ from support.tiers import (  # noqa: F401 - found through the line above; pytest
     pytest_addoption,
     pytest_collection_modifyitems,
     pytest_configure,
+    pytest_runtest_protocol,
 )
 
 

@@ -85,16 +85,23 @@ def test_no_oracle(case): pass
 """
 
 
-def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(tmp_path):
-    """Four shares in processes of their own: two of the eight cases each, and every other test in each."""
+@pytest.fixture
+def rules(tmp_path):
+    """A folder whose tests follow the rules of tests/support/tiers.py, and the words that run them."""
     (tmp_path / "conftest.py").write_text(
         f"import sys\nsys.path.insert(0, {str(ROOT / 'tests')!r})\nfrom support.tiers import *\n"
     )
-    (tmp_path / "test_a.py").write_text(ORACLES)
-    words = [sys.executable, "-m", "pytest", "-q", "--collect-only", "-p", "no:cacheprovider"]
+    return tmp_path, [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
+
+
+def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(rules):
+    """Four shares in processes of their own: two of the eight cases each, and every other test in each."""
+    folder, words = rules
+    (folder / "test_a.py").write_text(ORACLES)
+    words += ["-q", "--collect-only"]
     runs = [
         subprocess.run(
-            [*words, "--share", f"{i}/4", "."], cwd=tmp_path, capture_output=True, text=True
+            [*words, "--share", f"{i}/4", "."], cwd=folder, capture_output=True, text=True
         )
         for i in range(4)
     ]
@@ -102,6 +109,22 @@ def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(tmp_p
     assert [sum("test_many" in name for name in found) for found in names] == [2] * 4
     assert len(set.union(*names)) == 19 and len(set.intersection(*names)) == 11
     assert [len(found) for found in names] == [13] * 4
+
+
+def test_processes_share_files_and_leave_none_out(rules, tmp_path_factory):
+    """A file belongs to the process that comes first, whole; the longest file goes first."""
+    folder, words = rules
+    claims = tmp_path_factory.mktemp("claims")
+    for name, lines in (("a", 1), ("b", 30), ("c", 2)):
+        tests = "".join(f"def test_{i}(): assert {i} != 1\n" for i in range(lines))
+        (folder / f"test_{name}.py").write_text(tests)
+    (claims / "test_c.py").touch()  # another process has it
+    words += ["-v", f"--claims={claims}", "."]
+    runs = [subprocess.run(words, cwd=folder, capture_output=True, text=True) for _ in range(2)]
+    outcomes = [re.findall(r"test_(\w)\.py::test_(\d+) (\w+)", run.stdout) for run in runs]
+    expected = [("b", str(i), "FAILED" if i == 1 else "PASSED") for i in range(30)]
+    assert outcomes == [[*expected, ("a", "0", "PASSED")], []]
+    assert runs[0].returncode == 1
 
 
 def test_the_share_is_of_the_commit():

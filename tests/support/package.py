@@ -18,6 +18,7 @@ from .tiers import (  # noqa: F401 - hooks, which pytest finds in a conftest tha
     pytest_addoption,
     pytest_collection_modifyitems,
     pytest_configure,
+    pytest_runtest_protocol,
 )
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -4,10 +4,12 @@
 - slow: tests that take minutes; left out unless --slow is given.
 - oracle: tests that compare results with independent ones over many cases. With --share I/N the case number k of each
   function runs if k % N == I, so N runs with different I see all cases, and each run sees every function.
-- --files I/N: every N-th file from the I-th on, the longest first, so that N Blenders share the work.
+- --claims FOLDER: processes that share the folder share the files of tests. Each takes the next file that none has
+  taken, the longest first, and notes it there.
 """
 
 from collections import Counter
+from pathlib import Path
 
 import pytest
 
@@ -23,7 +25,7 @@ def pytest_configure(config):
 def pytest_addoption(parser):
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
     parser.addoption("--share", type=_part, default=(0, 1), help="cases of the oracles: I/N")
-    parser.addoption("--files", type=_part, default=(0, 1), help="files of tests: I/N")
+    parser.addoption("--claims", type=Path, help="where processes note the files that they take")
 
 
 def _part(text):
@@ -39,10 +41,17 @@ def pytest_collection_modifyitems(config, items):
             if "slow" in item.keywords:
                 item.add_marker(pytest.mark.skip(reason="minutes long; run with --slow"))
     left_out = {*_other_cases(items, *config.getoption("--share"))}
-    left_out |= {*_other_files(items, *config.getoption("--files"))}
     if left_out:
         config.hook.pytest_deselected(items=[item for item in items if item in left_out])
         items[:] = [item for item in items if item not in left_out]
+    if config.getoption("--claims"):
+        _longest_first(items)
+
+
+def pytest_runtest_protocol(item):
+    """Passes over a test whose file another process has taken: True tells pytest that it is done."""
+    folder = item.config.getoption("--claims")
+    return True if folder and not _is_mine(item.path, folder) else None
 
 
 def _other_cases(items, index, count):
@@ -57,12 +66,21 @@ def _other_cases(items, index, count):
         seen[name] += 1
 
 
-def _other_files(items, index, count):
-    """The tests in files that another process runs; those that start other Blenders take longest, and come first."""
+def _longest_first(items):
+    """The tests in files that start other processes take longest, and come first."""
 
     def order(path):
         return "subprocess" not in path.read_text(encoding="utf-8"), -path.stat().st_size, path
 
-    files = sorted({item.path for item in items}, key=order)
-    mine = set(files[index::count])
-    return (item for item in items if item.path not in mine)
+    places = {path: order(path) for path in {item.path for item in items}}
+    items.sort(key=lambda item: places[item.path])
+
+
+def _is_mine(path, folder, known={}):  # noqa: B006 - what this process has taken, or found taken
+    if path not in known:
+        try:
+            (folder / path.name).touch(exist_ok=False)
+            known[path] = True
+        except FileExistsError:
+            known[path] = False
+    return known[path]
