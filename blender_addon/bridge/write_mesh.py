@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import bpy
 import numpy as np
 
-from ..core.axis.directions import wire_tangents
+from ..core.axis.directions import facet_normals, wire_tangents
 from ..core.axis.medial_axis import no_edges
 from ..core.axis.structure import SEAM
 from ..core.axis.turning import with_facets_turned
@@ -57,9 +57,9 @@ def new_axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
 
 def _add_directions(mesh: bpy.types.Mesh, axis: MedialAxis) -> None:
     """Add normals of facets and tangents of edges without a facet, along which instances can be turned."""
-    normals = np.empty(3 * len(mesh.polygons), np.float32)
-    mesh.polygons.foreach_get("normal", normals)
-    _add_vectors(mesh, NORMAL, "FACE", normals)
+    # Blender's own normals are not finite where coordinates are huge, and Blender 5.2 refuses such values.
+    normals = facet_normals(axis.vertices, axis.face_offsets, axis.face_vertices)
+    _add_vectors(mesh, NORMAL, "FACE", normals.astype(np.float32).ravel())
     if len(axis.edges):
         along = np.zeros((len(mesh.edges), 3), np.float32)
         along[len(along) - len(axis.edges) :] = wire_tangents(axis.vertices, axis.edges)

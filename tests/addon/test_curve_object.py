@@ -4,6 +4,7 @@
 import bpy
 import numpy as np
 import pytest
+from mathutils import Matrix
 from scene import addon, attribute, compute, ellipsoid, link, positions, result_of, select, torus
 
 CURVE = {"form": "CURVE", "sampling": "SURFACE", "samples": 1_500}
@@ -53,6 +54,16 @@ def test_normals_are_those_of_the_facets_and_of_length_one():
     assert (np.sum(found * blender, axis=1)[large] > 0.999).all()
     up = np.mean(found[large, 2] > 0)  # the sheet lies in the plane of the two longer axes
     assert max(up, 1 - up) > 0.98, "a sheet has one upper side"
+
+
+def test_normals_of_huge_axes_are_finite():
+    source = ellipsoid(segments=3)
+    source.data.transform(Matrix.Scale(1e30, 4))
+    compute(form="CLEAN")
+    mesh = result_of(source).data
+    length = np.linalg.norm(vectors(mesh, "ma_normal"), axis=1)
+    assert len(length) and np.isin(np.round(length, 5), (0.0, 1.0)).all()
+    assert mesh.validate() is False
 
 
 def test_tangents_go_on_along_a_chain():
