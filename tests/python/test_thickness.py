@@ -22,7 +22,7 @@ from medial_axis.core.settings import (
 from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_parts import find_thin_parts
-from support import inputs
+from support import inputs, meshes
 from support.thick_meshes import (
     block,
     ellipsoid,
@@ -194,6 +194,16 @@ def test_flat_faces_stay_flat_beside_bevels(medial):
     samples = medial.sample_surface(*mesh, count=4000, smooth=True)
     flat = np.hypot(*samples.points[:, :2].T) < 58.0
     assert np.abs(np.abs(samples.points[flat, 2] - 2.5) - 2.5).max() < 1e-9
+
+
+@pytest.mark.parametrize("around, across, turn", [(100, 16, 0.5), (250, 60, 0.5), (4400, 14, 0.0)])
+def test_rows_of_a_ring_are_no_walls(around, across, turn):
+    """Rows on top of it are flat, or so long that each of their triangles lies in the next one's plane."""
+    mesh = moved(meshes.torus(1.0, 0.2, around, across, turn), 1.0, 3, False)
+    mesh = mesh[0].astype(np.float32).astype(float), mesh[1]
+    found = measure(mesh, Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+    assert errors(found.lengths, 0.4)[0] > -0.03
+    assert np.mean(np.abs(found.lengths / 0.4 - 1)) < 0.015
 
 
 def test_faces_are_cut_alike_on_both_sides_of_every_edge():

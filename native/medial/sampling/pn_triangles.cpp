@@ -1,68 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/pn_triangles.h"
 
-#include <limits>
 #include <numbers>
 
 #include "base/union_find.h"
+#include "sampling/flat_parts.h"
 
 namespace medial {
 namespace {
 
 // Sides closer than about 6 degrees do not determine the direction of their edge.
 constexpr double kParallel = 0.1;
-// Coordinates may have been float32, so triangles of one plane are so far from it.
-constexpr double kPlane = 4.0 * std::numeric_limits<float>::epsilon();
-// A flat part that is so many times as large as all others at a vertex is a wall beside a bevel.
-constexpr double kDominant = 8;
+// A flat part that is so many times as large as all others at a vertex, and so many times as wide
+// as the rows of triangles beside it, is a wall beside a bevel. A ring on top of a tube is as wide
+// as the next rows.
+constexpr double kDominant = 8, kWide = 2;
 
-// The flat parts of a mesh: triangles that lie in one plane and are joined by edges.
-struct FlatParts {
-  std::vector<int32_t> part;   // per triangle
-  std::vector<double> area;    // per triangle: of its part
-  std::vector<uint8_t> alone;  // per triangle: it is the whole part
-};
-
-double height_over(const TriangleMesh& mesh, int32_t triangle, const Edge& edge, int32_t other) {
-  const Triangle& t = mesh.triangles[other];
-  const Vec3& third = mesh.points[t[0] + t[1] + t[2] - edge[0] - edge[1]];
-  return std::abs(dot(mesh.normal[triangle], third - mesh.points[edge[0]]));
-}
-
-FlatParts flat_parts(const TriangleMesh& mesh, const Creases& creases) {
-  const size_t count = mesh.triangles.size();
-  double largest = 0;
-  for (const Vec3& p : mesh.points) largest = std::max(largest, max_abs(p));
-  UnionFind joined(count);
-  for (const MeshEdge& edge : creases.edges) {
-    if (edge.crease != Crease::none || !edge.manifold) continue;
-    const auto& [s, t] = edge.triangles;
-    const double off =
-        std::min(height_over(mesh, s, edge.ends, t), height_over(mesh, t, edge.ends, s));
-    if (off <= kPlane * largest) joined.unite(s, t);
-  }
-  const auto parts = std::move(joined).representatives();
-  FlatParts flat{{parts.begin(), parts.end()}, {}, {}};
-  std::vector<double> area(count, 0);
-  std::vector<int32_t> members(count, 0);
-  for (size_t t = 0; t < count; ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3& p = mesh.points[a];
-    area[flat.part[t]] += length(cross(mesh.points[b] - p, mesh.points[c] - p));
-    ++members[flat.part[t]];
-  }
-  for (const int32_t part : flat.part) {
-    flat.area.push_back(area[part]);
-    flat.alone.push_back(members[part] == 1);
-  }
-  return flat;
-}
-
-// The largest flat part at a vertex, and the area of the next one.
+// The largest flat part at a vertex, the area of the next one, and how far triangles beside the
+// part reach from it.
 struct Largest {
   int32_t part = -1;
   bool alone = true;
-  double area = 0, next = 0;
+  double area = 0, next = 0, width = 0, beside = 0;
 
   void add(const FlatParts& flat, int32_t triangle) {
     if (flat.part[triangle] == part) return;
@@ -72,10 +31,32 @@ struct Largest {
     part = flat.part[triangle];
     alone = flat.alone[triangle] != 0;
     area = found;
+    width = flat.width[triangle];
   }
   // Returns whether a triangle counts for the normal: where one part dominates, only its own do.
-  bool counts(int32_t of) const { return of == part || alone || area < kDominant * next; }
+  bool counts(int32_t of) const {
+    return of == part || alone || area < kDominant * next || width < kWide * beside;
+  }
 };
+
+// Adds how far triangles reach from the largest flat part of the fans at each edge.
+void add_beside(const TriangleMesh& mesh, const Creases& creases, const FlatParts& flat,
+                std::span<const Triangle> fan_of, std::vector<Largest>& largest) {
+  const auto add = [&](const MeshEdge& edge, int32_t in, int32_t out) {
+    for (const int32_t end : edge.ends) {
+      Largest& here = largest[fan_of[in][corner_of(mesh.triangles[in], end)]];
+      if (flat.part[in] != here.part) continue;
+      here.beside = std::max(here.beside, reach_from(mesh, out, edge.ends));
+    }
+  };
+  for (const MeshEdge& edge : creases.edges) {
+    if (edge.crease != Crease::none) continue;
+    const auto& [s, t] = edge.triangles;
+    if (flat.part[s] == flat.part[t]) continue;
+    add(edge, s, t);
+    add(edge, t, s);
+  }
+}
 
 // Returns a third of the chord, made tangent to both sides. Its length is not kept; neither is it
 // with one side.
@@ -208,6 +189,7 @@ void CurvedSurface::add_normals(const Creases& creases) {
     fan_of_[c / 3][c % 3] = fan[root[c]];
     largest[fan[root[c]]].add(flat, c / 3);
   }
+  add_beside(mesh_, creases, flat, fan_of_, largest);
   fan_normals_.resize(largest.size());
   for (int32_t c = 0; c < count; ++c) {
     const int32_t t = c / 3, f = fan_of_[t][c % 3];
