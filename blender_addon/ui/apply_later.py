@@ -29,6 +29,7 @@ _wanted = None  # the update that waits: (session, name of the result, settings)
 _asked = 0.0
 _write = None  # called with the result, the settings, the axis
 _running = False
+_applied = set()  # (name of the result, settings) of updates whose meshes are in no undo step
 
 
 def needs_thread(result, levels_stay):
@@ -57,6 +58,11 @@ def request(result, settings, write):
     _wanted, _asked, _write = (result.name, settings), time.monotonic(), write
     if not bpy.app.timers.is_registered(_begin):
         bpy.app.timers.register(_begin, first_interval=_REST)
+
+
+def was_applied(result, settings):
+    """Whether the thread has given a result these settings before."""
+    return (result.name, settings) in _applied
 
 
 def waits():
@@ -125,6 +131,7 @@ class OBJECT_OT_medial_axis_apply(WatchedJob, bpy.types.Operator):
             result = bpy.data.objects.get(self._name)
             if is_gone(result) or result.get(ANALYSIS) != self._key:
                 return ""
+            _applied.add((self._name, self._settings))
             return _write(result, self._settings, outcome.value)
         except Cancelled as error:
             return "" if waits() else say(str(error))
@@ -139,6 +146,7 @@ def register():
 def unregister():
     global _wanted, _running
     _wanted, _running = None, False
+    _applied.clear()
     if bpy.app.timers.is_registered(_begin):
         bpy.app.timers.unregister(_begin)
     bpy.utils.unregister_class(OBJECT_OT_medial_axis_apply)
