@@ -18,6 +18,7 @@ from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task
 from . import current_job
 from .translation import say
+from .watched_job import WatchedJob
 
 SAMPLES = 60_000  # results of more samples are updated in the thread
 THRESHOLD_SAMPLES = 30_000  # the same where another hierarchy is needed
@@ -28,6 +29,7 @@ _wanted = None  # the update that waits: (session, name of the result, settings)
 _asked = 0.0
 _write = None  # called with the result, the settings, the axis
 _running = False
+_applied = set()  # (name of the result, settings) of updates whose meshes are in no undo step
 
 
 def needs_thread(result, levels_stay):
@@ -58,6 +60,11 @@ def request(result, settings, write):
         bpy.app.timers.register(_begin, first_interval=_REST)
 
 
+def was_applied(result, settings):
+    """Whether the thread has given a result these settings before."""
+    return (result.name, settings) in _applied
+
+
 def waits():
     """Whether an update waits for its beginning."""
     return _wanted is not None
@@ -81,7 +88,7 @@ def _begin():
     return None
 
 
-class OBJECT_OT_medial_axis_apply(bpy.types.Operator):
+class OBJECT_OT_medial_axis_apply(WatchedJob, bpy.types.Operator):
     """Apply the settings of the panel to the medial axis"""
 
     bl_idname = "object.medial_axis_apply"
@@ -100,37 +107,20 @@ class OBJECT_OT_medial_axis_apply(bpy.types.Operator):
             return {"CANCELLED"}
         self._key, _running = result[ANALYSIS], True
         work = partial(refilter, self._key, self._settings)
-        self._job = current_job.start([Task(self._name, work)], "medial axis")
-        self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        current_job.show(context)
-        return {"RUNNING_MODAL"}
+        return self.watch(context, [Task(self._name, work)], "medial axis")
 
-    def modal(self, context, event):
-        if event.type == "ESC" and event.value == "PRESS":
-            self._job.cancel()
-            return {"RUNNING_MODAL"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
+    def meanwhile(self):
         if waits():  # the slider went on, so this is for nothing
             self._job.cancel()
-        if not self._job.done:
-            current_job.show(context)
-            return {"PASS_THROUGH"}
-        self._stop_watching(context)
+
+    def ended(self, context):
         context.scene.medial_axis.note = self._apply()
         return {"FINISHED"}
 
-    def cancel(self, context):
-        """Blender ends the operator: its window closes, a file is loaded, Blender quits."""
-        self._job.stop()
-        self._stop_watching(context)
-
-    def _stop_watching(self, context):
+    def stop_watching(self, context):
         global _running
         _running = False
-        context.window_manager.event_timer_remove(self._timer)
-        current_job.finish(self._job)
+        super().stop_watching(context)
 
     def _apply(self):
         """Write what was extracted; returns a sentence for the panel, or nothing."""
@@ -141,6 +131,7 @@ class OBJECT_OT_medial_axis_apply(bpy.types.Operator):
             result = bpy.data.objects.get(self._name)
             if is_gone(result) or result.get(ANALYSIS) != self._key:
                 return ""
+            _applied.add((self._name, self._settings))
             return _write(result, self._settings, outcome.value)
         except Cancelled as error:
             return "" if waits() else say(str(error))
@@ -155,6 +146,7 @@ def register():
 def unregister():
     global _wanted, _running
     _wanted, _running = None, False
+    _applied.clear()
     if bpy.app.timers.is_registered(_begin):
         bpy.app.timers.unregister(_begin)
     bpy.utils.unregister_class(OBJECT_OT_medial_axis_apply)

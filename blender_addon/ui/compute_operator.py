@@ -15,6 +15,7 @@ from ..core.machine.job import Task, run_task
 from . import current_job
 from .selected_sources import Source, obstacle, sources
 from .translation import say
+from .watched_job import WatchedJob
 
 
 class FromSelection:
@@ -28,7 +29,7 @@ class FromSelection:
         return not reason
 
 
-class ComputeOperator(FromSelection):
+class ComputeOperator(FromSelection, WatchedJob):
     """An operator that computes one object of each source; the base of those that are registered.
 
     A subclass names its `product` and has three steps: `check_writable(thing)` raises MedialAxisError when the
@@ -64,33 +65,23 @@ class ComputeOperator(FromSelection):
         if not tasks:
             return {"CANCELLED"}
         self._gone = ""
-        self._job = current_job.start(tasks, self.product)
-        self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        current_job.show(context)
-        return {"RUNNING_MODAL"}
+        return self.watch(context, tasks, self.product)
 
-    def modal(self, context, event):
-        if event.type == "ESC" and event.value == "PRESS":
-            self._job.cancel()
-            return {"RUNNING_MODAL"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        if not self._job.done:
-            self._watch_sources()
-            current_job.show(context)
-            return {"PASS_THROUGH"}
-        self._stop_watching(context)
+    def meanwhile(self):
+        for source in self._sources:
+            if source.find() is None and not self._gone:
+                self._gone = (
+                    f"'{source.name}' was deleted while its {self.product} was computed; "
+                    "nothing was changed"
+                )
+                self._job.cancel()
+
+    def ended(self, context):
         try:
             return self._write(context, self._sources, self._job.outcomes())
         except Cancelled as error:
             self._tell(context, "WARNING", self._gone or str(error))
             return {"CANCELLED"}
-
-    def cancel(self, context):
-        """Blender ends the operator: its window closes, a file is loaded, Blender quits."""
-        self._job.stop()
-        self._stop_watching(context)
 
     def sources(self, context):
         """The objects to compute from."""
@@ -106,19 +97,6 @@ class ComputeOperator(FromSelection):
 
     def settle(self, made):
         """Called when all is written, with the objects that were made or updated."""
-
-    def _stop_watching(self, context):
-        context.window_manager.event_timer_remove(self._timer)
-        current_job.finish(self._job)
-
-    def _watch_sources(self):
-        for source in self._sources:
-            if source.find() is None and not self._gone:
-                self._gone = (
-                    f"'{source.name}' was deleted while its {self.product} was computed; "
-                    "nothing was changed"
-                )
-                self._job.cancel()
 
     def _tell(self, context, kind, text):
         """Report, and keep what went wrong in the panel: Blender's message fades in seconds."""

@@ -183,13 +183,37 @@ def _refilter(panel, context):
         panel.note = str(error)
 
 
+def _wanted(kept, panel):
+    """The settings of the panel but for those that need another analysis."""
+    return replace(settings_from(panel), **{name: getattr(kept, name) for name in _ANALYSED})
+
+
+def _after_undo(_scene, _depsgraph=None):
+    """The mesh that the thread has made is in no undo step: a step that has its settings gets it again."""
+    panel, result = bpy.context.scene.medial_axis, shown_result(bpy.context)
+    if result is None or is_gone(result):
+        return
+    kept = settings_of(result)
+    wanted = _wanted(kept, panel)
+    if kept != replace(wanted, form=wanted.form_of_side) and apply_later.was_applied(
+        result, wanted
+    ):
+        _refilter(panel, bpy.context)
+
+
+def _watch_undo():
+    """Handlers that no file has which needs no thread; Blender removes them when another file is opened."""
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        if _after_undo not in handlers:
+            handlers.append(_after_undo)
+
+
 def _refilter_result(result, panel) -> str:
     kept = settings_of(result)
-    wanted = settings_from(panel)
-    analysed = {name: getattr(kept, name) for name in _ANALYSED}
-    wanted = replace(wanted, **analysed)  # others need another analysis
+    wanted = _wanted(kept, panel)
     show = partial(_show_refiltered, settings_from(panel, Look))
     if apply_later.needs_thread(result, _levels_stay(kept, wanted)):
+        _watch_undo()
         apply_later.request(result, wanted, show)
         return ""
     return show(result, wanted, refilter(result[ANALYSIS], wanted))
@@ -268,6 +292,9 @@ def register():
 
 
 def unregister():
+    for handlers in (bpy.app.handlers.undo_post, bpy.app.handlers.redo_post):
+        if _after_undo in handlers:
+            handlers.remove(_after_undo)
     del bpy.types.WindowManager.medial_axis_progress
     del bpy.types.Scene.medial_axis
     for cls in reversed(CLASSES):

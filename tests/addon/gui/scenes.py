@@ -292,8 +292,15 @@ def scene_sliders_with_escape():
     yield patience(1.0)
     look("dragged-in-the-thread")
     panel = bpy.context.scene.medial_axis
-    assert facets() < whole and bpy.data.objects[name]["ma_simplify"] == panel.simplify
+    dragged = facets()
+    assert dragged < whole and bpy.data.objects[name]["ma_simplify"] == panel.simplify
     yield from key("ctrl+z")
+    assert facets() == whole
+    yield from key("ctrl+shift+z")
+    yield no_update
+    assert facets() == dragged, "redo must bring the mesh back with the slider"
+    yield from key("ctrl+z")
+    yield no_update
     assert facets() == whole
     with held(addon("core.axis.compute"), "extract"):
         bpy.context.scene.medial_axis.erode_share = 0.5
