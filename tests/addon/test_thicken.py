@@ -39,7 +39,7 @@ def test_a_plate_gets_the_limit_and_keeps_its_outline():
     own = np.array([vertex.co[:] for vertex in mesh.vertices])
     assert bpy.ops.object.medial_axis_thicken(limit=LIMIT) == {"FINISHED"}
     moved = positions(thing)
-    np.testing.assert_allclose(np.abs(moved[:, 2]), LIMIT / 2, rtol=2e-5)
+    np.testing.assert_allclose(np.abs(moved[:, 2]), LIMIT / 2, rtol=2e-4)
     np.testing.assert_allclose(moved[:, :2], own[:, :2], atol=1e-6)
     assert thing.data == mesh and [tuple(uv.uv) for uv in mesh.uv_layers[0].data] == uvs
     np.testing.assert_array_equal([vertex.co[:] for vertex in mesh.vertices], own)
@@ -53,7 +53,7 @@ def test_it_is_measured_again_and_not_outdated():
     assert of.carrier_of(thing)[of.SHARE] == pytest.approx(1.0)
     bpy.ops.object.medial_axis_thicken(limit=LIMIT)
     carrier = of.carrier_of(thing)
-    assert carrier[of.MINIMUM] == pytest.approx(LIMIT, rel=2e-5) and carrier[of.SHARE] == 0.0
+    assert carrier[of.MINIMUM] == pytest.approx(LIMIT, rel=2e-4) and carrier[of.SHARE] == 0.0
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
     assert not addon("bridge.source_state").has_changed(carrier, depsgraph)
@@ -63,7 +63,7 @@ def test_a_second_click_adds_to_the_first_and_the_factor_takes_it_back():
     thing = plate()
     for limit in (LIMIT, 2 * LIMIT):
         bpy.ops.object.medial_axis_thicken(limit=limit)
-        np.testing.assert_allclose(np.abs(positions(thing)[:, 2]), limit / 2, rtol=2e-5)
+        np.testing.assert_allclose(np.abs(positions(thing)[:, 2]), limit / 2, rtol=2e-4)
     assert len(thing.modifiers) == 1
     addon("bridge.nodes.inputs").set_inputs(thing.modifiers[0], {"Factor": 0.0})
     bpy.context.view_layer.update()
@@ -77,7 +77,7 @@ def test_scale_rotation_and_mirror():
     )
     bpy.context.view_layer.update()
     bpy.ops.object.medial_axis_thicken(limit=0.3)
-    np.testing.assert_allclose(3.0 * np.abs(positions(thing)[:, 2]), 0.15, rtol=5e-5)
+    np.testing.assert_allclose(3.0 * np.abs(positions(thing)[:, 2]), 0.15, rtol=2e-4)
     np.testing.assert_allclose(np.abs(positions(thing)[:, :2]), 1.0, rtol=1e-5)
 
 
@@ -88,7 +88,7 @@ def test_only_selected_faces_move():
     bpy.ops.object.medial_axis_thicken(limit=LIMIT, moving="SELECTED")
     height = positions(thing)[:, 2]
     np.testing.assert_allclose(height.min(), -0.01, rtol=1e-5)
-    np.testing.assert_allclose(height.max(), LIMIT - 0.01, rtol=2e-5)
+    np.testing.assert_allclose(height.max(), LIMIT - 0.01, rtol=2e-4)
 
 
 def test_a_vertex_group_tells_where_walls_moved():
