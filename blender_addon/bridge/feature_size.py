@@ -9,6 +9,7 @@ import numpy as np
 
 from ..core.machine.native import own_errors
 from .attributes import as_float32, set_attribute
+from .step_weights import write_steps
 
 if TYPE_CHECKING:
     import bpy
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     from ..core.samples.sampling_report import SamplingReport
 
 FEATURE_SIZE = "ma_feature_size"  # of the attribute and of the vertex group
-_STEPS = 100  # weights are written in so many steps, each in one call
 # Weights go from 1 at this share of the smallest sizes to 0 at the same share of the largest.
 _ENDS = 0.05
 
@@ -27,10 +27,7 @@ def write_feature_size(source: bpy.types.Object, found: SamplingReport) -> None:
     with own_errors() as module:
         sizes = found.feature_size[module.nearest(found.vertices, found.shape.points)]
     set_attribute(source.data, FEATURE_SIZE, "FLOAT", "POINT", as_float32(sizes))
-    group = source.vertex_groups.get(FEATURE_SIZE) or source.vertex_groups.new(name=FEATURE_SIZE)
-    steps = np.rint(_STEPS * detail_of(sizes)).astype(np.int64)
-    for step in np.unique(steps).tolist():
-        group.add(np.flatnonzero(steps == step).tolist(), step / _STEPS, "REPLACE")
+    write_steps(source, FEATURE_SIZE, detail_of(sizes))
 
 
 def detail_of(sizes: NDArray[np.float64]) -> NDArray[np.float64]:

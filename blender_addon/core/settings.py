@@ -628,6 +628,50 @@ class ThicknessSettings(Options):
 THICKNESS_OPTIONS = options_of(ThicknessSettings)
 
 
+class Moving(Enum):
+    """The walls that move where a solid is made thicker."""
+
+    BOTH = "BOTH"
+    SELECTED = "SELECTED"
+
+
+@dataclass(frozen=True)
+class ThickenSettings(Options):
+    """The least thickness of walls, and how they get it."""
+
+    limit: float = number(
+        "Limit",
+        "Walls that are thinner than this length become as thick",
+        default=0.0,
+        limits=(0.0, math.inf),
+        soft_maximum=1000.0,
+        unit="length",
+    )
+    moving: Moving = choice(
+        "Move",
+        "Which walls move",
+        default=Moving.BOTH,
+        items={
+            Moving.BOTH: ("Both Sides", "Each wall moves outward by half of what is missing"),
+            Moving.SELECTED: (
+                "Selected Faces",
+                "Only faces that are selected in edit mode move, by all that is missing",
+            ),
+        },
+    )
+    blend: float = number(
+        "Blend",
+        "How far beyond thin walls the surface rises to them; 0: as far as the limit",
+        default=0.0,
+        limits=(0.0, math.inf),
+        soft_maximum=1000.0,
+        unit="length",
+    )
+
+
+THICKEN_OPTIONS = options_of(ThickenSettings)
+
+
 # --- balls
 
 

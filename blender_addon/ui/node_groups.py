@@ -17,7 +17,7 @@ class OBJECT_OT_medial_axis_nodes(bpy.types.Operator):
     group: bpy.props.EnumProperty(
         name="Group",
         description="What the modifier does",
-        items=[(key, group.name, group.about) for key, group in GROUPS.items()],
+        items=[(key, group.name, group.about) for key, group in GROUPS.items() if group.of_axes],
         default="FILTER",
     )
 
@@ -45,6 +45,8 @@ class VIEW3D_MT_medial_axis_nodes(bpy.types.Menu):
 
     def draw(self, _context):
         for key, group in GROUPS.items():
+            if not group.of_axes:
+                continue
             button = self.layout.operator(
                 OBJECT_OT_medial_axis_nodes.bl_idname, text=group.name, icon="GEOMETRY_NODES"
             )

@@ -68,6 +68,8 @@ def _draw_found(context, layout, carrier):
         area = _area(context, carrier[of.AREA])
         column.label(text=say(f"Thinner: {area} ({share})"), icon="MESH_PLANE", translate=False)
         _draw_patches(context, column, carrier)
+        if carrier[of.AREA] > 0.0 and not carrier[of.GAP]:
+            _draw_thicken(context, layout)
     shown = shows_colours(context.space_data)
     layout.operator("view3d.medial_axis_show_colours", icon="COLOR", depress=shown)
     if shown:
@@ -75,6 +77,14 @@ def _draw_found(context, layout, carrier):
     layout.operator("export_scene.medial_axis_thickness", icon="EXPORT")
     for warning in carrier.get(WARNINGS, "").splitlines():
         draw_wrapped(context, layout, warning, "ERROR")
+
+
+def _draw_thicken(context, layout):
+    if current_job.job() is not None:
+        return
+    button = layout.operator("object.medial_axis_thicken", icon="MOD_SOLIDIFY")
+    copy_settings(context.scene.medial_axis, button)
+    button.limit = context.scene.medial_axis_thickness.limit
 
 
 def _draw_patches(context, column, carrier):

@@ -11,7 +11,7 @@ import bpy
 
 from ..mesh_arrays import read_positions
 from ..wires import wires_of
-from . import balls, filter, rebuild, thickness_colour
+from . import balls, filter, rebuild, thicken, thickness_colour
 from .inputs import set_inputs
 from .merging import merging_distance
 
@@ -24,11 +24,12 @@ _BUILT_BY = "ma_nodes"  # identifies our groups after someone renamed them
 
 @dataclass(frozen=True)
 class Group:
-    """A group: how it is called, and what it is for."""
+    """A group: how it is called, what it is for, and whether it works on medial axes."""
 
     name: str
     about: str
     build: Callable[[str], bpy.types.GeometryNodeTree]
+    of_axes: bool = True
 
 
 GROUPS = {
@@ -43,6 +44,12 @@ GROUPS = {
         "Medial Axis Thickness Colour",
         "Colour by radius, or by another number",
         thickness_colour.build,
+    ),
+    "THICKEN": Group(
+        "Medial Axis Thicken",
+        "Move the walls of a mesh as Thicken to the Limit found",
+        thicken.build,
+        of_axes=False,
     ),
 }
 

@@ -116,7 +116,7 @@ def lengths_by_faces(
     cut : bool
         The faces were cut.
     """
-    row = _first_rows(shape.points)
+    row = first_rows(shape.points)
     triangles = np.ascontiguousarray(row[shape.triangles].astype(np.int32))
     with native.own_errors() as module:
         balls_in = module.BallFaces(
@@ -155,7 +155,7 @@ def lengths_by_faces(
     return surface, measured, row, fine is not coarse
 
 
-def _first_rows(points: NDArray[np.float64]) -> NDArray[np.int64]:
+def first_rows(points: NDArray[np.float64]) -> NDArray[np.int64]:
     """(n,) the first row with the coordinates of each."""
     place = same_place(points)
     first = np.empty(place.max(initial=-1) + 1, np.int64)

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertex groups whose weights are given for all vertices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import bpy
+    from numpy.typing import NDArray
+
+_STEPS = 100  # weights are written in so many steps, each in one call
+
+
+def write_steps(source: bpy.types.Object, name: str, weights: NDArray[np.float64]) -> None:
+    """Give a mesh object in object mode a vertex group of (v,) weights from 0 to 1, rounded to hundredths."""
+    group = source.vertex_groups.get(name) or source.vertex_groups.new(name=name)
+    steps = np.rint(_STEPS * weights).astype(np.int64)
+    for step in np.unique(steps).tolist():
+        group.add(np.flatnonzero(steps == step).tolist(), step / _STEPS, "REPLACE")

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thicker walls on the artist's own mesh: the moves of its vertices as an attribute, a modifier that applies them, and
+a vertex group of where they are."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from ..core.errors import InvalidInputError
+from .attributes import as_float32, read_vectors
+from .evaluated_rows import keeps_rows
+from .mesh_arrays import read_loop_triangles
+from .nodes.groups import add_modifier, is_group
+from .nodes.inputs import input_of, set_inputs
+from .nodes.thicken import MOVES
+from .output_object import check_mode
+from .read_object import split_transform
+from .step_weights import write_steps
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+GROUP = "Medial Axis Thicken"
+_FACTOR = "Factor"
+
+
+def check_thickenable(source: bpy.types.Object) -> None:
+    """Raise InvalidInputError when the vertices of a source cannot get moves now."""
+    if source.type != "MESH" or source.data.library is not None:
+        raise InvalidInputError(
+            "Expected a mesh of this file, whose own vertices can be moved, found another object; convert it to a mesh"
+        )
+    check_mode(source)
+    if not keeps_rows(source):
+        raise InvalidInputError(
+            "Expected modifiers that keep the vertices and faces of the mesh, found some that make others; apply them "
+            "first"
+        )
+
+
+def write_moves(source: bpy.types.Object, moves: NDArray[np.float64]) -> None:
+    """Give a source the moves, on top of those that its modifier applies already.
+
+    Parameters
+    ----------
+    source : Object
+    moves : (v, 3) float64
+        In the frame of its shape, where its scale is applied.
+    """
+    _, rest = split_transform(np.array(source.matrix_world, np.float64))
+    local = moves @ np.linalg.inv(rest).T
+    modifier = thicken_modifier(source)
+    if modifier is not None and modifier.show_viewport:
+        local += input_of(modifier, _FACTOR) * read_vectors(
+            source.data.attributes[MOVES].data, "vector"
+        )
+    _set_moves(source.data, local)
+    if modifier is None:
+        modifier = add_modifier(source, "THICKEN")
+    modifier.show_viewport = True
+    set_inputs(modifier, {_FACTOR: 1.0})
+    lengths = np.linalg.norm(local, axis=1)
+    write_steps(source, GROUP, lengths / (lengths.max(initial=0.0) or 1.0))
+    source.data.update()
+
+
+def thicken_modifier(source: bpy.types.Object) -> bpy.types.NodesModifier | None:
+    """The modifier that moves the walls of a source and still finds how far; else None."""
+    for modifier in source.modifiers:
+        is_ours = modifier.type == "NODES" and is_group(modifier.node_group, "THICKEN")
+        if is_ours and MOVES in source.data.attributes:
+            return modifier
+    return None
+
+
+def selected_triangles(source: bpy.types.Object) -> NDArray[np.bool_]:
+    """(m,) which of a mesh's triangles belong to faces that are selected in edit mode."""
+    selected = np.zeros(len(source.data.polygons), bool)
+    source.data.polygons.foreach_get("select", selected)
+    _, polygons = read_loop_triangles(source.data)
+    return selected[polygons]
+
+
+def _set_moves(mesh: bpy.types.Mesh, moves: NDArray[np.float64]) -> None:
+    found = mesh.attributes.get(MOVES)
+    if found is not None and (found.domain, found.data_type) != ("POINT", "FLOAT_VECTOR"):
+        mesh.attributes.remove(found)
+    if MOVES not in mesh.attributes:
+        mesh.attributes.new(MOVES, "FLOAT_VECTOR", "POINT")
+    mesh.attributes[MOVES].data.foreach_set("vector", as_float32(moves).ravel())

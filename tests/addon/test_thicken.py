@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thicken to the Limit: thin walls get the limit, by a modifier on the artist's own mesh, and nothing else moves."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix, Vector
+from scene import addon, refuse
+
+LIMIT = 0.1
+
+
+def plate(thickness=0.02, cuts=0):
+    """A plate of 2 by 2, and its object."""
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    thing = bpy.context.object
+    thing.data.transform(Matrix.Diagonal((1.0, 1.0, thickness / 2, 1.0)))
+    if cuts:
+        mesh = bmesh.new()
+        mesh.from_mesh(thing.data)
+        bmesh.ops.subdivide_edges(mesh, edges=mesh.edges, cuts=cuts, use_grid_fill=True)
+        mesh.to_mesh(thing.data)
+        mesh.free()
+    return thing
+
+
+def positions(thing):
+    """(v, 3) the evaluated vertices."""
+    mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    values = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", values)
+    return values.reshape(-1, 3)
+
+
+def test_a_plate_gets_the_limit_and_keeps_its_outline():
+    thing = plate()
+    mesh, uvs = thing.data, [tuple(uv.uv) for uv in thing.data.uv_layers[0].data]
+    own = np.array([vertex.co[:] for vertex in mesh.vertices])
+    assert bpy.ops.object.medial_axis_thicken(limit=LIMIT) == {"FINISHED"}
+    moved = positions(thing)
+    np.testing.assert_allclose(np.abs(moved[:, 2]), LIMIT / 2, rtol=2e-4)
+    np.testing.assert_allclose(moved[:, :2], own[:, :2], atol=1e-6)
+    assert thing.data == mesh and [tuple(uv.uv) for uv in mesh.uv_layers[0].data] == uvs
+    np.testing.assert_array_equal([vertex.co[:] for vertex in mesh.vertices], own)
+    assert [modifier.name for modifier in thing.modifiers] == ["Medial Axis Thicken"]
+
+
+def test_it_is_measured_again_and_not_outdated():
+    thing = plate(cuts=7)
+    bpy.ops.object.medial_axis_thickness(limit=LIMIT)
+    of = addon("bridge.thickness_object")
+    assert of.carrier_of(thing)[of.SHARE] == pytest.approx(1.0)
+    bpy.ops.object.medial_axis_thicken(limit=LIMIT)
+    carrier = of.carrier_of(thing)
+    assert carrier[of.MINIMUM] == pytest.approx(LIMIT, rel=2e-4) and carrier[of.SHARE] == 0.0
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    assert not addon("bridge.source_state").has_changed(carrier, depsgraph)
+
+
+def test_a_second_click_adds_to_the_first_and_the_factor_takes_it_back():
+    thing = plate()
+    for limit in (LIMIT, 2 * LIMIT):
+        bpy.ops.object.medial_axis_thicken(limit=limit)
+        np.testing.assert_allclose(np.abs(positions(thing)[:, 2]), limit / 2, rtol=2e-4)
+    assert len(thing.modifiers) == 1
+    addon("bridge.nodes.inputs").set_inputs(thing.modifiers[0], {"Factor": 0.0})
+    bpy.context.view_layer.update()
+    np.testing.assert_allclose(np.abs(positions(thing)[:, 2]), 0.01, rtol=1e-5)
+
+
+def test_scale_rotation_and_mirror():
+    thing = plate()
+    thing.matrix_world = Matrix.LocRotScale(
+        Vector((3.0, 1.0, 2.0)), Matrix.Rotation(0.7, 3, "X"), Vector((2.0, -1.0, 3.0))
+    )
+    bpy.context.view_layer.update()
+    bpy.ops.object.medial_axis_thicken(limit=0.3)
+    np.testing.assert_allclose(3.0 * np.abs(positions(thing)[:, 2]), 0.15, rtol=2e-4)
+    np.testing.assert_allclose(np.abs(positions(thing)[:, :2]), 1.0, rtol=1e-5)
+
+
+def test_only_selected_faces_move():
+    thing = plate()
+    for face in thing.data.polygons:
+        face.select = face.normal.z > 0.5
+    bpy.ops.object.medial_axis_thicken(limit=LIMIT, moving="SELECTED")
+    height = positions(thing)[:, 2]
+    np.testing.assert_allclose(height.min(), -0.01, rtol=1e-5)
+    np.testing.assert_allclose(height.max(), LIMIT - 0.01, rtol=2e-4)
+
+
+def test_a_vertex_group_tells_where_walls_moved():
+    thing = plate()
+    bpy.ops.object.medial_axis_thicken(limit=LIMIT)
+    group = thing.vertex_groups["Medial Axis Thicken"]
+    assert [round(group.weight(v), 6) for v in range(8)] == [1.0] * 8
+
+
+def open_mesh():
+    bpy.ops.mesh.primitive_plane_add()
+
+
+def subdivided():
+    plate().modifiers.new("Subdivision", "SUBSURF")
+
+
+@pytest.mark.parametrize(
+    "make, limit, words",
+    [
+        (plate, 0.0, "Expected a limit above 0"),
+        (subdivided, LIMIT, "Expected modifiers that keep the vertices"),
+        (open_mesh, LIMIT, "Expected"),
+        (bpy.ops.curve.primitive_bezier_circle_add, LIMIT, "Expected a mesh of this file"),
+    ],
+)
+def test_what_cannot_be_thickened_is_told_and_left(make, limit, words):
+    make()
+    thing = bpy.context.object
+    before = len(thing.modifiers), set(bpy.data.objects), set(bpy.data.node_groups)
+    refuse(words, "medial_axis_thicken", limit=limit)
+    assert (len(thing.modifiers), set(bpy.data.objects), set(bpy.data.node_groups)) == before
+
+
+def test_a_thick_solid_stays_without_a_modifier():
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.object.medial_axis_thicken(limit=LIMIT)
+    assert not bpy.context.object.modifiers

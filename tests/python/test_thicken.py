@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thin walls moved apart to a limit: solids whose thickness afterwards is known, and those that must not change."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import (
+    Between,
+    Edges,
+    Moving,
+    Settings,
+    ThickenSettings,
+    ThicknessSettings,
+)
+from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
+from medial_axis.core.solid.thicken import thicken
+from medial_axis.core.solid.thickness import measure_thickness
+from support import thin_solids
+from support.thick_meshes import block, shell
+from support.thin_solids import turned, union
+
+pytestmark = pytest.mark.oracle
+
+LIMIT = 0.05
+
+
+def shape_of(mesh):
+    points, triangles = mesh
+    return Shape(np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32))
+
+
+def thickened(mesh, limit=LIMIT, selected=None, **wanted):
+    settings = ThickenSettings(limit=limit, **wanted)
+    return thicken(shape_of(mesh), Settings(), settings, selected)
+
+
+def finer(mesh, longest):
+    """The mesh with its faces cut until no edge is longer."""
+    points, triangles = (np.ascontiguousarray(each) for each in mesh)
+    none = np.zeros((0, 2), np.int32), np.zeros(0, np.int8)
+    cut = cut_faces(coarse_faces(points, triangles.astype(np.int32), *none), longest)
+    return cut.points, cut.triangles
+
+
+@pytest.mark.parametrize("seed", (1, 2, 3))
+@pytest.mark.parametrize("name", ("plate", "profile_t", "profile_i", "profile_l", "fin", "cup"))
+def test_thin_solids_get_the_limit(name, seed):
+    found = thickened(turned(getattr(thin_solids, name)(0.01).mesh, seed))
+    assert not found.left.patches and not found.warnings
+    assert found.after.minimum == pytest.approx(LIMIT, rel=2e-4)
+
+
+def test_rims_stay_where_they_are():
+    """A plate grows in height only, by half on both sides."""
+    mesh = thin_solids.plate(0.01).mesh
+    moves = thickened(mesh).moves
+    np.testing.assert_allclose(moves[:, :2], 0.0, atol=1e-12)
+    np.testing.assert_allclose(np.abs(moves[:, 2]), 0.02, rtol=2e-3)
+
+
+def test_only_selected_faces_move():
+    points, triangles = thin_solids.plate(0.01).mesh
+    top = (points[triangles][:, :, 2] > 0.005).all(axis=1)
+    moves = thickened((points, triangles), moving=Moving.SELECTED, selected=top).moves
+    above = points[:, 2] > 0.005
+    np.testing.assert_allclose(moves[above][:, 2], 0.04, rtol=2e-3)
+    assert not moves[~above].any()
+
+
+def test_curved_walls():
+    found = thickened(turned(shell(1.0, 0.95)), limit=0.08)
+    assert not found.left.patches
+    lengths = found.after.of_vertices
+    assert lengths.min() > 0.0799 and np.quantile(lengths, 0.99) < 0.0815
+
+
+def test_a_thick_solid_stays():
+    found = thickened(block(1.0, 0.7, 0.4))
+    assert not found.moves.any() and not found.left.patches
+
+
+def test_what_is_far_from_thin_walls_stays():
+    """A fin on a cube: the cube moves within the blend only."""
+    mesh = finer(thin_solids.fin(0.01).mesh, 0.05)
+    found = thickened(mesh)
+    assert not found.left.patches
+    on_cube = mesh[0][:, 2] < 1.0 - 1e-9
+    assert not found.moves[on_cube].any()
+
+
+def test_a_blend_rises_to_the_wall():
+    """A plate that gets thicker along its length has the limit where it was thinner, and rises before that."""
+    points, triangles = finer(block(2.0, 0.5, 0.02), 0.04)
+    points = points - points.min(axis=0)
+    points[:, 2] *= 1.0 + 4.0 * points[:, 0]  # 0.02 to 0.18
+    found = thickened((points, triangles), blend=0.2)
+    assert not found.left.patches
+    moved = np.linalg.norm(found.moves, axis=1)
+    thickness = 0.02 * (1.0 + 4.0 * points[:, 0])
+    assert not moved[thickness > LIMIT + 0.01 + 0.08 * 0.2].any()
+    wall = (points[:, 2] < 1e-9) | (points[:, 2] > thickness - 1e-9)
+    assert (moved[wall & (thickness < 0.045)] > 0.0).all()
+
+
+def slot(width):
+    """Two walls of 0.01 on a block, with a slot between them."""
+    start = 0.2 + 0.01 + width
+    return union(
+        ((0, 0, 0), (1, 1, 0.3)),
+        ((0.2, 0, 0.3), (0.21, 1, 0.8)),
+        ((start, 0, 0.3), (start + 0.01, 1, 0.8)),
+    )
+
+
+@pytest.mark.parametrize("seed", (1, 2))
+def test_walls_of_a_narrow_slot_do_not_meet(seed):
+    found = thickened(turned(slot(0.03), seed))
+    assert found.gap == pytest.approx(0.03, rel=1e-4)
+    assert any("gaps down to 0.03" in sentence for sentence in found.warnings)
+    after = replace(found.after.shape, reading=None)
+    gap = measure_thickness(after, Settings(), ThicknessSettings(between=Between.GAP))
+    assert 0.002 < gap.minimum < 0.03
+    assert not found.left.patches  # the free sides gain what the others may not
+
+
+def test_walls_of_a_wide_slot_get_the_limit():
+    found = thickened(turned(slot(0.2)))
+    assert not found.left.patches and not found.warnings
+
+
+def test_faces_that_are_thin_in_part_ask_for_a_subdivision():
+    mesh = thin_solids.wedge(10.0).mesh
+    with pytest.raises(InvalidInputError, match="thin in part; subdivide them"):
+        thickened(mesh)
+    found = thickened(finer(mesh, 0.03))
+    assert not found.left.patches
+    before = measure_thickness(found.before.shape, Settings(), ThicknessSettings(edges=Edges.GREY))
+    thin = before.of_triangles < LIMIT
+    after = measure_thickness(found.after.shape, Settings(), ThicknessSettings(edges=Edges.GREY))
+    assert (after.of_triangles[thin] > LIMIT * 0.999).mean() > 0.95
+
+
+def test_open_meshes_and_no_limit_are_refused():
+    points, triangles = thin_solids.plate(0.01).mesh
+    with pytest.raises(InvalidInputError, match="Expected closed faces"):
+        thickened((points, triangles[:-1]))
+    with pytest.raises(InvalidInputError, match="Expected a limit above 0"):
+        thickened((points, triangles), limit=0.0)
+
+
+def test_scale_changes_nothing_but_the_unit():
+    mesh = turned(thin_solids.profile_t(0.01).mesh)
+    moves = thickened(mesh).moves
+    for scale in (2.0**-20, 2.0**20):
+        scaled = thickened((mesh[0] * scale, mesh[1]), limit=LIMIT * scale).moves
+        np.testing.assert_array_equal(scaled, moves * scale)
