@@ -41,10 +41,10 @@ def told(random: Random, folder: Path) -> None:
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr[-300:]
     code, found = map(int, done.stdout.split()[-2:])
-    said = memory_needed(
-        len(points),
-        Use(faces=faces, side=Side[side.upper()], levels=form != "published", output=suffix),
-    )
+    levels = form != "published"
+    crisp = len(triangles) if faces and levels else 0
+    use = Use(faces=faces, side=Side[side.upper()], levels=levels, output=suffix, triangles=crisp)
+    said = memory_needed(len(points), use)
     at = f"{len(points):,} points, {faces=}, {side}, {form}, {suffix}: {found / said:.3f} of {said:,}"
     print(f"memory {at}", flush=True)
     nothing_outside = side == "outer" and "no facet passes" in done.stderr

@@ -15,6 +15,7 @@ from medial_axis.core.samples.surface_samples import _of_rows, are_paired
 from medial_axis.core.samples.walls import Walls
 from support import thin_solids
 from support.readers import area_of
+from support.thick_meshes import shell
 
 
 def computed(solid, **options):
@@ -68,6 +69,17 @@ def test_small_faces_at_a_sharp_edge_and_narrow_slots_are_not_buried():
         bare, buried = find_bare(shape, *on_flat_faces(shape, found, 0.03), 0.03)
         assert buried == 0 and bare.all() == (mesh[0] is tip)
         assert find_bare(shape, *on_flat_faces(shape, found, 0.03), 0.03, gaps=True)[0].all()
+
+
+def test_kept_vertices_bound_the_spacing_however_small_the_count_is():
+    """Else every vertex is a neighbour of all others, and thousands of them take minutes."""
+    points, triangles = shell(1.0, 0.9)
+    kept = native.load().sample_surface(
+        points, triangles, count=100, keep_vertices=True, pairs=True
+    )
+    assert len(points) <= len(kept.points) < 2.2 * len(points)
+    spacing = np.sqrt(1.1547 * kept.area / len(points))
+    assert kept.radius.max() < 2 * spacing
 
 
 def test_every_share_of_the_rest_leaves_room_for_the_next_one():

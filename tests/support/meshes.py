@@ -84,7 +84,9 @@ def uv_sphere(segments: int = 32, rings: int = 16, radius: float = 1.0) -> Mesh:
     return vertices, np.concatenate(triangles).astype(np.int32)
 
 
-def torus(big: float = 1.0, small: float = 0.4, around: int = 48, across: int = 20, turn: float = 0.0) -> Mesh:
+def torus(
+    big: float = 1.0, small: float = 0.4, around: int = 48, across: int = 20, turn: float = 0.0
+) -> Mesh:
     u, v = np.meshgrid(
         np.arange(around) * 2 * np.pi / around,
         (np.arange(across) + turn) * 2 * np.pi / across,

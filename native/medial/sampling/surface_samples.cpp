@@ -331,13 +331,22 @@ Attempt sample_once(const Model& model, const SamplingOptions& options, const Sp
   return sample_once(model, options, spacing, expected_of(model, spacing, run), run);
 }
 
+// Returns the count to aim for. Where vertices are kept, a smaller count than theirs cannot be met,
+// and spacings for it would make each of them a neighbour of nearly all others, which are all asked
+// for partners.
+double wanted_count(const Model& model, const SamplingOptions& options) {
+  const auto count = static_cast<double>(*options.count);
+  if (!options.keep_vertices || !model.walls) return count;
+  return std::max(count, static_cast<double>(model.mesh.points.size()));
+}
+
 // This bounds the samples on creases in the first attempt, as a multiple of the count.
 constexpr double kMostOnCreases = 256;
 
 // Changes the spacing until the count is met within a hundredth; returns the nearest attempt.
 Attempt sample_count(const Model& model, const SamplingOptions& options, const Run& run) {
   constexpr int kAttempts = 8;
-  const auto wanted = static_cast<double>(*options.count);
+  const double wanted = wanted_count(model, options);
   const auto error = [&](const Attempt& t) { return std::abs(t.count() - wanted); };
   // Spikes have length but no area, so their creases alone could take any number of samples.
   const double longest = crease_length(model) / (kMostOnCreases * wanted);
@@ -394,7 +403,7 @@ Attempt sample_sized(const Model& model, const SamplingOptions& options, const R
   const SizingField field(*options.sites, spacings, run);
   Spacing spacing{1, &field};
   if (!options.count) return sample_once(model, options, spacing, run);
-  const auto most = static_cast<double>(*options.count);
+  const double most = wanted_count(model, options);
   Expected expected = bounded(model, *options.count, spacing, run);
   for (int i = 0; i < 2 && expected.count > most; ++i) {
     spacing.scale *= std::sqrt(expected.count / most);
