@@ -64,3 +64,19 @@ def test_samples_on_faces_have_no_noise(thickness):
     )
     assert found.noise == 0.0
     assert not any("scatter" in text or "Noise" in text for text in found.warnings)
+
+
+@pytest.mark.parametrize("copies", (1, 2))
+def test_a_twisted_sheet_is_told_to_get_thickness(copies):
+    """Lower thresholds would not help: the sheet bounds nothing."""
+    corners = (
+        (0.0498759, 0.964456, 0.0949991),
+        (0.042335, 0.96222, 0.0980526),
+        (0.0418548, 0.961535, 0.096869),
+        (0.049267, 0.963762, 0.0939126),
+    )
+    sheet = np.array(corners), np.array([(3, 2, 1), (3, 1, 0)] * copies)
+    found = compute_axis(shape_of(sheet), Settings())
+    assert found.axis.is_empty
+    assert any("give them thickness" in sentence for sentence in found.warnings)
+    assert not any("lower theta" in sentence for sentence in found.warnings)

@@ -91,4 +91,9 @@ def _why_empty(shape: Shape, settings: Settings, chosen: ChosenSamples, axis: Me
             f"the shape is about {thickness:.2g} thick, less than its samples are apart ({spacing:.2g}); "
             "use more samples, or a smaller Spacing"
         )
+    if chosen.gaps and settings.side is not Side.OUTER:
+        return (
+            f"the faces are open at {chosen.gaps:,} edges and bound nothing as thick as the samples are apart "
+            f"({spacing:.2g}); give them thickness (a Solidify modifier), or use more samples"
+        )
     return "no facet passes the conditions; lower theta or rho, or choose another side"
