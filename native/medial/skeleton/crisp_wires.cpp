@@ -51,12 +51,12 @@ void end_wires(CrispState& state) {
   for (const auto& [v, next] : state.wires) {
     if (state.made.place[v] != Placing::touching && state.made.place[v] != Placing::refused)
       continue;
+    state.stays[v] = 1;  // where no ball is found, too: the whole wire begins there
     const Touch end = wire_end(state, v, next);
     if (!(end.radius > 0)) continue;
     state.take(v, end);
     state.made.place[v] = Placing::touching;
     state.follows[v] = -1;
-    state.stays[v] = 1;
   }
   std::erase_if(state.followers, [&](int32_t v) { return state.follows[v] < 0; });
 }
