@@ -391,19 +391,18 @@ class Bars:
 OPEN: dict[tuple[str, int], dict[str, float]] = {
     ("profile", 4_000): {"folds": 2},
     ("plate", 4_000): {"cov_99": 3e-4, "folds": 4},
-    ("plate", 20_000): {"folds": 4},
+    ("plate", 20_000): {"folds": 2},
     ("cylinder", 4_000): {"cov": 2e-3, "cov_99": 3e-4, "folds": 4, "crossings": 10},
     ("cylinder", 20_000): {"folds": 5, "crossings": 8},
-    ("cone", 4_000): {"cov": 3e-3, "cov_99": 2e-4, "folds": 5, "crossings": 15},
+    ("cone", 4_000): {"cov": 1.6e-3, "cov_99": 1.3e-4, "folds": 3, "crossings": 8},
     ("cone", 20_000): {"folds": 4, "crossings": 12},
     ("stadium", 4_000): {"err": 1.5e-3, "cov": 2.5e-3, "cov_99": 3e-4, "folds": 6, "crossings": 10},
-    ("stadium", 20_000): {"folds": 20, "crossings": 40},
+    ("stadium", 20_000): {"folds": 6, "crossings": 5},
     ("oblate", 4_000): {"err": 3e-3, "err_99": 8e-4, "cov": 1.5e-3, "folds": 5},
-    ("oblate", 20_000): {"err": 5e-3, "err_99": 6e-4, "cov": 5e-3, "rim": 0.025, "folds": 20}
-    | {"crossings": 15},
+    ("oblate", 20_000): {"err": 2.6e-3, "err_99": 4.2e-4, "cov": 3.5e-3, "rim": 0.016, "folds": 7}
+    | {"crossings": 5},
     ("ellipsoid", 4_000): {"err": 3e-3, "err_99": 8e-4, "cov": 1.5e-3, "folds": 5},
-    ("ellipsoid", 20_000): {"err": 5e-3, "err_99": 6e-4, "cov": 2e-3, "rim": 0.02, "folds": 10}
-    | {"crossings": 10},
+    ("ellipsoid", 20_000): {"err": 2.3e-3, "err_99": 4.2e-4, "cov": 9e-4, "folds": 3},
 }
 
 
