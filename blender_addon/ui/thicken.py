@@ -97,7 +97,7 @@ class OBJECT_OT_medial_axis_thicken(
             remember_state(carrier, state_of(source_of(carrier) or carrier, depsgraph))
 
     def summary(self, found):
-        if not found.moves.any():
+        if not found.moves.any() and not found.left.patches:
             return f"Nothing had to move; minimum {found.after.minimum:.4g}"
         text = f"Minimum {found.before.minimum:.4g} is {found.after.minimum:.4g} now"
         if found.left.patches:

@@ -19,7 +19,7 @@ from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.solid.thicken import thicken
 from medial_axis.core.solid.thickness import measure_thickness
 from support import thin_solids
-from support.thick_meshes import block, shell
+from support.thick_meshes import block, ellipsoid, shell
 from support.thin_solids import turned, union
 
 pytestmark = pytest.mark.oracle
@@ -75,6 +75,13 @@ def test_curved_walls():
     assert not found.left.patches
     lengths = found.after.of_vertices
     assert lengths.min() > 0.0799 and np.quantile(lengths, 0.99) < 0.0815
+
+
+def test_round_ends_gain_with_the_rest():
+    """A body without edges whose walls are thick enough, and its ends are not."""
+    points, triangles = ellipsoid((1.0, 0.5, 0.5), 4)
+    found = thickened((points, triangles), limit=0.9)
+    assert found.before.minimum < 0.7 and found.after.minimum > 0.899
 
 
 def test_a_thick_solid_stays():

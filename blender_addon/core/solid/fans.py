@@ -42,6 +42,13 @@ class Fans:
     normal: NDArray[np.float64]
     triangle: NDArray[np.int64]
 
+    def of_smooth_parts(self, sharp: NDArray[np.int32]) -> NDArray[np.bool_]:
+        """(k,) the fans of parts of the surface that no sharp edge bounds; `sharp` is as of `fans_of`."""
+        pairs = np.concatenate((self.of_corners[:, :2], self.of_corners[:, 1:]))
+        part = _united(len(self.vertex), pairs)
+        at_sharp = np.isin(self.vertex, sharp)
+        return ~np.isin(part, part[at_sharp])
+
     def spread(
         self, points: NDArray[np.float64], amount: NDArray[np.float64], slope: float
     ) -> NDArray[np.float64]:

@@ -128,10 +128,10 @@ def _settled(
 ) -> tuple[NDArray[np.float64], bool]:
     """(v, 3) the moves after which nothing lacks or no round helps, and whether farther ones would make walls cross."""
     moves = last = np.zeros_like(walls.points)
-    best = np.inf
+    best = walls.missing
     for number in range(1, _ROUNDS + 1):
         progress.begin_section(number / (_ROUNDS + 2), (number + 1) / (_ROUNDS + 2))
-        # Only places between walls begin to move, so that rims of plates stay; places at edges follow these.
+        # At first only places between walls move where there are edges, so that rims of plates stay.
         edges = Edges.GREY if number == 1 else Edges.EXTRAPOLATE
         moved = walls.shape_of(moves)
         if number > 1 and not are_enough(moved, settings, _asked(wanted, edges)):
@@ -139,12 +139,14 @@ def _settled(
         found = measured(moved, edges)
         if number == 1:
             _check_size(found, wanted.limit)
-        lack = _missing(found, wanted.limit)
-        if lack == 0.0:
-            break
-        if lack >= best:
-            return last, False
-        last, best = moves, lack
+        else:
+            lack = _missing(found, wanted.limit)
+            if lack == 0.0:
+                break
+            if lack >= best:
+                return last, False
+            best = lack
+        last = moves
         moves = walls.moved_for(found, moves, number)
     return moves, False
 
@@ -228,6 +230,10 @@ class _Walls:
                 sharp_edges=self._shape.sharp_edges,
             ).creases()
         self._fans = fans_of(self._shape.points, self._triangles, sharp)
+        # Where a part has no edges, all that is thin moves, its round ends too.
+        self._smooth = self._fans.of_smooth_parts(sharp)
+        self._lack_of_smooth = self._lack(found)
+        self.missing = _missing(found, wanted.limit)
         self._share = 1.0 if wanted.moving is Moving.SELECTED else 0.5
         self._still = self._staying(selected)
         self._may_move = ~self._still
@@ -259,7 +265,10 @@ class _Walls:
         points = self._shape.points + moves
         # Walls that are still thin after some rounds lack very little, or the opposite wall may gain no more.
         share = self._share if number <= _HALVES else 1.0
-        gain = np.where(self._may_move, share * self._lack(found), 0.0)
+        lack = self._lack(found)
+        if number == 1:
+            lack[self._smooth] = self._lack_of_smooth[self._smooth]
+        gain = np.where(self._may_move, share * lack, 0.0)
         if not gain.any():
             return moves
         width = self._wanted.blend or self._wanted.limit

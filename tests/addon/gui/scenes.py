@@ -41,7 +41,7 @@ RESULT, REBUILD = (
 )  # where there is a result; the second, when the first is closed
 REPORT = (102, 442)
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 384), (102, 410)
-MEASURE_THICKNESS = (102, 432)
+MEASURE_THICKNESS, THICKEN = (102, 432), (102, 548)
 REBUILD_SOLID = (102, 443)
 
 
@@ -582,7 +582,7 @@ def branches():
 
 
 def scene_what_comes_after():
-    """Skeleton, armature, thickness, the solid again and nodes, each by the button of its panel."""
+    """Skeleton, armature, thickness, thicker walls, the solid again and nodes, each by the button of its panel."""
     source = branches()
     yield from open_tab()
     yield from fold(SKELETON)
@@ -605,6 +605,10 @@ def scene_what_comes_after():
     yield patience(1.0)
     look("5-thickness-in-colours")
     assert addon("ui.show").shows_colours(viewport().spaces.active), "they are switched on"
+    yield from click(*at(THICKEN))
+    yield from until(lambda: "Medial Axis Thicken" in source.modifiers)
+    look("6-thicker")
+    assert source["ma_thickness_share"] == 0.0, "it is measured again"
     show_colours()
     yield from fold(THICKNESS)
 
