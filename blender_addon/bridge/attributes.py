@@ -50,7 +50,7 @@ class Attribute:
     @property
     def key(self) -> str:
         """Blender's name for the numbers of an element."""
-        return "vector" if self.type == "FLOAT_VECTOR" else "value"
+        return _key_of(self.type)
 
     def values(self, axis: MedialAxis | LevelValues | Structure | SamplingReport) -> NDArray:
         """The flat array that `foreach_set` wants; of edges, those that the values are about."""
@@ -124,6 +124,11 @@ def structure_attributes() -> tuple[Attribute, ...]:
     return _STRUCTURE
 
 
+def _key_of(kind: str) -> str:
+    """The property in which Blender keeps the values of a kind of attribute."""
+    return "vector" if kind == "FLOAT_VECTOR" else "value"
+
+
 def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, values: NDArray) -> None:
     """Give a mesh in object mode an attribute; one of that name and of another kind is replaced.
 
@@ -137,7 +142,7 @@ def set_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str, value
         mesh.attributes.remove(found)
         found = None
     target = found or _new_attribute(mesh, name, kind, domain)
-    target.data.foreach_set("value", values)
+    target.data.foreach_set(_key_of(kind), values)
 
 
 def _new_attribute(mesh: bpy.types.Mesh, name: str, kind: str, domain: str) -> bpy.types.Attribute:

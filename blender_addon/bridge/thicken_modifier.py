@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
-from .attributes import as_float32, read_vectors
+from .attributes import as_float32, read_vectors, set_attribute
 from .evaluated_rows import keeps_rows
 from .mesh_arrays import read_loop_triangles
 from .nodes.groups import add_modifier, is_group
@@ -57,7 +57,7 @@ def write_moves(source: bpy.types.Object, moves: NDArray[np.float64]) -> None:
         local += input_of(modifier, _FACTOR) * read_vectors(
             source.data.attributes[MOVES].data, "vector"
         )
-    _set_moves(source.data, local)
+    set_attribute(source.data, MOVES, "FLOAT_VECTOR", "POINT", as_float32(local).ravel())
     if modifier is None:
         modifier = add_modifier(source, "THICKEN")
     modifier.show_viewport = True
@@ -82,12 +82,3 @@ def selected_triangles(source: bpy.types.Object) -> NDArray[np.bool_]:
     source.data.polygons.foreach_get("select", selected)
     _, polygons = read_loop_triangles(source.data)
     return selected[polygons]
-
-
-def _set_moves(mesh: bpy.types.Mesh, moves: NDArray[np.float64]) -> None:
-    found = mesh.attributes.get(MOVES)
-    if found is not None and (found.domain, found.data_type) != ("POINT", "FLOAT_VECTOR"):
-        mesh.attributes.remove(found)
-    if MOVES not in mesh.attributes:
-        mesh.attributes.new(MOVES, "FLOAT_VECTOR", "POINT")
-    mesh.attributes[MOVES].data.foreach_set("vector", as_float32(moves).ravel())

@@ -127,3 +127,10 @@ def test_a_thick_solid_stays_without_a_modifier():
     bpy.ops.mesh.primitive_cube_add()
     bpy.ops.object.medial_axis_thicken(limit=LIMIT)
     assert not bpy.context.object.modifiers
+
+
+def test_a_taken_name_is_told_and_nothing_is_left():
+    thing = plate()
+    thing.vertex_groups.new(name="ma_thicken")
+    refuse("Expected the name 'ma_thicken' to be free", "medial_axis_thicken", limit=LIMIT)
+    assert not thing.modifiers and [group.name for group in thing.vertex_groups] == ["ma_thicken"]
