@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from medial_axis import cli
 from medial_axis.core.axis.compute import compute_axis
+from medial_axis.core.errors import DegenerateInputError
 from medial_axis.core.samples.mesh_parts import split
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
@@ -215,3 +216,58 @@ def test_each_part_on_the_command_line(tmp_path, capsys):
     assert cli.main([*paths, "--each-part", "--json", "--samples", "1500"]) == cli.INPUT
     again = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert [report["status"] for report in again] == ["kept", "kept", "failed"]
+
+
+# --- bent sheets
+
+ARCH = grid(12)
+
+
+def bent(height, faces=ARCH):
+    """A grid bent to an arch across x; the height is a share of its width."""
+    x = (faces[0][:, 0] - faces[0][:, 0].min()) / np.ptp(faces[0][:, 0])
+    return np.column_stack(
+        (faces[0][:, :2], 4 * height * np.ptp(faces[0][:, 0]) * x * (1 - x))
+    ), faces[1]
+
+
+def panels(mesh):
+    """The faces of a cube as six parts, a crack of a thousandth apart."""
+    points, triangles = mesh
+    middle = points.mean(axis=0)
+    normals = np.cross(*(points[triangles[:, k]] - points[triangles[:, 0]] for k in (1, 2)))
+    apart = (
+        points[triangles] + 1e-3 * normals[:, None] / np.linalg.norm(normals, axis=1)[:, None, None]
+    )
+    return (apart - middle).reshape(-1, 3), np.arange(triangles.size, dtype=np.int32).reshape(-1, 3)
+
+
+@pytest.mark.parametrize("height", [0.001, 0.02, 0.1, -0.001, -0.02, -0.1])
+@pytest.mark.parametrize("size", [1.0, 1e6])
+def test_a_bent_sheet_is_refused(height, size):
+    points, triangles = bent(height)
+    with pytest.raises(DegenerateInputError, match="found bent sheets without thickness"):
+        compute_axis(Shape(size * points, triangles), Settings(**FEW))
+    with pytest.raises(DegenerateInputError, match="1 without"):
+        split(Shape(size * points, triangles), Settings(**FEW))
+
+
+@pytest.mark.parametrize("height", [0.02, -0.02])
+def test_bent_sheets_beside_a_solid_are_left_out(height):
+    points, triangles = bent(height)
+    mesh = meshes.join(cube(), (points + 2.0, triangles), (points * (3, 3, 3) - 5.0, triangles))
+    found = compute_axis(Shape(*mesh), Settings(**FEW))
+    assert found.axis.level.betti == (1, 0, 0) and found.mesh.sheets == 2
+    assert found.axis.vertices.min() > -0.01 and found.axis.vertices.max() < 1.01
+
+
+@pytest.mark.parametrize("missing", [1, 2])
+def test_boxes_with_open_sides_are_none(missing):
+    points, triangles = cube()
+    found = compute_axis(Shape(points, triangles[2 * missing :]), Settings(**FEW))
+    assert found.settings.sides is SidesFrom.SURFACE and found.mesh.sheets == 0
+
+
+def test_panels_of_a_cube_bound_it_together():
+    found = compute_axis(Shape(*panels(cube())), Settings(**FEW))
+    assert found.settings.sides is SidesFrom.SURFACE and found.axis.level.betti == (1, 0, 0)

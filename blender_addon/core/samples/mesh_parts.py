@@ -11,7 +11,9 @@ import numpy as np
 
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
-from ..settings import SamplingMode, SidesFrom
+from ..settings import SamplingMode, Side, SidesFrom
+from .bent_sheets import bent_sheets
+from .check_faces import check_not_flat
 from .outward_faces import OF_SHEETS, TURNED, outward_shape
 from .sample_spacing import first_pass
 from .sides import resolve_sides_of_samples
@@ -112,6 +114,8 @@ def mesh_counts(shape: Shape) -> MeshCounts | None:
         return None
     with native.own_errors() as module:
         part, is_open, place = module.part_places(shape.points, shape.triangles)
+    if is_open.any():
+        place = np.where(bent_sheets(shape, part, len(place)), np.uint8(Place.SHEET), place)
     known, count = part >= 0, len(place)
     turned = np.zeros(len(part), bool) if shape.reading is None else shape.reading == TURNED
     faces_of = np.bincount(part[known], minlength=count)
@@ -159,19 +163,50 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
     shape : Shape
         With faces that look outward.
     settings : Settings
+
+    Raises
+    ------
+    DegenerateInputError
+        The inner side is wanted, and all faces are those of bent sheets.
     """
-    if settings.sampling is SamplingMode.VERTICES or not _is_sheet(shape, settings):
+    if settings.sampling is SamplingMode.VERTICES:
+        return shape
+    shape = _without_bent_sheets(shape, settings)
+    if not _is_sheet(shape, settings):
         return shape
     with native.own_errors() as module:
         part, _, place = module.part_places(shape.points, shape.triangles)
     of_sheets = (place == Place.SHEET)[part] & (part >= 0)
     if not of_sheets.any() or (of_sheets | (part < 0)).all():
         return shape
-    triangles = np.where(of_sheets[:, None], shape.triangles[:, :1], shape.triangles)
-    reading = np.zeros(len(part), np.uint8) if shape.reading is None else shape.reading
-    reading = np.where(of_sheets, np.uint8(OF_SHEETS), reading)
-    found = replace(shape, triangles=triangles, reading=reading, of_samples=False)
+    found = _leave_out(shape, of_sheets)
     return shape if _is_sheet(found, settings) else found
+
+
+def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
+    if not _decides_by_openings(shape, settings):
+        return shape
+    with native.own_errors() as module:
+        part, _, _ = module.mesh_parts(shape.points, shape.triangles)
+    of_sheets = bent_sheets(shape, part, int(part.max(initial=-1)) + 1)[part] & (part >= 0)
+    if not of_sheets.any():
+        return shape
+    if not (of_sheets | (part < 0)).all():
+        return _leave_out(shape, of_sheets)
+    if settings.side is not Side.INNER:
+        return shape
+    check_not_flat(shape)
+    raise DegenerateInputError(
+        "Expected faces that bound a solid, found bent sheets without thickness; give them "
+        "thickness (a Solidify modifier, or an extrusion)"
+    )
+
+
+def _leave_out(shape: Shape, of_sheets: NDArray[np.bool_]) -> Shape:
+    triangles = np.where(of_sheets[:, None], shape.triangles[:, :1], shape.triangles)
+    reading = np.zeros(len(shape.triangles), np.uint8) if shape.reading is None else shape.reading
+    reading = np.where(of_sheets, np.uint8(OF_SHEETS), reading)
+    return replace(shape, triangles=triangles, reading=reading, of_samples=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,13 +276,31 @@ def split(shape: Shape, settings: Settings) -> SplitShape:
     groups = np.split(order[np.count_nonzero(part < 0) :], ends[:-1])
     thick = np.flatnonzero(~is_flat).tolist()
     parts = [PartShape(number + 1, _some_faces(shape, groups[number])) for number in thick]
-    found = tuple(p for p in parts if not (is_open[p.number - 1] and _is_sheet(p.shape, settings)))
+    found = tuple(
+        p for p in parts if not (is_open[p.number - 1] and _has_no_thickness(p.shape, settings))
+    )
     if not found:
         raise DegenerateInputError(
             f"Expected connected parts with thickness, found {len(is_flat):,} without; give them "
             "thickness (a Solidify modifier, or an extrusion)"
         )
     return SplitShape(found, len(is_flat))
+
+
+def _has_no_thickness(shape: Shape, settings: Settings) -> bool:
+    """Whether one connected part is a sheet by itself, wavy or bent."""
+    if settings.sides is not SidesFrom.AUTOMATIC:
+        return False
+    read = outward_shape(shape)
+    whole = np.zeros(len(read.triangles), np.int32)
+    return _is_sheet(shape, settings) or bool(bent_sheets(read, whole, 1).any())
+
+
+def _decides_by_openings(shape: Shape, settings: Settings) -> bool:
+    if settings.sides is not SidesFrom.AUTOMATIC or not len(shape.triangles):
+        return False
+    with native.own_errors() as module:
+        return bool(module.open_edges(shape.points, shape.triangles))
 
 
 def _is_sheet(shape: Shape, settings: Settings) -> bool:

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Open parts of faces that are a sheet, however little it is bent: closing them takes a second sheet of the same size.
+
+Every surface with the same openings has the same sum of area vectors, so lids are at least as large as its length. A
+flat sheet needs its own area, a half ball half of it, a box without a wall a fifth, and a closed part nothing.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine import native
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .shape import Shape
+
+# A part is a sheet where its lids need at least this share of its own area: an arch of up to a seventh of its width.
+_LIDS = 0.95
+# On a part that bounds a solid together with others, the winding number is one half; a sheet by itself stays below
+# this, as an arch of a seventh does (0.1).
+_ALONE = 0.25
+_OFF = 1e-6  # the distance from its faces at which the two sides of a part are asked, as a share of a face's size
+
+
+def bent_sheets(shape: Shape, part: NDArray[np.int32], count: int) -> NDArray[np.bool_]:
+    """(count,) mark the parts that are sheets and bound nothing together with others.
+
+    Parameters
+    ----------
+    shape : Shape
+        With faces that look to one side in each part.
+    part : (m,) int32
+        The part of each face; -1 for none.
+    count : int
+        The number of parts.
+    """
+    corners = shape.points[shape.triangles]
+    vectors = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(vectors, axis=1)
+    sums = np.zeros((count, 3))
+    np.add.at(sums, part[part >= 0], vectors[part >= 0])
+    lids = np.linalg.norm(sums, axis=1)
+    found = (lids > 0.0) & (lids >= _LIDS * _sum_of(areas, part, count))
+    faces = np.flatnonzero(found[part] & (part >= 0) & (areas > 0.0))
+    if not len(faces):
+        return found
+    middle = corners[faces].mean(axis=1)
+    step = _OFF * vectors[faces] / np.sqrt(areas[faces])[:, None]
+    with native.own_errors() as module:
+        sides = (
+            module.winding_number(middle + way * step, shape.points, shape.triangles)
+            for way in (1, -1)
+        )
+        winding = 0.5 * sum(sides)
+    mean = _sum_of(areas[faces] * winding, part[faces], count)
+    return found & (np.abs(mean) < _ALONE * _sum_of(areas, part, count))
+
+
+def _sum_of(
+    values: NDArray[np.float64], part: NDArray[np.int32], count: int
+) -> NDArray[np.float64]:
+    known = part >= 0
+    return np.bincount(part[known], weights=values[known], minlength=count)
