@@ -220,15 +220,12 @@ def test_each_part_on_the_command_line(tmp_path, capsys):
 
 # --- bent sheets
 
-ARCH = grid(12)
 
-
-def bent(height, faces=ARCH):
-    """A grid bent to an arch across x; the height is a share of its width."""
-    x = (faces[0][:, 0] - faces[0][:, 0].min()) / np.ptp(faces[0][:, 0])
-    return np.column_stack(
-        (faces[0][:, :2], 4 * height * np.ptp(faces[0][:, 0]) * x * (1 - x))
-    ), faces[1]
+def bent(height):
+    """A grid bent to an arch across x."""
+    points, triangles = grid(12)
+    x = points[:, 0]
+    return np.column_stack((points[:, :2], 4 * height * x * (1 - x))), triangles
 
 
 def panels(mesh):
