@@ -60,12 +60,12 @@ class CarriedSheets:
 def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
     """Carry the sheets on to where they meet and to the walls."""
     away = _reflex_distances(sheets.vertices, walls)
-    bent = away <= (1.0 + _TOUCHES) * sheets.radius
+    bent = sheets.at_edge | (away <= (1.0 + _TOUCHES) * sheets.radius)
     planes = _Planes(sheets, bent)
     rows = _Rows(len(sheets.vertices))
     rows.add(planes.vertex, planes.places, planes.normals)
     straight = rows.solved(sheets.vertices)
-    _add_rims(rows, _rim(sheets, straight, planes), bent, walls)
+    _add_rims(rows, _rim(sheets, straight, planes, walls), bent, walls)
     vertices = rows.solved(straight)
     return CarriedSheets(
         vertices, sheets.triangles, sheets.part, planes.thickness_at_corners(vertices)
@@ -83,10 +83,22 @@ def _reflex_distances(points: NDArray[np.float64], walls: Walls) -> NDArray[np.f
         )
 
 
+def _clear(sheets: ThinSheets, bent: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(t,) the triangles whose facets lie between faces as a whole, and share no vertex with others."""
+    unclear = bent[sheets.triangles].any(axis=1) | ~sheets.facing
+    for _ in range(2):
+        of_facets = np.zeros(int(sheets.facet.max()) + 1, bool)
+        of_facets[sheets.facet[unclear]] = True
+        at = np.zeros(len(bent), bool)
+        at[sheets.triangles[of_facets[sheets.facet]]] = True
+        unclear = at[sheets.triangles].any(axis=1)
+    return ~unclear
+
+
 class _Planes:
     """The plane in which a sheet goes on at each of its vertices, and its thickness there.
 
-    Where the balls touch a reflex edge, it is that of the nearest vertex of the same sheet whose facets are between
+    Where the balls touch a reflex edge, and at sharp convex edges, it is that of the nearest vertex of the same sheet whose facets are between
     faces.
     """
 
@@ -107,7 +119,7 @@ class _Planes:
         """Whether each pair of sheet and vertex has facets between faces, and their mean normal and slope."""
         a, b, c = (sheets.vertices[sheets.triangles[:, i]] for i in range(3))
         area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        clear = ~bent[sheets.triangles].any(axis=1)
+        clear = _clear(sheets, bent)
         weight = np.where(clear, area, 0.0)
         total = np.zeros(len(self.vertex))
         sums = np.zeros((2, len(self.vertex), 3))
@@ -210,8 +222,10 @@ class _Rim:
         return _Rim(*(getattr(self, name)[rows] for name in self.__dataclass_fields__))
 
 
-def _rim(sheets: ThinSheets, straight: NDArray[np.float64], planes: _Planes) -> _Rim:
-    """The edges of one triangle that have a length and a ball."""
+def _rim(
+    sheets: ThinSheets, straight: NDArray[np.float64], planes: _Planes, walls: Walls
+) -> _Rim:
+    """The edges of one triangle that have a length and a ball, and are not at a wall."""
     ends = np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2)
     keys = np.sort(ends.reshape(-1, 2), axis=1).astype(np.int64) @ (len(straight), 1)
     _, edge, uses = np.unique(keys, return_inverse=True, return_counts=True)
@@ -222,11 +236,14 @@ def _rim(sheets: ThinSheets, straight: NDArray[np.float64], planes: _Planes) -> 
     out = np.cross(way, planes.normals_at(triangle, side))
     size = np.linalg.norm(out, axis=1)
     radius = planes.radii_at(straight, triangle, side)
-    has = (size > _SHORT * radius) & (radius > 0.0)
+    middles = straight[ends].mean(axis=1)
+    with own_errors() as module:
+        away = np.asarray(module.surface_distances(middles, walls.points, walls.triangles))
+    has = (size > _SHORT * radius) & (away > _TOUCHES * radius) & (radius > 0.0)
     return _Rim(
         ends,
         sheets.part[triangle],
-        straight[ends].mean(axis=1),
+        middles,
         radius,
         way / np.where(has, length, 1.0)[:, None],
         out / np.where(has, size, 1.0)[:, None],

@@ -10,18 +10,21 @@ import numpy as np
 
 from ..axis.directions import facet_areas, facet_normals
 from ..axis.facet_triangles import triangulate_facets
+from ..axis.medial_axis import ON_CREASE
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..axis.medial_axis import MedialAxis
+    from ..axis.medial_axis import LevelValues, MedialAxis
     from ..axis.structure import Structure
 
 # Both feet of a ball are seen at 120 degrees or more from its centre: then its radius changes by at most this share of
 # the way along the sheet.
 _FACING = 0.5
+_TAPER = 0.2  # the same at a sharp edge, to which a wall tapers; steeper facets there are those of a rim
+_SLIVER = 0.02  # a facet with less of the area of a disc of its perimeter tells no slope
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,10 +35,16 @@ class ThinSheets:
     ----------
     vertices : (v, 3) float64
     radius : (v,) float64
+    at_edge : (v,) bool
+        On a sharp convex edge of the solid.
     triangles : (t, 3) int32
         Those of a sheet turn the same way.
     part : (t,) int32
         The sheet of each triangle, 0 to `parts` - 1.
+    facet : (t,) int64
+        The facet of the axis that each triangle is a part of.
+    facing : (t,) bool
+        Whether the walls face each other there; no others tell where their sheet goes on.
     normals : (t, 3) float64
         Unit normals of the facets that the triangles are of.
     slopes : (t, 3) float64
@@ -45,20 +54,27 @@ class ThinSheets:
 
     vertices: NDArray[np.float64]
     radius: NDArray[np.float64]
+    at_edge: NDArray[np.bool_]
     triangles: NDArray[np.int32]
     part: NDArray[np.int32]
+    facet: NDArray[np.int64]
+    facing: NDArray[np.bool_]
     normals: NDArray[np.float64]
     slopes: NDArray[np.float64]
     parts: int
 
 
-def thin_sheets(axis: MedialAxis, least_width: float) -> ThinSheets:
+def thin_sheets(
+    axis: MedialAxis, patches: NDArray[np.int32] | None, least_width: float
+) -> ThinSheets:
     """Choose the sheets whose walls face each other, and which are much wider than they are thick.
 
     Parameters
     ----------
     axis : MedialAxis
         A clean axis of the inside with its structure.
+    patches : (n, 2) int32 or None
+        The patches of the samples, as of `AnalysedSamples`.
     least_width : float
         So many times as wide as its thickness a wall is at least.
     """
@@ -68,9 +84,16 @@ def thin_sheets(axis: MedialAxis, least_width: float) -> ThinSheets:
     areas = facet_areas(turned.vertices, *polygons)
     normals = facet_normals(turned.vertices, *polygons)
     slopes = _slopes(turned, areas, normals)
-    facing = np.linalg.norm(slopes, axis=1) < _FACING
+    at_edge = cast("LevelValues", axis.level).place >= ON_CREASE
+    steep = np.linalg.norm(slopes, axis=1)
+    to_edge = np.logical_or.reduceat(at_edge[turned.face_vertices], turned.face_offsets[:-1])
+    facing = (steep < np.where(to_edge, _TAPER, _FACING)) & ~_slivers(turned, areas)
     chosen = _walls(turned, structure, areas, facing, least_width)
-    kept = _without_frayed(turned, chosen[structure.part], facing)
+    part = structure.part
+    if patches is not None:
+        part, own = _own_parts(turned, structure, patches)
+        facing &= own
+    kept = _without_frayed(turned, chosen[part], facing)
     facets = np.repeat(np.arange(len(areas)), np.diff(turned.face_offsets) - 2)
     rows = np.flatnonzero(kept[facets])
     facets = facets[rows]
@@ -78,8 +101,11 @@ def thin_sheets(axis: MedialAxis, least_width: float) -> ThinSheets:
     return ThinSheets(
         vertices=turned.vertices,
         radius=turned.radius,
+        at_edge=at_edge,
+        facet=facets,
+        facing=facing[facets],
         triangles=triangulate_facets(turned.vertices, *polygons)[rows],
-        part=number[structure.part[facets]].astype(np.int32),
+        part=number[part[facets]].astype(np.int32),
         normals=normals[facets],
         slopes=slopes[facets],
         parts=int(chosen.sum()),
@@ -99,6 +125,49 @@ def _slopes(
     flux = 0.5 * (axis.radius[here] + axis.radius[there])[:, None] * out
     total = np.add.reduceat(flux, axis.face_offsets[:-1], axis=0)
     return total / np.where(areas > 0.0, areas, np.inf)[:, None]
+
+
+def _own_parts(
+    axis: MedialAxis, structure: Structure, patches: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
+    """(f,) the sheet of each facet, and (f,) whether the facet lies between the patches of that sheet.
+
+    The structure gives small sheets to a neighbour; their facets go back to a neighbour between the same patches as
+    they, where there is one.
+    """
+
+    def between(facets: NDArray[np.int64], parts: NDArray[np.int32]) -> NDArray[np.bool_]:
+        first, second = (patches[axis.generators[facets, end]] for end in range(2))
+        low, high = (structure.part_patches[parts, end, None] for end in range(2))
+        straight = (first == low).any(axis=1) & (second == high).any(axis=1)
+        crossed = (first == high).any(axis=1) & (second == low).any(axis=1)
+        return np.asarray(straight | crossed | (low < 0).any(axis=1))
+
+    part = structure.part.copy()
+    own = between(np.arange(len(part)), part)
+    _, of_corner = _edges(axis)
+    facet = np.repeat(np.arange(len(part)), np.diff(axis.face_offsets))
+    order = np.argsort(of_corner, kind="stable")
+    same = of_corner[order[1:]] == of_corner[order[:-1]]
+    beside = np.column_stack((facet[order[:-1]], facet[order[1:]]))[same]
+    beside = np.concatenate((beside, beside[:, ::-1]))
+    while True:
+        pairs = beside[~own[beside[:, 0]] & own[beside[:, 1]]]
+        pairs = pairs[between(pairs[:, 0], part[pairs[:, 1]])]
+        if not len(pairs):
+            return part, own
+        part[pairs[::-1, 0]] = part[pairs[::-1, 1]]
+        own[pairs[:, 0]] = True
+
+
+def _slivers(axis: MedialAxis, areas: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(f,) the facets that are hardly more than a line."""
+    corner = np.arange(len(axis.face_vertices))
+    after = corner + 1
+    after[axis.face_offsets[1:] - 1] = axis.face_offsets[:-1]
+    ends = axis.vertices[axis.face_vertices[after]] - axis.vertices[axis.face_vertices]
+    around = np.add.reduceat(np.linalg.norm(ends, axis=1), axis.face_offsets[:-1])
+    return np.asarray(4.0 * np.pi * areas < _SLIVER * around**2)
 
 
 def _walls(
