@@ -25,6 +25,7 @@ _TOUCHES = 0.01  # a ball whose distance from an edge differs by less than this 
 _REACH = 4.0  # so many radii away the wall at a rim is looked for
 _ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
 _LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
+_RINGS = 3  # so many rings of facets round a bent one tell nothing either
 _SHORT = 1e-6  # in radii: a shorter edge has no direction
 _PLANE = 0.02  # planes whose directions differ by less do not determine where they meet
 
@@ -84,9 +85,9 @@ def _reflex_distances(points: NDArray[np.float64], walls: Walls) -> NDArray[np.f
 
 
 def _clear(sheets: ThinSheets, bent: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(t,) the triangles whose facets lie between faces as a whole, and share no vertex with others."""
+    """(t,) the triangles whose facets lie between faces as a whole, and are some rings away from others."""
     unclear = bent[sheets.triangles].any(axis=1) | ~sheets.facing
-    for _ in range(2):
+    for _ in range(1 + _RINGS):
         of_facets = np.zeros(int(sheets.facet.max()) + 1, bool)
         of_facets[sheets.facet[unclear]] = True
         at = np.zeros(len(bent), bool)

@@ -166,7 +166,6 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
     row = _united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
     triangles = row[sheets.triangles]
     kept = (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
-    kept[kept] = ~_crumbs(sheets, triangles, kept)
     used, triangles = np.unique(triangles[kept], return_inverse=True)
     return CarriedSheets(
         sheets.vertices[used],
@@ -174,24 +173,6 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
         sheets.part[kept],
         sheets.at_corners[kept],
     )
-
-
-def _crumbs(
-    sheets: CarriedSheets, triangles: NDArray[np.int64], kept: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
-    """(k,) the kept triangles of pieces that are smaller than their wall is thick."""
-    triangles, lengths = triangles[kept], sheets.at_corners[kept].mean(axis=1)
-    ends = np.sort(
-        np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2), axis=1
-    )
-    _, edge = np.unique(ends, axis=0, return_inverse=True)
-    order = np.argsort(edge.reshape(-1), kind="stable")
-    same = edge.reshape(-1)[order[1:]] == edge.reshape(-1)[order[:-1]]
-    beside = np.column_stack((order[1:], order[:-1]))[same] // 3
-    piece = _united(len(triangles), beside)
-    areas = 0.5 * unit_normals(sheets.vertices[triangles])[1]
-    whole = np.bincount(piece, areas, len(triangles))[piece]
-    return np.asarray(whole < lengths.mean() ** 2)
 
 
 def _united(count: int, pairs: NDArray[np.int32]) -> NDArray[np.int64]:

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 # the way along the sheet.
 _FACING = 0.5
 _TAPER = 0.2  # the same at a sharp edge, to which a wall tapers; steeper facets there are those of a rim
+_NOTHING = 0.02  # of the median radius: a vertex with less is at an edge, too
+_EVEN = 0.15  # the most by which radii of a facet differ, as a share of its size, where it tells how its sheet goes on
 _SLIVER = 0.02  # a facet with less of the area of a disc of its perimeter tells no slope
 
 
@@ -85,6 +87,7 @@ def thin_sheets(
     normals = facet_normals(turned.vertices, *polygons)
     slopes = _slopes(turned, areas, normals)
     at_edge = cast("LevelValues", axis.level).place >= ON_CREASE
+    at_edge |= turned.radius < _NOTHING * float(np.median(turned.radius))
     steep = np.linalg.norm(slopes, axis=1)
     to_edge = np.logical_or.reduceat(at_edge[turned.face_vertices], turned.face_offsets[:-1])
     facing = (steep < np.where(to_edge, _TAPER, _FACING)) & ~_slivers(turned, areas)
@@ -103,7 +106,7 @@ def thin_sheets(
         radius=turned.radius,
         at_edge=at_edge,
         facet=facets,
-        facing=facing[facets],
+        facing=(facing & _even(turned))[facets],
         triangles=triangulate_facets(turned.vertices, *polygons)[rows],
         part=number[part[facets]].astype(np.int32),
         normals=normals[facets],
@@ -125,6 +128,15 @@ def _slopes(
     flux = 0.5 * (axis.radius[here] + axis.radius[there])[:, None] * out
     total = np.add.reduceat(flux, axis.face_offsets[:-1], axis=0)
     return total / np.where(areas > 0.0, areas, np.inf)[:, None]
+
+
+def _even(axis: MedialAxis) -> NDArray[np.bool_]:
+    """(f,) the facets whose radii hardly differ: others are at rims or where sheets meet."""
+    starts, corners = axis.face_offsets[:-1], axis.face_vertices
+    radii, places = axis.radius[corners], axis.vertices[corners]
+    most, least = np.maximum.reduceat(radii, starts), np.minimum.reduceat(radii, starts)
+    size = np.maximum.reduceat(places, starts) - np.minimum.reduceat(places, starts)
+    return np.asarray(most - least <= _EVEN * np.linalg.norm(size, axis=1))
 
 
 def _own_parts(
