@@ -90,7 +90,8 @@ def thin_sheets(
     at_edge |= turned.radius < _NOTHING * float(np.median(turned.radius))
     steep = np.linalg.norm(slopes, axis=1)
     to_edge = np.logical_or.reduceat(at_edge[turned.face_vertices], turned.face_offsets[:-1])
-    facing = (steep < np.where(to_edge, _TAPER, _FACING)) & ~_slivers(turned, areas)
+    slivers = _slivers(turned, areas)
+    facing = (steep < np.where(to_edge, _TAPER, _FACING)) | (slivers & ~to_edge)
     chosen = _walls(turned, structure, areas, facing, least_width)
     part = structure.part
     if patches is not None:
@@ -106,7 +107,7 @@ def thin_sheets(
         radius=turned.radius,
         at_edge=at_edge,
         facet=facets,
-        facing=(facing & _even(turned))[facets],
+        facing=(facing & ~slivers & _even(turned))[facets],
         triangles=triangulate_facets(turned.vertices, *polygons)[rows],
         part=number[part[facets]].astype(np.int32),
         normals=normals[facets],
