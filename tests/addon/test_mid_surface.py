@@ -19,7 +19,7 @@ def plate(thickness=T):
 
 
 def unsolidify(**options):
-    assert bpy.ops.object.medial_axis_unsolidify(samples=2000, **options) == {"FINISHED"}
+    assert bpy.ops.object.medial_axis_unsolidify(samples=4000, **options) == {"FINISHED"}
     return bpy.context.object
 
 
@@ -56,4 +56,4 @@ def test_again_updates_the_same_object():
 
 def test_a_block_has_no_sheets():
     bpy.ops.mesh.primitive_cube_add(size=2)
-    refuse("found none", operator="medial_axis_unsolidify", samples=2000)
+    refuse("found none", operator="medial_axis_unsolidify", samples=4000)

@@ -21,7 +21,7 @@ from support.thick_meshes import block
 def sheets_of(mesh, **wanted):
     points, triangles = mesh
     shape = Shape(np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32))
-    return mid_surface(shape, Settings(samples=2000), MidSurfaceSettings(**wanted))
+    return mid_surface(shape, Settings(samples=4000), MidSurfaceSettings(**wanted))
 
 
 def areas(found):
@@ -39,7 +39,7 @@ def off(known, places):
     return found
 
 
-@pytest.mark.parametrize("name", ("plate", "profile_t", "profile_l", "profile_i", "box_section"))
+@pytest.mark.parametrize("name", ("plate", "profile_t", "profile_l", "profile_i", "box_section", "stairs"))
 def test_sheets_of_flat_walls(name):
     known = mid_surfaces.ALL[name]()
     found = sheets_of(known.mesh)
@@ -59,11 +59,21 @@ def test_sheets_of_flat_walls(name):
     assert found.share == pytest.approx(1.0, abs=0.03)
 
 
-def test_a_block_is_no_wall_unless_it_is_wanted():
+def test_a_leaf_tapers_to_its_edge():
+    """Its middle is a disc; the caps are so flat that the thickness falls with the square of the radius."""
+    known = mid_surfaces.leaf()
+    found = sheets_of(known.mesh)
+    assert found.sheets == 1 and np.abs(found.vertices[:, 2]).max() < 0.01 * known.t
+    assert areas(found).sum() == pytest.approx(np.pi, rel=0.005)
+    away = np.linalg.norm(found.vertices[:, :2], axis=1)
+    np.testing.assert_allclose(found.of_vertices, known.t * (1 - away**2), atol=0.02 * known.t)
+    assert found.share == pytest.approx(1.0, abs=0.01)
+
+
+def test_a_block_is_no_wall():
     mesh = block(1.0, 0.9, 0.8)
     with pytest.raises(InvalidInputError, match="found none"):
         sheets_of(mesh)
-    assert sheets_of(mesh, least_width=0.0).sheets == 1
 
 
 def test_divided_triangles_still_share_edges():
@@ -88,7 +98,7 @@ def cantilever(tmp_path):
 
 
 def run(*words):
-    return cli.main(["midsurface", *map(str, words), "--quiet", "--samples", "2000"])
+    return cli.main(["midsurface", *map(str, words), "--quiet", "--samples", "4000"])
 
 
 def test_files_and_figures(tmp_path, capsys):

@@ -296,7 +296,7 @@ def _with_thickness(
         share,
         shape,
         found.chosen,
-        (*found.warnings, *_left_out(share)),
+        (*found.warnings, *_left_out(share), *_torn(triangles, found)),
         time.perf_counter() - start,
     )
 
@@ -307,6 +307,19 @@ def _left_out(share: float) -> tuple[str, ...]:
     return (
         f"the sheets have {percent(share)} of the volume; what is not thin is left out, and Least Width decides what "
         "counts as thin",
+    )
+
+
+def _torn(triangles: NDArray[np.int32], found: Computation) -> tuple[str, ...]:
+    ends = np.concatenate((triangles[:, :2], triangles[:, 1:]))
+    label = _united(int(triangles.max()) + 1, ends)
+    pieces = len(np.unique(label[triangles[:, 0]]))
+    level = found.axis.level
+    if level is None or pieces <= level.betti[0]:
+        return ()
+    return (
+        f"the sheets have {pieces:,} pieces and the solid {level.betti[0]:,}: sheets that should meet do not; more "
+        "samples may help",
     )
 
 

@@ -93,11 +93,13 @@ def thin_sheets(
     slivers = _slivers(turned, areas)
     facing = (steep < np.where(to_edge, _TAPER, _FACING)) | (slivers & ~to_edge)
     chosen = _walls(turned, structure, areas, facing, least_width)
-    part = structure.part
+    part, between = structure.part, facing
     if patches is not None:
         part, own = _own_parts(turned, structure, patches)
-        facing &= own
-    kept = _without_frayed(turned, chosen[part], facing)
+        pairs = structure.part_patches[part]
+        told = (pairs[:, 0] >= 0) & (pairs[:, 0] != pairs[:, 1])  # the patches tell rims from walls
+        between, facing = np.where(told, own, facing & own), facing & own
+    kept = _without_frayed(turned, chosen[part], between)
     facets = np.repeat(np.arange(len(areas)), np.diff(turned.face_offsets) - 2)
     rows = np.flatnonzero(kept[facets])
     facets = facets[rows]
