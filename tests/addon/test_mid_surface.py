@@ -50,7 +50,9 @@ def test_again_updates_the_same_object():
     made = unsolidify()
     bpy.context.view_layer.objects.active = source
     assert unsolidify(size=0.5) == made and len(made.modifiers) == 1
-    lengths = [(made.data.vertices[a].co - made.data.vertices[b].co).length for a, b in made.data.edge_keys]
+    lengths = [
+        (made.data.vertices[a].co - made.data.vertices[b].co).length for a, b in made.data.edge_keys
+    ]
     assert 0.2 < max(lengths) <= 0.7001
 
 

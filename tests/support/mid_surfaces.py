@@ -39,9 +39,7 @@ def _known(mesh, t, betti, *rectangles, sheets=None):
 
 
 def plate(t=0.02):
-    return _known(
-        thin_solids.plate(t).mesh, t, (1, 0, 0), ((0, 0, t / 2), (1, 0, 0), (0, 1, 0))
-    )
+    return _known(thin_solids.plate(t).mesh, t, (1, 0, 0), ((0, 0, t / 2), (1, 0, 0), (0, 1, 0)))
 
 
 def profile_t(t=0.02):
@@ -128,7 +126,9 @@ def bent_sheet(t=0.02, radius=0.1, around=48):
     j = (i + 1) % count
     k = np.arange(n - 1)
     far = count - 1 - k
-    caps = np.concatenate((np.column_stack((k, k + 1, far)), np.column_stack((k + 1, far - 1, far))))
+    caps = np.concatenate(
+        (np.column_stack((k, k + 1, far)), np.column_stack((k + 1, far - 1, far)))
+    )
     sides = np.concatenate(
         (np.column_stack((i, count + i, count + j)), np.column_stack((i, count + j, j)))
     )

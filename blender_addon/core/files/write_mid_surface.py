@@ -68,10 +68,7 @@ def _write_inp(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO)
         "*NODE, NSET=NALL",
         *(f"{i + 1}, {x:.12g}, {y:.12g}, {z:.12g}" for i, (x, y, z) in enumerate(nodes.tolist())),
         "*ELEMENT, TYPE=S6, ELSET=EALL",
-        *(
-            f"{i + 1}, " + ", ".join(map(str, row))
-            for i, row in enumerate((elements + 1).tolist())
-        ),
+        *(f"{i + 1}, " + ", ".join(map(str, row)) for i, row in enumerate((elements + 1).tolist())),
     ]
     for sheet in range(found.sheets):
         lines += _set_of(f"SHEET{sheet + 1}", np.flatnonzero(found.part[of] == sheet))
@@ -145,7 +142,9 @@ end_header
 
 def _write_stl(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
     corners = points[found.triangles]
-    facets = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("n", "<u2")])
+    facets = np.zeros(
+        len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("n", "<u2")]
+    )
     facets["normal"], facets["corners"] = unit_normals(corners)[0], corners
     stream.write(b"middle surface".ljust(80))
     stream.write(np.uint32(len(facets)).astype("<u4").tobytes())

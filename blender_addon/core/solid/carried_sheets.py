@@ -99,8 +99,8 @@ def _clear(sheets: ThinSheets, bent: NDArray[np.bool_]) -> NDArray[np.bool_]:
 class _Planes:
     """The plane in which a sheet goes on at each of its vertices, and its thickness there.
 
-    Where the balls touch a reflex edge, and at sharp convex edges, it is that of the nearest vertex of the same sheet whose facets are between
-    faces.
+    Where the balls touch a reflex edge, and at sharp convex edges, it is that of the nearest vertex of the same sheet
+    whose facets are between faces.
     """
 
     def __init__(self, sheets: ThinSheets, bent: NDArray[np.bool_]) -> None:
@@ -223,9 +223,7 @@ class _Rim:
         return _Rim(*(getattr(self, name)[rows] for name in self.__dataclass_fields__))
 
 
-def _rim(
-    sheets: ThinSheets, straight: NDArray[np.float64], planes: _Planes, walls: Walls
-) -> _Rim:
+def _rim(sheets: ThinSheets, straight: NDArray[np.float64], planes: _Planes, walls: Walls) -> _Rim:
     """The edges of one triangle that have a length and a ball, and are not at a wall."""
     ends = np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2)
     keys = np.sort(ends.reshape(-1, 2), axis=1).astype(np.int64) @ (len(straight), 1)
@@ -283,7 +281,9 @@ def _walls_ahead(
     """
     aside = np.cross(rim.along, out)
     step = _ASIDE * rim.radius[:, None]
-    starts = np.concatenate((rim.middles, rim.middles + step * rim.along, rim.middles + step * aside))
+    starts = np.concatenate(
+        (rim.middles, rim.middles + step * rim.along, rim.middles + step * aside)
+    )
     with own_errors() as module:
         way = module.wall_distances(
             np.ascontiguousarray(starts),

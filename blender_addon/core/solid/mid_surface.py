@@ -8,6 +8,7 @@ they meet and to the walls at their rims (`carried_sheets.py`), and cleared of w
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, cast
 
@@ -323,7 +324,9 @@ def _torn(triangles: NDArray[np.int32], found: Computation) -> tuple[str, ...]:
     )
 
 
-def _lengths(sheets: CarriedSheets, parts: int):  # noqa: ANN202
+def _lengths(
+    sheets: CarriedSheets, parts: int
+) -> Callable[[NDArray[np.float64], NDArray[np.int32]], NDArray[np.float64]]:
     """The function of places and their sheets that returns the thickness of the nearest corner there."""
     part = np.repeat(sheets.part, 3)
     places, values = sheets.vertices[sheets.triangles].reshape(-1, 3), sheets.at_corners.ravel()

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 # Both feet of a ball are seen at 120 degrees or more from its centre: then its radius changes by at most this share of
 # the way along the sheet.
 _FACING = 0.5
-_TAPER = 0.2  # the same at a sharp edge, to which a wall tapers; steeper facets there are those of a rim
+_TAPER = (
+    0.2  # the same at a sharp edge, to which a wall tapers; steeper facets there are those of a rim
+)
 _NOTHING = 0.02  # of the median radius: a vertex with less is at an edge, too
 _EVEN = 0.15  # the most by which radii of a facet differ, as a share of its size, where it tells how its sheet goes on
 _SLIVER = 0.02  # a facet with less of the area of a disc of its perimeter tells no slope
