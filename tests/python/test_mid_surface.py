@@ -140,3 +140,10 @@ def test_calculix_bends_a_plate_as_the_textbook_says(tmp_path):
     rows = [row.split() for row in (tmp_path / "job.dat").read_text().splitlines()]
     sunk = [float(row[3]) for row in rows if len(row) == 4 and row[0].isdigit()]
     assert np.mean(sunk) == pytest.approx(100.0**3 / (3 * 210000.0 * 100.0 * 2.0**3 / 12), rel=0.02)
+
+
+def test_sheets_that_do_not_meet_are_told():
+    """Where two walls cross, pieces may stay apart, but not silently."""
+    found = sheets_of(mid_surfaces.cross().mesh)
+    pieces = topology.components(found.triangles)
+    assert any("should meet" in warning for warning in found.warnings) == (pieces > 1)
