@@ -52,6 +52,7 @@ from .core.machine.memory_limit import MemoryLimit
 from .core.settings import (
     BallSettings,
     Division,
+    MidSurfaceSettings,
     Settings,
     Side,
     SkeletonSettings,
@@ -68,7 +69,8 @@ INPUT     .off .obj .ply .stl .xyz .xyzn .npy .npz; inside Blender also .blend a
 OUTPUT    a file (.ma .ply .obj .off .npz, or .csv for a table of the sheets), or a folder; {name} is
           the object or the file, {file} the file, #### the frame.
 
-Other results: medial_axis thickness --help, medial_axis skeleton --help, medial_axis balls --help
+Other results: medial_axis thickness --help, medial_axis skeleton --help, medial_axis balls --help,
+medial_axis midsurface --help
 
 examples:
   medial_axis bunny.ply bunny.ma
@@ -78,6 +80,7 @@ examples:
   medial_axis hand.obj hand.ma --vertices 200
   medial_axis skeleton neuron.ply neuron.swc
   medial_axis balls robot.stl robot.json --count 64 --mode around
+  medial_axis midsurface part.stl part.inp
 
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
@@ -135,6 +138,23 @@ examples:
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
   141 nobody reads the results any more
+"""
+
+_EXAMPLES_OF_MID_SURFACES = """\
+INPUT     as of medial_axis --help.
+OUTPUT    a file, or a folder; {name}, {file} and #### as there.
+          .inp   shell elements S6 with their thickness, for CalculiX and Abaqus
+          .obj   polygons, a group for each sheet
+          .ply   triangles, with the thickness of each vertex and face
+          .stl   triangles; a .csv beside it has the thickness of each
+
+examples:
+  medial_axis midsurface part.stl part.inp --size 2
+  medial_axis midsurface parts/*.stl sheets/ --format obj
+
+exit codes:
+  0 all is there   1 something failed   2 wrong usage   3 an input cannot be used, or has no thin wall
+  4 cancelled   141 nobody reads the results any more
 """
 
 
@@ -290,8 +310,34 @@ def _balls_work(wanted: argparse.Namespace) -> Work:
     return BallsWork(sampling_from(wanted), settings_from(wanted, BallSettings))
 
 
+def _mid_surface_parser() -> argparse.ArgumentParser:
+    from .core.files.write_mid_surface import MID_SURFACE_FORMATS
+
+    parser = _parser(
+        "medial_axis midsurface",
+        "Thin solids as sheets with thickness, for shell elements and for modelling.",
+        _EXAMPLES_OF_MID_SURFACES,
+    )
+    add_options(parser.add_argument_group("sheets"), MidSurfaceSettings)
+    add_sampling(parser.add_argument_group("method"))
+    _add_files(parser, [suffix[1:] for suffix in MID_SURFACE_FORMATS], "inp")
+    parser.set_defaults(known=(*MID_SURFACE_FORMATS,), work_from=_mid_surface_work)
+    return parser
+
+
+def _mid_surface_work(wanted: argparse.Namespace) -> Work:
+    from .core.batch.mid_surface_work import MidSurfaceWork
+
+    return MidSurfaceWork(sampling_from(wanted), settings_from(wanted, MidSurfaceSettings))
+
+
 # The parsers by the first word of the command. Modules that only one of them needs are imported when it is used.
-_PARSERS = {"thickness": _thickness_parser, "skeleton": _skeleton_parser, "balls": _balls_parser}
+_PARSERS = {
+    "thickness": _thickness_parser,
+    "skeleton": _skeleton_parser,
+    "balls": _balls_parser,
+    "midsurface": _mid_surface_parser,
+}
 
 
 def _parser(name: str, description: str, epilog: str) -> argparse.ArgumentParser:

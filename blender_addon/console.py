@@ -101,6 +101,8 @@ def _said(report: dict[str, Any]) -> str:
     if "ends" in report:
         counts = (f"{report[what]:,} {what}" for what in ("branches", "ends", "loops"))
         return ", ".join(counts)
+    if "sheets" in report and "share_of_volume" in report:
+        return f"{report['sheets']:,} sheets, {100 * report['share_of_volume']:.1f} % of the volume"
     if "covered" in report:
         return (
             f"{report['count']:,} balls, {100 * report['covered']:.1f} % of the volume, "

@@ -672,6 +672,30 @@ class ThickenSettings(Options):
 THICKEN_OPTIONS = options_of(ThickenSettings)
 
 
+@dataclass(frozen=True)
+class MidSurfaceSettings(Options):
+    """Which parts of a solid become sheets, and how fine these are."""
+
+    least_width: float = number(
+        "Least Width",
+        "A wall is at least so many times as wide as it is thick; narrower parts are left out. 0: none are",
+        default=2.0,
+        limits=(0.0, math.inf),
+        soft_maximum=20.0,
+    )
+    size: float = number(
+        "Size",
+        "How long edges are at most; 0: as few faces as show the shape",
+        default=0.0,
+        limits=(0.0, math.inf),
+        soft_maximum=1000.0,
+        unit="length",
+    )
+
+
+MID_SURFACE_OPTIONS = options_of(MidSurfaceSettings)
+
+
 # --- balls
 
 

@@ -70,6 +70,9 @@ def _draw_found(context, layout, carrier):
         _draw_patches(context, column, carrier)
         if carrier[of.AREA] > 0.0 and not carrier[of.GAP]:
             _draw_thicken(context, layout)
+    if not carrier[of.GAP] and current_job.job() is None:
+        button = layout.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
+        copy_settings(context.scene.medial_axis, button)
     shown = shows_colours(context.space_data)
     layout.operator("view3d.medial_axis_show_colours", icon="COLOR", depress=shown)
     if shown:

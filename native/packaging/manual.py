@@ -22,6 +22,7 @@ PAGES = (
     "thickness",
     "skeleton",
     "balls",
+    "mid_surface",
     "small_mesh",
     "parts",
     "command_line",

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Middle surfaces as objects: sheets with their thickness as attributes, and a Solidify modifier that is the solid."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+
+from .attributes import Attribute
+from .output_object import Product, place, remember
+from .step_weights import write_steps
+from .write_mesh import new_mesh
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..core.solid.mid_surface import MidSurface
+
+SHEETS, SHARE = "ma_mid_sheets", "ma_mid_share"
+_NAME = "Medial Axis Thickness"  # of the modifier and of the vertex group
+_ALIKE = 1e-3  # thicknesses that differ by less than this share need no vertex group
+_TABLE = (
+    Attribute("ma_thickness", "of_vertices", "POINT", "FLOAT", np.float32),
+    Attribute("ma_face_thickness", "thickness", "FACE", "FLOAT", np.float32),
+    Attribute("ma_part", "part", "FACE", "INT", np.int32),
+)
+
+MID_SURFACE = Product(" Mid-Surface", (SHEETS,))
+is_mid_surface, mid_surface_of = MID_SURFACE.has, MID_SURFACE.of
+check_mid_surface_writable = MID_SURFACE.check_writable
+
+
+def write_mid_surface(
+    source: bpy.types.Object, found: MidSurface, frame: NDArray[np.float64]
+) -> bpy.types.Object:
+    """Make the middle surface of a source, or update the existing one; all or nothing.
+
+    Parameters
+    ----------
+    source : Object
+        It is not changed.
+    found : MidSurface
+    frame : (4, 4) float64
+        Where the sheets lie in the world; rotation and translation only.
+
+    Raises
+    ------
+    InvalidInputError
+        It cannot be changed now, or Blender cannot hold it.
+    """
+    thing, _ = MID_SURFACE.write_mesh(source, partial(new_mesh, found, table=_TABLE))
+    place(thing, frame)
+    remember(thing, source, found.points, found.duplicates, found.warnings)
+    thing[SHEETS], thing[SHARE] = found.sheets, found.share
+    _solidify(thing, found.of_vertices)
+    return thing
+
+
+def _solidify(thing: bpy.types.Object, lengths: NDArray[np.float64]) -> None:
+    """Add or update the modifier, switched off in the view: at first the sheets are seen."""
+    modifier = thing.modifiers.get(_NAME)
+    if modifier is None or modifier.type != "SOLIDIFY":
+        modifier = thing.modifiers.new(_NAME, "SOLIDIFY")
+        modifier.solidify_mode = "NON_MANIFOLD"
+        modifier.nonmanifold_thickness_mode = "CONSTRAINTS"
+        modifier.offset = 0.0
+        modifier.show_viewport = modifier.show_render = False
+    most = float(lengths.max())
+    modifier.thickness = most
+    if float(lengths.min()) > (1.0 - _ALIKE) * most:
+        modifier.vertex_group = ""
+        return
+    write_steps(thing, _NAME, lengths / most)
+    modifier.vertex_group = _NAME

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""This module writes middle surfaces as `.inp` for CalculiX and Abaqus, and as `.obj`, `.ply` and `.stl`
+(docs/formats.md).
+
+`.stl` has no place for thickness, so a `.csv` of the same name lies beside it. A file appears whole or not at all.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
+
+import numpy as np
+
+from ..samples.triangles import unit_normals
+from ..solid.mid_surface import MidSurface
+from .extensions import extension_of
+from .whole_file import write_whole
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_DIGITS = 6  # thicknesses that agree in so many digits are one section
+_PER_LINE = 8
+
+
+def export_mid_surface(
+    found: MidSurface, path: str | os.PathLike[str], frame: NDArray[np.float64] | None = None
+) -> Path:
+    """Write a middle surface; the extension of `path` chooses the format.
+
+    Parameters
+    ----------
+    found : MidSurface
+    path : path of the file; its folder must exist. A file of that name is replaced.
+    frame : (4, 4) float64, optional
+        From the vertices to the world.
+
+    Returns
+    -------
+    path : Path
+        The file that was written, with links resolved.
+
+    Raises
+    ------
+    ExportError
+        The extension is unknown, or the system refused to write; an old file is then unchanged.
+    """
+    write = MID_SURFACE_FORMATS[extension_of(path, MID_SURFACE_FORMATS)]
+    points = found.vertices
+    if frame is not None:
+        points = points @ frame[:3, :3].T + frame[:3, 3]
+    written = write_whole(path, lambda stream: write(found, points, stream))
+    if written.suffix.lower() == ".stl":
+        write_whole(written.with_suffix(".csv"), lambda stream: _write_csv(found, points, stream))
+    return written
+
+
+def _write_inp(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+    """Shell elements of six nodes, S6, in a set for each sheet and a section for each thickness."""
+    triangles, of = found.triangles, found.face_of_triangles
+    nodes, elements = _with_middles(points, triangles)
+    lines = [
+        "** A middle surface: sheets of shell elements with their thickness.",
+        "** Replace the material, and add boundary conditions and a step.",
+        "*NODE, NSET=NALL",
+        *(f"{i + 1}, {x:.12g}, {y:.12g}, {z:.12g}" for i, (x, y, z) in enumerate(nodes.tolist())),
+        "*ELEMENT, TYPE=S6, ELSET=EALL",
+        *(f"{i + 1}, " + ", ".join(map(str, row)) for i, row in enumerate((elements + 1).tolist())),
+    ]
+    for sheet in range(found.sheets):
+        lines += _set_of(f"SHEET{sheet + 1}", np.flatnonzero(found.part[of] == sheet))
+    lines += ["*MATERIAL, NAME=MATERIAL", "*ELASTIC", "210000., 0.3"]
+    texts = np.array([f"{length:.{_DIGITS}g}" for length in found.thickness])
+    for number, text in enumerate(np.unique(texts), start=1):
+        lines += _set_of(f"THICKNESS{number}", np.flatnonzero((texts == text)[of]))
+        lines += [f"*SHELL SECTION, ELSET=THICKNESS{number}, MATERIAL=MATERIAL", str(text)]
+    stream.write(("\n".join(lines) + "\n").encode("ascii"))
+
+
+def _set_of(name: str, rows: NDArray[np.int64]) -> list[str]:
+    numbers = [str(row + 1) for row in rows.tolist()]
+    starts = range(0, len(numbers), _PER_LINE)
+    return [f"*ELSET, ELSET={name}", *(", ".join(numbers[i : i + _PER_LINE]) for i in starts)]
+
+
+def _with_middles(
+    points: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The points and the middles of edges, and (t, 6) rows: three corners, then the middles after each of them."""
+    ends = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2)
+    edges, edge = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
+    middles = len(points) + edge.reshape(triangles.shape)
+    return np.concatenate((points, points[edges].mean(axis=1))), np.hstack((triangles, middles))
+
+
+def _write_obj(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+    """Polygons in a group for each sheet; the thickness of each face is in a comment before it, where it changes."""
+    lines = [f"v {x:.12g} {y:.12g} {z:.12g}" for x, y, z in points.tolist()]
+    corners = found.face_vertices + 1
+    sheet, last = -1, ""
+    for face in np.argsort(found.part, kind="stable").tolist():
+        if found.part[face] != sheet:
+            sheet = int(found.part[face])
+            lines.append(f"g sheet{sheet + 1}")
+        text = f"# thickness {found.thickness[face]:.{_DIGITS}g}"
+        if text != last:
+            lines.append(text)
+            last = text
+        row = corners[found.face_offsets[face] : found.face_offsets[face + 1]]
+        lines.append("f " + " ".join(map(str, row.tolist())))
+    stream.write(("\n".join(lines) + "\n").encode("ascii"))
+
+
+def _write_ply(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+    triangles, of = found.triangles, found.face_of_triangles
+    header = f"""ply
+format binary_little_endian 1.0
+comment thickness of the wall at each vertex and face; part: the sheet of each face
+element vertex {len(points)}
+property double x
+property double y
+property double z
+property double thickness
+element face {len(triangles)}
+property list uchar int vertex_indices
+property double thickness
+property int part
+end_header
+"""
+    stream.write(header.encode("ascii"))
+    stream.write(np.column_stack((points, found.of_vertices)).astype("<f8").tobytes())
+    faces = np.empty(
+        len(triangles), [("n", "u1"), ("corners", "<i4", 3), ("length", "<f8"), ("part", "<i4")]
+    )
+    faces["n"], faces["corners"] = 3, triangles
+    faces["length"], faces["part"] = found.thickness[of], found.part[of]
+    stream.write(faces.tobytes())
+
+
+def _write_stl(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+    corners = points[found.triangles]
+    facets = np.zeros(
+        len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("n", "<u2")]
+    )
+    facets["normal"], facets["corners"] = unit_normals(corners)[0], corners
+    stream.write(b"middle surface".ljust(80))
+    stream.write(np.uint32(len(facets)).astype("<u4").tobytes())
+    stream.write(facets.tobytes())
+
+
+def _write_csv(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
+    """A row for each triangle of the `.stl`, in its order."""
+    middles = points[found.triangles].mean(axis=1).tolist()
+    of = found.face_of_triangles
+    rows = zip(middles, found.part[of].tolist(), found.thickness[of].tolist(), strict=True)
+    stream.write(b"triangle,x,y,z,sheet,thickness\n")
+    text = "".join(
+        f"{i},{x:.17g},{y:.17g},{z:.17g},{part + 1},{length:.17g}\n"
+        for i, ((x, y, z), part, length) in enumerate(rows)
+    )
+    stream.write(text.encode("ascii"))
+
+
+MID_SURFACE_FORMATS: dict[str, Callable[[MidSurface, NDArray[np.float64], BinaryIO], None]] = {
+    ".inp": _write_inp,
+    ".obj": _write_obj,
+    ".ply": _write_ply,
+    ".stl": _write_stl,
+}

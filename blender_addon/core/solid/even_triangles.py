@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Triangles divided at their longest edges until no edge is longer than a size; sheets that share edges keep them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def divided(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], longest: float
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]:
+    """Divide triangles by the bisection of Rivara: no angle is less than half of the least one before.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (t, 3) int32
+    longest : float
+
+    Returns
+    -------
+    points : (m, 3) float64
+        The given points, then the middles of edges.
+    triangles : (s, 3) int32
+        Each turns as the one of which it is a piece.
+    of : (s,) int64
+        The triangle of which each is a piece.
+    """
+    of = np.arange(len(triangles))
+    while True:
+        corners = points[triangles]
+        lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+        ends = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2)
+        edges, edge = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
+        edge = edge.reshape(triangles.shape)
+        cut = _cut_edges(edge, lengths, longest, len(edges))
+        if not cut.any():
+            return points, triangles, of
+        middle = np.full(len(edges), -1, np.int64)
+        middle[cut] = len(points) + np.arange(cut.sum())
+        points = np.concatenate((points, points[edges[cut]].mean(axis=1)))
+        # Each round halves the longest edge of a triangle only, so that all pieces are those of Rivara.
+        triangles, rows = _halved(triangles, edge, lengths, middle)
+        of = of[rows]
+
+
+def _cut_edges(
+    edge: NDArray[np.int64], lengths: NDArray[np.float64], longest: float, count: int
+) -> NDArray[np.bool_]:
+    """(e,) the edges that are too long, and the longest edges of all triangles that have a cut edge."""
+    cut = np.zeros(count, bool)
+    cut[edge[lengths > longest]] = True
+    first = edge[np.arange(len(edge)), _longest(lengths, edge)]
+    while True:
+        more = first[cut[edge].any(axis=1)]
+        if cut[more].all():
+            return cut
+        cut[more] = True
+
+
+def _longest(lengths: NDArray[np.float64], edge: NDArray[np.int64]) -> NDArray[np.int64]:
+    """(t,) the longest side of each triangle; of equal ones that with the lowest number, in all triangles the same."""
+    most = lengths.max(axis=1, keepdims=True)
+    numbers = np.where(lengths >= most, edge, np.iinfo(np.int64).max)
+    return np.asarray(numbers.argmin(axis=1))
+
+
+def _halved(
+    triangles: NDArray[np.int32],
+    edge: NDArray[np.int64],
+    lengths: NDArray[np.float64],
+    middle: NDArray[np.int64],
+) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
+    """The pieces of the triangles, halved at the longest edge, and each half at its cut edge; and their rows."""
+    side = _longest(lengths, edge)
+    rows = np.arange(len(triangles))
+    a, b, c = (triangles[rows, (side + k) % 3] for k in range(3))
+    ab, bc, ca = (middle[edge[rows, (side + k) % 3]] for k in range(3))
+    pieces, of = [], []
+
+    def add(which: NDArray[np.bool_], *corners: NDArray[np.int64]) -> None:
+        pieces.append(np.column_stack(corners)[which])
+        of.append(rows[which])
+
+    whole = ab < 0
+    add(whole, a, b, c)
+    add(~whole & (bc < 0), ab, b, c)
+    add(~whole & (bc >= 0), ab, b, bc)
+    add(~whole & (bc >= 0), ab, bc, c)
+    add(~whole & (ca < 0), a, ab, c)
+    add(~whole & (ca >= 0), a, ab, ca)
+    add(~whole & (ca >= 0), ca, ab, c)
+    order = np.argsort(np.concatenate(of), kind="stable")
+    return np.concatenate(pieces)[order].astype(np.int32), np.concatenate(of)[order]

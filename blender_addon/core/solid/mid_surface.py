@@ -1,0 +1,344 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The middle surface of a thin solid: one sheet per wall, with its thickness (docs/mid_surface.md).
+
+The sheets of the medial axis between walls that face each other are chosen (`thin_sheets.py`), carried on to where
+they meet and to the walls at their rims (`carried_sheets.py`), and cleared of what they do not need.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from ..axis.compute import Computation, compute_axis
+from ..axis.polygon_triangles import polygon_triangles
+from ..errors import InvalidInputError
+from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..machine.native import own_errors
+from ..machine.progress import Progress
+from ..samples.chosen import OfChosenSamples
+from ..samples.density import percent
+from ..samples.outward_faces import outward_shape
+from ..samples.sharp_angle import sharp_angle_of
+from ..samples.triangles import unit_normals
+from ..settings import Form, MidSurfaceSettings, Settings, Side
+from .carried_sheets import CarriedSheets, Walls, carried
+from .even_triangles import divided
+from .thin_sheets import thin_sheets
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..samples.chosen import ChosenSamples
+    from ..samples.shape import Shape
+
+_PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one thickness
+_SAME = 1e-7  # of the diagonal: vertices so close are one
+_NARROW = 1e-6  # triangles lower than this share of their longest edge are lines
+_PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
+_SLACK = 1.4  # edges may be longer than the size by this factor, as those of even triangles of that area are
+_MOST = 0.99  # where less of the volume is sheet, a warning says so
+
+
+@dataclass(frozen=True, eq=False)
+class MidSurface(OfChosenSamples):
+    """Sheets with thickness; those that meet share edges.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+        In the frame of the shape.
+    face_offsets : (f + 1,) int32
+    face_vertices : (c,) int32
+        Face i has the corners `face_vertices[face_offsets[i]:face_offsets[i + 1]]`. All faces of a sheet turn the
+        same way.
+    part : (f,) int32
+        The sheet of each face, 0 to `sheets` - 1.
+    thickness : (f,) float64
+        Of the wall at the middle of each face.
+    of_vertices : (v,) float64
+        Of the wall at each vertex; where sheets meet, the thickness of the thickest.
+    sheets : int
+    share : float
+        The volume of the sheets, area times thickness, as a share of that of the solid. Where walls meet, both count.
+    shape : Shape
+    chosen : ChosenSamples
+    warnings : tuple of str
+    seconds : float
+    """
+
+    vertices: NDArray[np.float64]
+    face_offsets: NDArray[np.int32]
+    face_vertices: NDArray[np.int32]
+    part: NDArray[np.int32]
+    thickness: NDArray[np.float64]
+    of_vertices: NDArray[np.float64]
+    sheets: int
+    share: float
+    shape: Shape
+    chosen: ChosenSamples
+    warnings: tuple[str, ...]
+    seconds: float
+
+    @property
+    def triangles(self) -> NDArray[np.int32]:
+        """(c - 2 f, 3) the triangles of face after face."""
+        return polygon_triangles(self.vertices, self.face_offsets, self.face_vertices)
+
+    @property
+    def face_of_triangles(self) -> NDArray[np.int64]:
+        return np.repeat(np.arange(len(self.part)), np.diff(self.face_offsets) - 2)
+
+
+def mid_surface(
+    shape: Shape,
+    settings: Settings,
+    wanted: MidSurfaceSettings,
+    progress: Progress | None = None,
+    limit: MemoryLimit = WHAT_IS_FREE,
+) -> MidSurface:
+    """Turn a thin solid into sheets with thickness.
+
+    Parameters
+    ----------
+    shape : Shape
+    settings : Settings
+        Its options of sampling count; the form is always clean, with crisp places, of the inside.
+    wanted : MidSurfaceSettings
+    progress : Progress, optional
+    limit : MemoryLimit
+
+    Raises
+    ------
+    InvalidInputError
+        The shape has no faces, or no thin walls.
+    NativeModuleError, DegenerateInputError, OutOfMemoryError, Cancelled
+    """
+    start = time.perf_counter()
+    if not len(shape.triangles):
+        raise InvalidInputError(
+            "Expected faces that bound a solid, found points alone; reconstruct a surface first"
+        )
+    shape = outward_shape(shape)
+    settings = replace(
+        settings, form=Form.CLEAN, crisp=True, side=Side.INNER, simplify=0.0, erode=0.0, spike=0.0
+    )
+    found = compute_axis(shape, settings, progress, limit)
+    if found.axis.structure is None or not found.axis.facets:
+        raise _nothing_thin(wanted)
+    thin = thin_sheets(found.axis, found.chosen.samples.patches, wanted.least_width)
+    if not len(thin.triangles):
+        raise _nothing_thin(wanted)
+    sheets = _welded(carried(thin, _walls(shape, settings)))
+    made = _simplified(sheets, wanted.size, progress)
+    return _with_thickness(made, sheets, thin.parts, shape, found, start)
+
+
+def _nothing_thin(wanted: MidSurfaceSettings) -> InvalidInputError:
+    return InvalidInputError(
+        f"Expected walls at least {wanted.least_width:g} times as wide as they are thick, found none; lower Least "
+        "Width, or keep the solid"
+    )
+
+
+def _walls(shape: Shape, settings: Settings) -> Walls:
+    with own_errors() as module:
+        edges, convex, _ = module.BallFaces(
+            shape.points,
+            shape.triangles,
+            sharp_angle=sharp_angle_of(shape, settings),
+            sharp_edges=shape.sharp_edges,
+        ).creases()
+    return Walls(shape.points, shape.triangles, edges[~convex])
+
+
+def _welded(sheets: CarriedSheets) -> CarriedSheets:
+    """The sheets with one vertex at each place, without triangles that have no area, and with no other vertices."""
+    step = _SAME * float(np.linalg.norm(np.ptp(sheets.vertices, axis=0)))
+    ends = np.sort(
+        np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2).reshape(-1, 2),
+        axis=1,
+    )
+    along = sheets.vertices[ends[:, 0]] - sheets.vertices[ends[:, 1]]
+    row = _united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
+    triangles = row[sheets.triangles]
+    kept = (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
+    used, triangles = np.unique(triangles[kept], return_inverse=True)
+    return CarriedSheets(
+        sheets.vertices[used],
+        triangles.reshape(-1, 3).astype(np.int32),
+        sheets.part[kept],
+        sheets.at_corners[kept],
+    )
+
+
+def _united(count: int, pairs: NDArray[np.int32]) -> NDArray[np.int64]:
+    """(count,) the lowest row that pairs connect each row with."""
+    label = np.arange(count)
+    while True:
+        found = label.copy()
+        lowest = label[pairs].min(axis=1, initial=count)
+        for end in pairs.T:
+            np.minimum.at(found, end, lowest)
+        found = found[found]
+        if np.array_equal(found, label):
+            return label
+        label = found
+
+
+@dataclass(frozen=True, eq=False)
+class _Faces:
+    vertices: NDArray[np.float64]
+    offsets: NDArray[np.int32]
+    corners: NDArray[np.int32]
+    part: NDArray[np.int32]
+
+
+def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -> _Faces:
+    """The sheets with the faces that show their shape, or with even triangles of a size."""
+    whole, wanted = len(sheets.vertices), len(sheets.vertices)
+    if size > 0.0:
+        area = 0.5 * float(unit_normals(sheets.vertices[sheets.triangles])[1].sum())
+        wanted = min(whole, int(_PER_AREA * area / size**2) + 1)
+    found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
+    faces = cast("_Faces", found)
+    if size <= 0.0:
+        return faces
+    triangles = polygon_triangles(faces.vertices, faces.offsets, faces.corners)
+    rows = np.repeat(np.arange(len(faces.part)), np.diff(faces.offsets) - 2)
+    vertices, triangles, of = divided(faces.vertices, triangles, _SLACK * size)
+    offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
+    return _Faces(vertices, offsets, triangles.ravel(), faces.part[rows[of]])
+
+
+def _reduced(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> _Faces | None:
+    with own_errors() as module:
+        found = module.reduce_sheets(
+            np.ascontiguousarray(sheets.vertices),
+            _radii(sheets),
+            np.ascontiguousarray(sheets.triangles),
+            np.zeros((0, 2), np.int32),
+            np.ascontiguousarray(sheets.part),
+            _nodes(sheets),
+            wanted,
+            progress=progress and progress.part(),
+        )
+    if found is None:
+        return None
+    places, _, row, offsets, corners, part, _ = found
+    places = np.where((row >= 0)[:, None], sheets.vertices[row], places)
+    return _Faces(places, offsets, corners, part)
+
+
+def _radii(sheets: CarriedSheets) -> NDArray[np.float64]:
+    """(v,) the radii by which the sheets are simplified: one for all where each sheet has one thickness."""
+    least, most = np.full((2, int(sheets.part.max()) + 1), [[np.inf], [0.0]])
+    np.minimum.at(least, sheets.part, sheets.at_corners.min(axis=1))
+    np.maximum.at(most, sheets.part, sheets.at_corners.max(axis=1))
+    if (least >= (1.0 - _PLAIN) * most).all():
+        return np.full(len(sheets.vertices), 0.5 * float(most.mean()))
+    radius = np.zeros(len(sheets.vertices))
+    np.maximum.at(radius, sheets.triangles, 0.5 * sheets.at_corners)
+    return radius
+
+
+def _nodes(sheets: CarriedSheets) -> NDArray[np.int32]:
+    """The vertices where borders of sheets meet."""
+    triangles = sheets.triangles.astype(np.int64)
+    ends = np.sort(
+        np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2), axis=1
+    )
+    _, edge, uses = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    edge = edge.reshape(-1)
+    part = np.repeat(sheets.part, 3)
+    low, high = np.full(len(uses), part.max() + 1), np.full(len(uses), -1)
+    np.minimum.at(low, edge, part)
+    np.maximum.at(high, edge, part)
+    first = np.zeros(len(uses), np.int64)
+    first[edge] = np.arange(len(edge))
+    border = ends[first[(uses != 2) | (low != high)]]
+    degree = np.bincount(border.ravel(), minlength=len(sheets.vertices))
+    return np.flatnonzero((degree != 0) & (degree != 2)).astype(np.int32)
+
+
+def _with_thickness(
+    made: _Faces,
+    sheets: CarriedSheets,
+    parts: int,
+    shape: Shape,
+    found: Computation,
+    start: float,
+) -> MidSurface:
+    triangles = polygon_triangles(made.vertices, made.offsets, made.corners)
+    areas = 0.5 * unit_normals(made.vertices[triangles])[1]
+    of = np.repeat(np.arange(len(made.part)), np.diff(made.offsets) - 2)
+    whole = np.bincount(of, areas, len(made.part))
+    middles = made.vertices[triangles].mean(axis=1) * areas[:, None]
+    centre = np.column_stack([np.bincount(of, column, len(made.part)) for column in middles.T])
+    centre /= np.where(whole > 0.0, whole, 1.0)[:, None]
+    lengths = _lengths(sheets, parts)
+    thickness = lengths(centre, made.part)
+    corner_part = np.repeat(made.part, np.diff(made.offsets))
+    of_vertices = np.zeros(len(made.vertices))
+    np.maximum.at(of_vertices, made.corners, lengths(made.vertices[made.corners], corner_part))
+    share = float((whole * thickness).sum()) / shape.volume if shape.volume > 0.0 else float("nan")
+    return MidSurface(
+        made.vertices,
+        made.offsets,
+        made.corners,
+        made.part,
+        thickness,
+        of_vertices,
+        parts,
+        share,
+        shape,
+        found.chosen,
+        (*found.warnings, *_left_out(share), *_torn(triangles, found)),
+        time.perf_counter() - start,
+    )
+
+
+def _left_out(share: float) -> tuple[str, ...]:
+    if share >= _MOST:
+        return ()
+    return (
+        f"the sheets have {percent(share)} of the volume; what is not thin is left out, and Least Width decides what "
+        "counts as thin",
+    )
+
+
+def _torn(triangles: NDArray[np.int32], found: Computation) -> tuple[str, ...]:
+    ends = np.concatenate((triangles[:, :2], triangles[:, 1:]))
+    label = _united(int(triangles.max()) + 1, ends)
+    pieces = len(np.unique(label[triangles[:, 0]]))
+    level = found.axis.level
+    if level is None or pieces <= level.betti[0]:
+        return ()
+    return (
+        f"the sheets have {pieces:,} pieces and the solid {level.betti[0]:,}: sheets that should meet do not; more "
+        "samples may help",
+    )
+
+
+def _lengths(
+    sheets: CarriedSheets, parts: int
+) -> Callable[[NDArray[np.float64], NDArray[np.int32]], NDArray[np.float64]]:
+    """The function of places and their sheets that returns the thickness of the nearest corner there."""
+    part = np.repeat(sheets.part, 3)
+    places, values = sheets.vertices[sheets.triangles].reshape(-1, 3), sheets.at_corners.ravel()
+
+    def lengths(queries: NDArray[np.float64], of: NDArray[np.int32]) -> NDArray[np.float64]:
+        found = np.zeros(len(queries))
+        for number in range(parts):
+            rows, sites = np.flatnonzero(of == number), np.flatnonzero(part == number)
+            if len(rows):
+                with own_errors() as module:
+                    nearest = module.nearest(places[sites], np.ascontiguousarray(queries[rows]))
+                found[rows] = values[sites[nearest]]
+        return found
+
+    return lengths

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sheets of a medial axis that lie between walls that face each other, as triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from ..axis.directions import facet_areas, facet_normals
+from ..axis.facet_triangles import triangulate_facets
+from ..axis.medial_axis import ON_CREASE
+from ..axis.turning import with_facets_turned
+from ..machine.native import own_errors
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..axis.medial_axis import LevelValues, MedialAxis
+    from ..axis.structure import Structure
+
+# Both feet of a ball are seen at 120 degrees or more from its centre: then its radius changes by at most this share of
+# the way along the sheet.
+_FACING = 0.5
+_TAPER = (
+    0.2  # the same at a sharp edge, to which a wall tapers; steeper facets there are those of a rim
+)
+_NOTHING = 0.02  # of the median radius: a vertex with less is at an edge, too
+_EVEN = 0.15  # the most by which radii of a facet differ, as a share of its size, where it tells how its sheet goes on
+_SLIVER = 0.02  # a facet with less of the area of a disc of its perimeter tells no slope
+
+
+@dataclass(frozen=True, eq=False)
+class ThinSheets:
+    """Triangles of the sheets that are walls; the vertices are those of the axis.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    radius : (v,) float64
+    at_edge : (v,) bool
+        On a sharp convex edge of the solid.
+    triangles : (t, 3) int32
+        Those of a sheet turn the same way.
+    part : (t,) int32
+        The sheet of each triangle, 0 to `parts` - 1.
+    facet : (t,) int64
+        The facet of the axis that each triangle is a part of.
+    facing : (t,) bool
+        Whether the walls face each other there; no others tell where their sheet goes on.
+    normals : (t, 3) float64
+        Unit normals of the facets that the triangles are of.
+    slopes : (t, 3) float64
+        How the radius changes along those facets.
+    parts : int
+    """
+
+    vertices: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    at_edge: NDArray[np.bool_]
+    triangles: NDArray[np.int32]
+    part: NDArray[np.int32]
+    facet: NDArray[np.int64]
+    facing: NDArray[np.bool_]
+    normals: NDArray[np.float64]
+    slopes: NDArray[np.float64]
+    parts: int
+
+
+def thin_sheets(
+    axis: MedialAxis, patches: NDArray[np.int32] | None, least_width: float
+) -> ThinSheets:
+    """Choose the sheets whose walls face each other, and which are much wider than they are thick.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+        A clean axis of the inside with its structure.
+    patches : (n, 2) int32 or None
+        The patches of the samples, as of `AnalysedSamples`.
+    least_width : float
+        So many times as wide as its thickness a wall is at least.
+    """
+    structure = cast("Structure", axis.structure)
+    turned = with_facets_turned(axis, structure.turned)
+    polygons = turned.face_offsets, turned.face_vertices
+    areas = facet_areas(turned.vertices, *polygons)
+    normals = facet_normals(turned.vertices, *polygons)
+    slopes = _slopes(turned, areas, normals)
+    at_edge = cast("LevelValues", axis.level).place >= ON_CREASE
+    at_edge |= turned.radius < _NOTHING * float(np.median(turned.radius))
+    steep = np.linalg.norm(slopes, axis=1)
+    to_edge = np.logical_or.reduceat(at_edge[turned.face_vertices], turned.face_offsets[:-1])
+    slivers = _slivers(turned, areas)
+    facing = (steep < np.where(to_edge, _TAPER, _FACING)) | (slivers & ~to_edge)
+    chosen = _walls(turned, structure, areas, facing, least_width)
+    part, between = structure.part, facing
+    if patches is not None:
+        part, own = _own_parts(turned, structure, patches)
+        pairs = structure.part_patches[part]
+        told = (pairs[:, 0] >= 0) & (pairs[:, 0] != pairs[:, 1])  # the patches tell rims from walls
+        between, facing = np.where(told, own, facing & own), facing & own
+    kept = _without_frayed(turned, chosen[part], between)
+    facets = np.repeat(np.arange(len(areas)), np.diff(turned.face_offsets) - 2)
+    rows = np.flatnonzero(kept[facets])
+    facets = facets[rows]
+    number = np.cumsum(chosen) - 1
+    return ThinSheets(
+        vertices=turned.vertices,
+        radius=turned.radius,
+        at_edge=at_edge,
+        facet=facets,
+        facing=(facing & ~slivers & _even(turned))[facets],
+        triangles=triangulate_facets(turned.vertices, *polygons)[rows],
+        part=number[part[facets]].astype(np.int32),
+        normals=normals[facets],
+        slopes=slopes[facets],
+        parts=int(chosen.sum()),
+    )
+
+
+def _slopes(
+    axis: MedialAxis, areas: NDArray[np.float64], normals: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(f, 3) the mean gradient of the radius over each facet, from the radii along its border."""
+    corner = np.arange(len(axis.face_vertices))
+    after = corner + 1
+    after[axis.face_offsets[1:] - 1] = axis.face_offsets[:-1]
+    here, there = axis.face_vertices, axis.face_vertices[after]
+    facet = np.repeat(np.arange(len(areas)), np.diff(axis.face_offsets))
+    out = np.cross(axis.vertices[there] - axis.vertices[here], normals[facet])
+    flux = 0.5 * (axis.radius[here] + axis.radius[there])[:, None] * out
+    total = np.add.reduceat(flux, axis.face_offsets[:-1], axis=0)
+    return total / np.where(areas > 0.0, areas, np.inf)[:, None]
+
+
+def _even(axis: MedialAxis) -> NDArray[np.bool_]:
+    """(f,) the facets whose radii hardly differ: others are at rims or where sheets meet."""
+    starts, corners = axis.face_offsets[:-1], axis.face_vertices
+    radii, places = axis.radius[corners], axis.vertices[corners]
+    most, least = np.maximum.reduceat(radii, starts), np.minimum.reduceat(radii, starts)
+    size = np.maximum.reduceat(places, starts) - np.minimum.reduceat(places, starts)
+    return np.asarray(most - least <= _EVEN * np.linalg.norm(size, axis=1))
+
+
+def _own_parts(
+    axis: MedialAxis, structure: Structure, patches: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
+    """(f,) the sheet of each facet, and (f,) whether the facet lies between the patches of that sheet.
+
+    The structure gives small sheets to a neighbour; their facets go back to a neighbour between the same patches as
+    they, where there is one.
+    """
+
+    def between(facets: NDArray[np.int64], parts: NDArray[np.int32]) -> NDArray[np.bool_]:
+        first, second = (patches[axis.generators[facets, end]] for end in range(2))
+        low, high = (structure.part_patches[parts, end, None] for end in range(2))
+        straight = (first == low).any(axis=1) & (second == high).any(axis=1)
+        crossed = (first == high).any(axis=1) & (second == low).any(axis=1)
+        return np.asarray(straight | crossed | (low < 0).any(axis=1))
+
+    part = structure.part.copy()
+    own = between(np.arange(len(part)), part)
+    _, of_corner = _edges(axis)
+    facet = np.repeat(np.arange(len(part)), np.diff(axis.face_offsets))
+    order = np.argsort(of_corner, kind="stable")
+    same = of_corner[order[1:]] == of_corner[order[:-1]]
+    beside = np.column_stack((facet[order[:-1]], facet[order[1:]]))[same]
+    beside = np.concatenate((beside, beside[:, ::-1]))
+    while True:
+        pairs = beside[~own[beside[:, 0]] & own[beside[:, 1]]]
+        pairs = pairs[between(pairs[:, 0], part[pairs[:, 1]])]
+        if not len(pairs):
+            return part, own
+        part[pairs[::-1, 0]] = part[pairs[::-1, 1]]
+        own[pairs[:, 0]] = True
+
+
+def _slivers(axis: MedialAxis, areas: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(f,) the facets that are hardly more than a line."""
+    corner = np.arange(len(axis.face_vertices))
+    after = corner + 1
+    after[axis.face_offsets[1:] - 1] = axis.face_offsets[:-1]
+    ends = axis.vertices[axis.face_vertices[after]] - axis.vertices[axis.face_vertices]
+    around = np.add.reduceat(np.linalg.norm(ends, axis=1), axis.face_offsets[:-1])
+    return np.asarray(4.0 * np.pi * areas < _SLIVER * around**2)
+
+
+def _walls(
+    axis: MedialAxis,
+    structure: Structure,
+    areas: NDArray[np.float64],
+    facing: NDArray[np.bool_],
+    least_width: float,
+) -> NDArray[np.bool_]:
+    """(p,) which sheets are walls: most of their area lies between walls that face each other, and they are wide."""
+    parts, part = structure.parts, structure.part
+    whole = np.bincount(part, areas, parts)
+    between = np.bincount(part, areas * facing, parts)
+    width = 2.0 * whole / np.maximum(_borders(axis, part, parts), np.finfo(float).tiny)
+    thickness = 2.0 * structure.part_mean_radius
+    # The sheet ends half a thickness before the walls at its rims.
+    return (between > 0.5 * whole) & (width + thickness >= least_width * thickness)
+
+
+def _borders(axis: MedialAxis, part: NDArray[np.int32], parts: int) -> NDArray[np.float64]:
+    """(p,) the length of the border of each sheet."""
+    edges, of_corner = _edges(axis)
+    owner = np.repeat(part, np.diff(axis.face_offsets)).astype(np.int64)
+    pairs, uses = np.unique(of_corner * np.int64(parts) + owner, return_counts=True)
+    edge, owner = np.divmod(pairs[uses == 1], parts)
+    ends = axis.vertices[edges[edge]]
+    return np.bincount(owner, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1), parts)
+
+
+def _edges(axis: MedialAxis) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    with own_errors() as module:
+        return cast(
+            "tuple[NDArray[np.int32], NDArray[np.int32]]",
+            module.polygon_edges(axis.face_offsets, axis.face_vertices, len(axis.vertices)),
+        )
+
+
+def _without_frayed(
+    axis: MedialAxis, kept: NDArray[np.bool_], facing: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(f,) the facets without those whose walls do not face each other, as far as they can be taken off from a border.
+
+    A facet goes with an edge that no other facet has, so the topology stays.
+    """
+    _, of_corner = _edges(axis)
+    kept = kept.copy()
+    facet = np.repeat(np.arange(len(kept)), np.diff(axis.face_offsets))
+    mine = kept[facet]
+    count = int(of_corner.max(initial=-1)) + 1
+    uses = np.bincount(of_corner[mine], minlength=count)
+    owners = np.zeros(count, np.int64)  # the sum of the facets at each edge: of a border, its facet
+    np.add.at(owners, of_corner[mine], facet[mine])
+    waiting = list(np.flatnonzero(uses == 1))
+    while waiting:
+        edge = waiting.pop()
+        at = owners[edge]
+        if uses[edge] != 1 or facing[at]:
+            continue
+        kept[at] = False
+        for other in of_corner[axis.face_offsets[at] : axis.face_offsets[at + 1]]:
+            uses[other] -= 1
+            owners[other] -= at
+            if uses[other] == 1:
+                waiting.append(other)
+    return kept

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Unsolidify: the sheets of thin solids, with their thickness."""
+
+from functools import partial
+
+import bpy
+
+from ..bridge.mid_surface_object import check_mid_surface_writable, write_mid_surface
+from ..core.samples.density import share_text
+from ..core.settings import LOOKS, MID_SURFACE_OPTIONS, OPTIONS, MidSurfaceSettings
+from ..core.solid.mid_surface import mid_surface
+from .compute_operator import ComputeOperator
+from .object_menus import register_with_entry, unregister_with_entry
+from .preferences import memory_limit
+from .properties import SamplingProperties, draw_sampling, prop, settings_from, with_options
+
+
+@with_options(MID_SURFACE_OPTIONS)
+class MidSurfaceProperties:
+    """Which parts become sheets, and how fine these are."""
+
+
+class OBJECT_OT_medial_axis_unsolidify(
+    ComputeOperator, MidSurfaceProperties, SamplingProperties, bpy.types.Operator
+):
+    bl_idname = "object.medial_axis_unsolidify"
+    bl_label = "Unsolidify"
+    bl_description = (
+        "Make one sheet of each wall of a thin solid, with its thickness and a Solidify modifier that gives the solid "
+        "back"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    product = "middle surface"
+    check_writable = staticmethod(check_mid_surface_writable)
+
+    sides: prop(OPTIONS["sides"])
+    parent: prop(LOOKS["parent"])
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        for name in (*MID_SURFACE_OPTIONS, "parent"):
+            self.layout.prop(self, name)
+        box = self.layout.box().column()
+        for name in ("sides", "sampling"):
+            box.prop(self, name)
+        draw_sampling(box, self)
+
+    def work(self, shape):
+        wanted = settings_from(self, MidSurfaceSettings)
+        return partial(mid_surface, shape, settings_from(self), wanted, limit=memory_limit())
+
+    def write(self, thing, found, frame):
+        return write_mid_surface(thing, found, frame)
+
+    def summary(self, found):
+        sheets = "1 sheet" if found.sheets == 1 else f"{found.sheets:,} sheets"
+        low, high = float(found.thickness.min()), float(found.thickness.max())
+        same = high - low <= 1e-3 * high
+        thick = f"{high:.4g}" if same else f"{low:.4g} to {high:.4g}"
+        return f"{sheets}, {thick} thick, with {share_text(found.share)} of the volume"
+
+
+def _menu(self, _context):
+    self.layout.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
+
+
+CLASSES = (OBJECT_OT_medial_axis_unsolidify,)
+
+
+def register():
+    register_with_entry(CLASSES, _menu)
+
+
+def unregister():
+    unregister_with_entry(CLASSES, _menu)

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Unsolidify: a thin solid becomes sheets with thickness, and Solidify makes the solid of them again."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+from scene import refuse
+
+T = 0.05
+
+
+def plate(thickness=T):
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    thing = bpy.context.object
+    thing.data.transform(Matrix.Diagonal((1.0, 1.0, thickness / 2, 1.0)))
+    return thing
+
+
+def unsolidify(**options):
+    assert bpy.ops.object.medial_axis_unsolidify(samples=4000, **options) == {"FINISHED"}
+    return bpy.context.object
+
+
+def test_a_plate_is_one_sheet_with_its_thickness():
+    source = plate()
+    made = unsolidify()
+    assert made.name == "Cube Mid-Surface" and made.parent == source
+    positions = np.array([vertex.co[:] for vertex in made.data.vertices])
+    np.testing.assert_allclose(np.ptp(positions, axis=0), (2.0, 2.0, 0.0), atol=1e-5)
+    for name in ("ma_thickness", "ma_face_thickness"):
+        values = [each.value for each in made.data.attributes[name].data]
+        np.testing.assert_allclose(values, T, rtol=5e-3)
+
+
+def test_solidify_gives_the_solid_back():
+    plate()
+    made = unsolidify()
+    made.modifiers[0].show_viewport = True
+    found = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    mesh = bmesh.new()
+    mesh.from_mesh(found)
+    assert abs(mesh.calc_volume()) == pytest.approx(4.0 * T, rel=0.01)
+    mesh.free()
+
+
+def test_again_updates_the_same_object():
+    source = plate()
+    made = unsolidify()
+    bpy.context.view_layer.objects.active = source
+    assert unsolidify(size=0.5) == made and len(made.modifiers) == 1
+    lengths = [
+        (made.data.vertices[a].co - made.data.vertices[b].co).length for a, b in made.data.edge_keys
+    ]
+    assert 0.2 < max(lengths) <= 0.7001
+
+
+def test_a_block_has_no_sheets():
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    refuse("found none", operator="medial_axis_unsolidify", samples=4000)

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Middle surfaces of thin solids whose sheets are known, and as files; CalculiX judges the shell elements."""
+
+import json
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import MidSurfaceSettings, Settings
+from medial_axis.core.solid.even_triangles import divided
+from medial_axis.core.solid.mid_surface import mid_surface
+from support import mid_surfaces, topology
+from support.meshes import write_off
+from support.thick_meshes import block
+
+
+def sheets_of(mesh, **wanted):
+    points, triangles = mesh
+    shape = Shape(np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32))
+    return mid_surface(shape, Settings(samples=4000), MidSurfaceSettings(**wanted))
+
+
+def areas(found):
+    a, b, c = (found.vertices[found.triangles[:, i]] for i in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def off(known, places):
+    """(n,) how far places are from the rectangles."""
+    found = np.full(len(places), np.inf)
+    for corner, u, v in known.rectangles:
+        along = [np.clip((places - corner) @ side / (side @ side), 0, 1) for side in (u, v)]
+        nearest = corner + along[0][:, None] * u + along[1][:, None] * v
+        found = np.minimum(found, np.linalg.norm(places - nearest, axis=1))
+    return found
+
+
+@pytest.mark.parametrize(
+    "name", ("plate", "profile_t", "profile_l", "profile_i", "box_section", "stairs")
+)
+def test_sheets_of_flat_walls(name):
+    known = mid_surfaces.ALL[name]()
+    found = sheets_of(known.mesh)
+    assert found.sheets == known.sheets
+    assert off(known, found.vertices).max() < 0.005 * known.t
+    corners = known.rectangles[:, :1] + np.stack(
+        [0 * known.rectangles[:, 1], *known.rectangles[:, 1:].transpose(1, 0, 2)], axis=1
+    )
+    away = np.linalg.norm(corners.reshape(-1, 1, 3) - found.vertices, axis=2).min(axis=1)
+    assert away.max() < 0.005 * known.t, "corners of walls and ends of junctions are vertices"
+    np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
+    exact = np.linalg.norm(np.cross(*known.rectangles[:, 1:].transpose(1, 0, 2)), axis=1).sum()
+    assert areas(found).sum() == pytest.approx(exact, rel=0.005)
+    triangles = found.triangles
+    assert topology.euler(triangles) == known.betti[0] - known.betti[1] + known.betti[2]
+    assert topology.components(triangles) == known.betti[0]
+    assert found.share == pytest.approx(1.0, abs=0.03)
+
+
+def test_a_leaf_tapers_to_its_edge():
+    """Its middle is a disc; the caps are so flat that the thickness falls with the square of the radius."""
+    known = mid_surfaces.leaf()
+    found = sheets_of(known.mesh)
+    assert found.sheets == 1 and np.abs(found.vertices[:, 2]).max() < 0.01 * known.t
+    assert areas(found).sum() == pytest.approx(np.pi, rel=0.005)
+    away = np.linalg.norm(found.vertices[:, :2], axis=1)
+    np.testing.assert_allclose(found.of_vertices, known.t * (1 - away**2), atol=0.05 * known.t)
+    assert found.share == pytest.approx(1.0, abs=0.01)
+
+
+def test_a_block_is_no_wall():
+    mesh = block(1.0, 0.9, 0.8)
+    with pytest.raises(InvalidInputError, match="found none"):
+        sheets_of(mesh)
+
+
+def test_divided_triangles_still_share_edges():
+    points = np.array([(0, 0, 0), (4, 0, 0), (4, 1, 0), (0, 1, 0), (2, 0.5, 3)], float)
+    triangles = np.array([(0, 1, 2), (0, 2, 3), (0, 2, 4)], np.int32)
+    places, pieces, of = divided(points, triangles, 0.3)
+    sides = places[pieces] - places[np.roll(pieces, -1, axis=1)]
+    assert np.linalg.norm(sides, axis=2).max() <= 0.3
+    _, uses = topology.edges(pieces)
+    along = np.linalg.norm(points[2] - points[0])
+    assert (uses == 3).sum() >= along / 0.3, "all three sheets have the edges of their seam"
+    for row, triangle in enumerate(triangles):
+        a, b, c = points[triangle]
+        p, q, r = places[pieces[of == row]].transpose(1, 0, 2)
+        whole = np.cross(b - a, c - a)
+        np.testing.assert_allclose(np.cross(q - p, r - p).sum(axis=0), whole, atol=1e-12)
+
+
+def cantilever(tmp_path):
+    """A plate of 100 by 100 by 2 as a file."""
+    return write_off(tmp_path / "plate.off", block(100.0, 100.0, 2.0))
+
+
+def run(*words):
+    return cli.main(["midsurface", *map(str, words), "--quiet", "--samples", "4000"])
+
+
+def test_files_and_figures(tmp_path, capsys):
+    source = cantilever(tmp_path)
+    for name in ("plate.obj", "plate.ply", "plate.stl"):
+        assert run(source, tmp_path / name, "--json") == cli.DONE
+    said = json.loads(capsys.readouterr().out.splitlines()[-1])
+    assert said["sheets"] == 1 and said["share_of_volume"] == pytest.approx(1.0, rel=0.005)
+    lengths = np.loadtxt(tmp_path / "plate.csv", delimiter=",", skiprows=1)[:, 5]
+    np.testing.assert_allclose(lengths, 2.0, rtol=1e-6)
+    assert "g sheet1" in (tmp_path / "plate.obj").read_text()
+    thick = write_off(tmp_path / "block.off", block(1.0, 0.9, 0.8))
+    assert run(thick, tmp_path / "block.inp") == cli.INPUT
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
+def test_calculix_bends_a_plate_as_the_textbook_says(tmp_path):
+    """A cantilever beam: the end sinks by F l^3 / (3 E I); without a Poisson's ratio a plate is a beam."""
+    assert run(cantilever(tmp_path), tmp_path / "plate.inp", "--size", "12") == cli.DONE
+    text = (tmp_path / "plate.inp").read_text().replace("210000., 0.3", "210000., 0.0")
+    rows = text[text.index("*NODE, NSET=NALL\n") : text.index("*ELEMENT")].splitlines()[1:]
+    nodes = np.array([[float(word) for word in row.split(",")] for row in rows])
+    fixed = nodes[nodes[:, 1] < -49.999, 0].astype(int)
+    end = nodes[nodes[:, 1] > 49.999]
+    end = end[np.argsort(end[:, 2])]
+    width = np.diff(end[:, 2])
+    load = np.zeros(len(end))
+    for at in range(0, len(end) - 1, 2):  # corner, middle, corner: as Simpson's rule
+        load[at : at + 3] += np.array((1, 4, 1)) / 6 * width[at : at + 2].sum() / 100.0
+    lines = ["*NSET, NSET=END", *(f"{int(node)}," for node in end[:, 0]), "*BOUNDARY"]
+    lines += [f"{node}, 1, 6" for node in fixed]
+    lines += ["*STEP", "*STATIC", "*CLOAD"]
+    lines += [f"{int(node)}, 3, {part:.12g}" for node, part in zip(end[:, 0], load, strict=True)]
+    lines += ["*NODE PRINT, NSET=END", "U", "*END STEP", ""]
+    (tmp_path / "job.inp").write_text(text + "\n".join(lines))
+    subprocess.run(["ccx", "job"], cwd=tmp_path, check=True, capture_output=True, timeout=120)
+    rows = [row.split() for row in (tmp_path / "job.dat").read_text().splitlines()]
+    sunk = [float(row[3]) for row in rows if len(row) == 4 and row[0].isdigit()]
+    assert np.mean(sunk) == pytest.approx(100.0**3 / (3 * 210000.0 * 100.0 * 2.0**3 / 12), rel=0.02)
+
+
+def test_sheets_that_do_not_meet_are_told():
+    """Where two walls cross, pieces may stay apart, but not silently."""
+    found = sheets_of(mid_surfaces.cross().mesh)
+    pieces = topology.components(found.triangles)
+    assert any("should meet" in warning for warning in found.warnings) == (pieces > 1)
