@@ -15,7 +15,6 @@ constexpr double kAgree = 2;         // standard errors within which neighbourho
 constexpr double kSheet = 4;         // units of the noise beyond which a point is of another sheet
 constexpr double kStray = 5;         // units of the noise beyond which a point is of no sheet
 constexpr size_t kBeside = 8;        // centres whose radii are compared
-constexpr int64_t kGrain = 128;
 
 struct Near {
   double squared;
@@ -128,7 +127,7 @@ std::vector<double> evened(const PointTree& tree, std::span<const int32_t> centr
         std::nth_element(some.begin(), middle, some.end());
         even[i] = *middle;
       },
-      kGrain);
+      128);
   return even;
 }
 
@@ -149,7 +148,7 @@ std::vector<Moved> moved_points(const PointTree& tree, std::span<const int32_t> 
         first[i] = radii.first;
         if (best) chosen[i] = best->radius;
       },
-      kGrain);
+      128);
   const auto even = evened(tree, centres, chosen, run);
   std::vector<Moved> moved(centres.size());
   parallel_for(
@@ -164,7 +163,7 @@ std::vector<Moved> moved_points(const PointTree& tree, std::span<const int32_t> 
         if (!best || std::abs(best->terms[0]) * best->radius > kStray * noise) return;
         moved[i] = {best->place(), best->radius, noise * std::sqrt(best->variance)};
       },
-      kGrain);
+      128);
   return moved;
 }
 
