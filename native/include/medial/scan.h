@@ -33,8 +33,9 @@ ScanMeasure measure_scan(std::span<const Vec3> points, int threads = 0,
                          Progress* progress = nullptr);
 
 // Leaves the outliers out, moves the other points onto smooth surfaces through their neighbours,
-// and keeps as many of them as the rest of the noise lets tell apart.
+// and keeps as many of them as the rest of the noise lets tell apart. Without `move` only the
+// outliers and the duplicates are left out.
 PreparedScan prepare_scan(std::span<const Vec3> points, const ScanMeasure& measure,
-                          int threads = 0, Progress* progress = nullptr);
+                          bool move = true, int threads = 0, Progress* progress = nullptr);
 
 }  // namespace medial

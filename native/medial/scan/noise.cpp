@@ -14,6 +14,7 @@ constexpr double kLargest = 0.12;  // of the diagonal: a larger neighbourhood is
 // The median distance of even samples to their nearest neighbour, in units of the root of the area
 // that each has.
 constexpr double kNearest = 0.85;
+constexpr double kLeast = 0.01;     // spacings: less is rounding, not noise
 constexpr double kSeen = 0.8;  // of the residual that noise shows in the smallest neighbourhood
 
 struct Ladder {
@@ -115,6 +116,7 @@ NoiseFigures noise_of(const PointTree& tree, double diagonal, const Run& run) {
       if (all.spread[j] / all.spread[j - 1] < all.spread[best] / all.spread[best - 1]) best = j;
     }
     const double noise = all.spread[best], spacing = spacing_at(best);
+    if (noise < kLeast * spacing) break;
     if (all.spread[0] < kSeen * seen_of(noise / spacing) * noise) break;
     return {spacing, noise, all.kurtosis[best]};
   }

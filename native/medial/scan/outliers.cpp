@@ -16,15 +16,16 @@ constexpr double kEmpty = 0.8 * kPi;  // a wider sector without neighbours is a 
 constexpr int64_t kPlaces = 4000;     // determine a share of a percent to a fifth of it
 constexpr size_t kAround = 24;
 
-// The neighbours of every point, but itself: (n * kNear) ids and their mean distance.
+// The neighbours of every point, but itself: (n * kNear) ids, their least and mean distance.
 struct Neighbourhoods {
   std::vector<int32_t> ids;
-  std::vector<double> mean;
+  std::vector<double> least, mean;
 };
 
 Neighbourhoods neighbourhoods(const PointTree& tree, const Run& run) {
   const int64_t count = tree.size();
   Neighbourhoods all{std::vector<int32_t>(static_cast<size_t>(count) * kNear, -1),
+                     std::vector<double>(static_cast<size_t>(count), 0),
                      std::vector<double>(static_cast<size_t>(count), 0)};
   parallel_chunks(
       count, run,
@@ -36,6 +37,7 @@ Neighbourhoods neighbourhoods(const PointTree& tree, const Run& run) {
           double sum = 0;
           for (const auto& [distance, id] : near) {
             if (id == i || slot == kNear) continue;
+          if (slot == 0) all.least[i] = distance;
             all.ids[static_cast<size_t>(i) * kNear + slot++] = id;
             sum += distance;
           }
@@ -61,7 +63,7 @@ std::vector<int32_t> lone_points(const PointTree& tree, const Run& run) {
     for (const int32_t id : near_of(i)) theirs[slot++] = all.mean[id];
     // The lower quartile: other points that stand alone may be among the neighbours.
     std::nth_element(theirs.begin(), theirs.begin() + kNear / 4, theirs.end());
-    far[i] = all.mean[i] > kAlone * theirs[kNear / 4];
+    far[i] = all.least[i] > kAlone * theirs[kNear / 4];
   });
   const auto is_known = [&](int64_t i) {
     for (const int32_t id : near_of(i)) {

@@ -6,8 +6,8 @@
 
 namespace medial {
 
-// Returns the ascending ids of points that stand alone: much farther from their neighbours than
-// these are from theirs, and none of these has them among its own neighbours.
+// Returns the ascending ids of points that stand alone: much farther from the nearest one than
+// its neighbours are from theirs, and none of these has them among its own neighbours.
 std::vector<int32_t> lone_points(const PointTree& tree, const Run& run);
 
 // Returns the share of the points at which the surface ends: seen along its normal, a wide sector

@@ -39,10 +39,49 @@ std::vector<int32_t> thinned(const PointTree& tree, std::span<const double> dist
   return kept;
 }
 
-// The distance of neighbours after moving: the rest of the noise is a small share of it.
+// Returns the distance of neighbours after moving: the rest of the noise is a small share of it.
 double apart(const Moved& moved, double spacing) {
   if (!(moved.radius > 0)) return 0;
   return std::clamp(moved.left / kLeft, 0.7 * spacing, std::max(spacing, kOfRadius * moved.radius));
+}
+
+// A point that is kept: the caller's row, and its new place.
+using Kept = std::pair<int32_t, Vec3>;
+
+// Returns the distinct points that do not stand alone.
+std::vector<Kept> together(std::span<const Vec3> points, const ScanMeasure& measure,
+                           const Run& run) {
+  const DistinctRows distinct = distinct_rows(points, "points", run);
+  std::vector<uint8_t> alone(points.size(), 0);
+  for (const int32_t row : measure.outliers) alone[row] = 1;
+  std::vector<Kept> kept;
+  for (int32_t i = 0; i < distinct.count(); ++i) {
+    if (!alone[distinct.row[i]]) kept.emplace_back(distinct.row[i], distinct.points[i]);
+  }
+  return kept;
+}
+
+// Moves points in spatial order and thins them.
+std::vector<Kept> smoothed(std::span<const Kept> given, const ScanMeasure& measure,
+                           const Run& run) {
+  std::vector<Vec3> places;
+  for (const Kept& one : given) places.push_back(one.second);
+  const PointTree tree(places);
+  const double diagonal = length(box_of(places).extent()),
+               first = std::min(measure.noise, measure.spacing);
+  const auto centres = thinned(tree, std::vector<double>(places.size(), first));
+  const auto moved = moved_points(tree, centres, measure.noise, kLargest * diagonal, run);
+  std::vector<Vec3> after;
+  std::vector<double> distances;
+  for (const Moved& one : moved) {
+    after.push_back(one.place);
+    distances.push_back(apart(one, measure.spacing));
+  }
+  std::vector<Kept> kept;
+  for (const int32_t i : thinned(PointTree(after), distances)) {
+    kept.emplace_back(given[centres[i]].first, after[i]);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -65,39 +104,13 @@ ScanMeasure measure_scan(std::span<const Vec3> points, int threads, Progress* pr
   return measure;
 }
 
-PreparedScan prepare_scan(std::span<const Vec3> points, const ScanMeasure& measure, int threads,
-                          Progress* progress) {
+PreparedScan prepare_scan(std::span<const Vec3> points, const ScanMeasure& measure, bool move,
+                          int threads, Progress* progress) {
   const Run run{thread_count(threads), progress};
-  const DistinctRows distinct = distinct_rows(points, "points", run);
-  std::vector<uint8_t> alone(points.size(), 0);
-  for (const int32_t row : measure.outliers) alone[row] = 1;
-  std::vector<Vec3> places;
-  std::vector<int32_t> rows;
-  for (int32_t i = 0; i < distinct.count(); ++i) {
-    if (alone[distinct.row[i]]) continue;
-    places.push_back(distinct.points[i]);
-    rows.push_back(distinct.row[i]);
-  }
-  std::vector<std::pair<int32_t, Vec3>> kept;
-  if (!(measure.noise > 0)) {
-    for (size_t i = 0; i < rows.size(); ++i) kept.emplace_back(rows[i], places[i]);
-  } else {
-    const PointTree tree(places);
-    const double diagonal = length(box_of(places).extent());
-    const double first = std::min(1.0, measure.noise / measure.spacing) * measure.spacing;
-    const auto centres = thinned(tree, std::vector<double>(places.size(), first));
-    const auto moved = moved_points(tree, centres, measure.noise, kLargest * diagonal, run);
-    std::vector<Vec3> after;
-    std::vector<double> distances;
-    for (const Moved& one : moved) {
-      after.push_back(one.place);
-      distances.push_back(apart(one, measure.spacing));
-    }
-    for (const int32_t i : thinned(PointTree(after), distances)) {
-      kept.emplace_back(rows[centres[i]], after[i]);
-    }
-  }
-  std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  auto kept = together(points, measure, run);
+  if (move && measure.noise > 0) kept = smoothed(kept, measure, run);
+  std::sort(kept.begin(), kept.end(),
+            [](const Kept& a, const Kept& b) { return a.first < b.first; });
   PreparedScan prepared;
   for (const auto& [row, place] : kept) {
     prepared.rows.push_back(row);
