@@ -9,14 +9,14 @@
 namespace medial {
 namespace {
 
-constexpr size_t kNear = 12;
+constexpr size_t kFew = 12;
 constexpr double kAlone = 4;  // times the distance that is usual among the neighbours
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kEmpty = 0.8 * kPi;  // a wider sector without neighbours is a border
-constexpr int64_t kPlaces = 4000;     // determine a share of a percent to a fifth of it
+constexpr int64_t kLooked = 4000;     // determine a share of a percent to a fifth of it
 constexpr size_t kAround = 24;
 
-// The neighbours of every point, but itself: (n * kNear) ids, their least and mean distance.
+// The neighbours of every point, but itself: (n * kFew) ids, their least and mean distance.
 struct Neighbourhoods {
   std::vector<int32_t> ids;
   std::vector<double> least, mean;
@@ -24,7 +24,7 @@ struct Neighbourhoods {
 
 Neighbourhoods neighbourhoods(const PointTree& tree, const Run& run) {
   const int64_t count = tree.size();
-  Neighbourhoods all{std::vector<int32_t>(static_cast<size_t>(count) * kNear, -1),
+  Neighbourhoods all{std::vector<int32_t>(static_cast<size_t>(count) * kFew, -1),
                      std::vector<double>(static_cast<size_t>(count), 0),
                      std::vector<double>(static_cast<size_t>(count), 0)};
   parallel_chunks(
@@ -32,13 +32,13 @@ Neighbourhoods neighbourhoods(const PointTree& tree, const Run& run) {
       [&](int64_t begin, int64_t end, int) {
         std::vector<Neighbour> near;
         for (int64_t i = begin; i < end; ++i) {
-          tree.find(tree[static_cast<int32_t>(i)], kNear + 1, near);
+          tree.find(tree[static_cast<int32_t>(i)], kFew + 1, near);
           size_t slot = 0;
           double sum = 0;
           for (const auto& [distance, id] : near) {
-            if (id == i || slot == kNear) continue;
+            if (id == i || slot == kFew) continue;
           if (slot == 0) all.least[i] = distance;
-            all.ids[static_cast<size_t>(i) * kNear + slot++] = id;
+            all.ids[static_cast<size_t>(i) * kFew + slot++] = id;
             sum += distance;
           }
           all.mean[i] = slot > 0 ? sum / static_cast<double>(slot) : 0;
@@ -51,19 +51,19 @@ Neighbourhoods neighbourhoods(const PointTree& tree, const Run& run) {
 }  // namespace
 
 std::vector<int32_t> lone_points(const PointTree& tree, const Run& run) {
-  if (static_cast<size_t>(tree.size()) <= 2 * kNear) return {};
+  if (static_cast<size_t>(tree.size()) <= 2 * kFew) return {};
   const Neighbourhoods all = neighbourhoods(tree, run);
   const auto near_of = [&](int64_t i) {
-    return std::span(all.ids).subspan(static_cast<size_t>(i) * kNear, kNear);
+    return std::span(all.ids).subspan(static_cast<size_t>(i) * kFew, kFew);
   };
   std::vector<uint8_t> far(static_cast<size_t>(tree.size()), 0);
   parallel_for(tree.size(), run, [&](int64_t i) {
-    std::array<double, kNear> theirs;
+    std::array<double, kFew> theirs;
     size_t slot = 0;
     for (const int32_t id : near_of(i)) theirs[slot++] = all.mean[id];
     // The lower quartile: other points that stand alone may be among the neighbours.
-    std::nth_element(theirs.begin(), theirs.begin() + kNear / 4, theirs.end());
-    far[i] = all.least[i] > kAlone * theirs[kNear / 4];
+    std::nth_element(theirs.begin(), theirs.begin() + kFew / 4, theirs.end());
+    far[i] = all.least[i] > kAlone * theirs[kFew / 4];
   });
   const auto is_known = [&](int64_t i) {
     for (const int32_t id : near_of(i)) {
@@ -114,7 +114,7 @@ bool is_border(const PointTree& tree, int32_t place, double reach, std::vector<N
 }  // namespace
 
 double border_share(const PointTree& tree, double reach, const Run& run) {
-  const int64_t places = std::min<int64_t>(kPlaces, tree.size());
+  const int64_t places = std::min<int64_t>(kLooked, tree.size());
   std::vector<uint8_t> borders(static_cast<size_t>(places), 0);
   parallel_chunks(
       places, run,

@@ -13,7 +13,7 @@
 namespace medial {
 namespace {
 
-constexpr double kLargest = 0.12;  // of the diagonal, the radius of neighbourhoods
+constexpr double kWidest = 0.12;  // of the diagonal, the radius of neighbourhoods
 constexpr double kBorder = 6;      // spacings over which a border is looked for
 constexpr double kLeft = 0.05;     // of the new spacing, what may be left of the noise
 constexpr double kOfRadius = 1.0 / 3;  // of the neighbourhood, the largest new spacing
@@ -70,7 +70,7 @@ std::vector<Kept> smoothed(std::span<const Kept> given, const ScanMeasure& measu
   const double diagonal = length(box_of(places).extent()),
                first = std::min(measure.noise, measure.spacing);
   const auto centres = thinned(tree, std::vector<double>(places.size(), first));
-  const auto moved = moved_points(tree, centres, measure.noise, kLargest * diagonal, run);
+  const auto moved = moved_points(tree, centres, measure.noise, kWidest * diagonal, run);
   std::vector<Vec3> after;
   std::vector<double> distances;
   for (const Moved& one : moved) {
