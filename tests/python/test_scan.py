@@ -79,7 +79,7 @@ def test_duplicates_and_borders_are_counted(medial):
 def test_layers_are_told_from_errors(medial):
     points, spacing = noisy(Sphere(), 0.0)
     apart = points * (1.0 + spacing * np.where(np.arange(len(points)) % 2, 0.5, -0.5))[:, None]
-    assert medial.measure_scan(apart).kurtosis < 1.5
+    assert medial.measure_scan(apart).kurtosis < 1.7
     assert 2.5 < medial.measure_scan(noisy(Sphere(), 0.5)[0]).kurtosis < 3.2
 
 
@@ -103,7 +103,7 @@ def test_the_edges_of_the_faces_stay_flat():
     """Inside the faces of a box, points lie on them; only those near its edges may be off."""
     points, spacing = noisy(SHAPES["box"], 0.5, 8000)
     found, _ = prepare(points)
-    depth = np.sort(SHAPES["box"].half() - np.abs(found.points), axis=1)
+    depth = np.sort(SHAPES["box"].half - np.abs(found.points), axis=1)
     inner = depth[:, 1] > 6 * spacing
     assert inner.sum() > 100
     assert np.sqrt((depth[inner, 0] ** 2).mean()) < 0.15 * spacing
@@ -139,7 +139,7 @@ def test_noise_of_half_a_spacing_leaves_the_topology(name, betti):
     points, _ = noisy(SHAPES[name], 0.5)
     found = compute(points, NO_FACES, Settings())
     assert found.axis.level.betti == betti
-    assert found.axis.generators.max() >= len(found.chosen.samples.points)  # rows of the caller
+    assert found.chosen.samples.rows.max() > len(found.chosen.samples.points)  # of the caller
     assert any("noise of about" in warning for warning in found.warnings)
     off = compute(points, NO_FACES, Settings(prepare=Prepare.OFF))
     assert off.axis.level.betti != betti
@@ -167,6 +167,7 @@ CLEAN = Scan(1000, 1000, 0.1, 0.0, 3.0, 0, 0, 0.0)
         ({"noise": 0.5}, "POLES", "left as it is"),
         ({"noise": 0.5, "moved": np.ones(9)}, "TIGHT_COCONE", "the points were moved by 10 sp"),
         ({"noise": 0.5, "kurtosis": 1.2}, "TIGHT_COCONE", "the points lie in layers"),
+        ({"noise": 1.5, "kurtosis": 1.2}, "POLES", "walls of a thin part"),
         ({"outliers": 20, "kept": 980}, "TIGHT_COCONE", "stood alone and were left out"),
         ({"outliers": 20}, "TIGHT_COCONE", "which Prepare Automatic leaves out"),
         ({"border": 0.05}, "POLES", "bounds no solid"),

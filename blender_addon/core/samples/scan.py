@@ -25,6 +25,7 @@ _TOO_MUCH = 2.5  # noise in spacings beyond which too few points tell the surfac
 _ALONE = (0.001, 0.1)  # the share of lone points that are outliers; fewer are the tips of a shape
 _FEWEST = 4  # of them
 _LAYERED = 2.3  # a smaller kurtosis is that of layers; errors have 2.6 or more
+_WALLS = (0.7, 1.7)  # more noise in spacings with a smaller kurtosis is two walls of a thin part
 _ENDS = 0.02  # a larger share of points at which the surface ends is an opening, or a sheet
 _THIN = 5.0  # walls of fewer standard deviations of the noise become one
 
@@ -59,6 +60,11 @@ class Scan:
     outliers: int
     border: float
     moved: NDArray[np.float64] | None = None
+
+    @property
+    def has_walls(self) -> bool:
+        """Whether the noise seems to be the two walls of a thin part, which lie in two layers."""
+        return self.noise > _WALLS[0] and self.kurtosis < _WALLS[1]
 
     @property
     def figures(self) -> dict[str, Any]:
@@ -132,7 +138,7 @@ def _wanted(wanted: Prepare, scan: Scan) -> tuple[bool, bool]:
     if wanted is Prepare.OFF:
         return False, False
     enough = 0.0 if wanted is Prepare.ALWAYS else SOME
-    return enough < scan.noise <= _TOO_MUCH, scan.outliers > 0
+    return enough < scan.noise <= _TOO_MUCH and not scan.has_walls, scan.outliers > 0
 
 
 def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
@@ -171,6 +177,12 @@ def is_noisy(scan: Scan | None) -> bool:
 
 def _noise(scan: Scan) -> Iterator[str]:
     size = f"noise of about {scan.noise:.2g} spacings"
+    if scan.has_walls:
+        yield (
+            f"the points lie in two layers, about {2 * scan.noise * scan.spacing:.2g} apart, which were taken for the "
+            "walls of a thin part; if they are scans that do not fit each other, fit them again"
+        )
+        return
     if scan.noise > _TOO_MUCH:
         yield Severe(
             f"{size} was found, too much for so many points: scan more finely, or fit the scans to each other"
