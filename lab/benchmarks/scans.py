@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Noisy points of ten exact shapes, as they are and prepared: a Markdown table.
 
-    python3 lab/benchmarks/scans.py [--output table.md] [--shapes torus ...] [--seeds 1] [--picture scans.png]
+    python3 lab/benchmarks/scans.py [--output table.md] [--shapes torus ...] [--noise 0.5 ...] [--seeds 1] [--picture scans.png]
 
 Each shape has some 8,000 even samples, moved by Gaussian errors in all coordinates; the noise is their standard
 deviation in spacings, and a spacing the median distance of a clean sample to its nearest neighbour. Measured: the noise
@@ -111,6 +111,7 @@ def draw(path, names: list[str], noise: float = 0.5) -> None:
 def main() -> None:
     parser = _module.parser(__doc__)
     parser.add_argument("--shapes", nargs="+", choices=list(SOLIDS), default=list(SOLIDS))
+    parser.add_argument("--noise", nargs="+", type=float, default=NOISE)
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--picture", help="draw the axes before and after to this file instead")
     wanted = parser.parse_args()
@@ -119,7 +120,7 @@ def main() -> None:
         return
     rows = []
     for name in wanted.shapes:
-        for noise in NOISE:
+        for noise in wanted.noise:
             for seed in range(1, wanted.seeds + 1):
                 rows.append(row(name, noise, seed))
                 print(*rows[-1], file=sys.stderr, flush=True)

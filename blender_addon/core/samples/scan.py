@@ -32,7 +32,7 @@ _THIN = 5.0  # walls of fewer standard deviations of the noise become one
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """What was measured of points without faces, and what was done to them.
+    """The figures of points without faces, measured, and what was done to them.
 
     Parameters
     ----------
