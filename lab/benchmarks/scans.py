@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Noisy points of ten exact shapes, as they are and prepared: a Markdown table.
 
-    python3 lab/benchmarks/scans.py [--output table.md] [--shapes torus ...] [--noise 0.5 ...] [--seeds 1] [--picture scans.png]
+    python3 lab/benchmarks/scans.py [--output table.md] [--shapes torus ...] [--noise 0.5 ...] [--picture scans.png]
 
 Each shape has some 8,000 even samples, moved by Gaussian errors in all coordinates; the noise is their standard
 deviation in spacings, and a spacing the median distance of a clean sample to its nearest neighbour. Measured: the noise

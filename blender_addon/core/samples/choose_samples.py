@@ -26,8 +26,8 @@ from .density import percent
 from .effort import EFFORT
 from .mesh_parts import without_sheets
 from .outward_faces import outward_shape
-from .scan import prepared
 from .sample_spacing import FirstPass, first_pass, next_amount
+from .scan import prepared
 from .sharp_angle import sharp_angle_of
 from .sides import decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces

@@ -7,14 +7,14 @@
 namespace medial {
 namespace {
 
-constexpr size_t kFirst = 12;        // points of the smallest neighbourhood
-constexpr size_t kMost = 500;        // points of the largest
-constexpr double kFirstNoise = 3;    // the smallest radius, in units of the noise
-constexpr double kStep = 1.3;        // from radius to radius
-constexpr double kAgree = 2;         // standard errors within which neighbourhoods agree
-constexpr double kSheet = 4;         // units of the noise beyond which a point is of another sheet
-constexpr double kStray = 5;         // units of the noise beyond which a point is of no sheet
-constexpr size_t kBeside = 8;        // centres whose radii are compared
+constexpr size_t kFirst = 12;      // points of the smallest neighbourhood
+constexpr size_t kMost = 500;      // points of the largest
+constexpr double kFirstNoise = 3;  // the smallest radius, in units of the noise
+constexpr double kStep = 1.3;      // from radius to radius
+constexpr double kAgree = 2;       // standard errors within which neighbourhoods agree
+constexpr double kSheet = 4;       // units of the noise beyond which a point is of another sheet
+constexpr double kStray = 5;       // units of the noise beyond which a point is of no sheet
+constexpr size_t kBeside = 8;      // centres whose radii are compared
 
 struct Near {
   double squared;
@@ -70,9 +70,8 @@ class Climb {
     const Vec3 normal = sheet ? sheet->tilted() : least_spread(accepted_);
     auto quadric = fit_quadric(accepted_, centre_, normal, radius, Weights::smooth);
     if (quadric && !sheet) {  // once more, without points off the first sheet and upright
-      std::erase_if(accepted_, [&](const Vec3& p) {
-        return std::abs(quadric->above(p)) > kSheet * noise_;
-      });
+      std::erase_if(accepted_,
+                    [&](const Vec3& p) { return std::abs(quadric->above(p)) > kSheet * noise_; });
       quadric = fit_quadric(accepted_, centre_, quadric->tilted(), radius, Weights::smooth);
     }
     return quadric;

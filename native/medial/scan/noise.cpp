@@ -14,8 +14,8 @@ constexpr double kLargest = 0.12;  // of the diagonal: a larger neighbourhood is
 // The median distance of even samples to their nearest neighbour, in units of the root of the area
 // that each has.
 constexpr double kNearest = 0.85;
-constexpr double kLeast = 0.01;     // spacings: less is rounding, not noise
-constexpr double kSeen = 0.8;  // of the residual that noise shows in the smallest neighbourhood
+constexpr double kLeast = 0.01;  // spacings: less is rounding, not noise
+constexpr double kSeen = 0.8;    // of the residual that noise shows in the smallest neighbourhood
 
 struct Ladder {
   std::array<double, kSizes.size()> spread{}, radius{}, kurtosis{};
@@ -42,11 +42,11 @@ Ladder ladder_at(const PointTree& tree, int32_t place) {
     }
     ladder.radius[i] = near[points.size() - 1].distance;
     if (!(ladder.radius[i] > 0)) continue;
-    auto quadric = fit_quadric(points, tree[place], least_spread(points), ladder.radius[i],
-                               Weights::equal);
+    auto quadric =
+        fit_quadric(points, tree[place], least_spread(points), ladder.radius[i], Weights::equal);
     if (!quadric) continue;
-    const auto turned = fit_quadric(points, tree[place], quadric->tilted(), ladder.radius[i],
-                                    Weights::equal);
+    const auto turned =
+        fit_quadric(points, tree[place], quadric->tilted(), ladder.radius[i], Weights::equal);
     if (turned && turned->spread < quadric->spread) quadric = turned;
     ladder.spread[i] = quadric->spread;
     ladder.kurtosis[i] = kurtosis_of(*quadric, points);
@@ -102,8 +102,8 @@ double seen_of(double noise) {
 NoiseFigures noise_of(const PointTree& tree, double diagonal, const Run& run) {
   const Ladder all = median_ladder(tree, run);
   const auto spacing_at = [&](size_t i) {
-    return kNearest * all.radius[i] * std::sqrt(3.14159265358979323846 /
-                                                static_cast<double>(kSizes[i]));
+    return kNearest * all.radius[i] *
+           std::sqrt(3.14159265358979323846 / static_cast<double>(kSizes[i]));
   };
   NoiseFigures figures{spacing_at(2)};
   if (static_cast<size_t>(tree.size()) <= kSizes[4]) return figures;

@@ -37,7 +37,7 @@ Neighbourhoods neighbourhoods(const PointTree& tree, const Run& run) {
           double sum = 0;
           for (const auto& [distance, id] : near) {
             if (id == i || slot == kFew) continue;
-          if (slot == 0) all.least[i] = distance;
+            if (slot == 0) all.least[i] = distance;
             all.ids[static_cast<size_t>(i) * kFew + slot++] = id;
             sum += distance;
           }
