@@ -12,6 +12,7 @@ of the diagonal. Named: every wrong number of the prepared result comes with a s
 
 import sys
 import time
+from pathlib import Path
 
 import _module
 import numpy as np
@@ -21,6 +22,7 @@ _module.load()
 
 from medial_axis.core.axis.compute import compute  # noqa: E402
 from medial_axis.core.errors import MedialAxisError  # noqa: E402
+from medial_axis.core.files.picture import png  # noqa: E402
 from medial_axis.core.settings import Prepare, Settings  # noqa: E402
 from support.shapes import SHAPES, Cyclide, HoledPlate, RoundCone  # noqa: E402
 
@@ -35,14 +37,15 @@ SOLIDS = {
 }
 NOISE = (0.0, 0.25, 0.5, 1.0)
 COUNT = 8000
+DRAWN, TILE = 4000, 260
 HEADER = ["shape", "seed", "noise", "measured", "Betti, off", "Betti, prepared", "kept"]
 HEADER += ["o->t mean %", "t->o mean %", "seconds", "named"]
 NO_FACES = np.zeros((0, 3), np.int32)
 
 
-def noisy(shape, noise: float, seed: int) -> tuple[np.ndarray, float]:
+def noisy(shape, noise: float, seed: int, count: int = COUNT) -> tuple[np.ndarray, float]:
     """Samples with errors, and their spacing before."""
-    clean = shape.sample(COUNT, seed)
+    clean = shape.sample(count, seed)
     spacing = float(np.median(cKDTree(clean).query(clean, 2)[0][:, 1]))
     errors = np.random.default_rng((seed, 1)).normal(size=clean.shape)
     return clean + errors * noise * spacing, spacing
@@ -85,27 +88,29 @@ def bold(text: str, found, truth: tuple[int, int, int]) -> str:
     return text if right else f"**{text}**"
 
 
-def draw(path, names: list[str], noise: float = 0.5) -> None:
-    """Two rows of pictures: the vertices of Clean, of the points as they are and prepared, along the shortest axis."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(3 * len(names), 6.4), dpi=70)
-    axes = figure.subplots(2, len(names), squeeze=False)
+def draw(path: Path, names: list[str], noise: float = 0.5) -> None:
+    """Dots: the points grey, the vertices of Clean dark; above of the points as they are, below prepared."""
+    page = np.full((2 * TILE, len(names) * TILE, 3), 255, np.uint8)
     for column, name in enumerate(names):
-        points, _ = noisy(SOLIDS[name][0], noise, 1)
+        points, _ = noisy(SOLIDS[name][0], noise, 1, DRAWN)
         along = np.argsort(np.ptp(points, axis=0))[::-1][:2]
         for line, prepare in enumerate((Prepare.OFF, Prepare.AUTOMATIC)):
-            plot = axes[line, column]
             found, text = betti_of(points, prepare)
-            plot.plot(*points[::4, along].T, ",", color="0.7")
+            print(name, prepare.value, text, file=sys.stderr, flush=True)
+            tile = page[line * TILE : (line + 1) * TILE, column * TILE : (column + 1) * TILE]
+            dots(tile, points[:, along], points[:, along], (215, 215, 215))
             if found is not None:
-                radius = found.axis.radius
-                plot.scatter(*found.axis.vertices[:, along].T, c=radius, s=1.5, cmap="viridis")
-            plot.set_title(f"{name}, {prepare.value.lower()}\n{text}", fontsize=9)
-            plot.set_aspect("equal")
-            plot.set_axis_off()
-    figure.tight_layout()
-    figure.savefig(path)
+                dots(tile, found.axis.vertices[:, along], points[:, along], (40, 50, 110))
+    path.write_bytes(png(page))
+
+
+def dots(tile: np.ndarray, places: np.ndarray, frame: np.ndarray, colour: tuple) -> None:
+    """Two pixels wide, where the frame fills most of the tile."""
+    middle, wide = (frame.min(axis=0) + frame.max(axis=0)) / 2, np.ptp(frame, axis=0).max()
+    at = (TILE / 2 + (places - middle) / wide * 0.92 * TILE).astype(int)
+    x, y = np.clip(at, 0, TILE - 2).T
+    for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        tile[TILE - 2 - y + i, x + j] = colour
 
 
 def main() -> None:
@@ -113,7 +118,9 @@ def main() -> None:
     parser.add_argument("--shapes", nargs="+", choices=list(SOLIDS), default=list(SOLIDS))
     parser.add_argument("--noise", nargs="+", type=float, default=NOISE)
     parser.add_argument("--seeds", type=int, default=1)
-    parser.add_argument("--picture", help="draw the axes before and after to this file instead")
+    parser.add_argument(
+        "--picture", type=Path, help="draw the axes before and after to this file instead"
+    )
     wanted = parser.parse_args()
     if wanted.picture:
         draw(wanted.picture, wanted.shapes)
