@@ -158,7 +158,7 @@ def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
         yield f"{scan.outliers:,} of {scan.given:,} points stood alone and were left out"
     elif scan.outliers:
         yield f"{scan.outliers:,} of {scan.given:,} points stand alone: outliers, which Prepare Automatic leaves out"
-    if scan.border > _ENDS:
+    if scan.border > _ENDS and sides is SidesFrom.POLES:
         yield (
             f"the surface ends at {percent(scan.border)} of the points: openings, or a sheet as of a facade, "
             "a terrain or a single view, which bounds no solid; inside is a guess there, and side Both needs none"
@@ -172,7 +172,7 @@ def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
 
 def is_noisy(scan: Scan | None) -> bool:
     """Whether the noise of points is worse than their distances, so that more of them would not help."""
-    return scan is not None and (scan.noise > SOME or scan.border > _ENDS)
+    return scan is not None and scan.noise > SOME
 
 
 def _noise(scan: Scan) -> Iterator[str]:
