@@ -105,6 +105,7 @@ SAMPLE_ATTRIBUTES = (
     EPSILON,
     Attribute("ma_feature_size", "feature_size", "POINT", "FLOAT", np.float32),
     Attribute("ma_spacing", "spacing", "POINT", "FLOAT", np.float32),
+    Attribute("ma_moved", "moved", "POINT", "FLOAT", np.float32),
 )
 
 

@@ -36,6 +36,14 @@ class SidesFrom(Enum):
     WRAP = "WRAP"
 
 
+class Prepare(Enum):
+    """The treatment of points without faces before they are analysed."""
+
+    AUTOMATIC = "AUTOMATIC"
+    OFF = "OFF"
+    ALWAYS = "ALWAYS"
+
+
 class SamplingMode(Enum):
     """The points of the surface that are analysed."""
 
@@ -100,6 +108,7 @@ MEGABYTE = 1 << 20  # bytes
 ANALYSED = ("side", "sides", "sampling")
 # These options determine how faces are sampled; the choice of Sampling determines which of them matter.
 SAMPLING_OPTIONS = (
+    "prepare",
     "wrap_opening",
     "samples",
     "spacing",
@@ -129,7 +138,7 @@ def applies(
 
     `of_faces` are the options that matter for Vertices, too (`Settings.options_of_faces`).
     """
-    if name in ("epsilon", "wrap_opening") or name not in SAMPLING_OPTIONS:
+    if name in ("epsilon", "wrap_opening", "prepare") or name not in SAMPLING_OPTIONS:
         return True
     if sampling is SamplingMode.VERTICES:
         return name in of_faces
@@ -319,6 +328,20 @@ class Settings(Options):
                 "Samples of the faces, closer together where the shape is thin, until Epsilon is "
                 "reached or Budget is spent",
             ),
+        },
+    )
+    prepare: Prepare = choice(
+        "Prepare",
+        "What is done to points without faces, as of a scan, before they are analysed",
+        default=Prepare.AUTOMATIC,
+        items={
+            Prepare.AUTOMATIC: (
+                "Automatic",
+                "Points that stand alone are left out; where there is noise, points are moved onto smooth "
+                "surfaces and thinned. Clean points stay as they are",
+            ),
+            Prepare.OFF: ("Off", "The points stay as they are"),
+            Prepare.ALWAYS: ("Always", "Points are moved also where noise is small"),
         },
     )
     samples: int = integer(

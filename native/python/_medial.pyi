@@ -542,6 +542,43 @@ class BallCover:
     def step(self) -> float:
         """Of the lattice."""
 
+@final
+class ScanMeasure:
+    """Properties of points without faces; made by `measure_scan`. Lengths are in the unit of the points."""
+
+    @property
+    def spacing(self) -> float:
+        """The distance of neighbours, as if the points were evenly spread."""
+    @property
+    def noise(self) -> float:
+        """The standard deviation of a point from the surface; 0.0 where no noise is seen."""
+    @property
+    def kurtosis(self) -> float:
+        """How the points spread over the noise: 3 as errors do, 1.8 evenly, 1 in two layers."""
+    @property
+    def duplicates(self) -> int:
+        """The number of rows that repeat an earlier one."""
+    @property
+    def outliers(self) -> NDArray[np.int32]:
+        """(k,) int32: ascending rows of points that stand alone."""
+    @property
+    def border(self) -> float:
+        """The share of the points at which the surface ends, because a wide sector round them is empty."""
+
+@final
+class PreparedScan:
+    """Points on smooth surfaces through a scan; made by `prepare_scan`."""
+
+    @property
+    def rows(self) -> NDArray[np.int32]:
+        """(k,) int32: ascending rows of the points that were kept."""
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(k, 3) float64: their places."""
+    @property
+    def moved(self) -> NDArray[np.float64]:
+        """(k,) float64: how far each was moved."""
+
 class ThicknessMode:
     """What `MedialAnalysis.thickness` measures."""
 
@@ -1814,6 +1851,54 @@ def wall_distances(
     distances : (n,) float64
         The way against the normal to where the solid ends, at a triangle that faces away from the point within 30
         degrees. Infinite: beyond reach, or the way ends at a slant, as beside a sharp edge; and for a zero normal.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
+def measure_scan(
+    points: NDArray[np.float64], *, progress: Progress | None = None, threads: int = 0
+) -> ScanMeasure:
+    """Measure noise, duplicates, outliers and borders of points without faces.
+
+    Quadrics are fitted to neighbourhoods of growing size. Curvature makes the residuals grow all along, noise makes a
+    plateau.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
+def prepare_scan(
+    points: NDArray[np.float64],
+    measure: ScanMeasure,
+    *,
+    move: bool = True,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> PreparedScan:
+    """Leave the outliers of a scan out, move its points onto smooth surfaces, and thin them to the rest of the noise.
+
+    Each point is moved onto the quadric of the largest neighbourhood with which all smaller ones agree.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    measure : ScanMeasure
+        Of the same points.
+    move : bool
+        False: no point is moved or thinned, and only outliers are left out.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
 
     Raises
     ------

@@ -19,5 +19,6 @@ void bind_sampling(pybind11::module_& module);
 void bind_structure(pybind11::module_& module);
 void bind_surfaces(pybind11::module_& module);
 void bind_balls(pybind11::module_& module);
+void bind_scan(pybind11::module_& module);
 
 }  // namespace medial::python

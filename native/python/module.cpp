@@ -34,6 +34,7 @@ void bind_product(py::module_& m) {
   bind_structure(m);
   bind_surfaces(m);
   bind_balls(m);
+  bind_scan(m);
   bind_reduce(m);
 }
 

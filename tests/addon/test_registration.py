@@ -13,6 +13,7 @@ from scene import MODULE, addon, compute, ellipsoid, link, result_of
 
 SAMPLING = (
     "sampling",
+    "prepare",
     "samples",
     "spacing",
     "epsilon",
@@ -175,8 +176,10 @@ def test_what_does_not_apply_is_grey():
         for name in settings.SAMPLING_OPTIONS
     }
     everywhere, faces = {"AUTOMATIC", "VERTICES", "SURFACE", "ADAPTIVE"}, {"AUTOMATIC", "ADAPTIVE"}
-    assert of["epsilon"] == of["wrap_opening"] == everywhere and of["budget"] == faces
-    others = set(of) - {"epsilon", "wrap_opening", "budget"}
+    assert (
+        of["epsilon"] == of["wrap_opening"] == of["prepare"] == everywhere and of["budget"] == faces
+    )
+    others = set(of) - {"epsilon", "wrap_opening", "prepare", "budget"}
     assert all(of[name] == faces | {"SURFACE"} for name in others)
     assert not settings.applies("samples", settings.SamplingMode.SURFACE, 1.0)
     vertices = settings.SamplingMode.VERTICES

@@ -225,6 +225,7 @@ def test_names_of_the_library_in_the_examples_are_there():
 
 STAGES = (
     "stage_sampling",
+    "stage_scan",
     "stage_delaunay",
     "stage_inside",
     "stage_tight_cocone",

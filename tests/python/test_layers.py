@@ -247,6 +247,7 @@ MAY_INCLUDE = {
     "skeleton": {"base", "delaunay", "inside", "axis", "contact"},
     "structure": {"base"},
     "reduce": {"base"},
+    "scan": {"base"},
     ".": {
         "base",
         "delaunay",
@@ -273,6 +274,7 @@ PUBLIC = {
     "ball_cover.h": {"balls"},
     "sampling.h": {"sampling"},
     "structure.h": {"structure"},
+    "scan.h": {"scan"},
     "analysis.h": {".", "rivals"},
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..settings import OPTIONS, Form
+from ..settings import OPTIONS, Form, SidesFrom
 
 if TYPE_CHECKING:
     from ..samples.analysed import AnalysedSamples
@@ -34,6 +34,8 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) 
     betti, by_faces = axis.level.betti, samples.by_faces
     if by_faces == betti:
         return f"{betti_words(betti)}, as the solid"
+    if samples.analysis.sides_from.name == SidesFrom.POLES.name:
+        return f"{betti_words(betti)}, as the poles tell, which is a guess"
     sentence = f"{betti_words(betti)}, by the samples"
     if by_faces is None:
         return sentence

@@ -84,5 +84,6 @@ class AxisWork:
             "missed": found.missed,
             "inside": str(found.sides),
             "turned_faces": found.turned,
+            "scan": None if found.chosen.scan is None else found.chosen.scan.figures,
             "mesh": None if found.mesh is None else asdict(found.mesh),
         }

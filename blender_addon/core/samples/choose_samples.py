@@ -27,6 +27,7 @@ from .effort import EFFORT
 from .mesh_parts import without_sheets
 from .outward_faces import outward_shape
 from .sample_spacing import FirstPass, first_pass, next_amount
+from .scan import prepared
 from .sharp_angle import sharp_angle_of
 from .sides import check_not_a_sheet, decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 
 
 _WRAPPING = 0.4  # of the analysis
+_PREPARING = 0.3  # of the analysis of points without faces
 # The budget counts as spent from this share on: all spacings are scaled to meet it, which is not exact.
 _SPENT = 0.97
 
@@ -109,11 +111,14 @@ def choose_samples(
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
+    shape, scan = prepared(shape, settings, progress.part(_PREPARING))
     try:
-        return _choose(_request(shape, settings, progress, limit, levels))
+        chosen = _choose(_request(shape, settings, progress, limit, levels))
     except MemoryLimitError as error:
         shape, settings, thinned = _thinned(shape, settings, limit, error)
-    return replace(_choose(_request(shape, settings, progress, limit, levels)), thinned=thinned)
+        chosen = _choose(_request(shape, settings, progress, limit, levels))
+        return replace(chosen, thinned=thinned, scan=scan)
+    return replace(chosen, scan=scan)
 
 
 def _request(
@@ -134,7 +139,9 @@ def _thinned(
         return shape, *fewer_samples(shape, settings, first, limit, error)
     rows, sentence = thinned_rows(shape.points, limit, error)
     normals = None if shape.normals is None else shape.normals[rows]
-    return replace(shape, points=shape.points[rows], normals=normals, rows=rows), settings, sentence
+    of_caller = rows if shape.rows is None else shape.rows[rows]
+    thin = replace(shape, points=shape.points[rows], normals=normals, rows=of_caller)
+    return thin, settings, sentence
 
 
 def _choose(request: Request) -> ChosenSamples:

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from ..machine.progress import Progress
     from ..settings import SamplingMode
     from .analysed import AnalysedSamples, Sides
+    from .scan import Scan
     from .shape import Shape
 
 
@@ -35,6 +36,8 @@ class ChosenSamples:
         The faces were sampled because their vertices are too few.
     differs : bool
         The topology of the samples differs from that of the faces, although more samples were taken to change that.
+    scan : Scan or None
+        What was measured of points without faces, and done to them; None where there are faces.
     """
 
     samples: AnalysedSamples
@@ -45,6 +48,7 @@ class ChosenSamples:
     thinned: str = ""
     sparse: bool = False
     differs: bool = False
+    scan: Scan | None = None
 
     @property
     def of_pairs(self) -> dict[str, bool]:

@@ -37,6 +37,8 @@ class SamplingReport(TriangleFaces):
         The surface between inside and outside, counter-clockwise as seen from outside.
     epsilon, spacing, feature_size : (n,) float64
         As in `density`; rows with the same coordinates have the same values.
+    moved : (n,) float64
+        How far each point of a scan was moved; 0 where nothing was.
     density : Density
         The density at all samples.
     shape : Shape
@@ -51,6 +53,7 @@ class SamplingReport(TriangleFaces):
     epsilon: NDArray[np.float64]
     spacing: NDArray[np.float64]
     feature_size: NDArray[np.float64]
+    moved: NDArray[np.float64]
     density: Density
     shape: Shape
     chosen: ChosenSamples
@@ -87,12 +90,20 @@ def report_sampling(
         epsilon=density.epsilon[rows],
         spacing=density.spacing[rows],
         feature_size=density.feature_size[rows],
+        moved=_moved(chosen),
         density=density,
         shape=shape,
         chosen=chosen,
         warnings=tuple(sampling_warnings(shape, chosen)),
         seconds=begun.seconds,
     )
+
+
+def _moved(chosen: ChosenSamples) -> NDArray[np.float64]:
+    """Return how far each sample was moved; a scan that was thinned afterwards no longer tells."""
+    count = len(chosen.samples.points)
+    moved = None if chosen.scan is None else chosen.scan.moved
+    return np.zeros(count) if moved is None or len(moved) != count else moved
 
 
 def _of_all(samples: AnalysedSamples) -> Density:

@@ -13,6 +13,7 @@ from ..severe import Severe
 from .density import percent
 from .nearness import same_place
 from .outward_faces import are_left_out, reading_warnings
+from .scan import is_noisy, scan_warnings
 
 if TYPE_CHECKING:
     from .chosen import ChosenSamples
@@ -26,6 +27,7 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
     samples, density = chosen.samples, chosen.samples.density
     if chosen.thinned:
         yield chosen.thinned
+    yield from scan_warnings(chosen.scan, chosen.sides.source)
     yield from reading_warnings(shape)
     if loose := _loose_vertices(shape, chosen):
         yield (
@@ -49,7 +51,7 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
             f"{len(samples.points):,} samples were taken: details or gaps are smaller than their "
             "spacing, or faces pass through each other; a larger Budget may help"
         )
-    if density.share > _SPARSE and not _confirmed_by_faces(chosen):
+    if density.share > _SPARSE and not _confirmed_by_faces(chosen) and not is_noisy(chosen.scan):
         yield (
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "
             f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Noisy points of ten exact shapes, as they are and prepared: a Markdown table.
+
+    python3 lab/benchmarks/scans.py [--output table.md] [--shapes torus ...] [--noise 0.5 ...] [--picture scans.png]
+
+Each shape has some 8,000 even samples, moved by Gaussian errors in all coordinates; the noise is their standard
+deviation in spacings, and a spacing the median distance of a clean sample to its nearest neighbour. Measured: the noise
+that was found. Betti: pieces, loops and cavities of Clean with Prepare Off and Automatic, bold where they are not those
+of the solid. o->t and t->o: mean distance of the vertices of the prepared axis to the exact one, and back, in percent
+of the diagonal. Named: every wrong number of the prepared result comes with a sentence that is not about sparse points.
+"""
+
+import sys
+import time
+from pathlib import Path
+
+import _module
+import numpy as np
+from scipy.spatial import cKDTree
+
+_module.load()
+
+from medial_axis.core.axis.compute import compute  # noqa: E402
+from medial_axis.core.errors import MedialAxisError  # noqa: E402
+from medial_axis.core.files.picture import png  # noqa: E402
+from medial_axis.core.settings import Prepare, Settings  # noqa: E402
+from support.shapes import SHAPES, Cyclide, HoledPlate, RoundCone  # noqa: E402
+
+BALL, RING = (1, 0, 0), (1, 1, 0)
+PLATE = HoledPlate()
+SOLIDS = {
+    **{name: (SHAPES[name], BALL) for name in ("ellipsoid", "oblate", "slab", "box", "capsule")},
+    **{name: (SHAPES[name], RING) for name in ("torus", "knot")},
+    "round cone": (RoundCone(), BALL),
+    "cyclide": (Cyclide(), RING),
+    "holed plate": (PLATE, PLATE.betti),
+}
+NOISE = (0.0, 0.25, 0.5, 1.0)
+COUNT = 8000
+DRAWN, TILE = 4000, 260
+HEADER = ["shape", "seed", "noise", "measured", "Betti, off", "Betti, prepared", "kept"]
+HEADER += ["o->t mean %", "t->o mean %", "seconds", "named"]
+NO_FACES = np.zeros((0, 3), np.int32)
+
+
+def noisy(shape, noise: float, seed: int, count: int = COUNT) -> tuple[np.ndarray, float]:
+    """Samples with errors, and their spacing before."""
+    clean = shape.sample(count, seed)
+    spacing = float(np.median(cKDTree(clean).query(clean, 2)[0][:, 1]))
+    errors = np.random.default_rng((seed, 1)).normal(size=clean.shape)
+    return clean + errors * noise * spacing, spacing
+
+
+def betti_of(points: np.ndarray, prepare: Prepare):
+    """The computation, or None, and a cell about its topology."""
+    try:
+        found = compute(points, NO_FACES, Settings(prepare=prepare))
+    except MedialAxisError as error:
+        return None, type(error).__name__
+    return found, str(found.axis.level.betti)
+
+
+def row(name: str, noise: float, seed: int) -> list[str]:
+    shape, truth = SOLIDS[name]
+    points, spacing = noisy(shape, noise, seed)
+    raw, was = betti_of(points, Prepare.OFF)
+    start = time.process_time()
+    found, now = betti_of(points, Prepare.AUTOMATIC)
+    seconds = time.process_time() - start
+    cells = [bold(was, raw, truth), bold(now, found, truth)]
+    if found is None:
+        return [name, str(seed), f"{noise:g}", "", *cells, "", "", "", f"{seconds:.1f}", ""]
+    scan, vertices = found.chosen.scan, found.axis.vertices
+    diagonal = np.linalg.norm(np.ptp(points, axis=0)) / 100
+    to_truth = shape.axis_distance(vertices).mean() / diagonal
+    back = cKDTree(vertices).query(shape.axis_points(4000))[0].mean() / diagonal
+    named = any("too sparse" not in warning for warning in found.warnings)
+    wrong = found.axis.level.betti != truth
+    return [
+        *(name, str(seed), f"{noise:g}", f"{scan.noise * scan.spacing / spacing:.3f}", *cells),
+        *(f"{scan.kept:,}", f"{to_truth:.2f}", f"{back:.2f}", f"{seconds:.1f}"),
+        ("yes" if named else "**no**") if wrong else "",
+    ]
+
+
+def bold(text: str, found, truth: tuple[int, int, int]) -> str:
+    right = found is not None and found.axis.level.betti == truth
+    return text if right else f"**{text}**"
+
+
+def draw(path: Path, names: list[str], noise: float = 0.5) -> None:
+    """Dots: the points grey, the vertices of Clean dark; above of the points as they are, below prepared."""
+    page = np.full((2 * TILE, len(names) * TILE, 3), 255, np.uint8)
+    for column, name in enumerate(names):
+        points, _ = noisy(SOLIDS[name][0], noise, 1, DRAWN)
+        along = np.argsort(np.ptp(points, axis=0))[::-1][:2]
+        for line, prepare in enumerate((Prepare.OFF, Prepare.AUTOMATIC)):
+            found, text = betti_of(points, prepare)
+            print(name, prepare.value, text, file=sys.stderr, flush=True)
+            tile = page[line * TILE : (line + 1) * TILE, column * TILE : (column + 1) * TILE]
+            dots(tile, points[:, along], points[:, along], (215, 215, 215))
+            if found is not None:
+                dots(tile, found.axis.vertices[:, along], points[:, along], (40, 50, 110))
+    path.write_bytes(png(page))
+
+
+def dots(tile: np.ndarray, places: np.ndarray, frame: np.ndarray, colour: tuple) -> None:
+    """Two pixels wide, where the frame fills most of the tile."""
+    middle, wide = (frame.min(axis=0) + frame.max(axis=0)) / 2, np.ptp(frame, axis=0).max()
+    at = (TILE / 2 + (places - middle) / wide * 0.92 * TILE).astype(int)
+    x, y = np.clip(at, 0, TILE - 2).T
+    for i, j in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        tile[TILE - 2 - y + i, x + j] = colour
+
+
+def main() -> None:
+    parser = _module.parser(__doc__)
+    parser.add_argument("--shapes", nargs="+", choices=list(SOLIDS), default=list(SOLIDS))
+    parser.add_argument("--noise", nargs="+", type=float, default=NOISE)
+    parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument(
+        "--picture", type=Path, help="draw the axes before and after to this file instead"
+    )
+    wanted = parser.parse_args()
+    if wanted.picture:
+        draw(wanted.picture, wanted.shapes)
+        return
+    rows = []
+    for name in wanted.shapes:
+        for noise in wanted.noise:
+            for seed in range(1, wanted.seeds + 1):
+                rows.append(row(name, noise, seed))
+                print(*rows[-1], file=sys.stderr, flush=True)
+    table = _module.markdown(HEADER, rows)
+    print(table)
+    if wanted.output:
+        wanted.output.write_text(table, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A scan is measured and prepared: points without faces, with noise, outliers and gaps.
+#pragma once
+
+#include <medial/progress.h>
+#include <medial/types.h>
+
+#include <span>
+
+namespace medial {
+
+// Lengths are in the unit of the input.
+struct ScanMeasure {
+  double spacing = 0;  // the distance of neighbours, if the points were evenly spread
+  double noise = 0;    // the standard deviation of a point from the surface; 0 where none is seen
+  // The spread of the points over the noise is that of two layers or more, not that of errors: its
+  // kurtosis, which is 3 for errors, 1.8 for an even spread, 1 for two layers.
+  double kurtosis = 0;
+  int64_t duplicates = 0;         // rows that repeat an earlier one
+  std::vector<int32_t> outliers;  // ascending rows of points that stand alone
+  double border = 0;  // the share of the points at which the surface ends: openings, gaps, rims
+};
+
+struct PreparedScan {
+  std::vector<int32_t> rows;  // (k) ascending rows of the caller that were kept
+  std::vector<Vec3> points;   // (k) their places on the surface
+  std::vector<double> moved;  // (k) how far each of them was moved
+};
+
+// Measures noise, duplicates, outliers and borders of points. `threads` 0 means all cores; the
+// result does not depend on it. Throws InvalidInputError, Cancelled.
+ScanMeasure measure_scan(std::span<const Vec3> points, int threads = 0,
+                         Progress* progress = nullptr);
+
+// Leaves the outliers out, moves the other points onto smooth surfaces through their neighbours,
+// and keeps as many of them as the rest of the noise lets tell apart. Without `move` only the
+// outliers and the duplicates are left out.
+PreparedScan prepare_scan(std::span<const Vec3> points, const ScanMeasure& measure,
+                          bool move = true, int threads = 0, Progress* progress = nullptr);
+
+}  // namespace medial

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scans, judged by shapes whose surfaces are known exactly: what is measured, and where points are moved."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.files.read_shape import read_shape
+from medial_axis.core.samples.sampling_report import report_sampling
+from medial_axis.core.samples.scan import Scan, prepared, scan_warnings
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import Prepare, Settings, SidesFrom
+from scipy.spatial import cKDTree
+from support.data import DATA
+from support.shapes import SHAPES, Sphere
+
+NO_FACES = np.zeros((0, 3), np.int32)
+COUNT = 4000
+
+
+def noisy(shape, noise, count=COUNT, seed=1):
+    """Samples with errors of so many spacings, and the spacing."""
+    clean = shape.sample(count, seed)
+    spacing = float(np.median(cKDTree(clean).query(clean, 2)[0][:, 1]))
+    errors = np.random.default_rng(seed).normal(size=clean.shape)
+    return clean + noise * spacing * errors, spacing
+
+
+def prepare(points, **options):
+    return prepared(Shape(points, NO_FACES), Settings(**options))
+
+
+# ---- the measure
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "torus", "box"])
+@pytest.mark.parametrize("noise", [0.1, 0.25, 0.5, 1.0])
+def test_noise_is_measured(medial, name, noise):
+    points, spacing = noisy(SHAPES[name], noise, 8000)
+    found = medial.measure_scan(points)
+    assert found.spacing == pytest.approx(spacing, rel=0.05)
+    assert found.noise == pytest.approx(noise * spacing, rel=0.1)
+
+
+@pytest.mark.parametrize("name", ["ellipsoid", "torus", "box", "slab", "knot", "shell"])
+def test_clean_points_stay_the_same(name):
+    points, _ = noisy(SHAPES[name], 0.0)
+    shape = Shape(points, NO_FACES)
+    assert prepared(shape, Settings())[0] is shape
+    assert prepared(shape, Settings(prepare=Prepare.ALWAYS))[0] is shape
+
+
+@pytest.mark.skipif(not DATA.is_dir(), reason=f"needs {DATA}")
+@pytest.mark.parametrize("name", ["dilo.off", "openscad-nonmanifold-crash.obj", "rocker-arm.off"])
+def test_vertices_of_meshes_are_clean(name):
+    points = read_shape(DATA / name)[0].points
+    shape = Shape(points, NO_FACES)
+    assert prepared(shape, Settings())[0] is shape
+
+
+def test_outliers_leave_and_nothing_else():
+    points, spacing = noisy(SHAPES["torus"], 0.0)
+    away = np.array([[0.0, 0.0, k * 12.0 * spacing] for k in range(1, 7)])
+    found, scan = prepare(np.vstack([away[:3], points, away[3:]]))
+    assert scan.outliers == 6
+    assert found.rows.tolist() == list(range(3, 3 + len(points)))
+    assert np.array_equal(found.points, points)
+
+
+def test_duplicates_and_borders_are_counted(medial):
+    xy = np.random.default_rng(0).random((3000, 2))
+    sheet = np.column_stack([xy, 0.1 * np.sin(5 * xy[:, 0])])
+    found = medial.measure_scan(np.vstack([sheet, sheet[:7]]))
+    assert found.duplicates == 7 and found.border > 0.02
+    assert medial.measure_scan(noisy(Sphere(), 0.0)[0]).border == 0.0
+
+
+def test_layers_are_told_from_errors(medial):
+    points, spacing = noisy(Sphere(), 0.0)
+    apart = points * (1.0 + spacing * np.where(np.arange(len(points)) % 2, 0.5, -0.5))[:, None]
+    assert medial.measure_scan(apart).kurtosis < 1.7
+    assert 2.5 < medial.measure_scan(noisy(Sphere(), 0.5)[0]).kurtosis < 3.2
+
+
+# ---- the mover
+
+
+@pytest.mark.parametrize("noise", [0.25, 0.5, 1.0])
+def test_points_come_to_lie_on_the_sphere(noise):
+    """Without bias: the mean of what is left is small against its spread, and that against the new spacing."""
+    points, spacing = noisy(Sphere(), noise)
+    found, scan = prepare(points)
+    radius = np.linalg.norm(found.points, axis=1)
+    left = radius - np.linalg.norm(Sphere().sample(10), axis=1).mean()
+    apart = np.median(cKDTree(found.points).query(found.points, 2)[0][:, 1])
+    assert left.std() < 0.1 * apart and abs(left.mean()) < 0.1 * noise * spacing
+    assert np.array_equal(scan.moved, np.linalg.norm(found.points - points[found.rows], axis=1))
+    assert np.median(scan.moved) == pytest.approx(0.67 * noise * spacing, rel=0.2)
+
+
+def test_the_edges_of_the_faces_stay_flat():
+    """Inside the faces of a box, points lie on them; only those near its edges may be off."""
+    points, spacing = noisy(SHAPES["box"], 0.5, 8000)
+    found, _ = prepare(points)
+    depth = np.sort(SHAPES["box"].half - np.abs(found.points), axis=1)
+    inner = depth[:, 1] > 6 * spacing
+    assert inner.sum() > 100
+    assert np.sqrt((depth[inner, 0] ** 2).mean()) < 0.15 * spacing
+
+
+def test_threads_and_rows_change_nothing(medial):
+    points, _ = noisy(SHAPES["torus"], 0.5)
+    order = np.random.default_rng(2).permutation(len(points))
+    one = medial.prepare_scan(points, medial.measure_scan(points, threads=1), threads=1)
+    turned = points[order]
+    three = medial.prepare_scan(turned, medial.measure_scan(turned, threads=3), threads=3)
+    by_row = np.argsort(order[three.rows])
+    assert np.array_equal(order[three.rows][by_row], one.rows)
+    assert np.array_equal(three.points[by_row], one.points)
+
+
+def test_scale_changes_units_only(medial):
+    points, _ = noisy(SHAPES["torus"], 0.5)
+    small, large = (
+        medial.prepare_scan(p, medial.measure_scan(p)) for p in (points, points * 2.0**40)
+    )
+    assert np.array_equal(small.rows, large.rows)
+    assert np.array_equal(small.points * 2.0**40, large.points)
+
+
+# ---- the result, and the words
+
+
+@pytest.mark.parametrize(
+    ("name", "betti"), [("ellipsoid", (1, 0, 0)), ("torus", (1, 1, 0)), ("slab", (1, 0, 0))]
+)
+def test_noise_of_half_a_spacing_leaves_the_topology(name, betti):
+    points, _ = noisy(SHAPES[name], 0.5)
+    found = compute(points, NO_FACES, Settings())
+    assert found.axis.level.betti == betti
+    assert found.chosen.samples.rows.max() > len(found.chosen.samples.points)  # of the caller
+    assert any("noise of about" in warning for warning in found.warnings)
+    off = compute(points, NO_FACES, Settings(prepare=Prepare.OFF))
+    assert off.axis.level.betti != betti
+    assert any("left as it is" in warning for warning in off.warnings)
+    assert not any("too sparse" in warning for warning in (*off.warnings, *found.warnings))
+
+
+def test_the_report_tells_how_far_points_moved():
+    points, _ = noisy(SHAPES["torus"], 0.5)
+    found = report_sampling(Shape(points, NO_FACES), Settings())
+    assert np.array_equal(found.moved, found.chosen.scan.moved)
+    clean = report_sampling(Shape(noisy(SHAPES["torus"], 0.0)[0], NO_FACES), Settings())
+    assert not clean.moved.any()
+
+
+CLEAN = Scan(1000, 1000, 0.1, 0.0, 3.0, 0, 0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("found", "sides", "words"),
+    [
+        ({}, "TIGHT_COCONE", ""),
+        ({}, "POLES", "inside is a guess of the poles"),
+        ({"noise": 3.0}, "POLES", "too much for so many points"),
+        ({"noise": 0.5}, "POLES", "left as it is"),
+        ({"noise": 0.5, "moved": np.ones(9)}, "TIGHT_COCONE", "the points were moved by 10 sp"),
+        ({"noise": 0.5, "kurtosis": 1.2}, "TIGHT_COCONE", "the points lie in layers"),
+        ({"noise": 1.5, "kurtosis": 1.2}, "POLES", "walls of a thin part"),
+        ({"outliers": 20, "kept": 980}, "TIGHT_COCONE", "stood alone and were left out"),
+        ({"outliers": 20}, "TIGHT_COCONE", "which Prepare Automatic leaves out"),
+        ({"border": 0.05}, "POLES", "bounds no solid"),
+    ],
+)
+def test_each_cause_has_its_sentence(found, sides, words):
+    said = list(scan_warnings(replace(CLEAN, **found), SidesFrom[sides]))
+    assert any(words in sentence for sentence in said) if words else not said
