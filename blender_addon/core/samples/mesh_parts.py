@@ -167,7 +167,7 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
     Raises
     ------
     DegenerateInputError
-        The inner side is wanted, and all faces are those of bent sheets.
+        One side is wanted, and all faces are those of bent sheets.
     """
     if settings.sampling is SamplingMode.VERTICES:
         return shape
@@ -193,12 +193,12 @@ def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
         return shape
     if not (of_sheets | (part < 0)).all():
         return _leave_out(shape, of_sheets)
-    if settings.side is not Side.INNER:
+    if settings.side is Side.BOTH:
         return shape
     check_not_flat(shape)
     raise DegenerateInputError(
-        "Expected faces that bound a solid, found bent sheets without thickness; give them "
-        "thickness (a Solidify modifier, or an extrusion)"
+        "Expected faces that bound a solid, found an open sheet or several; give it thickness (a "
+        "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
     )
 
 
