@@ -70,9 +70,7 @@ def keep_inside(net: Net, depth: Depth) -> None:
     """
     for _ in range(_ROUNDS):
         edges = [
-            (name, place)
-            for name, chain in net.branches.items()
-            for place in range(1, len(chain))
+            (name, place) for name, chain in net.branches.items() for place in range(1, len(chain))
         ]
         rows = np.array([net.branches[name][at - 1 : at + 1] for name, at in edges]).reshape(-1, 2)
         bad = np.flatnonzero(leave(net.points[rows], net.radius[rows], depth))

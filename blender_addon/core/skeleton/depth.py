@@ -48,9 +48,7 @@ class Depth:
         return np.maximum(found - self._offset, 0.0)
 
 
-def buried_faces(
-    points: NDArray[np.float64], triangles: NDArray[np.int32]
-) -> NDArray[np.bool_]:
+def buried_faces(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.bool_]:
     """Return which triangles have the solid, or nothing of it, on both sides at their centre and near all corners."""
     corners = points[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
