@@ -154,6 +154,7 @@ TEST(ConvexCreases, OfABoxDivideItAndHaveEightCorners) {
   ASSERT_TRUE(place);
   EXPECT_TRUE(creases.divides(place->edge));
   EXPECT_FALSE(creases.is_jagged(place->edge));
+  EXPECT_FALSE(creases.is_fragment(place->edge));
   EXPECT_LT(distance(place->point, {1.5, 0, 0}), 1e-15);
 }
 
@@ -187,6 +188,30 @@ TEST(ConvexCreases, OfAZigzagAreJaggedAndHaveNoCornersInside) {
   ASSERT_TRUE(found);
   EXPECT_TRUE(creases.is_jagged(found->edge));
   for (int i = 1; i < steps; ++i) EXPECT_FALSE(creases.is_corner(3 * i + 1)) << i;
+}
+
+// A plane with one vertex that is lifted, and the sharp edges of the small cone about it.
+TEST(ConvexCreases, OfAFewEdgesAreAFragmentWhereSamplesAreNotMuchCloser) {
+  test::Mesh mesh;
+  const int steps = 12, top = 6 * (steps + 1) + 6;
+  for (int i = 0; i <= steps; ++i) {
+    for (int k = 0; k <= steps; ++k) mesh.vertices.push_back({double(i), double(k), 0});
+  }
+  mesh.vertices[top].z = 0.9;
+  for (int i = 0; i < steps; ++i) {
+    for (int k = 0; k < steps; ++k) {
+      const int a = i * (steps + 1) + k, b = a + steps + 1;
+      mesh.triangles.push_back({a, b, b + 1});
+      mesh.triangles.push_back({a, b + 1, a + 1});
+    }
+  }
+  const Faces faces({mesh.vertices, mesh.triangles, {}, kSharp}, mesh.vertices, {});
+  for (const double spacing : {1.0, 0.05}) {
+    const ConvexCreases creases(faces, spacing);
+    const auto found = creases.nearer({6, 6, 1}, HUGE_VAL);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(creases.is_fragment(found->edge), spacing == 1) << spacing;
+  }
 }
 
 TEST(FocalLine, PlacesGoOntoTheirLineAndThoseFarOffHaveNone) {

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.axis.medial_axis import ON_CREASE
-from medial_axis.core.settings import SamplingMode, Settings, SidesFrom
+from medial_axis.core.errors import DegenerateInputError
+from medial_axis.core.settings import SamplingMode, Settings, Side, SidesFrom
 from support import meshes, reference
 
 pytestmark = pytest.mark.oracle
@@ -170,11 +171,24 @@ def test_the_axis_of_a_bowl_is_that_of_the_half_ball():
     assert high.sum() > 1000
 
 
-def test_a_sheet_has_no_inside_and_keeps_its_normals():
-    """Half of a wavy sheet bounds a solid of lenses, which nobody means."""
+def waves(height):
+    """A wavy sheet: half of it bounds a solid of lenses, which nobody means."""
     flat, triangles = meshes.rectangle(30, 30)
-    waves = 0.1 * np.sin(12 * flat[:, 0]) * np.sin(11 * flat[:, 1])
-    found = surface((np.column_stack((flat, waves)), triangles))
+    up = height * np.sin(12 * flat[:, 0]) * np.sin(11 * flat[:, 1])
+    return np.column_stack((flat, up)), triangles
+
+
+@pytest.mark.parametrize("height", [1e-3, 0.02, 0.1])
+@pytest.mark.parametrize("sampling", [SamplingMode.SURFACE, SamplingMode.VERTICES])
+def test_a_sheet_has_no_inside(height, sampling):
+    """Its axis once was a point a million units away, with the advice to turn its normals round."""
+    for side in (Side.INNER, Side.OUTER):
+        with pytest.raises(DegenerateInputError, match="found an open sheet.*give it thickness"):
+            compute(*waves(height), Settings(sampling=sampling, samples=4000, side=side))
+
+
+def test_a_sheet_has_two_sides():
+    found = surface(waves(0.1), side=Side.BOTH)
     assert found.settings.sides is SidesFrom.NORMALS and found.chosen.samples.buried == 0
     assert found.sides.reason.startswith("those of the faces")
 

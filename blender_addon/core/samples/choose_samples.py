@@ -28,7 +28,7 @@ from .mesh_parts import without_sheets
 from .outward_faces import outward_shape
 from .sample_spacing import FirstPass, first_pass, next_amount
 from .sharp_angle import sharp_angle_of
-from .sides import decided, resolve_sides, resolve_sides_of_samples
+from .sides import check_not_a_sheet, decided, resolve_sides, resolve_sides_of_samples
 from .surface_samples import sample_faces
 from .thinning import fewer_samples, thinned_rows
 from .topology_loop import are_close, closed, closes
@@ -218,6 +218,7 @@ def _sides_of_vertices(request: Request) -> Sides:
     if _by_open_faces(request):
         spacing = first_pass(shape, settings).spacing
         sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, spacing)
+        check_not_a_sheet(sides, settings.side, request.gaps)
         if sides.source is SidesFrom.SURFACE:
             return sides
     return resolve_sides(settings.sides, shape.triangles, request.gaps, shape.normals)
@@ -236,6 +237,7 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
     check_not_flat(shape)
     first = first_pass(shape, settings)
     sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, first.spacing)
+    check_not_a_sheet(sides, settings.side, request.gaps)
     samples, passes = _passes(request, sides, first)
     closing = closes(request, sides)
     found = closed(request, samples, partial(_in_pairs, request, sides, first)) if closing else None

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import InvalidInputError
-from ..settings import SidesFrom
+from ..errors import DegenerateInputError, InvalidInputError
+from ..settings import Side, SidesFrom
 from ..severe import Severe
 from .analysed import Sides
 from .buried_samples import bounding_share
@@ -69,7 +69,8 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
     """Do the same as `resolve_sides` for samples of faces, which have the normals of the faces.
 
     The solid of an open mesh is the region where its winding number is above one half, provided that most of the faces
-    bound this region. The faces of a sheet do not; there the votes of the normals determine what lies behind it.
+    bound this region. The faces of a sheet do not; there the votes of the normals determine what lies behind it, which
+    `check_not_a_sheet` takes only for an axis of both sides.
 
     Parameters
     ----------
@@ -93,6 +94,24 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
         )
         return Sides(SidesFrom.TIGHT_COCONE, reason)
     return Sides(SidesFrom.NORMALS, f"those of the faces, for the mesh is open at {gaps:,} edges")
+
+
+def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
+    """Raise DegenerateInputError where open faces bound no solid, one side is wanted, and nobody chose how to tell it.
+
+    Parameters
+    ----------
+    sides : Sides
+        As `resolve_sides_of_samples` returns them.
+    side : Side
+    gaps : int
+        The number of edges at which the faces are open.
+    """
+    if side is not Side.BOTH and sides.source is SidesFrom.NORMALS and not sides.is_chosen:
+        raise DegenerateInputError(
+            f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
+            "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
+        )
 
 
 def _turned(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:

@@ -13,6 +13,7 @@ constexpr int32_t kLeafOfCreases = 4;
 constexpr double kBendsApart = 8;    // spacings between the bends of a line that is meant so
 constexpr double kNearBend = 4;      // spacings from a bend of a zigzag to its straight edges
 constexpr double kLeastPatch = 100;  // squares of the spacing
+constexpr double kLeastCrease = 12;  // spacings along all creases that hang together
 constexpr int kCreaseSteps = 16;
 constexpr double kCreasePrecision = 1e-12;  // as a share of the edge
 
@@ -51,7 +52,8 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
     : faces_(faces),
       corner_(faces.mesh().points.size(), 0),
       divides_(faces.creases().edges.size(), 0),
-      jagged_(faces.creases().edges.size(), 0) {
+      jagged_(faces.creases().edges.size(), 0),
+      fragment_(faces.creases().edges.size(), 0) {
   const auto& edges = faces.creases().edges;
   for (size_t e = 0; e < edges.size(); ++e) {
     if (!faces.is_convex_crease(static_cast<int32_t>(e))) continue;
@@ -60,6 +62,7 @@ ConvexCreases::ConvexCreases(const Faces& faces, double spacing)
   }
   if (segments_.empty()) return;
   find_corners(find_patches(spacing), spacing);
+  find_fragments(spacing);
   const auto box = [&](int32_t e) {
     Box around = {};
     for (const int32_t t : edges[e].triangles) {
@@ -118,6 +121,26 @@ void ConvexCreases::find_zigzags(std::span<const Vec3> bends, double spacing) {
     for (const Vec3& place : {points[a], 0.5 * (points[a] + points[b]), points[b]}) {
       if (tree.has_within(place, kNearBend * spacing)) jagged_[e] = 1;
     }
+  }
+}
+
+// On a coarse mesh of a smooth body single edges are sharp here and there. Sheets that reached for
+// them would have teeth.
+void ConvexCreases::find_fragments(double spacing) {
+  const auto& points = faces_.mesh().points;
+  const auto& edges = faces_.creases().edges;
+  UnionFind joined(points.size());
+  for (const int32_t e : segments_) joined.unite(edges[e].ends[0], edges[e].ends[1]);
+  std::vector<double> size(points.size(), 0);
+  std::vector<uint8_t> whole(points.size(), 0);
+  for (const int32_t e : segments_) {
+    const int32_t set = joined.find(edges[e].ends[0]);
+    size[set] += distance(points[edges[e].ends[0]], points[edges[e].ends[1]]);
+    whole[set] |= divides_[e];
+  }
+  for (const int32_t e : segments_) {
+    const int32_t set = joined.find(edges[e].ends[0]);
+    fragment_[e] = !whole[set] && size[set] < kLeastCrease * spacing;
   }
 }
 

@@ -30,6 +30,9 @@ class ConvexCreases {
   bool is_corner(int32_t vertex) const { return corner_[vertex] != 0; }
   // Returns whether an edge is part of a zigzag, or near to one.
   bool is_jagged(int32_t edge) const { return jagged_[edge] != 0; }
+  // Returns whether an edge is one of a few that hang together and divide nothing, by accident
+  // sharp.
+  bool is_fragment(int32_t edge) const { return fragment_[edge] != 0; }
   // Returns whether the two sides of an edge are different patches.
   bool divides(int32_t edge) const { return divides_[edge] != 0; }
 
@@ -42,6 +45,7 @@ class ConvexCreases {
   std::vector<int32_t> find_patches(double spacing);
   void find_corners(std::span<const int32_t> patch, double spacing);
   void find_zigzags(std::span<const Vec3> bends, double spacing);
+  void find_fragments(double spacing);
   bool meets_three(int32_t vertex, std::span<const int32_t> patch) const;
   PlaceOnCrease place_on(int32_t edge, const Vec3& from) const;
 
@@ -50,6 +54,7 @@ class ConvexCreases {
   std::vector<uint8_t> corner_;    // per vertex
   std::vector<uint8_t> divides_;   // per edge
   std::vector<uint8_t> jagged_;    // per edge
+  std::vector<uint8_t> fragment_;  // per edge
   std::vector<Node> nodes_;
 };
 

@@ -72,7 +72,9 @@ Vec3 CreaseRims::end_between(const Edge& samples, int32_t v, const Vec3& on_crea
 
 // Sharp edges that divide nothing are often accidents of a coarse mesh.
 double CreaseRims::reach_of(const PlaceOnCrease& place) const {
-  return c_.samples.creases().divides(place.edge) ? kNearCrease : kNearAccident;
+  const ConvexCreases& creases = c_.samples.creases();
+  if (creases.is_fragment(place.edge)) return 0;
+  return creases.divides(place.edge) ? kNearCrease : kNearAccident;
 }
 
 void CreaseRims::onto_corner(int32_t v, double within) {
