@@ -36,3 +36,14 @@ def test_an_input_that_was_moved_is_still_not_replaced(tmp_path):
     os.rename(first, second)
     with pytest.raises(InvalidInputError, match="replaces no input"):
         files.claim(first)
+
+
+def test_the_table_beside_triangles_replaces_nothing(tmp_path):
+    table = tmp_path / "part.csv"
+    table.write_text("an input")
+    with pytest.raises(InvalidInputError, match="replaces no input"):
+        Files([str(table)]).claim(tmp_path / "part.stl")
+    files = Files()
+    files.claim(tmp_path / "part.stl")
+    with pytest.raises(InvalidInputError, match="found '.*part.csv' again"):
+        files.claim(table)

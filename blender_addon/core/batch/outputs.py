@@ -24,13 +24,13 @@ class Files:
         self._written: dict[object, Path] = {}
 
     def check_not_read(self, output: Path) -> None:
-        """Check that neither an output nor the report next to it is an input.
+        """Check that neither an output nor a file that is written next to it is an input.
 
         Raises
         ------
         InvalidInputError
         """
-        for path in (output, report_path(output)):
+        for path in _written_with(output):
             if (found := _same_file(path, self._read)) is not None:
                 raise InvalidInputError(
                     f"Expected an output that replaces no input, found '{path}', which is the input "
@@ -38,21 +38,27 @@ class Files:
                 )
 
     def claim(self, output: Path) -> None:
-        """Check an output and its report, and reserve their paths for this run.
+        """Check an output and the files next to it, and reserve their paths for this run.
 
         Raises
         ------
         InvalidInputError
         """
         self.check_not_read(output)
-        for path in (output, report_path(output)):
+        for path in _written_with(output):
             if _same_file(path, self._written) is not None:
                 raise InvalidInputError(
                     f"Expected another output for each input, found '{output}' again; put {{file}} "
                     "or {name} in OUTPUT"
                 )
-        for path in (output, report_path(output)):
+        for path in _written_with(output):
             self._written |= dict.fromkeys(_identities(path), path)
+
+
+def _written_with(output: Path) -> tuple[Path, ...]:
+    """Return an output, the report next to it, and the table of thickness next to triangles."""
+    tables = (output.with_suffix(".csv"),) if output.suffix.lower() == ".stl" else ()
+    return output, report_path(output), *tables
 
 
 def _same_file(path: Path, recorded: dict[object, Path]) -> Path | None:
