@@ -64,4 +64,4 @@ def _sum_of(
     values: NDArray[np.float64], part: NDArray[np.int32], count: int
 ) -> NDArray[np.float64]:
     known = part >= 0
-    return np.bincount(part[known], weights=values[known], minlength=count)
+    return np.asarray(np.bincount(part[known], values[known], count), np.float64)

@@ -79,7 +79,8 @@ def keep_inside(net: Net, depth: Depth) -> None:
         for i in bad[::-1]:  # from the end of a branch, so that positions before it stay
             place = _between(net.points[rows[i]], net.radius[rows[i]], depth)
             if place is not None:
-                net.insert(*edges[i], place, float(depth(place[None])[0]))
+                name, at = edges[i]
+                net.insert(name, at, place, float(depth(place[None])[0]))
 
 
 def _between(

@@ -225,11 +225,11 @@ class _Rim:
 
 def _rim(sheets: ThinSheets, straight: NDArray[np.float64], planes: _Planes, walls: Walls) -> _Rim:
     """The edges of one triangle that have a length and a ball, and are not at a wall."""
-    ends = np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2)
-    keys = np.sort(ends.reshape(-1, 2), axis=1).astype(np.int64) @ (len(straight), 1)
+    edges = np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2)
+    keys = np.sort(edges.reshape(-1, 2), axis=1).astype(np.int64) @ (len(straight), 1)
     _, edge, uses = np.unique(keys, return_inverse=True, return_counts=True)
     triangle, side = np.divmod(np.flatnonzero(uses[edge] == 1), 3)
-    ends = ends[triangle, side].astype(np.int64)
+    ends = edges[triangle, side].astype(np.int64)
     way = straight[ends[:, 1]] - straight[ends[:, 0]]
     length = np.linalg.norm(way, axis=1)
     out = np.cross(way, planes.normals_at(triangle, side))

@@ -276,7 +276,7 @@ def _with_thickness(
     triangles = polygon_triangles(made.vertices, made.offsets, made.corners)
     areas = 0.5 * unit_normals(made.vertices[triangles])[1]
     of = np.repeat(np.arange(len(made.part)), np.diff(made.offsets) - 2)
-    whole = np.bincount(of, areas, len(made.part))
+    whole = np.asarray(np.bincount(of, areas, len(made.part)), np.float64)
     middles = made.vertices[triangles].mean(axis=1) * areas[:, None]
     centre = np.column_stack([np.bincount(of, column, len(made.part)) for column in middles.T])
     centre /= np.where(whole > 0.0, whole, 1.0)[:, None]

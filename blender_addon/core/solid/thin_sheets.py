@@ -211,7 +211,8 @@ def _borders(axis: MedialAxis, part: NDArray[np.int32], parts: int) -> NDArray[n
     pairs, uses = np.unique(of_corner * np.int64(parts) + owner, return_counts=True)
     edge, owner = np.divmod(pairs[uses == 1], parts)
     ends = axis.vertices[edges[edge]]
-    return np.bincount(owner, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1), parts)
+    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    return np.asarray(np.bincount(owner, lengths, parts), np.float64)
 
 
 def _edges(axis: MedialAxis) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

@@ -78,11 +78,10 @@ class Climb {
   }
 
   bool agrees(const LocalQuadric& larger) const {
-    for (const LocalQuadric& one : smaller_) {
+    return std::ranges::all_of(smaller_, [&](const LocalQuadric& one) {
       const double apart = dot(larger.place() - one.place(), larger.normal);
-      if (std::abs(apart) > kAgree * noise_ * std::sqrt(one.variance)) return false;
-    }
-    return true;
+      return !(std::abs(apart) > kAgree * noise_ * std::sqrt(one.variance));
+    });
   }
 
   Vec3 centre_;

@@ -26,7 +26,8 @@ std::vector<int32_t> thinned(const PointTree& tree, std::span<const double> dist
   std::sort(order.begin(), order.end());
   std::vector<uint8_t> gone(static_cast<size_t>(tree.size()), 0);
   std::vector<int32_t> kept;
-  for (const auto& [key, i] : order) {
+  for (const auto& entry : order) {
+    const int32_t i = entry.second;
     if (gone[i] || !(distances[i] > 0)) continue;
     kept.push_back(i);
     const double squared = distances[i] * distances[i];
