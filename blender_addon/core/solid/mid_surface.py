@@ -278,7 +278,8 @@ def _with_thickness(
     of = np.repeat(np.arange(len(made.part)), np.diff(made.offsets) - 2)
     whole = np.asarray(np.bincount(of, areas, len(made.part)), np.float64)
     middles = made.vertices[triangles].mean(axis=1) * areas[:, None]
-    centre = np.column_stack([np.bincount(of, column, len(made.part)) for column in middles.T])
+    sums = [np.bincount(of, column, len(made.part)) for column in middles.T]
+    centre = np.column_stack(sums).astype(np.float64)
     centre /= np.where(whole > 0.0, whole, 1.0)[:, None]
     lengths = _lengths(sheets, parts)
     thickness = lengths(centre, made.part)

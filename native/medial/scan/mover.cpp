@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scan/mover.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
 #include "scan/local_quadric.h"
 
