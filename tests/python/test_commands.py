@@ -139,7 +139,13 @@ def test_command_line(command, tmp_path, monkeypatch, program):  # noqa: F811 - 
         words += ["--samples", "1000"]  # of the faces; for the sake of time
     before = {path.name for path in tmp_path.iterdir()}
     done = program(*words)
-    assert done.returncode in ((0, 5) if words[0] == "thickness" else (0,)), done.stderr
+    may_end = {
+        "thickness": (0, 5),
+        "midsurface": (0, 3),
+    }  # thin parts; no thin walls in an ellipsoid
+    assert done.returncode in may_end.get(words[0], (0,)), done.stderr
+    if done.returncode == 3:
+        return
     assert {path.name for path in tmp_path.iterdir()} > before
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from medial_axis.core.axis.compute import compute
 from medial_axis.core.axis.medial_axis import ON_CREASE
-from medial_axis.core.errors import DegenerateInputError, InvalidInputError
+from medial_axis.core.errors import DegenerateInputError
 from medial_axis.core.settings import SamplingMode, Settings, Side, SidesFrom
 from support import meshes, reference
 
@@ -185,11 +185,6 @@ def test_a_sheet_has_no_inside(height, sampling):
     for side in (Side.INNER, Side.OUTER):
         with pytest.raises(DegenerateInputError, match="found an open sheet.*give it thickness"):
             compute(*waves(height), Settings(sampling=sampling, samples=4000, side=side))
-
-
-def test_a_bowl_that_looks_inward_is_told_so():
-    with pytest.raises(InvalidInputError, match="found open ones that look inward"):
-        surface((BOWL[0], BOWL[1][:, ::-1].copy()))
 
 
 def test_a_sheet_has_two_sides():

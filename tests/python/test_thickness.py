@@ -15,6 +15,7 @@ from medial_axis.core.settings import (
     Between,
     Edges,
     Noise,
+    Prepare,
     SamplingMode,
     Settings,
     ThicknessSettings,
@@ -360,6 +361,7 @@ def test_points_without_faces(given):
     assert len(find_thin_parts(found, 0.41).patch_of_faces) == 0
 
 
+AS_THEY_ARE = Settings(prepare=Prepare.OFF)
 NOISY = {"box": (BOX, 0.4), "plate": (block(1.0, 0.7, 0.05), 0.05), "shell": (shell(), 0.2)}
 
 
@@ -371,12 +373,14 @@ def test_scan_with_noise_of_a_tenth_of_the_spacing(medial, name):
     spacing = np.sqrt(2 * samples.area / np.sqrt(3) / len(samples.points))
     scatter = np.random.default_rng(3).normal(size=samples.points.shape)
     points = samples.points + 0.1 * spacing * scatter
-    found = measure((points, NO_FACES), Settings(), samples.normals, noise=Noise.SCAN)
+    found = measure((points, NO_FACES), AS_THEY_ARE, samples.normals, noise=Noise.SCAN)
     assert found.noise == pytest.approx(0.1, abs=0.015)
     _, low, median, high = errors(found.lengths, truth)
     assert abs(median) < 0.05 and low > -0.15 and high < 0.15
-    clean = measure((points, NO_FACES), Settings(), samples.normals)
+    clean = measure((points, NO_FACES), AS_THEY_ARE, samples.normals)
     assert any("choose Noise Scan" in warning for warning in clean.warnings)
+    prepared = measure((points, NO_FACES), Settings(), samples.normals)
+    assert prepared.noise < 0.01 and np.abs(errors(prepared.lengths, truth)).max() < 0.05
 
 
 @pytest.mark.parametrize("given", [False, True])
@@ -384,7 +388,7 @@ def test_in_too_much_noise_no_figure_is_called_honest(given):
     points, normals, spacing = cloud()
     scatter = np.random.default_rng(3).normal(size=points.shape)
     wild = points + 0.26 * spacing * scatter
-    found = measure((wild, NO_FACES), Settings(), normals if given else None, noise=Noise.SCAN)
+    found = measure((wild, NO_FACES), AS_THEY_ARE, normals if given else None, noise=Noise.SCAN)
     assert any("no figure is honest" in warning for warning in found.warnings)
 
 

@@ -225,7 +225,7 @@ def _sides_of_vertices(request: Request) -> Sides:
     if _by_open_faces(request):
         spacing = first_pass(shape, settings).spacing
         sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, spacing)
-        check_not_a_sheet(sides, settings.side, shape, request.gaps, spacing)
+        check_not_a_sheet(sides, settings.side, request.gaps)
         if sides.source is SidesFrom.SURFACE:
             return sides
     return resolve_sides(settings.sides, shape.triangles, request.gaps, shape.normals)
@@ -244,7 +244,7 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
     check_not_flat(shape)
     first = first_pass(shape, settings)
     sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, first.spacing)
-    check_not_a_sheet(sides, settings.side, shape, request.gaps, first.spacing)
+    check_not_a_sheet(sides, settings.side, request.gaps)
     samples, passes = _passes(request, sides, first)
     closing = closes(request, sides)
     found = closed(request, samples, partial(_in_pairs, request, sides, first)) if closing else None

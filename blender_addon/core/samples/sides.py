@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -97,36 +96,22 @@ def resolve_sides_of_samples(wanted: SidesFrom, shape: Shape, gaps: int, spacing
     return Sides(SidesFrom.NORMALS, f"those of the faces, for the mesh is open at {gaps:,} edges")
 
 
-def check_not_a_sheet(sides: Sides, side: Side, shape: Shape, gaps: int, spacing: float) -> None:
-    """Raise an error where open faces bound no solid, one side is wanted, and nobody chose how to tell it.
+def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
+    """Raise DegenerateInputError where open faces bound no solid, one side is wanted, and nobody chose how to tell it.
 
     Parameters
     ----------
     sides : Sides
         As `resolve_sides_of_samples` returns them.
     side : Side
-    shape, gaps, spacing
-        As there.
-
-    Raises
-    ------
-    InvalidInputError
-        The faces bound a solid when they are turned round.
-    DegenerateInputError
-        They bound none.
+    gaps : int
+        The number of edges at which the faces are open.
     """
-    if side is Side.BOTH or sides.source is not SidesFrom.NORMALS or sides.is_chosen:
-        return
-    turned = replace(shape, triangles=np.ascontiguousarray(shape.triangles[:, ::-1]))
-    if bounding_share(turned, spacing) >= _BOUNDING:
-        raise InvalidInputError(
-            f"Expected faces that look outward, found open ones that look inward ({gaps:,} open edges); turn them "
-            "round (Mesh > Normals > Flip), or choose Inside From Normals for what lies behind them"
+    if side is not Side.BOTH and sides.source is SidesFrom.NORMALS and not sides.is_chosen:
+        raise DegenerateInputError(
+            f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
+            "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
         )
-    raise DegenerateInputError(
-        f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-        "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
-    )
 
 
 def _turned(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:

@@ -72,7 +72,8 @@ def keep_inside(net: Net, depth: Depth) -> None:
         edges = [
             (name, place) for name, chain in net.branches.items() for place in range(1, len(chain))
         ]
-        rows = np.array([net.branches[name][at - 1 : at + 1] for name, at in edges]).reshape(-1, 2)
+        ends = [net.branches[name][at - 1 : at + 1] for name, at in edges]
+        rows = np.array(ends, np.intp).reshape(-1, 2)
         bad = np.flatnonzero(leave(net.points[rows], net.radius[rows], depth))
         if not len(bad):
             return
