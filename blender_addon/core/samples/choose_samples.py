@@ -225,6 +225,8 @@ def _sides_of_vertices(request: Request) -> Sides:
     if _by_open_faces(request):
         spacing = first_pass(shape, settings).spacing
         sides = resolve_sides_of_samples(settings.sides, shape, request.gaps, spacing)
+        if sides.source is SidesFrom.NORMALS:
+            check_not_flat(shape)
         check_not_a_sheet(sides, settings.side, request.gaps)
         if sides.source is SidesFrom.SURFACE:
             return sides
