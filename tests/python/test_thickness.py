@@ -206,6 +206,50 @@ def test_rows_of_a_ring_are_no_walls(around, across, turn):
     assert np.mean(np.abs(found.lengths / 0.4 - 1)) < 0.015
 
 
+def sphere_of_rows(rows, around):
+    latitudes = np.concatenate(([0.0], np.cumsum(rows))) * np.pi / np.sum(rows)
+    return lathe([(np.sin(x), -np.cos(x)) for x in latitudes], around)
+
+
+def cone_of_rows(first, angle=np.radians(20.0)):
+    heights = np.append(np.linspace(0.0, 2.0 - first, 41), 2.0)
+    return lathe([(0.0, 0.0), *((np.tan(angle) * (2.0 - z), z) for z in heights)], 48)
+
+
+@pytest.mark.parametrize("turned", [0, 3])
+@pytest.mark.parametrize(
+    "mesh, truth",
+    [
+        (sphere_of_rows([1.0] * 12, 24), 2.0),
+        (sphere_of_rows([0.5, *[1.0] * 12, 0.5], 24), 2.0),
+        (sphere_of_rows([0.25, *[1.0] * 30, 0.25], 32), 2.0),
+        (sphere_of_rows([*[1.0] * 5, *[0.1] * 5] * 4, 48), 2.0),
+        (meshes.icosphere(3), 2.0),
+        (meshes.torus(1.0, 0.2, 100, 16, 0.5), 0.4),
+        (meshes.torus(1.0, 0.2, 48, 20), 0.4),
+    ],
+    ids=["even", "half caps", "quarter caps", "graded", "icosphere", "tube", "coarse tube"],
+)
+def test_rows_of_uneven_width_read_as_thick_as_they_are(mesh, truth, turned):
+    vertices, triangles = moved(mesh, 1.0, turned, False)
+    vertices = vertices.astype(np.float32).astype(float)
+    found = measure((vertices, triangles), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+    assert not found.at_edge.any()
+    np.testing.assert_allclose(found.lengths, truth, rtol=0.01)
+
+
+@pytest.mark.parametrize("first", [0.1, 0.05, 0.025])
+def test_cones_with_rows_of_any_width_at_the_tip(first):
+    mesh = cone_of_rows(first)
+    found = measure(mesh, Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+    radius, z = np.hypot(*mesh[0][:, :2].T), mesh[0][:, 2]
+    angle = np.radians(20.0)
+    truth = 2 * radius / np.cos(angle)
+    free = ~found.at_edge & (z - radius * np.tan(angle) > 1.01 * truth / 2) & (radius > 0)
+    assert free.sum() > 1000
+    np.testing.assert_allclose(found.lengths[free], truth[free], rtol=0.01)
+
+
 def test_faces_are_cut_alike_on_both_sides_of_every_edge():
     vertices, triangles = BOX
     sharp = np.array([(0, 1), (0, 2), (0, 4)], np.int32)

@@ -58,16 +58,16 @@ void add_beside(const TriangleMesh& mesh, const Creases& creases, const FlatPart
   }
 }
 
-// Returns the normal of a triangle with its weight at a corner: the sine there, divided by the
-// lengths of both sides (Max 1999). The sum round a vertex is exact where it and its neighbours lie
-// on a sphere, however uneven the triangles are, as beside the caps of half a row at poles.
-Vec3 weighted_normal(const TriangleMesh& mesh, int32_t triangle, int corner) {
+// Returns the weight of a triangle's normal at a corner: the sine there, divided by the lengths of
+// both sides (Max 1999). The weighted sum is exact where the corner and its neighbours lie on a
+// sphere, however uneven the triangles are. With the angle alone, the ring beside caps of half a
+// row at the poles is tilted by an eighth of a row, and its balls are 40 % too small.
+double weight_of_normal(const TriangleMesh& mesh, int32_t triangle, int corner) {
   const Triangle& t = mesh.triangles[triangle];
   const Vec3& here = mesh.points[t[corner]];
-  const Vec3 one = mesh.points[t[(corner + 1) % 3]] - here;
-  const Vec3 other = mesh.points[t[(corner + 2) % 3]] - here;
-  const double squares = squared_length(one) * squared_length(other);
-  return squares > 0 ? (1 / squares) * cross(one, other) : Vec3{};
+  const Vec3 next = mesh.points[t[(corner + 1) % 3]] - here;
+  const Vec3 last = mesh.points[t[(corner + 2) % 3]] - here;
+  return length(cross(next, last)) / (squared_length(next) * squared_length(last));
 }
 
 // Returns a third of the chord, made tangent to both sides. Its length is not kept; neither is it
@@ -206,7 +206,7 @@ void CurvedSurface::add_normals(const Creases& creases) {
   for (int32_t c = 0; c < count; ++c) {
     const int32_t t = c / 3, f = fan_of_[t][c % 3];
     if (!largest[f].counts(flat.part[t])) continue;
-    fan_normals_[f] = fan_normals_[f] + weighted_normal(mesh_, t, c % 3);
+    fan_normals_[f] = fan_normals_[f] + weight_of_normal(mesh_, t, c % 3) * mesh_.normal[t];
   }
   for (Vec3& normal : fan_normals_) normal = normalized(normal);
   split_steep_fans(creases.sharp_angle);
