@@ -233,7 +233,9 @@ def cone_of_rows(first, angle=np.radians(20.0)):
 def test_rows_of_uneven_width_read_as_thick_as_they_are(mesh, truth, turned):
     vertices, triangles = moved(mesh, 1.0, turned, False)
     vertices = vertices.astype(np.float32).astype(float)
-    found = measure((vertices, triangles), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+    found = measure(
+        (vertices, triangles), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL
+    )
     assert not found.at_edge.any()
     np.testing.assert_allclose(found.lengths, truth, rtol=0.01)
 
