@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from ..solid.ball_cover import Balls
+from ..small_matrices import times
 from .extensions import extension_of
 from .placing import is_identity, parts_of
 from .rows_of_text import write_rows
@@ -62,7 +63,7 @@ def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
     linear, offset, scale = parts_of(transform)
     return replace(
         balls,
-        centres=balls.centres @ linear.T + offset,
+        centres=times(balls.centres, linear) + offset,
         radii=scale * balls.radii,
         outside=scale * balls.outside,
         farthest=scale * balls.farthest,

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Products and decompositions of small matrices in one fixed order of additions.
+
+BLAS and LAPACK choose their order by the processor, so the last bits of NumPy's products of matrices differ from
+machine to machine. Results depend on the functions below instead, which multiply, add, divide and take square roots
+only.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_MOST_SWEEPS = 40  # they converge in fewer than ten
+
+
+def dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the products along the last axis, (...)."""
+    return np.asarray((a * b).sum(axis=-1))
+
+
+def length(vector: NDArray[np.float64]) -> float:
+    """Return the length of one vector, (n,)."""
+    return math.sqrt(float(dot(vector, vector)))
+
+
+def times(points: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return each of the points, (..., 3), moved by a matrix, (m, 3): `points @ matrix.T`."""
+    x, y, z = (points[..., k, None] * matrix[:, k] for k in range(3))
+    return x + y + z
+
+
+def determinant(matrix: NDArray[np.float64]) -> float:
+    """Return the determinant of a (3, 3) matrix."""
+    return float(dot(matrix[0], np.cross(matrix[1], matrix[2])))
+
+
+def inverse(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the inverse of a (3, 3) matrix that has one."""
+    cofactors = np.cross(matrix[[1, 2, 0]], matrix[[2, 0, 1]])
+    return cofactors.T / float(dot(matrix[0], cofactors[0]))
+
+
+def stretches(
+    rows: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return the singular values of a matrix, (n, 3), by one-sided Jacobi rotations (Hestenes 1958).
+
+    Returns
+    -------
+    size : (3,) float64
+        Descending.
+    direction : (3, 3) float64
+        Unit rows, perpendicular to each other: the right singular vectors.
+    image : (3, n) float64
+        `rows @ direction[i]`, perpendicular to each other, `size[i]` long.
+    """
+    largest = float(np.abs(rows).max(initial=0.0))
+    exponent = math.frexp(largest)[1]
+    image, direction = np.ldexp(rows.T, -exponent), np.identity(3)
+    for _ in range(_MOST_SWEEPS):
+        if not _turned(image, direction):
+            break
+    size = np.array([length(row) for row in image])
+    order = np.argsort(-size, kind="stable")
+    return np.ldexp(size[order], exponent), direction[order], np.ldexp(image[order], exponent)
+
+
+def _turned(image: NDArray[np.float64], direction: NDArray[np.float64]) -> bool:
+    """Make each two of the rows perpendicular, one pair after the other; return whether one was not."""
+    turned = False
+    for p, q in ((0, 1), (0, 2), (1, 2)):
+        (a, b), both = (length(image[p]), length(image[q])), float(dot(image[p], image[q]))
+        rounding = 8 * sys.float_info.epsilon
+        if abs(both) <= rounding * a * b or min(a, b) <= rounding * max(a, b):
+            continue
+        half = (b - a) * (b + a) / (2.0 * both)
+        tangent = math.copysign(1.0, half) / (abs(half) + math.sqrt(1.0 + half * half))
+        cosine = 1.0 / math.sqrt(1.0 + tangent * tangent)
+        sine = cosine * tangent
+        for table in (image, direction):
+            table[p], table[q] = (
+                cosine * table[p] - sine * table[q],
+                sine * table[p] + cosine * table[q],
+            )
+        turned = True
+    return turned
