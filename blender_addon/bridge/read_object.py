@@ -19,7 +19,7 @@ import numpy as np
 from ..core.axis.polygon_triangles import polygon_triangles
 from ..core.errors import InvalidInputError
 from ..core.samples.shape import Shape
-from ..core.small_matrices import determinant, dot, length, stretches, times
+from ..core.small_matrices import determinant, dot, length_of, stretches, times
 from .attributes import read_normals, read_vectors
 from .mesh_arrays import read_edges, read_polygons, read_positions
 
@@ -93,8 +93,9 @@ def _turn_of(
     first = image[0] / size[0] if size[0] > 0.0 else np.array([1.0, 0.0, 0.0])
     second = image[1]
     if not size[1] > 8 * np.finfo(float).eps * size[0]:
-        second = np.cross(first, np.identity(3)[np.abs(first).argmin()])
-    second = second / length(second)
+        other = np.identity(3)[np.abs(first).argmin()]
+        second = other - dot(first, other) * first
+    second = second / length_of(second)
     return np.array([first, second, np.copysign(1.0, handed) * np.cross(first, second)])
 
 

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
+from ..core.small_matrices import inverse, times
 from .attributes import as_float32, read_vectors, set_attribute
 from .evaluated_rows import keeps_rows
 from .mesh_arrays import read_loop_triangles

@@ -25,7 +25,7 @@ def dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray((a * b).sum(axis=-1))
 
 
-def length(vector: NDArray[np.float64]) -> float:
+def length_of(vector: NDArray[np.float64]) -> float:
     """Return the length of one vector, (n,)."""
     return math.sqrt(float(dot(vector, vector)))
 
@@ -67,7 +67,7 @@ def stretches(
     for _ in range(_MOST_SWEEPS):
         if not _turned(image, direction):
             break
-    size = np.array([length(row) for row in image])
+    size = np.array([length_of(row) for row in image])
     order = np.argsort(-size, kind="stable")
     return np.ldexp(size[order], exponent), direction[order], np.ldexp(image[order], exponent)
 
@@ -76,7 +76,7 @@ def _turned(image: NDArray[np.float64], direction: NDArray[np.float64]) -> bool:
     """Make each two of the rows perpendicular, one pair after the other; return whether one was not."""
     turned = False
     for p, q in ((0, 1), (0, 2), (1, 2)):
-        (a, b), both = (length(image[p]), length(image[q])), float(dot(image[p], image[q]))
+        (a, b), both = (length_of(image[p]), length_of(image[q])), float(dot(image[p], image[q]))
         rounding = 8 * sys.float_info.epsilon
         if abs(both) <= rounding * a * b or min(a, b) <= rounding * max(a, b):
             continue

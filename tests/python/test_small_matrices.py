@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from medial_axis.core.small_matrices import determinant, dot, inverse, length, stretches, times
+from medial_axis.core.small_matrices import determinant, dot, inverse, length_of, stretches, times
 
 EPSILON = np.finfo(float).eps
 
@@ -27,7 +27,7 @@ def test_products_are_those_of_blas():
     points, matrix = rng.normal(size=(50, 3)), rng.normal(size=(2, 3))
     assert np.allclose(times(points, matrix), points @ matrix.T, rtol=0, atol=8 * EPSILON)
     assert np.allclose(dot(points, points), (points**2) @ np.ones(3))
-    assert length(points[0]) == pytest.approx(np.linalg.norm(points[0]), rel=4 * EPSILON)
+    assert length_of(points[0]) == pytest.approx(np.linalg.norm(points[0]), rel=4 * EPSILON)
 
 
 def test_determinants_and_inverses():
@@ -44,7 +44,7 @@ def test_stretches_are_the_singular_values(rows, scale):
         exact[: min(rows, 3)] = np.linalg.svd(matrix, compute_uv=False)
         assert np.allclose(size / scale, exact, rtol=0, atol=32 * EPSILON * exact[0])
         assert np.allclose(direction @ direction.T, np.identity(3), atol=32 * EPSILON)
-        near = dict(rtol=0, atol=64 * EPSILON * exact[0])
+        near = {"rtol": 0, "atol": 64 * EPSILON * exact[0]}
         assert np.allclose(image / scale, (matrix @ direction.T).T, **near)
 
 

@@ -11,8 +11,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from ..solid.ball_cover import Balls
 from ..small_matrices import times
+from ..solid.ball_cover import Balls
 from .extensions import extension_of
 from .placing import is_identity, parts_of
 from .rows_of_text import write_rows

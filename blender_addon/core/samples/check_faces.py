@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..small_matrices import dot, stretches
-
 from ..errors import DegenerateInputError, InvalidInputError
 from ..settings import SamplingMode
+from ..small_matrices import dot, stretches
 
 if TYPE_CHECKING:
     from .shape import Shape

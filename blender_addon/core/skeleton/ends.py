@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..small_matrices import dot, length
+from ..small_matrices import dot, length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -73,7 +73,7 @@ def reach_of(net: Net, name: int, balls: Balls) -> float:
     chain = net.from_fork(name)
     rows = balls.of(net.held(chain[1:]))
     far = _reaches(balls, rows, net.points[chain[0]])
-    tip = length(net.points[chain[-1]] - net.points[chain[0]]) + net.radius[chain[-1]]
+    tip = length_of(net.points[chain[-1]] - net.points[chain[0]]) + net.radius[chain[-1]]
     return float(far.max()) if len(rows) else float(tip)
 
 
@@ -83,7 +83,7 @@ def _reaches(
     """Return how far balls reach from a point in the mean direction of their centres."""
     away = balls.centre[rows] - base
     along = away.sum(axis=0)
-    far = max(length(along), float(np.finfo(float).tiny))
+    far = max(length_of(along), float(np.finfo(float).tiny))
     return dot(away, along / far) + balls.radius[rows]
 
 

@@ -48,6 +48,8 @@ def _distance(
     along = b - a
     square = float(dot(along, along))
     share = (
-        np.clip(dot(points - a, along) / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(points))
+        np.clip(dot(points - a, along) / square, 0.0, 1.0)
+        if square > 0.0
+        else np.zeros(len(points))
     )
     return np.linalg.norm(points - a - share[:, None] * along, axis=1)
