@@ -13,8 +13,15 @@ from . import licences, node_groups, paths
 from .terminal import python_that, run, say
 
 MODULES = "lib/_medial."  # how the names of compiled modules begin
-# How they end, on each system, named as extensions.blender.org does.
-PLATFORMS = {"linux-x64": ".so", "windows-x64": ".pyd"}
+# How they end, on each system, named as extensions.blender.org does; a module for Macs holds both processors.
+PLATFORMS = {
+    "linux-x64": "-x86_64-linux-gnu.so",
+    "linux-arm64": "-aarch64-linux-gnu.so",
+    "macos-x64": "-darwin.so",
+    "macos-arm64": "-darwin.so",
+    "windows-x64": "-win_amd64.pyd",
+    "windows-arm64": "-win_arm64.pyd",
+}
 _SUFFIXES = {".py", ".po", ".toml", ".so", ".pyd", ".png", ".svg", ".yaml"}
 
 

@@ -161,6 +161,26 @@ def test_a_user_without_rights_hears_of_all_packages_before_anything_is_done(mon
     assert "--no-install-recommends cmake blender" in capsys.readouterr().err
 
 
+SYSTEMS = {
+    "linux-x64": ["_medial.cpython-311-x86_64-linux-gnu.so"],
+    "linux-arm64": ["_medial.cpython-313-aarch64-linux-gnu.so"],
+    "macos-x64": ["_medial.cpython-311-darwin.so"],
+    "macos-arm64": ["_medial.cpython-311-darwin.so"],
+    "windows-x64": ["_medial.cp311-win_amd64.pyd"],
+    "windows-arm64": ["_medial.cp313-win_arm64.pyd"],
+}
+
+
+def test_each_system_gets_its_own_modules_from_one_folder():
+    every = {f"lib/{name}": b"" for names in SYSTEMS.values() for name in names}
+    files = {**every, "blender_manifest.toml": b'version = "1"\n\n[permissions]\n'}
+    assert set(SYSTEMS) == set(pack.PLATFORMS)
+    for platform, names in SYSTEMS.items():
+        own = pack.for_platform(files, platform)
+        assert [name for name in own if name.startswith("lib/")] == [f"lib/{n}" for n in names]
+        assert f'platforms = ["{platform}"]'.encode() in own["blender_manifest.toml"]
+
+
 def test_missing_blender_exits_2(monkeypatch):
     monkeypatch.setattr(needs, "require", lambda needs: None)
     assert build_addon.main(["build", "--blender", "no-such-blender"]) == 2
