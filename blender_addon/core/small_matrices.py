@@ -26,8 +26,9 @@ def dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def length_of(vector: NDArray[np.float64]) -> float:
-    """Return the length of one vector, (n,)."""
-    return math.sqrt(float(dot(vector, vector)))
+    """Return the length of one vector; tables count as one, too."""
+    numbers = vector.ravel()
+    return math.sqrt(float(dot(numbers, numbers)))
 
 
 def times(points: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
