@@ -85,14 +85,43 @@ Envelope::Found Envelope::find(const Vec3& query, int32_t near) const {
   return best;
 }
 
-bool Envelope::covers(const Vec3& query, double depth) const {
-  Found best{{.distance = -depth}};
-  search(0, query, best);
-  return best.part >= 0;
+bool Envelope::covers(const Vec3& query, double depth) const { return covers_in(0, query, -depth); }
+
+bool Envelope::covers_in(int32_t id, const Vec3& query, double limit) const {
+  const Node& node = nodes_[id];
+  if (bound(node, query) >= limit) return false;
+  if (node.right >= 0) {
+    return covers_in(id + 1, query, limit) || covers_in(node.right, query, limit);
+  }
+  for (int32_t i = node.begin; i < node.end; ++i) {
+    if (part_bound(i, query) < limit && nearest_in(i, query).distance < limit) return true;
+  }
+  return false;
 }
 
 double Envelope::bound(const Node& node, const Vec3& query) {
   return std::sqrt(squared_distance(node.box, query)) - node.largest;
+}
+
+// The distance to a centre is at least that along any direction, and the direction from the middle
+// of a small part is nearly the one to its nearest ball.
+double Envelope::part_bound(int32_t part, const Vec3& query) const {
+  Vec3 middle;
+  int count = 0;
+  for (const int32_t v : parts_[part]) {
+    if (v < 0) break;
+    middle = middle + mesh_.vertices[v];
+    ++count;
+  }
+  const Vec3 away = query - (1.0 / count) * middle;
+  const double whole = length(away);
+  if (!(whole > 0)) return -HUGE_VAL;
+  double least = HUGE_VAL;
+  for (int i = 0; i < count; ++i) {
+    const int32_t v = parts_[part][i];
+    least = std::min(least, dot(away, query - mesh_.vertices[v]) / whole - mesh_.radius[v]);
+  }
+  return least;
 }
 
 void Envelope::search(int32_t id, const Vec3& query, Found& best) const {
@@ -100,6 +129,7 @@ void Envelope::search(int32_t id, const Vec3& query, Found& best) const {
   if (bound(node, query) > best.nearest.distance) return;
   if (node.right < 0) {
     for (int32_t i = node.begin; i < node.end; ++i) {
+      if (part_bound(i, query) > best.nearest.distance) continue;
       const NearestOfEnvelope found = nearest_in(i, query);
       const bool first = found.distance == best.nearest.distance && i < best.part;
       if (found.distance < best.nearest.distance || first) best = {found, i};

@@ -50,6 +50,9 @@ class Envelope {
 
   int32_t build(int32_t begin, int32_t end);
   void measure(Node& node) const;
+  bool covers_in(int32_t id, const Vec3& query, double limit) const;
+  // Returns a lower bound of the distance to a part, much sooner than the distance.
+  double part_bound(int32_t part, const Vec3& query) const;
   void search(int32_t id, const Vec3& query, Found& best) const;
   static double bound(const Node& node, const Vec3& query);
 
