@@ -89,7 +89,7 @@ def test_a_coarse_update_leaves_the_result_outdated(pair):
 
 
 def test_filters_stay_those_of_the_result(pair):
-    source, result = pair
+    _, result = pair
     result["ma_simplify"] = 0.125
     bpy.context.scene.medial_axis.samples = 900
     _, settings = auto.wish(bpy.context, result)

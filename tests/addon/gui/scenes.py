@@ -326,8 +326,7 @@ def scene_auto_update():
     yield from click(*at(COMPUTE))
     yield result_exists
     yield patience(1.0)
-    yield from fold(RESULT)
-    look("offered")
+    look("offered")  # the panel Result is open after the first computation
     yield from click(*at(AUTO_UPDATE))
     assert live_result().medial_axis_auto_update, "the switch was missed"
     first = followed()
