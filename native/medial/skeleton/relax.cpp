@@ -85,12 +85,26 @@ std::vector<Edge> rims_to_smooth(const Level& level, std::span<const Edge> rims,
   return off;
 }
 
+// Tells the vertices that stay while the facets along a rim move: those of all rims, at the end of
+// a smooth sheet, on creases, and at wires.
+std::vector<uint8_t> pinned_of(const Level& level, std::span<const Edge> rims,
+                               const CrispPlaces& crisp) {
+  std::vector<uint8_t> pinned(level.vertices.size(), 0);
+  for (const auto& [a, b] : rims) pinned[a] = pinned[b] = 1;
+  for (const auto& [a, b] : level.wires) pinned[a] = pinned[b] = 1;
+  for (size_t v = 0; v < pinned.size(); ++v) {
+    if (crisp.place[level.vertex_of[v]] >= Placing::rim) pinned[v] = 1;
+  }
+  return pinned;
+}
+
 // Does the same at crisp places, where balls end at the faces. A vertex whose place was refused
 // still ends at the samples: there may be faces that do not bound the solid.
 void smooth_crisp_rims(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h,
                        const Run& run) {
-  const auto moved =
-      relax_rims({level.face_offsets, level.face_vertices}, rims, level.vertices, run);
+  const auto moved = relax_rim_bands({level.face_offsets, level.face_vertices},
+                                     rims_to_smooth(level, rims, h.crisp),
+                                     pinned_of(level, rims, h.crisp), level.vertices, run);
   parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
     const int32_t v = moved[i];
     const auto foot = h.faces->nearer(level.vertices[v], HUGE_VAL);
@@ -210,7 +224,7 @@ void relax(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h, 
   const Run quiet{run.threads, nullptr, run.arena};
   begin_stage(run.progress, "Rims", 0.6, 0.7);
   if (crisp) {
-    smooth_crisp_rims(level, rims_to_smooth(level, rims, h.crisp), h, quiet);
+    smooth_crisp_rims(level, rims, h, quiet);
   } else {
     smooth_rims(level, rims, h.samples, quiet);
   }

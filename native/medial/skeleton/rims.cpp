@@ -10,6 +10,14 @@ constexpr int kSteps = 5;
 constexpr double kFactor = 0.5;
 constexpr int kHalvings = 6;  // of a step that folds a facet; after these the vertex stays
 
+// Waves of a rim that are shorter than about thirty of its edges are taken out, and longer ones
+// stay.
+constexpr int kBandPasses = 3;
+constexpr int kWaveRounds = 60;
+constexpr double kInwards = 0.5, kOutwards = -0.505;
+constexpr int kRings = 8;          // of vertices along the rim that move with it
+constexpr int kSpreadRounds = 24;  // of the moves of the rim over these
+
 class Relaxer {
  public:
   Relaxer(const Polygons& polygons, std::span<const Edge> rims, std::span<Vec3> places,
@@ -19,14 +27,26 @@ class Relaxer {
         run_(run),
         row_(array<int32_t>(places.size(), -1, run)) {
     find_moving(rims);
-    find_touched();
   }
 
   std::vector<int32_t> relax() && {
+    find_touched();
     for (int step = 0; step < kSteps; ++step) {
       throw_if_cancelled(run_.progress);
-      take_step();
+      take_step(moves_to_middles());
     }
+    return std::move(moving_);
+  }
+
+  std::vector<int32_t> relax_bands(std::span<const uint8_t> pinned) && {
+    add_band(pinned);
+    find_touched();
+    find_beside();
+    for (int pass = 0; pass < kBandPasses; ++pass) {
+      throw_if_cancelled(run_.progress);
+      take_step(moves_of_band());
+    }
+    std::sort(moving_.begin(), moving_.end());
     return std::move(moving_);
   }
 
@@ -102,15 +122,117 @@ class Relaxer {
     return sum;
   }
 
-  // Moves vertices half way to the middle of their neighbours; where facets fold, half of that, and
-  // so on.
-  void take_step() {
-    std::vector<Vec3> from, move;
+  // Adds the vertices of some rings inside the rim to those that move.
+  void add_band(std::span<const uint8_t> pinned) {
+    const auto facets = static_cast<int64_t>(polygons_.offsets.size()) - 1;
+    int32_t first = 0;
+    for (int ring = 0; ring < kRings; ++ring) {
+      const auto reached = parallel_append<int32_t>(facets, run_, [&](int64_t f, auto& out, int) {
+        const auto ring_of = corners(f);
+        if (std::none_of(ring_of.begin(), ring_of.end(),
+                         [&](int32_t v) { return row_[v] >= first; })) {
+          return;
+        }
+        for (const int32_t v : ring_of) {
+          if (row_[v] < 0 && !pinned[v]) out.push_back(v);
+        }
+      });
+      first = static_cast<int32_t>(moving_.size());
+      std::vector<int32_t> next(reached.begin(), reached.end());
+      sort_out(next);
+      for (const int32_t v : next) {
+        row_[v] = static_cast<int32_t>(moving_.size());
+        moving_.push_back(v);
+      }
+    }
+  }
+
+  // Lists the neighbours of the vertices that move. Where three facets meet, a vertex stays: it is
+  // on a seam.
+  void find_beside() {
+    std::vector<Edge> pairs;
+    for (const int32_t f : touched_) {
+      const auto ring = corners(f);
+      for (size_t k = 0; k < ring.size(); ++k) {
+        const int32_t a = ring[k], b = ring[k + 1 < ring.size() ? k + 1 : 0];
+        if (row_[a] >= 0) pairs.push_back({row_[a], b});
+        if (row_[b] >= 0) pairs.push_back({row_[b], a});
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    stays_.assign(moving_.size(), 0);
+    for (size_t i = 2; i < pairs.size(); ++i) {
+      if (pairs[i] == pairs[i - 2]) stays_[pairs[i][0]] = 1;
+    }
+    beside_ = csr_of_pairs(pairs, moving_.size(), run_);
+  }
+
+  std::vector<Vec3> moves_to_middles() const {
+    std::vector<Vec3> moves;
     for (size_t i = 0; i < moving_.size(); ++i) {
       const auto& [a, b] = neighbours_[i];
-      from.push_back(places_[moving_[i]]);
-      move.push_back(kFactor * (0.5 * (places_[a] + places_[b]) - from[i]));
+      moves.push_back(kFactor * (0.5 * (places_[a] + places_[b]) - places_[moving_[i]]));
     }
+    return moves;
+  }
+
+  // Returns the moves that take short waves out of the rim, and those of the band that follow it.
+  // They lie in the sheet.
+  std::vector<Vec3> moves_of_band() const {
+    auto moves = moves_of_waves();
+    moves.resize(moving_.size());
+    const auto is_at_rest = [&](size_t i) { return stays_[i] != 0; };
+    for (size_t i = 0; i < neighbours_.size(); ++i) {
+      moves[i] = is_at_rest(i) ? Vec3{} : within_sheet(i, moves[i]);
+    }
+    auto next = moves;
+    for (int round = 0; round < kSpreadRounds; ++round) {
+      parallel_for(static_cast<int64_t>(moving_.size()), run_, [&](int64_t i) {
+        if (i < static_cast<int64_t>(neighbours_.size()) || is_at_rest(i)) return;
+        Vec3 sum;
+        for (const int32_t v : beside_[i]) {
+          if (row_[v] >= 0) sum = sum + moves[row_[v]];
+        }
+        next[i] = within_sheet(i, (1.0 / static_cast<double>(beside_[i].size())) * sum);
+      });
+      std::swap(moves, next);
+    }
+    return moves;
+  }
+
+  std::vector<Vec3> moves_of_waves() const {
+    std::vector<Vec3> at(neighbours_.size()), next(neighbours_.size());
+    for (size_t i = 0; i < at.size(); ++i) at[i] = places_[moving_[i]];
+    const auto place = [&](int32_t v) {
+      const int32_t row = row_[v];
+      return row >= 0 && row < static_cast<int32_t>(at.size()) ? at[row] : places_[v];
+    };
+    for (int round = 0; round < 2 * kWaveRounds; ++round) {
+      for (size_t i = 0; i < at.size(); ++i) {
+        const auto& [a, b] = neighbours_[i];
+        const Vec3 bend = 0.5 * (place(a) + place(b)) - at[i];
+        next[i] = stays_[i] ? at[i] : at[i] + (round % 2 == 0 ? kInwards : kOutwards) * bend;
+      }
+      std::swap(at, next);
+    }
+    for (size_t i = 0; i < at.size(); ++i) at[i] = at[i] - places_[moving_[i]];
+    return at;
+  }
+
+  // Takes the part of a move that is across the facets at a vertex away.
+  Vec3 within_sheet(size_t row, const Vec3& move) const {
+    Vec3 normal;
+    for (const int32_t t : touched_at_[row]) {
+      normal = normal + (dot(upright_[t], normal) < 0 ? -upright_[t] : upright_[t]);
+    }
+    const double squared = squared_length(normal);
+    return squared > 0 ? move - (dot(move, normal) / squared) * normal : move;
+  }
+
+  // Moves vertices; where facets fold, by half as much, and so on.
+  void take_step(const std::vector<Vec3>& move) {
+    std::vector<Vec3> from;
+    for (const int32_t v : moving_) from.push_back(places_[v]);
     for (size_t i = 0; i < moving_.size(); ++i) places_[moving_[i]] = from[i] + move[i];
     std::vector<int> halvings(moving_.size(), 0);
     auto folded = folded_of(static_cast<int64_t>(touched_.size()), [](int64_t t) { return t; });
@@ -168,7 +290,9 @@ class Relaxer {
   Run run_;
   Array<int32_t> row_;  // per vertex: its place in moving_, or -1 if it stays
   std::vector<int32_t> moving_;
-  std::vector<Edge> neighbours_;
+  std::vector<Edge> neighbours_;  // along the rim, of the first ones that move
+  std::vector<uint8_t> stays_;    // per moving vertex of a band: on a seam
+  Csr<int32_t> beside_;           // per moving vertex of a band
   std::vector<int32_t> touched_;
   std::vector<Vec3> upright_;  // twice their area vectors before the first step
   Csr<int32_t> touched_at_;    // per moving vertex: places in touched_
@@ -179,6 +303,12 @@ class Relaxer {
 std::vector<int32_t> relax_rims(const Polygons& polygons, std::span<const Edge> rims,
                                 std::span<Vec3> places, const Run& run) {
   return Relaxer(polygons, rims, places, run).relax();
+}
+
+std::vector<int32_t> relax_rim_bands(const Polygons& polygons, std::span<const Edge> rims,
+                                     std::span<const uint8_t> pinned, std::span<Vec3> places,
+                                     const Run& run) {
+  return Relaxer(polygons, rims, places, run).relax_bands(pinned);
 }
 
 }  // namespace medial

@@ -20,4 +20,11 @@ struct Polygons {
 std::vector<int32_t> relax_rims(const Polygons& polygons, std::span<const Edge> rims,
                                 std::span<Vec3> places, const Run& run);
 
+// Takes waves that are short against the rim out of it. The vertices of some rings inside move with
+// it, in the sheet, for a notch is deeper than a facet. Seams stay, and the vertices that are
+// `pinned` (0 or 1 per vertex) if they are no vertices of the given rims.
+std::vector<int32_t> relax_rim_bands(const Polygons& polygons, std::span<const Edge> rims,
+                                     std::span<const uint8_t> pinned, std::span<Vec3> places,
+                                     const Run& run);
+
 }  // namespace medial
