@@ -71,14 +71,12 @@ class Tips {
   const Faces& faces_;
 };
 
-// Returns the rims without those at vertices that lie on creases, or at the end of a smooth sheet.
+// Returns the rims without those at vertices that lie on creases. The ends of smooth sheets are
+// smoothed, too: each vertex finds its own, and on rough bodies these are ragged.
 std::vector<Edge> rims_to_smooth(const Level& level, std::span<const Edge> rims,
                                  const CrispPlaces& crisp) {
   std::vector<Edge> off;
-  const auto is_free = [&](int32_t v) {
-    const Placing place = crisp.place[level.vertex_of[v]];
-    return place < Placing::rim || (place == Placing::rim && level.radius[v] == 0);
-  };
+  const auto is_free = [&](int32_t v) { return crisp.place[level.vertex_of[v]] <= Placing::rim; };
   for (const Edge& rim : rims) {
     if (is_free(rim[0]) && is_free(rim[1])) off.push_back(rim);
   }

@@ -10,12 +10,12 @@ constexpr int kSteps = 5;
 constexpr double kFactor = 0.5;
 constexpr int kHalvings = 6;  // of a step that folds a facet; after these the vertex stays
 
-// Waves of a rim that are shorter than about thirty of its edges are taken out, and longer ones
+// Waves of a rim that are shorter than about seventy of its edges are taken out, and longer ones
 // stay.
 constexpr int kBandPasses = 3;
-constexpr int kWaveRounds = 60;
-constexpr double kInwards = 0.5, kOutwards = -0.505;
-constexpr int kRings = 8;          // of vertices along the rim that move with it
+constexpr int kWaveRounds = 200;
+constexpr double kInwards = 0.5, kOutwards = -0.501;
+constexpr int kRings = 10;         // of vertices along the rim that move with it
 constexpr int kSpreadRounds = 24;  // of the moves of the rim over these
 
 class Relaxer {
@@ -42,6 +42,9 @@ class Relaxer {
     add_band(pinned);
     find_touched();
     find_beside();
+    was_simple_.resize(touched_.size());
+    parallel_for(static_cast<int64_t>(touched_.size()), run_,
+                 [&](int64_t t) { was_simple_[t] = is_simple(t); });
     for (int pass = 0; pass < kBandPasses; ++pass) {
       throw_if_cancelled(run_.progress);
       take_step(moves_of_band());
@@ -247,12 +250,32 @@ class Relaxer {
     }
   }
 
+  // Returns whether no two sides of a touched facet cross, seen along its normal before it moved.
+  bool is_simple(int64_t t) const {
+    const auto ring = corners(touched_[t]);
+    const auto at = [&](size_t k) { return places_[ring[k % ring.size()]]; };
+    const auto is_left = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+      return dot(cross(b - a, c - a), upright_[t]) > 0;
+    };
+    for (size_t i = 0; i + 2 < ring.size(); ++i) {
+      for (size_t j = i + 2; j < ring.size() - (i == 0 ? 1 : 0); ++j) {
+        const Vec3 a = at(i), b = at(i + 1), c = at(j), d = at(j + 1);
+        if (is_left(a, b, c) != is_left(a, b, d) && is_left(c, d, a) != is_left(c, d, b)) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
   // Returns those of the given touched facets that are turned over.
   template <typename Which>
   std::vector<int32_t> folded_of(int64_t count, const Which& which) const {
     return parallel_append<int32_t>(count, run_, [&](int64_t k, auto& out, int) {
       const auto t = which(k);
-      if (dot(area(touched_[t]), upright_[t]) < 0) out.push_back(static_cast<int32_t>(t));
+      const bool over = dot(area(touched_[t]), upright_[t]) < 0;
+      if (over || (!was_simple_.empty() && was_simple_[t] && !is_simple(t)))
+        out.push_back(static_cast<int32_t>(t));
     });
   }
 
@@ -294,8 +317,9 @@ class Relaxer {
   std::vector<uint8_t> stays_;    // per moving vertex of a band: on a seam
   Csr<int32_t> beside_;           // per moving vertex of a band
   std::vector<int32_t> touched_;
-  std::vector<Vec3> upright_;  // twice their area vectors before the first step
-  Csr<int32_t> touched_at_;    // per moving vertex: places in touched_
+  std::vector<uint8_t> was_simple_;  // per touched facet of a band: no sides crossed
+  std::vector<Vec3> upright_;        // twice their area vectors before the first step
+  Csr<int32_t> touched_at_;          // per moving vertex: places in touched_
 };
 
 }  // namespace
