@@ -100,9 +100,11 @@ std::vector<uint8_t> pinned_of(const Level& level, std::span<const Edge> rims,
 // still ends at the samples: there may be faces that do not bound the solid.
 void smooth_crisp_rims(Level& level, std::span<const Edge> rims, const Hierarchy::Parts& h,
                        const Run& run) {
+  std::vector<Vec3> across;
+  for (const auto& [p, q] : level.generators) across.push_back(h.samples[q] - h.samples[p]);
   const auto moved = relax_rim_bands({level.face_offsets, level.face_vertices},
                                      rims_to_smooth(level, rims, h.crisp),
-                                     pinned_of(level, rims, h.crisp), level.vertices, run);
+                                     pinned_of(level, rims, h.crisp), across, level.vertices, run);
   parallel_for(static_cast<int64_t>(moved.size()), run, [&](int64_t i) {
     const int32_t v = moved[i];
     const auto foot = h.faces->nearer(level.vertices[v], HUGE_VAL);

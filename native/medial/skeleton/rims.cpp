@@ -38,9 +38,15 @@ class Relaxer {
     return std::move(moving_);
   }
 
-  std::vector<int32_t> relax_bands(std::span<const uint8_t> pinned) && {
+  std::vector<int32_t> relax_bands(std::span<const uint8_t> pinned,
+                                   std::span<const Vec3> across) && {
     add_band(pinned);
     find_touched();
+    parallel_for(static_cast<int64_t>(touched_.size()), run_, [&](int64_t t) {
+      const Vec3& way = across[touched_[t]];
+      const double along = dot(way, upright_[t]);
+      if (along != 0) upright_[t] = along < 0 ? -way : way;
+    });
     find_beside();
     was_simple_.resize(touched_.size());
     parallel_for(static_cast<int64_t>(touched_.size()), run_,
@@ -250,7 +256,7 @@ class Relaxer {
     }
   }
 
-  // Returns whether no two sides of a touched facet cross, seen along its normal before it moved.
+  // Returns whether no two sides of a touched facet cross, seen across it.
   bool is_simple(int64_t t) const {
     const auto ring = corners(touched_[t]);
     const auto at = [&](size_t k) { return places_[ring[k % ring.size()]]; };
@@ -330,9 +336,9 @@ std::vector<int32_t> relax_rims(const Polygons& polygons, std::span<const Edge> 
 }
 
 std::vector<int32_t> relax_rim_bands(const Polygons& polygons, std::span<const Edge> rims,
-                                     std::span<const uint8_t> pinned, std::span<Vec3> places,
-                                     const Run& run) {
-  return Relaxer(polygons, rims, places, run).relax_bands(pinned);
+                                     std::span<const uint8_t> pinned, std::span<const Vec3> across,
+                                     std::span<Vec3> places, const Run& run) {
+  return Relaxer(polygons, rims, places, run).relax_bands(pinned, across);
 }
 
 }  // namespace medial

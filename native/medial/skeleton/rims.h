@@ -22,9 +22,10 @@ std::vector<int32_t> relax_rims(const Polygons& polygons, std::span<const Edge> 
 
 // Takes waves that are short against the rim out of it. The vertices of some rings inside move with
 // it, in the sheet, for a notch is deeper than a facet. Seams stay, and the vertices that are
-// `pinned` (0 or 1 per vertex) if they are no vertices of the given rims.
+// `pinned` (0 or 1 per vertex) if they are no vertices of the given rims. No facet folds, seen
+// along `across` (per facet, either way round).
 std::vector<int32_t> relax_rim_bands(const Polygons& polygons, std::span<const Edge> rims,
-                                     std::span<const uint8_t> pinned, std::span<Vec3> places,
-                                     const Run& run);
+                                     std::span<const uint8_t> pinned, std::span<const Vec3> across,
+                                     std::span<Vec3> places, const Run& run);
 
 }  // namespace medial
