@@ -23,7 +23,8 @@ from .step_weights import write_steps
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-GROUP = "Medial Axis Thicken"
+_GROUP = "Medial Axis Thicken"
+_MADE = "ma_thicken_group"  # on the source: the name of the vertex group that was made here
 _FACTOR = "Factor"
 
 
@@ -63,8 +64,16 @@ def write_moves(source: bpy.types.Object, moves: NDArray[np.float64]) -> None:
     modifier.show_viewport = True
     set_inputs(modifier, {_FACTOR: 1.0})
     lengths = np.linalg.norm(local, axis=1)
-    write_steps(source, GROUP, lengths / (lengths.max(initial=0.0) or 1.0))
+    write_steps(source, _own_group(source), lengths / (lengths.max(initial=0.0) or 1.0))
     source.data.update()
+
+
+def _own_group(source: bpy.types.Object) -> str:
+    """The name of the vertex group that was made here; one of the artist's that has our name stays as it is."""
+    name = source.get(_MADE)
+    if not isinstance(name, str) or name not in source.vertex_groups:
+        name = source[_MADE] = source.vertex_groups.new(name=_GROUP).name
+    return name
 
 
 def thicken_modifier(source: bpy.types.Object) -> bpy.types.NodesModifier | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The drawings of the stages of the collapse for docs/hierarchy_theory.md, and of crisp places, as SVG.
+"""The drawings of the stages of the collapse for docs/lab/hierarchy_theory.md, and of crisp places, as SVG.
 
     python3 lab/benchmarks/stage_pictures.py [--output docs/pictures]
 

@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from .terminal import Failure, output_of
+from .terminal import Failure, output_of, with_system_python
 
 _QUERY = (
     "import sys, sysconfig, bpy; print('ABI', bpy.app.version_string.split()[0], "
@@ -27,7 +27,8 @@ class Blender:
         self.program = (
             program  # words may stand before the program itself, as those that enter a chroot
         )
-        self.environment = {**os.environ, "HOME": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+        self.environment = {**with_system_python(os.environ), "HOME": str(folder)}
+        self.environment["PYTHONDONTWRITEBYTECODE"] = "1"
         self.environment["TMPDIR"] = str(folder)  # Blender saves quit.blend there
         folder.mkdir(parents=True, exist_ok=True)
         for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES", "EXTENSIONS"):

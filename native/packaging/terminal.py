@@ -7,7 +7,7 @@ import os
 import shlex
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -83,8 +83,15 @@ def build_preset(preset: str, *definitions: str, targets: Sequence[str] = ()) ->
 
 
 def use_system_python() -> None:
-    """Debian's Blender takes its Python library from the first python3 on PATH: let that be the system's, also
-    when a pyenv or virtual environment runs this."""
-    os.environ["PATH"] = "/usr/bin:" + os.environ.get("PATH", "/bin")
-    for name in ("PYTHONHOME", "PYTHONPATH", "VIRTUAL_ENV"):
-        os.environ.pop(name, None)
+    """Let this process and those that it starts find the system's Python first."""
+    kept = with_system_python(os.environ)
+    os.environ.clear()
+    os.environ.update(kept)
+
+
+def with_system_python(environment: Mapping[str, str]) -> dict[str, str]:
+    """An environment in which Debian's Blender works: it takes its Python library from the first python3 on PATH, which
+    must be the system's, also when a pyenv or virtual environment runs this."""
+    lost = ("PYTHONHOME", "PYTHONPATH", "VIRTUAL_ENV")
+    kept = {name: value for name, value in environment.items() if name not in lost}
+    return {**kept, "PATH": "/usr/bin:" + environment.get("PATH", "/bin")}

@@ -98,6 +98,15 @@ def test_a_vertex_group_tells_where_walls_moved():
     assert [round(group.weight(v), 6) for v in range(8)] == [1.0] * 8
 
 
+def test_a_group_of_the_artist_that_has_our_name_stays():
+    thing = plate()
+    thing.vertex_groups.new(name="Medial Axis Thicken").add([0], 0.25, "REPLACE")
+    for limit in (LIMIT, 2 * LIMIT):
+        bpy.ops.object.medial_axis_thicken(limit=limit)
+    assert len(thing.vertex_groups) == 2 and thing.vertex_groups[0].weight(0) == 0.25
+    assert thing.vertex_groups[1].weight(0) == 1.0
+
+
 def open_mesh():
     bpy.ops.mesh.primitive_plane_add()
 

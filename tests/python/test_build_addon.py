@@ -23,6 +23,7 @@ from native.packaging import (
     paths,
     presets,
 )
+from native.packaging.blender import Blender
 from native.packaging.terminal import Failure, python_that
 
 ROOT = paths.ROOT
@@ -502,3 +503,11 @@ def test_licence_that_is_not_at_hand_is_a_failure(tmp_path, monkeypatch):
     monkeypatch.setattr(licences, "EVERYWHERE", (nothing,))
     with pytest.raises(Failure, match=r"Expected Nothing as /no/such/\*\.h, found none"):
         licences.text([LINUX])
+
+
+def test_a_private_blender_finds_the_systems_python_first(monkeypatch, tmp_path):
+    """Debian's Blender started by a pyenv's Python once took that one's library, which has no NumPy."""
+    monkeypatch.setenv("PATH", "/home/artist/.pyenv/bin:/bin")
+    monkeypatch.setenv("PYTHONHOME", "/home/artist/.pyenv")
+    environment = Blender(["blender"], tmp_path / "profile").environment
+    assert environment["PATH"].startswith("/usr/bin:") and "PYTHONHOME" not in environment
