@@ -15,6 +15,7 @@ from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.skeleton.bones import Bones, bones_of
 from medial_axis.core.skeleton.centre import centre_of_mass
+from medial_axis.core.skeleton.chords import keep_inside, kept_inside
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.ends import balls_of
 from medial_axis.core.skeleton.names import names_of
@@ -656,3 +657,88 @@ def test_an_image_is_as_far_behind_the_plane():
     from medial_axis.core.skeleton.mirror import _image
 
     assert _image(np.array([(1.0, 2.0, 3.0)]), 5.0).tolist() == [[9.0, 2.0, 3.0]]
+
+
+# --- balls that fit, lines that stay inside
+
+
+def distance_to_faces(places, shape):
+    """The distance of each place from the nearest triangle, by brute force over dense points of it and its plane."""
+    a, b, c = (shape.points[column] for column in shape.triangles.T)
+    found = np.full(len(places), np.inf)
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    for i, place in enumerate(places):
+        height = np.einsum("ij,ij->i", place - a, normal)
+        foot = place - height[:, None] * normal
+        sides = [
+            np.einsum("ij,ij->i", np.cross(q - p, foot - p), normal)
+            for p, q in ((a, b), (b, c), (c, a))
+        ]
+        over = np.minimum.reduce(sides) >= 0
+        found[i] = np.abs(height[over]).min(initial=np.inf)
+        for p, q in ((a, b), (b, c), (c, a)):
+            share = np.einsum("ij,ij->i", place - p, q - p) / np.einsum("ij,ij->i", q - p, q - p)
+            away = place - p - np.clip(share, 0, 1)[:, None] * (q - p)
+            found[i] = min(found[i], np.sqrt(np.einsum("ij,ij->i", away, away).min()))
+    return found
+
+
+def windings(places, shape):
+    """The winding number at each place, by the solid angles of all triangles (van Oosterom and Strackee, 1983)."""
+    found = []
+    for place in places:
+        a, b, c = (shape.points[column] - place for column in shape.triangles.T)
+        la, lb, lc = (np.linalg.norm(x, axis=1) for x in (a, b, c))
+        dot = [np.einsum("ij,ij->i", *pair) for pair in ((a, b), (b, c), (c, a))]
+        below = la * lb * lc + dot[0] * lc + dot[1] * la + dot[2] * lb
+        found.append(np.arctan2(np.einsum("ij,ij->i", a, np.cross(b, c)), below).sum())
+    return np.array(found) / (2 * np.pi)
+
+
+@pytest.mark.parametrize(
+    "name", ["spot_low.obj", pytest.param("hand_closed.obj", marks=pytest.mark.slow)]
+)
+def test_radii_are_of_the_ball_that_fits_and_lines_stay_inside(data_file, name):
+    shape, _ = read_shape(data_file(name))
+    found = compute_skeleton(shape, Settings(), SkeletonSettings(mirror=False)).skeleton
+    np.testing.assert_allclose(found.radius, distance_to_faces(found.points, shape), rtol=1e-3)
+    places, _ = places_of(found, steps=4)
+    assert windings(places, shape).min() > 0.5
+
+
+def test_radii_of_a_torus_are_those_of_its_tube():
+    shape = Shape(*meshes.torus())
+    found = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
+    np.testing.assert_allclose(found.radius, distance_to_faces(found.points, shape), rtol=1e-3)
+
+
+class Between:
+    """The distance from a bent wall: the solid is between two circles round the origin, of radii 0.9 and 1.1."""
+
+    def __call__(self, places):
+        away = np.linalg.norm(places, axis=1)
+        return np.minimum(np.abs(away - 0.9), np.abs(away - 1.1))
+
+
+@pytest.mark.parametrize("count", [9, 40])
+def test_a_chord_that_leaves_gets_points(count):
+    """Points are on the circle between the walls; too few of them cut through the inner one."""
+    turn = np.linspace(0.0, np.pi, count)
+    points = np.column_stack((np.cos(turn), np.sin(turn), np.zeros(count)))
+    wires = np.column_stack((np.arange(count - 1), np.arange(1, count))).astype(np.int32)
+    net = Net(points, np.full(count, 0.1), wires, np.zeros(0, np.int32), np.ones(count))
+    keep_inside(net, Between())
+    chain = net.points[net.branches[0]]
+    share = np.linspace(0, 1, 50)[:, None, None]
+    away = np.linalg.norm((1 - share) * chain[:-1] + share * chain[1:], axis=2)
+    assert away.min() > 0.9 and away.max() < 1.1
+    assert count < 40 or len(chain) == count
+
+
+def test_thinning_keeps_the_points_that_a_chord_needs():
+    turn = np.linspace(0.0, np.pi, 65)
+    points = np.column_stack((np.cos(turn), np.sin(turn), np.zeros(65)))
+    kept = kept_inside(points, np.full(65, 0.1), np.array([0, 64]), Between())
+    middles = (points[kept[:-1]] + points[kept[1:]]) / 2
+    assert 4 < len(kept) < 65 and np.linalg.norm(middles, axis=1).min() > 0.9

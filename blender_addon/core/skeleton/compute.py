@@ -19,8 +19,11 @@ from ..samples.nearness import nearest
 from ..samples.outward_faces import reading_warnings
 from ..settings import Settings, Side, SkeletonSettings
 from .centre import centre_of_mass
+from .chords import keep_inside, kept_inside
+from .depth import Depth
 from .ends import end_limbs
 from .forks import draw_forks
+from .inscribe import centre_points, inscribe
 from .mirror import make_symmetric
 from .net import Net
 from .owners import owners, shares
@@ -102,14 +105,19 @@ def compute_skeleton(
     )
     chosen = begun.chosen
     net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress)
+    depth = Depth(begun.shape, chosen)
+    centre_points(net, depth)
     names = sorted(net.branches)
-    plane = float(centre_of_mass(_thinned(net, names, 0.0))[0])
+    plane = float(centre_of_mass(_whole(net, names))[0])
     mirrored = wanted.mirror and make_symmetric(net, plane)
+    if mirrored:
+        inscribe(net, depth)
+    keep_inside(net, depth)
     place = places(net, names).of(net.stands_for()[owner])
     sample = _samples_of_vertices(shape, chosen)
     return Skeletonization(
         shape=shape,
-        skeleton=_thinned(net, names, wanted.simplify),
+        skeleton=_thinned(net, names, wanted.simplify, depth),
         parts=parts_of(place.of(sample), shape.triangles),
         loops=loops,
         mirrored=mirrored,
@@ -173,17 +181,22 @@ def _mean_of_owned(
     return np.where(owned > 0, total / np.maximum(owned, 1), values.mean())
 
 
-def _thinned(net: Net, names: list[int], simplify: float) -> Skeleton:
-    """Return the branches with fewer points; places and radii deviate by no more than `simplify` times the radius."""
-    branches = []
-    for name in names:
-        chain = np.array(net.branches[name])
-        if simplify > 0.0:
-            balls = np.column_stack((net.points[chain], net.radius[chain]))
-            chain = chain[kept_points(balls, simplify * net.radius[chain])]
-        branches.append(chain)
+def _whole(net: Net, names: list[int]) -> Skeleton:
+    """Return the branches with all points."""
     singles = np.array([node for node, found in net.at.items() if not found], np.int64)
+    branches = [np.array(net.branches[name]) for name in names]
     return skeleton_of(net.points, net.radius, branches, singles)
+
+
+def _thinned(net: Net, names: list[int], simplify: float, depth: Depth) -> Skeleton:
+    """Return the branches with fewer points; places and radii deviate by no more than `simplify` times the radius."""
+    if simplify > 0.0:
+        for name in names:
+            chain = np.array(net.branches[name])
+            points, radius = net.points[chain], net.radius[chain]
+            kept = kept_points(np.column_stack((points, radius)), simplify * radius)
+            net.branches[name] = chain[kept_inside(points, radius, kept, depth)].tolist()
+    return _whole(net, names)
 
 
 def _samples_of_vertices(shape: Shape, chosen: ChosenSamples) -> NDArray[np.int64]:

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""This module keeps the edges of a skeleton inside of the solid.
+
+The ball around a place, as large as its distance to the surface, lies on one side of it. So an edge that starts inside
+stays inside if such balls around places along it cover it. An edge that they do not cover gets more points.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .depth import Depth
+    from .net import Net
+
+_HALVED = 8  # an edge that balls at so fine places do not cover touches the surface
+# Balls on two sides of the surface may touch, and by rounding seem to overlap; balls overlap by more than this share.
+_OVERLAP = 1e-6
+_ROUNDS = 4  # so often an edge between neighbours is split
+_TRIED = 14, 12  # steps and directions in which a place between two balls is looked for
+
+
+def leave(
+    ends: NDArray[np.float64], radius: NDArray[np.float64], depth: Depth
+) -> NDArray[np.bool_]:
+    """Return which segments, (n, 2, 3), the balls do not cover; `radius`, (n, 2), is that of the balls at the ends."""
+    bare = np.zeros(len(ends), bool)
+    row = np.arange(len(ends))
+    for _ in range(_HALVED):
+        apart = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        open_ = apart >= (1.0 - _OVERLAP) * radius.sum(axis=1)
+        ends, radius, row = ends[open_], radius[open_], row[open_]
+        if not len(row):
+            return bare
+        middle = ends.mean(axis=1)
+        room = depth(middle)
+        ends = np.concatenate(
+            [np.stack((ends[:, side], middle), axis=1) for side in (0, 1)], axis=0
+        )
+        radius = np.concatenate([np.column_stack((radius[:, side], room)) for side in (0, 1)])
+        row = np.concatenate((row, row))
+    bare[row] = True
+    return bare
+
+
+def kept_inside(
+    points: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    kept: NDArray[np.int64],
+    depth: Depth,
+) -> NDArray[np.int64]:
+    """Return the kept points of a chain and, where the way between two of them leaves the solid, those between."""
+    while True:
+        pairs = np.column_stack((kept[:-1], kept[1:]))
+        pairs = pairs[np.diff(pairs, axis=1)[:, 0] > 1]
+        pairs = pairs[leave(points[pairs], radius[pairs], depth)]
+        if not len(pairs):
+            return kept
+        kept = np.union1d(kept, pairs.sum(axis=1) // 2)
+
+
+def keep_inside(net: Net, depth: Depth) -> None:
+    """Add points to a net where the way between two neighbours leaves the solid; radii are distances to the surface.
+
+    Neighbours that are too far apart for one ball between them stay as they are.
+    """
+    for _ in range(_ROUNDS):
+        edges = [
+            (name, place)
+            for name, chain in net.branches.items()
+            for place in range(1, len(chain))
+        ]
+        rows = np.array([net.branches[name][at - 1 : at + 1] for name, at in edges]).reshape(-1, 2)
+        bad = np.flatnonzero(leave(net.points[rows], net.radius[rows], depth))
+        if not len(bad):
+            return
+        for i in bad[::-1]:  # from the end of a branch, so that positions before it stay
+            place = _between(net.points[rows[i]], net.radius[rows[i]], depth)
+            if place is not None:
+                net.insert(*edges[i], place, float(depth(place[None])[0]))
+
+
+def _between(
+    ends: NDArray[np.float64], radius: NDArray[np.float64], depth: Depth
+) -> NDArray[np.float64] | None:
+    """Return the place whose ball overlaps those at two ends most, or None if no ball overlaps both.
+
+    Only the ball of a place inside overlaps balls inside.
+    """
+    steps, count = _TRIED
+    size = float(np.linalg.norm(ends[1] - ends[0]))
+    ways = _even_directions(count)
+    best = ends.mean(axis=0)
+    value = -np.inf
+    for step in range(steps):
+        tried = np.concatenate((best[None], best + size * 0.7**step * ways))
+        away = np.linalg.norm(tried[:, None] - ends[None], axis=2)
+        overlap = (depth(tried)[:, None] + radius - away).min(axis=1)
+        if overlap.max() > value:
+            best, value = tried[overlap.argmax()], overlap.max()
+    return best if value > 0.0 else None
+
+
+def _even_directions(count: int) -> NDArray[np.float64]:
+    """Return unit vectors that are spread evenly, (count, 3): a spiral with steps of the golden angle."""
+    height = 1.0 - (2.0 * np.arange(count) + 1.0) / count
+    turn = np.pi * (3.0 - np.sqrt(5.0)) * np.arange(count)
+    across = np.sqrt(1.0 - height**2)
+    return np.column_stack((across * np.cos(turn), across * np.sin(turn), height))

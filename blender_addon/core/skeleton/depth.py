@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""This module measures how far places are from the surface of a solid, which is the radius of the ball that fits."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine import native
+from ..samples.nearness import nearest
+from ..settings import SidesFrom
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..samples.chosen import ChosenSamples
+    from ..samples.shape import Shape
+
+_ASIDE = 1e-5  # a buried face has the solid on both sides, so far away as a share of the diagonal
+
+
+class Depth:
+    """A depth is the distance from a place to the boundary of a solid, to its faces where they decide what is inside.
+
+    Faces inside of the solid bound nothing, and do not count.
+    """
+
+    def __init__(self, shape: Shape, chosen: ChosenSamples) -> None:
+        samples = chosen.samples
+        self._samples = samples.points[samples.analysis.samples]
+        self._faces: tuple[NDArray[np.float64], NDArray[np.int32]] | None = None
+        self._offset = samples.offset
+        if chosen.sides.source is SidesFrom.SURFACE and len(shape.triangles):
+            kept = shape.triangles
+            if samples.buried:
+                kept = kept[~buried_faces(shape.points, kept)]
+            self._faces = (shape.points, kept) if len(kept) else None
+
+    def __call__(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the distances of (n, 3) places from the boundary, (n,), without a sign."""
+        if self._faces is None or not len(places):
+            away = places - self._samples[nearest(places, self._samples)]
+            found = np.sqrt(np.einsum("ij,ij->i", away, away))
+        else:
+            with native.own_errors() as module:
+                found = module.surface_distances(places, *self._faces)
+        return np.maximum(found - self._offset, 0.0)
+
+
+def buried_faces(
+    points: NDArray[np.float64], triangles: NDArray[np.int32]
+) -> NDArray[np.bool_]:
+    """Return which triangles have the solid, or nothing of it, on both sides at their centre and near all corners."""
+    corners = points[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    normals /= np.where(length > 0.0, length, 1.0)
+    middle = corners.mean(axis=1)
+    looks = [middle, *(0.1 * middle + 0.9 * corners[:, corner] for corner in range(3))]
+    offset = _ASIDE * float(np.linalg.norm(np.ptp(points, axis=0)))
+    with native.own_errors() as module:
+        found = module.buried(
+            np.concatenate(looks), np.tile(normals, (4, 1)), offset, points, triangles
+        )
+    return found.reshape(4, -1).all(axis=0)
