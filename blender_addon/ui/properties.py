@@ -93,9 +93,19 @@ def draw_sampling(layout, properties, of_faces=()):
     for name in SAMPLING_OPTIONS:
         if name == "wrap_opening" and properties.sides != SidesFrom.WRAP.name:
             continue
+        if name == "prepare" and not _is_of_points():
+            continue
         row = layout.row()
         row.active = applies(name, chosen, properties.spacing, of_faces)
         row.prop(properties, name)
+
+
+def _is_of_points():
+    """Whether the active object, or the source of the active result, has no faces; only its points are prepared."""
+    thing = bpy.context.object
+    thing = thing and (source_of(thing) or thing)
+    is_mesh = thing is not None and thing.type in ("MESH", "POINTCLOUD")
+    return is_mesh and not len(getattr(thing.data, "polygons", ()))
 
 
 def settings_from(properties, kind=Settings):
