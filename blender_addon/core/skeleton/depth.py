@@ -9,6 +9,7 @@ import numpy as np
 
 from ..machine import native
 from ..samples.nearness import nearest
+from ..samples.triangles import unit_normals
 from ..settings import SidesFrom
 
 if TYPE_CHECKING:
@@ -51,9 +52,7 @@ class Depth:
 def buried_faces(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.bool_]:
     """Return which triangles have the solid, or nothing of it, on both sides at their centre and near all corners."""
     corners = points[triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals /= np.where(length > 0.0, length, 1.0)
+    normals, _ = unit_normals(corners)
     middle = corners.mean(axis=1)
     looks = [middle, *(0.1 * middle + 0.9 * corners[:, corner] for corner in range(3))]
     offset = _ASIDE * float(np.linalg.norm(np.ptp(points, axis=0)))

@@ -22,7 +22,6 @@ _AS_FAR = (
     0.25  # a ball counts as reaching farthest if it falls short by at most this share of its radius
 )
 _LAST = 2.0  # the end of a limb is so many radii long
-_STEP = 0.5  # nothing uses this constant
 
 
 @dataclass(frozen=True, eq=False)
