@@ -184,7 +184,7 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
 
 
 def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
-    if not _decides_by_openings(shape, settings):
+    if not _open_edges(shape, settings):
         return shape
     with native.own_errors() as module:
         part, _, _ = module.mesh_parts(shape.points, shape.triangles)
@@ -296,20 +296,20 @@ def _has_no_thickness(shape: Shape, settings: Settings) -> bool:
     return _is_sheet(shape, settings) or bool(bent_sheets(read, whole, 1).any())
 
 
-def _decides_by_openings(shape: Shape, settings: Settings) -> bool:
+def _open_edges(shape: Shape, settings: Settings) -> int:
+    """Count the edges at which faces are open, if open faces may decide what is inside; else 0."""
     if settings.sides is not SidesFrom.AUTOMATIC or not len(shape.triangles):
-        return False
+        return 0
     with native.own_errors() as module:
-        return bool(module.open_edges(shape.points, shape.triangles))
+        return int(module.open_edges(shape.points, shape.triangles))
 
 
 def _is_sheet(shape: Shape, settings: Settings) -> bool:
     """Whether faces bound too little of a solid to decide what is inside, as they should."""
-    if settings.sides is not SidesFrom.AUTOMATIC or not len(shape.triangles):
+    if settings.sides is not SidesFrom.AUTOMATIC:
         return False
     read = outward_shape(shape)
-    with native.own_errors() as module:
-        gaps = module.open_edges(read.points, read.triangles)
+    gaps = _open_edges(read, settings)
     if not gaps:
         return False
     spacing = first_pass(read, settings).spacing
