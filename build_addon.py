@@ -3,6 +3,8 @@
 """Builds, shows and tests the Medial Axis add-on.
 
     python3 build_addon.py build     compile the native modules, pack dist/medial_axis-VERSION.zip
+    python3 build_addon.py pack      the same without compiling: the modules that lie in blender_addon/lib
+    python3 build_addon.py repository    the built zips as a folder from which Blender installs and updates by URL
     python3 build_addon.py demo      build, then compute and render real models in a real Blender
     python3 build_addon.py test      what must hold before a change is taken, in about twenty minutes
     python3 build_addon.py test --full    everything, in about an hour and a half; --fast: the main things
@@ -27,6 +29,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also when a test imports this file
 
 from native.packaging import modules, needs, pack, paths
+from native.packaging import repository as repo
 from native.packaging.blender import blender_python, find_blender
 from native.packaging.terminal import Failure, run, say, use_system_python
 from tests import parts
@@ -41,6 +44,22 @@ def build(arguments: argparse.Namespace) -> None:
     modules.build_modules(blender, arguments.local, arguments.windows)
     archive = paths.shown(pack.pack(blender, arguments.local))
     print(f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {archive}")
+
+
+def pack_modules(arguments: argparse.Namespace) -> None:
+    pack.pack(find_blender(arguments.blender))
+
+
+def repository(arguments: argparse.Namespace) -> None:
+    archives = repo.built()
+    target = Path(arguments.output).resolve()
+    rows = repo.make(archives, target, repo.newer_blender(arguments.blender))
+    for row in rows:
+        print(f"{row['platforms'][0]:14} {row['archive_size'] / 1e6:5.1f} MB   {row['version']}")
+    print(
+        f"\nPut {paths.shown(target)} on a web server. In Blender's preferences, under Get Extensions,"
+    )
+    print("people add a remote repository with the address of its index.json.")
 
 
 def demo(arguments: argparse.Namespace) -> None:
@@ -106,6 +125,13 @@ one like it per system, such as dist/medial_axis-VERSION-linux-x64.zip. With --w
 Python {" and ".join(modules.WINDOWS_PYTHONS)} are compiled, too, by mingw-w64. A build of a commit that is not the tag
 of a release carries the commit in its version: 0.2.0+g1a2b3c4d."""
 
+PACK_HELP = """Makes the zips of `build` from the modules that lie in blender_addon/lib, which may come from other
+machines: one zip for all systems, and for the extensions platform one for each system that has a module."""
+
+REPOSITORY_HELP = """Copies the zips for the extensions platform, which `build` made, into a folder, and lets a Blender
+of 4.2 or newer write index.json and index.html beside them. The folder is for any web server. Without such a Blender
+on this machine, one in build/blenders (or $MEDIAL_AXIS_BLENDERS) is used."""
+
 DEMO_HELP = """Compiles for this machine's Blender, while missing packages are installed; installs the zip into a
 private Blender profile, computes the medial axis of Blender's Suzanne and of a bracket with sharp edges (or of the
 files you name), and leaves a .blend, .ply, .ma and a rendered .png of each. Works without a display."""
@@ -140,9 +166,9 @@ def parse(words: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=formatter)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    def add(action, text: str, more: str = "") -> argparse.ArgumentParser:
+    def add(action, text: str, more: str = "", name: str = "") -> argparse.ArgumentParser:
         description = f"{text}.\n\n{more}"
-        name = action.__name__
+        name = name or action.__name__
         command = commands.add_parser(
             name, help=text, description=description, formatter_class=formatter
         )
@@ -150,6 +176,10 @@ def parse(words: list[str]) -> argparse.Namespace:
         return command
 
     add_build_options(add(build, "compile the native modules and pack the add-on", BUILD_HELP))
+    add(pack_modules, "pack the modules that lie in blender_addon/lib", PACK_HELP, "pack")
+    publishing = add(repository, "the built zips for a web server", REPOSITORY_HELP)
+    output = {"default": paths.DIST / "repository", "metavar": "FOLDER"}
+    publishing.add_argument("--output", **output, help="default: ./dist/repository")
     add_demo_options(add(demo, "build, then compute and render real models in Blender", DEMO_HELP))
     add_test_options(add(test, "build and run every test", TEST_HELP))
     add_bench_options(
@@ -162,7 +192,7 @@ def parse(words: list[str]) -> argparse.Namespace:
     racing.add_argument("--page", **page, help="default: docs/lab/benchmark.md")
     cleaning = add(clean, "remove what the other commands made")
     cleaning.add_argument("--all", action="store_true", help="the results of the demo as well")
-    for name in ("build", "demo", "test", "bench", "race"):
+    for name in ("build", "pack", "repository", "demo", "test", "bench", "race"):
         commands.choices[name].add_argument(
             "--blender", default="blender", metavar="PATH", help="the Blender to build for"
         )

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.errors import InvalidInputError
 from ..core.files.rounding import rounding_warning
+from ..core.small_matrices import times
 from .attributes import add_normals
 from .write_mesh import new_mesh
 
@@ -59,14 +60,14 @@ def new_points(
 
 
 def _placed(found: ImportedPoints, turn: np.ndarray, scale: float) -> ImportedPoints:
-    vertices = scale * (found.vertices @ turn.T)
+    vertices = scale * times(found.vertices, turn)
     largest, limit = np.abs(vertices).max(), np.finfo(np.float32).max
     if largest > limit:
         raise InvalidInputError(
             f"Expected coordinates below {limit:.3g}, which Blender can hold, found {largest:.3g}; "
             "choose a smaller scale"
         )
-    normals = None if found.normals is None else found.normals @ turn.T
+    normals = None if found.normals is None else times(found.normals, turn)
     return replace(found, vertices=vertices, normals=normals)
 
 

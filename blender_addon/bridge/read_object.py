@@ -19,6 +19,7 @@ import numpy as np
 from ..core.axis.polygon_triangles import polygon_triangles
 from ..core.errors import InvalidInputError
 from ..core.samples.shape import Shape
+from ..core.small_matrices import determinant, dot, length_of, stretches, times
 from .attributes import read_normals, read_vectors
 from .mesh_arrays import read_edges, read_polygons, read_positions
 
@@ -45,10 +46,10 @@ def read_object(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Sha
     shape = _read_data(evaluated, depsgraph)
     points, triangles, normals = shape.points, shape.triangles, shape.normals
     if not np.array_equal(rest, np.identity(3)):
-        points = points @ rest.T
+        points = times(points, rest)
         with np.errstate(invalid="ignore"):  # what uses the normals checks that they are finite
-            normals = None if normals is None else normals @ _of_normals(rest).T
-    if np.linalg.det(rest) < 0.0:
+            normals = None if normals is None else times(normals, _of_normals(rest))
+    if determinant(rest) < 0.0:
         triangles = np.ascontiguousarray(triangles[:, ::-1])
     return replace(shape, points=points, triangles=triangles, normals=normals, frame=frame)
 
@@ -73,13 +74,29 @@ def split_transform(
         raise InvalidInputError(
             "Expected a finite transform, found NaN or infinity; clear the transform"
         )
-    left, stretch, right = np.linalg.svd(world[:3, :3])
-    flip = np.array([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
-    rotation = (left * flip) @ right
+    size, right, image = stretches(world[:3, :3])
+    left = _turn_of(image, size, determinant(right))
+    if dot(left[2], image[2]) < 0.0:
+        size[2] = -size[2]
     frame = np.identity(4)
-    frame[:3, :3] = rotation
+    frame[:3, :3] = times(left.T, right.T)
     frame[:3, 3] = world[:3, 3]
-    return frame, _without_rounding((right.T * (flip * stretch)) @ right)
+    return frame, _without_rounding(times(right.T * size, right.T))
+
+
+def _turn_of(
+    image: NDArray[np.float64], size: NDArray[np.float64], handed: float
+) -> NDArray[np.float64]:
+    """(3, 3) unit rows along the image, perpendicular to each other also where it is flat, with a determinant of the
+    sign of `handed`.
+    """
+    first = image[0] / size[0] if size[0] > 0.0 else np.array([1.0, 0.0, 0.0])
+    second = image[1]
+    if not size[1] > 8 * np.finfo(float).eps * size[0]:
+        other = np.identity(3)[np.abs(first).argmin()]
+        second = other - dot(first, other) * first
+    second = second / length_of(second)
+    return np.array([first, second, np.copysign(1.0, handed) * np.cross(first, second)])
 
 
 def _without_rounding(rest: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -101,7 +118,7 @@ def _of_normals(rest: NDArray[np.float64]) -> NDArray[np.float64]:
     positive factor, which also exists where `rest` is flat.
     """
     cofactors = np.cross(rest[[1, 2, 0]], rest[[2, 0, 1]])
-    return -cofactors if np.linalg.det(rest) < 0.0 else cofactors
+    return -cofactors if determinant(rest) < 0.0 else cofactors
 
 
 def _evaluate(source: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bpy.types.Object:

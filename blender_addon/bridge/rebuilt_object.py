@@ -16,6 +16,7 @@ import numpy as np
 
 from ..core.errors import InvalidInputError
 from ..core.settings import Side
+from ..core.small_matrices import inverse, times
 from ..core.solid.solid_difference import SolidDifference, solid_difference
 from .axis_object import radius_range, settings_of
 from .nodes.groups import add_modifier, is_group
@@ -118,10 +119,10 @@ def measure(rebuilt: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> SolidD
 
 def in_frame_of(shape: Shape, thing: bpy.types.Object) -> Shape:
     """A shape as seen from an object."""
-    world, inverse = _in_the_world(shape), np.linalg.inv(np.array(thing.matrix_world, np.float64))
-    return replace(world, points=world.points @ inverse[:3, :3].T + inverse[:3, 3])
+    world, frame = _in_the_world(shape), np.array(thing.matrix_world, np.float64)
+    return replace(world, points=times(world.points - frame[:3, 3], inverse(frame[:3, :3])))
 
 
 def _in_the_world(shape: Shape) -> Shape:
     frame = shape.frame
-    return replace(shape, points=shape.points @ frame[:3, :3].T + frame[:3, 3])
+    return replace(shape, points=times(shape.points, frame[:3, :3]) + frame[:3, 3])

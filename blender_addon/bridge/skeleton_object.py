@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.errors import InvalidInputError
 from ..core.samples.nearness import nearest
+from ..core.small_matrices import times
 from .attributes import set_attribute
 from .evaluated_rows import row_of_vertices
 from .mesh_arrays import read_polygons, read_positions
@@ -119,7 +120,7 @@ def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> NDArray[np.int64
         if rows is not None:
             return rows
     _, rest = split_transform(np.array(source.matrix_world, np.float64))
-    return nearest(read_positions(source.data) @ rest.T, shape.points)
+    return nearest(times(read_positions(source.data), rest), shape.points)
 
 
 def check_parts_writable(source: bpy.types.Object) -> None:

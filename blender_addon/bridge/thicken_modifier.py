@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..core.errors import InvalidInputError
+from ..core.small_matrices import inverse, times
 from .attributes import as_float32, read_vectors, set_attribute
 from .evaluated_rows import keeps_rows
 from .mesh_arrays import read_loop_triangles
@@ -52,7 +53,7 @@ def write_moves(source: bpy.types.Object, moves: NDArray[np.float64]) -> None:
         In the frame of its shape, where its scale is applied.
     """
     _, rest = split_transform(np.array(source.matrix_world, np.float64))
-    local = moves @ np.linalg.inv(rest).T
+    local = times(moves, inverse(rest))
     modifier = thicken_modifier(source)
     if modifier is not None and modifier.show_viewport:
         local += input_of(modifier, _FACTOR) * read_vectors(

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
+from ..core.small_matrices import length_of
 from .attributes import RADIUS
 from .material import radius_material
 from .nodes.inputs import input_of, row_of, set_inputs
@@ -102,7 +103,7 @@ def _single_points(axis: MedialAxis) -> int:
 
 def _size(axis: MedialAxis) -> float:
     """Diagonal of the axis with its balls: a single point has a size, too."""
-    return float(np.linalg.norm(np.ptp(axis.vertices, axis=0))) + 2.0 * float(axis.radius.max())
+    return length_of(np.ptp(axis.vertices, axis=0)) + 2.0 * float(axis.radius.max())
 
 
 def _group() -> bpy.types.NodeTree:

@@ -5,6 +5,7 @@ must not change any result.
 
     python3 lab/benchmarks/output_hashes.py OLD.so > old
     python3 lab/benchmarks/output_hashes.py NEW.so | diff old -
+    python3 lab/benchmarks/output_hashes.py NEW.so sphere torus         only jobs with these words
 
 The inputs are random, degenerate, meshes and scans (of MEDIAL_AXIS_TEST_DATA, skipped by name where absent); each is
 analysed on one, two and three threads, with every source of sides, and extracted with every side, rule and criterion.
@@ -186,9 +187,64 @@ def add_samples(digest: Digest, m, vertices, triangles, threads, **options) -> N
     )
 
 
+def add_all(digest: Digest, thing) -> None:
+    """Everything that an object of the module holds, but its memory and timings."""
+    for name in dir(thing):
+        value = getattr(thing, name)
+        if not name.startswith("_") and name not in {"bytes", "timings"} and not callable(value):
+            digest.add(value)
+
+
+def add_solid(digest: Digest, m, vertices, triangles, threads) -> None:
+    """Levels of the hierarchy of a solid, few spheres, few balls, thickness, sides of its faces, a wrap."""
+    same = {"threads": threads}
+    samples = m.sample_surface(vertices, triangles, count=2000, seed=3, **same)
+    points, on = samples.points, samples.triangle
+    analysis = m.MedialAnalysis(points, triangles, vertices=vertices, **same)
+    hierarchy = analysis.hierarchy(faces=m.Faces(vertices, triangles, on))
+    add_all(digest, hierarchy)
+    for options in ({}, {"crisp": True}, {"relaxed": True}, {"sheet": np.inf, "relaxed": True}):
+        level = hierarchy.extract(spacings=1.0, **options)
+        add_all(digest, level)
+    axis = analysis.extract(0.4, 6.0, m.Side.INNER)
+    fans = m.polygon_triangles(axis.vertices, axis.face_offsets, axis.face_vertices)
+    edges = np.zeros((0, 2), np.int32)
+    digest.add(*m.reduce_sphere_mesh(axis.vertices, axis.radius, fans, edges, 40, **same))
+    solid, size = (vertices, triangles), float(np.ptp(vertices, axis=0).max())
+    few = {"count": 16, "places": 20_000, **same}
+    add_all(digest, m.cover_by_balls(axis.vertices, axis.radius, *solid, **few))
+    everywhere = np.full(len(points), size)
+    digest.add(m.wall_distances(points, samples.normals, everywhere, *solid, **same))
+    balls = m.BallFaces(*solid, **same)
+    digest.add(*balls.inscribed_balls(points, on, everywhere / 50, **same))
+    digest.add(m.winding_number(1.01 * points, *solid), *m.outward_faces(*solid, **same))
+    digest.add(*m.wrap(*solid, size / 10, size / 100))
+
+
+def add_scan(digest: Digest, m, points, threads) -> None:
+    measure = m.measure_scan(points, threads=threads)
+    add_all(digest, measure)
+    add_all(digest, m.prepare_scan(points, measure, threads=threads))
+
+
+def add_polygons(digest: Digest, m) -> None:
+    """Regular polygons, all of whose corners are on one circle."""
+    for corners in range(3, 70):
+        turn = 2 * np.pi * np.arange(corners) / corners
+        flat = in_float32(np.column_stack((np.cos(turn), np.sin(turn), 0 * turn)))
+        offsets, rows = np.array([0, corners], np.int32), np.arange(corners, dtype=np.int32)
+        digest.add(m.polygon_triangles(flat, offsets, rows))
+
+
+def in_float32(points: np.ndarray) -> np.ndarray:
+    """Without the last bits, in which NumPy's own sines differ from processor to processor."""
+    return points.astype(np.float32).astype(np.float64)
+
+
 def jobs(m) -> Iterator[tuple[str, Callable]]:
     sides = m.SidesFrom
-    for name, points in clouds():
+    for name, exact in clouds():
+        points = in_float32(exact)
         normals = points - points.mean(axis=0)
         yield (
             f"{name}: tight cocone",
@@ -205,13 +261,22 @@ def jobs(m) -> Iterator[tuple[str, Callable]]:
             f"{name}: normals",
             lambda d, t, p=points, n=normals: add_analysis(d, m, p, sides.NORMALS, t, normals=n),
         )
-    for name, vertices, triangles in meshes():
+        if len(points) > 1000:
+            yield f"{name}: scan", lambda d, t, p=points: add_scan(d, m, p, t)
+    yield "polygons", lambda d, t: add_polygons(d, m)
+    for name, exact, triangles in meshes():
+        vertices = in_float32(exact)
         yield (
             f"{name}: surface",
             lambda d, t, v=vertices, f=triangles: add_analysis(
                 d, m, v, sides.SURFACE, t, triangles=f
             ),
         )
+        if not m.open_edges(vertices, triangles):
+            yield (
+                f"{name}: solid",
+                lambda d, t, v=vertices, f=triangles: add_solid(d, m, v, f, t),
+            )
         for smooth in (False, True):
             yield (
                 f"{name}: samples, {'smooth' if smooth else 'flat'}",
@@ -230,7 +295,10 @@ def jobs(m) -> Iterator[tuple[str, Callable]]:
 
 def main() -> None:
     m = load(sys.argv[1])
+    words = sys.argv[2:]
     for name, add in jobs(m):
+        if words and not any(word in name for word in words):
+            continue
         hashes = []
         for threads in THREADS:
             digest = Digest()

@@ -4,8 +4,9 @@
 
     python3 native/packaging/check_module.py _medial.cpython-311-x86_64-linux-gnu.so ... [--local]
 
-A module must not need libraries that Blender brings too, must export its entry point alone, and must
-run on systems as old as RHEL 9 and Ubuntu 22.04. --local allows newer ones: it is for this machine.
+A module must not need libraries that Blender brings too, must export its entry point alone, must call
+no function of the C library whose last bits differ from machine to machine, and must run on systems
+as old as RHEL 9 and Ubuntu 22.04. --local allows newer ones: it is for this machine.
 One for Windows must need nothing but Python and what every Windows has.
 """
 
@@ -15,6 +16,14 @@ import sys
 from pathlib import Path
 
 FORBIDDEN = re.compile(r"lib(tbb|gmp|mpfr|python)")
+# Functions whose last bits differ between C libraries and processors; base/portable_math.h has others for them.
+INEXACT = re.compile(
+    r"(sin|cos|sincos|tan|asin|acos|atan|sinh|cosh|tanh|asinh|acosh|atanh|atan2|exp|exp2|exp10|expm1|log|log2|log10"
+    r"|log1p|pow|cbrt|hypot|erf|erfc|tgamma|lgamma|j0|j1|jn|y0|y1|yn)[fl]?"
+)
+# CGAL's alpha wrap calls these, and neither reaches a result: sincos gives the direction of a ray that tells whether a
+# point is inside closed faces, which all directions tell alike, and log the level at which a search for a cell begins.
+OF_CGAL = {"sincos", "log"}
 OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}
 ENTRY = "PyInit__medial"
 # The newest symbol versions that those systems have (manylinux_2_34).
@@ -47,6 +56,20 @@ def only_entry(module, exported):
         refuse(module, f"must export {ENTRY} only, found {len(exported)}: {exported[:5]}")
 
 
+def without_inexact(module):
+    names = [
+        line.split()[-1] for line in output("nm", "-D", "--undefined-only", module).splitlines()
+    ]
+    called = {name.split("@")[0] for name in names} - OF_CGAL
+    inexact = sorted(filter(INEXACT.fullmatch, called))
+    if inexact:
+        refuse(
+            module,
+            f"must not call {', '.join(inexact)} of the C library, whose last bits differ from machine to machine; "
+            "use base/portable_math.h",
+        )
+
+
 def check_linux(module, local):
     libraries = re.findall(r"\(NEEDED\).*\[(.+)\]", output("readelf", "-d", module))
     unwanted = [library for library in libraries if FORBIDDEN.match(library)]
@@ -56,6 +79,7 @@ def check_linux(module, local):
         line.split()[-1] for line in output("nm", "-D", "--defined-only", module).splitlines()
     ]
     only_entry(module, exported)
+    without_inexact(module)
     symbols = output("objdump", "-T", module)
     found = {name: newest(name, symbols) for name in NEWEST}
     for name, version in found.items():

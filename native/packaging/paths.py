@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 
@@ -13,6 +14,8 @@ ADDON = ROOT / "blender_addon"
 LIBRARY = ADDON / "lib"  # the compiled modules
 BUILD = ROOT / "build"
 DIST = ROOT / "dist"
+# Other Debians in folders, with their Blenders; tests/matrix makes them.
+BLENDERS = Path(os.environ.get("MEDIAL_AXIS_BLENDERS", BUILD / "blenders"))
 PACKAGE = "medial_axis"  # the add-on's name inside Blender, and the top folder of its zip
 
 

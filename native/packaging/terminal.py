@@ -94,4 +94,4 @@ def with_system_python(environment: Mapping[str, str]) -> dict[str, str]:
     must be the system's, also when a pyenv or virtual environment runs this."""
     lost = ("PYTHONHOME", "PYTHONPATH", "VIRTUAL_ENV")
     kept = {name: value for name, value in environment.items() if name not in lost}
-    return {**kept, "PATH": "/usr/bin:" + environment.get("PATH", "/bin")}
+    return {**kept, "PATH": os.pathsep.join(("/usr/bin", environment.get("PATH", "/bin")))}

@@ -13,7 +13,6 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-CHROOTS = Path(os.environ.get("MEDIAL_AXIS_BLENDERS", ROOT / "build" / "blenders"))
 INSTALL = ("-m", "pip", "install", "--only-binary", ":all:")
 # Folders of Pythons that are not on PATH.
 FOLDERS = ("/usr/bin", "/usr/local/bin", str(Path.home() / ".pyenv/versions/{}*/bin"))
@@ -21,6 +20,7 @@ READY = "ready"  # a file that is written last
 sys.path.insert(0, str(ROOT))
 
 from native.packaging.debian import mirror  # noqa: E402 - the line above makes it found
+from native.packaging.paths import BLENDERS as CHROOTS  # noqa: E402
 from native.packaging.terminal import Failure  # noqa: E402
 
 

@@ -4,9 +4,9 @@
 
     python3 tests/matrix/run.py ZIP [--quick] [--keep FOLDER] [--table docs/compatibility.md]
 
-In each: the zip passes Blender's own check and is installed, the tests run without a window and in one,
-one mesh is computed, exported and rendered, and given to the command line. The files must be the same,
-byte for byte.
+In each: the zip passes Blender's own check and is installed, also from a remote repository that brings its next
+version, the tests run without a window and in one, one mesh is computed, exported and rendered, and given to the
+command line. The files must be the same, byte for byte.
 --quick runs the main things, and none of the official bpy modules. Screenshots and logs go to the folder that
 --keep names, and --table writes the results. What cannot be had is skipped by name; exit code 1 when
 something failed in a Blender that runs.
@@ -32,9 +32,11 @@ ROOT = HERE.parents[1]
 TESTS = ROOT / "tests" / "addon" / "run.py"
 sys.path.insert(0, str(HERE))
 
-from places import (  # noqa: E402 - beside this
+import updates  # noqa: E402 - beside this, as the next
+from places import (  # noqa: E402
     Bpy,
     Chroot,
+    Failure,
     Installed,
     UnavailableError,
     Wine,
@@ -118,7 +120,18 @@ def examine(blender, arguments: argparse.Namespace) -> Row:
     judge_tests(row, *run_tests([*use, "--zip", arguments.zip], keep / "tests.log"), keep)
     if blender.words:
         window(row, use, keep, arguments)
+        if row.facts.get("installed") == "extension":
+            update(row, blender, arguments.zip)
     return row
+
+
+def update(row: Row, blender, archive: Path) -> None:
+    """A remote repository brings the add-on and its next version."""
+    try:
+        updates.check(extension_zip(archive, blender.platform).resolve(), list(blender.words))
+        row.facts["installed"] += ", and updated from a repository"
+    except Failure as reason:
+        row.failures.append(f"repository: {reason}")
 
 
 def has_module(archive: Path, name: str) -> bool:

@@ -353,6 +353,13 @@ def test_module_that_exports_more_is_refused(tmp_path):
         check_module.check(module)
 
 
+def test_module_that_takes_sines_from_the_c_library_is_refused(tmp_path):
+    source = GOOD + "#include <cmath>\nint sum(double x) { return std::sin(x) + std::sqrt(x); }\n"
+    module = compile_library(tmp_path, source, "-fvisibility=hidden", "-O2")
+    with pytest.raises(SystemExit, match="must not call sin of the C library"):
+        check_module.check(module)
+
+
 WINDOWS_MODULE = """
 \tDLL Name: python311.dll
 \tDLL Name: KERNEL32.dll

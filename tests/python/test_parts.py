@@ -186,14 +186,47 @@ def test_the_sanitizer_runs_where_cpp_has_changed(monkeypatch, name, runs):
 # --- files that other programs read
 
 
-def test_workflows_are_valid():
-    """The YAML is valid: each job runs somewhere and has steps."""
+def workflows():
+    """The workflows for hosted runners: name of the file -> its jobs."""
     yaml = pytest.importorskip("yaml")
     files = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
     assert files
-    for file in files:
-        jobs = yaml.safe_load(file.read_text(encoding="utf-8"))["jobs"]
-        assert all(job["runs-on"] and job["steps"] for job in jobs.values())
+    return {file.name: yaml.safe_load(file.read_text(encoding="utf-8"))["jobs"] for file in files}
+
+
+def test_workflows_are_valid():
+    """Each job runs somewhere and has steps, or is another workflow; actionlint judges the rest where it is there."""
+    for jobs in workflows().values():
+        for job in jobs.values():
+            other = job.get("uses", "")
+            assert (ROOT / other).is_file() if other else job["runs-on"] and job["steps"]
+    if shutil.which("actionlint"):
+        subprocess.run(["actionlint"], cwd=ROOT, check=True)
+
+
+def test_workflows_name_the_systems_that_they_run_on():
+    """A label without a version would become another system some day."""
+    named = str(workflows())
+    assert "-latest" not in named
+    systems = "ubuntu-24.04 ubuntu-24.04-arm windows-2025 windows-11-arm macos-15 macos-15-intel"
+    assert all(f"'{system}'" in named for system in systems.split())
+
+
+def test_commands_of_workflows_exist():
+    steps = [
+        step
+        for jobs in workflows().values()
+        for job in jobs.values()
+        for step in job.get("steps", ())
+    ]
+    commands = [line for step in steps for line in step.get("run", "").splitlines()]
+    words = [re.split(r"[\s;\"()]+", command) for command in commands]
+    scripts = {word for row in words for word in row if word.endswith(".py")}
+    assert scripts > {"build_addon.py", "tests/addon/run.py", "tests/matrix/updates.py"}
+    assert all((ROOT / script).is_file() for script in scripts)
+    for row in words:
+        if "build_addon.py" in row:
+            build_addon.parse(row[row.index("build_addon.py") + 1 :])
 
 
 def test_every_workflow_preset_has_its_steps():

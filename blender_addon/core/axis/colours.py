@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..portable_cosine import cosine
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -46,7 +48,7 @@ def part_colours(parts: ArrayLike) -> NDArray[np.float32]:
     hue = np.asarray(parts, np.float64)[:, None] * _GOLDEN + np.array([0.0, 2.0, 1.0]) / 3.0
     shade = 1.0 - 0.25 * (np.asarray(parts) % 3)[:, None]
     result = np.ones((len(hue), 4), np.float32)
-    result[:, :3] = shade * (0.08 + 0.82 * (0.5 + 0.5 * np.cos(2.0 * np.pi * hue)) ** 2)
+    result[:, :3] = shade * (0.08 + 0.82 * (0.5 + 0.5 * cosine(2.0 * np.pi * hue)) ** 2)
     return result
 
 

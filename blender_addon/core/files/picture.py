@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..samples.surface_normals import cross
+from ..small_matrices import length_of, times
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -52,8 +53,8 @@ def picture_of(
         sRGB, the upper row first.
     """
     axes = _axes(direction)
-    flat, size = points @ axes.T, np.array([width, height]) * _FINE
-    middle, scale = _view(flat, size, None if focus is None else (axes @ focus[0], focus[1]))
+    flat, size = times(points, axes), np.array([width, height]) * _FINE
+    middle, scale = _view(flat, size, None if focus is None else (times(focus[0], axes), focus[1]))
     flat = (flat - middle) * (scale, -scale, scale) + (size[0] / 2, size[1] / 2, 0.0)
     image = np.ones((size[1] * size[0], 3))
     depth = np.full(size[1] * size[0], -np.inf)
@@ -87,10 +88,10 @@ def _part(name: bytes, data: bytes) -> bytes:
 
 def _axes(direction: NDArray[np.float64]) -> NDArray[np.float64]:
     """(3, 3) the directions to the right, upwards and to the eye."""
-    eye = direction / np.linalg.norm(direction)
+    eye = direction / length_of(direction)
     up = np.array([0.0, 1.0, 0.0]) if abs(eye[2]) > 0.999 else np.array([0.0, 0.0, 1.0])
     right = np.cross(up, eye)
-    right /= np.linalg.norm(right)
+    right /= length_of(right)
     return np.stack((right, np.cross(eye, right), eye))
 
 

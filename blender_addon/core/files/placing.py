@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import ExportError
+from ..small_matrices import stretches
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -46,14 +47,14 @@ def parts_of(
 
 def _even_scale(linear: NDArray[np.float64]) -> float:
     """Return the factor by which `linear` scales all lengths; it is exactly 1 for a rigid frame in float32."""
-    stretches = np.linalg.svd(linear, compute_uv=False)
+    sizes = stretches(linear)[0]
     rounding = (
         16 * np.finfo(np.float32).eps
     )  # world matrices are products of a few float32 matrices
-    if stretches[0] == 0.0 or stretches[0] - stretches[2] > rounding * stretches[0]:
+    if sizes[0] == 0.0 or sizes[0] - sizes[2] > rounding * sizes[0]:
         raise ExportError(
             "Expected a medial axis that is scaled evenly, found scales from "
-            f"{stretches[2]:.6g} to {stretches[0]:.6g}; scale the source instead and compute its axis again"
+            f"{sizes[2]:.6g} to {sizes[0]:.6g}; scale the source instead and compute its axis again"
         )
-    scale = float(stretches.mean())
+    scale = float(sizes.mean())
     return 1.0 if abs(scale - 1.0) <= rounding else scale

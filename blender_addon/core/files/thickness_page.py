@@ -14,6 +14,7 @@ import numpy as np
 from ..axis.colours import colours
 from ..samples.density import share_text
 from ..samples.surface_normals import cross
+from ..small_matrices import length_of
 from ..solid.thickness_colours import STEPS, ThicknessScale, histogram, scale_of
 from .picture import encoded, picture_of, png
 
@@ -165,7 +166,7 @@ def _close_up(
     row = rows[found.of_triangles[rows].argmin()]
     a, b, c = points[found.triangles[row]]
     normal = cross((b - a)[None], (c - a)[None])[0]
-    normal /= max(float(np.linalg.norm(normal)), sys.float_info.min)
+    normal /= max(length_of(normal), sys.float_info.min)
     size = _AROUND * max(math.sqrt(patch.area) / 2, patch.minimum)
     eye = normal + np.array([0.25, -0.25, 0.35])
     picture = picture_of(points, found.triangles, rgb, eye, *_SMALL, focus=((a + b + c) / 3, size))

@@ -19,6 +19,7 @@ import numpy as np
 from ..axis.medial_axis import MedialAxis
 from ..axis.polygon_triangles import axis_triangles
 from ..axis.turning import turned_corners
+from ..small_matrices import determinant, times
 from . import plain_triangles
 from .axis_arrays import as_arrays, exact_balls
 from .extensions import extension_of
@@ -112,11 +113,11 @@ def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
         return axis
     linear, offset, scale = parts_of(transform)
     corners = axis.face_vertices
-    if np.linalg.det(linear) < 0:
+    if determinant(linear) < 0:
         corners = turned_corners(axis.face_offsets, corners)
     placed = replace(
         axis,
-        vertices=axis.vertices @ linear.T + offset,
+        vertices=times(axis.vertices, linear) + offset,
         radius=axis.radius if scale == 1.0 else axis.radius * scale,
         face_vertices=corners,
         structure=axis.structure and axis.structure.scaled(scale),
@@ -124,7 +125,7 @@ def _placed(axis: MedialAxis, transform: NDArray[np.float64]) -> MedialAxis:
     if (level := axis.level) is None:
         return placed
     radius = level.exact_radius if scale == 1.0 else level.exact_radius * scale
-    exact = level.exact @ linear.T + offset
+    exact = times(level.exact, linear) + offset
     return replace(placed, level=replace(level, exact=exact, exact_radius=radius))
 
 

@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from ..small_matrices import times
 from ..solid.ball_cover import Balls
 from .extensions import extension_of
 from .placing import is_identity, parts_of
@@ -62,7 +63,7 @@ def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
     linear, offset, scale = parts_of(transform)
     return replace(
         balls,
-        centres=balls.centres @ linear.T + offset,
+        centres=times(balls.centres, linear) + offset,
         radii=scale * balls.radii,
         outside=scale * balls.outside,
         farthest=scale * balls.farthest,

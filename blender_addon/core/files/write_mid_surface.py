@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from ..samples.triangles import unit_normals
+from ..small_matrices import times
 from ..solid.mid_surface import MidSurface
 from .extensions import extension_of
 from .whole_file import write_whole
@@ -51,7 +52,7 @@ def export_mid_surface(
     write = MID_SURFACE_FORMATS[extension_of(path, MID_SURFACE_FORMATS)]
     points = found.vertices
     if frame is not None:
-        points = points @ frame[:3, :3].T + frame[:3, 3]
+        points = times(points, frame[:3, :3]) + frame[:3, 3]
     written = write_whole(path, lambda stream: write(found, points, stream))
     if written.suffix.lower() == ".stl":
         write_whole(written.with_suffix(".csv"), lambda stream: _write_csv(found, points, stream))

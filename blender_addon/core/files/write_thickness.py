@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ..axis.colours import colours
+from ..small_matrices import times
 from ..solid.measurement import Measurement
 from ..solid.thickness_colours import scale_of
 from ..solid.thin_parts import ThinParts
@@ -111,7 +112,7 @@ def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.flo
     frame = found.shape.frame
     if np.array_equal(frame, np.identity(4)):
         return lambda points: points
-    return lambda points: points @ frame[:3, :3].T + frame[:3, 3]
+    return lambda points: times(points, frame[:3, :3]) + frame[:3, 3]
 
 
 def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:

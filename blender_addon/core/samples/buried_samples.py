@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..machine import native
+from ..small_matrices import dot
 from .nearness import near
 from .triangles import some_of, unit_normals
 
@@ -137,7 +138,7 @@ def on_flat_faces(
         The distance of neighbours.
     """
     corners = shape.points[shape.triangles[found.triangle]]
-    points = np.einsum("ij,ijk->ik", found.barycentric, corners)
+    points = dot(corners.swapaxes(1, 2), found.barycentric[:, None])
     with native.own_errors() as module:
         on_edge = found.kind != int(module.SampleKind.SURFACE)
     on_edge |= (found.partner >= 0) & (found.barycentric.min(axis=1) < _ON_SIDE)

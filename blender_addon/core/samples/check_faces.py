@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import DegenerateInputError, InvalidInputError
 from ..settings import SamplingMode
+from ..small_matrices import dot, stretches
 
 if TYPE_CHECKING:
     from .shape import Shape
@@ -36,8 +37,9 @@ def check_not_flat(shape: Shape) -> None:
     """Raise DegenerateInputError when all faces lie in a plane, up to the rounding of their corners to float32."""
     corners = shape.points[np.unique(shape.triangles)]
     around = corners - corners.mean(axis=0)
-    _, axes = np.linalg.eigh(around.T @ around)
-    thickness = float(np.ptp(around @ axes[:, 0]))
+    columns = np.ascontiguousarray(around.T)
+    _, axes, _ = stretches(np.array([[dot(p, q) for q in columns] for p in columns]))
+    thickness = float(np.ptp(dot(around, axes[2])))
     if thickness <= _ROUNDINGS * float(np.finfo(np.float32).eps) * float(np.abs(corners).max()):
         raise DegenerateInputError(
             "Expected faces that span a volume, found all of them in one plane; give them "

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import Settings
+from ..small_matrices import length_of
 from .nearness import near
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ class Density:
     @cached_property
     def worst(self) -> list[tuple[tuple[float, ...], float]]:
         """The positions with the largest epsilon, and epsilon there; apart from each other, and not at sharp edges."""
-        apart = _APART * float(np.linalg.norm(np.ptp(self.points, axis=0)))
+        apart = _APART * length_of(np.ptp(self.points, axis=0))
         left = np.flatnonzero(~self.at_edge)
         left = left[np.argsort(-self.epsilon[left], kind="stable")]
         found: list[tuple[tuple[float, ...], float]] = []

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -58,8 +60,8 @@ def _roughness(
     def mean(values: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.bincount(tails, values, len(points)) / np.maximum(count, 1)
 
-    height = mean(np.einsum("ij,ij->i", away, normals[tails]))
-    length = mean(np.sqrt(np.einsum("ij,ij->i", away, away)))
+    height = mean(dot(away, normals[tails]))
+    length = mean(np.sqrt(dot(away, away)))
     off = np.abs(height - mean(height[heads]))
     there = looked_at & (count > 0)
     return float(np.median(off[there] / length[there])) if there.any() else 0.0

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..settings import SamplingMode, Settings
+from ..small_matrices import length_of
 from .nearness import near
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def first_pass(shape: Shape, settings: Settings) -> FirstPass:
         if settings.sampling is SamplingMode.AUTOMATIC:
             count = max(count, min(len(corners), settings.budget))
         return FirstPass({"count": count}, mean_spacing(shape.area, count), shape.area)
-    spacing = settings.spacing / 100.0 * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    spacing = settings.spacing / 100.0 * length_of(np.ptp(corners, axis=0))
     return FirstPass({"spacing": spacing}, spacing, shape.area)
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine import native
+from ..small_matrices import dot
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -62,7 +63,7 @@ class Shape:
     def volume(self) -> float:
         """The volume that closed faces enclose; negative when they point inward."""
         a, b, c = (self.points[self.triangles[:, corner]] - self.points[0] for corner in range(3))
-        return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+        return float(dot(a, np.cross(b, c)).sum()) / 6
 
     @cached_property
     def area(self) -> float:

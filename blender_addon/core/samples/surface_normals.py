@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..machine import native
+from ..portable_cosine import cosine
 from ..settings import SamplingMode, SidesFrom
+from ..small_matrices import dot
 from .outward_faces import are_left_out
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ def _of_triangles(
     normals, faces = mean_normals(points, triangles)
     at_edge = np.zeros(len(points), bool)
     for corner in triangles.T:
-        turned = np.einsum("ij,ij->i", normals[corner], faces) < math.cos(sharp_angle)
+        turned = dot(normals[corner], faces) < cosine(sharp_angle)
         at_edge[corner[turned]] = True
     return SurfaceNormals(normals, at_edge, _sentence(source))
 

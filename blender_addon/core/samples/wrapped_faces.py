@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import InvalidInputError
 from ..machine import native
 from ..settings import SidesFrom
+from ..small_matrices import length_of
 from .shape import Shape
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def wrapped_shape(shape: Shape, settings: Settings, progress: Progress | None = 
             shape.points, shape.triangles, opening, distance, progress=progress
         )
     used = shape.points[np.unique(shape.triangles)]
-    diagonal = float(np.linalg.norm(np.ptp(used, axis=0)))
+    diagonal = length_of(np.ptp(used, axis=0))
     return Shape(
         points,
         triangles,

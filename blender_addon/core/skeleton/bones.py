@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import length_of
 from .simplify import kept_points
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ def _segments(skeleton: Skeleton) -> list[_Segment]:
         along = np.concatenate(([0.0], np.cumsum(steps))) / max(steps.sum(), np.finfo(float).tiny)
         kept = kept_points(points, ERROR * skeleton.radius[rows])
         for a, b in pairwise(kept.tolist()):
-            length = float(np.linalg.norm(points[b] - points[a]))
+            length = length_of(points[b] - points[a])
             ends, shares = (int(rows[a]), int(rows[b])), (float(along[a]), float(along[b]))
             found.append(_Segment(ends, branch, shares, length))
     return found

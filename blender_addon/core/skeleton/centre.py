@@ -26,5 +26,6 @@ def centre_of_mass(skeleton: Skeleton) -> NDArray[np.float64]:
     places = np.concatenate(
         ((skeleton.points[a] + skeleton.points[b]) / 2, skeleton.points[singles])
     )
-    volume = np.concatenate((volume, 4 / 3 * np.pi * skeleton.radius[singles] ** 3))
+    alone = skeleton.radius[singles]
+    volume = np.concatenate((volume, 4 / 3 * np.pi * alone * alone * alone))
     return np.average(places, axis=0, weights=volume)

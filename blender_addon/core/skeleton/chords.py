@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..portable_cosine import cosine
+from ..small_matrices import length_of
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -92,12 +95,13 @@ def _between(
     Only the ball of a place inside overlaps balls inside.
     """
     steps, count = _TRIED
-    size = float(np.linalg.norm(ends[1] - ends[0]))
+    size = length_of(ends[1] - ends[0])
     ways = _even_directions(count)
     best = ends.mean(axis=0)
     value = -np.inf
-    for step in range(steps):
-        tried = np.concatenate((best[None], best + size * 0.7**step * ways))
+    for _ in range(steps):
+        tried = np.concatenate((best[None], best + size * ways))
+        size *= 0.7
         away = np.linalg.norm(tried[:, None] - ends[None], axis=2)
         overlap = (depth(tried)[:, None] + radius - away).min(axis=1)
         if overlap.max() > value:
@@ -110,4 +114,4 @@ def _even_directions(count: int) -> NDArray[np.float64]:
     height = 1.0 - (2.0 * np.arange(count) + 1.0) / count
     turn = np.pi * (3.0 - np.sqrt(5.0)) * np.arange(count)
     across = np.sqrt(1.0 - height**2)
-    return np.column_stack((across * np.cos(turn), across * np.sin(turn), height))
+    return np.column_stack((across * cosine(turn), across * cosine(turn - np.pi / 2), height))

@@ -11,6 +11,7 @@ from ..machine import native
 from ..samples.nearness import nearest
 from ..samples.triangles import unit_normals
 from ..settings import SidesFrom
+from ..small_matrices import dot, length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -42,7 +43,7 @@ class Depth:
         """Return the distances of (n, 3) places from the boundary, (n,), without a sign."""
         if self._faces is None or not len(places):
             away = places - self._samples[nearest(places, self._samples)]
-            found = np.sqrt(np.einsum("ij,ij->i", away, away))
+            found = np.sqrt(dot(away, away))
         else:
             with native.own_errors() as module:
                 found = module.surface_distances(places, *self._faces)
@@ -55,7 +56,7 @@ def buried_faces(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> N
     normals, _ = unit_normals(corners)
     middle = corners.mean(axis=1)
     looks = [middle, *(0.1 * middle + 0.9 * corners[:, corner] for corner in range(3))]
-    offset = _ASIDE * float(np.linalg.norm(np.ptp(points, axis=0)))
+    offset = _ASIDE * length_of(np.ptp(points, axis=0))
     with native.own_errors() as module:
         found = module.buried(
             np.concatenate(looks), np.tile(normals, (4, 1)), offset, points, triangles

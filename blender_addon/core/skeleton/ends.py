@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot, length_of
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -70,7 +72,7 @@ def reach_of(net: Net, name: int, balls: Balls) -> float:
     chain = net.from_fork(name)
     rows = balls.of(net.held(chain[1:]))
     far = _reaches(balls, rows, net.points[chain[0]])
-    tip = np.linalg.norm(net.points[chain[-1]] - net.points[chain[0]]) + net.radius[chain[-1]]
+    tip = length_of(net.points[chain[-1]] - net.points[chain[0]]) + net.radius[chain[-1]]
     return float(far.max()) if len(rows) else float(tip)
 
 
@@ -80,8 +82,8 @@ def _reaches(
     """Return how far balls reach from a point in the mean direction of their centres."""
     away = balls.centre[rows] - base
     along = away.sum(axis=0)
-    length = max(float(np.linalg.norm(along)), float(np.finfo(float).tiny))
-    return away @ (along / length) + balls.radius[rows]
+    far = max(length_of(along), float(np.finfo(float).tiny))
+    return dot(away, along / far) + balls.radius[rows]
 
 
 def end_limbs(net: Net, owner: NDArray[np.int64], balls: Balls) -> NDArray[np.int64]:

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot, inverse, stretches, times
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -69,8 +71,8 @@ def _meeting_point(net: Net, fork: int) -> NDArray[np.float64]:
         if len(outside) > 1:
             middle, along = _line(net.points[outside] - here)
             across = np.eye(3) - np.outer(along, along)
-            matrix, right = matrix + across, right + across @ middle
-    return here + np.linalg.solve(matrix, right)
+            matrix, right = matrix + across, right + times(middle, across)
+    return here + times(right, inverse(matrix))
 
 
 def _outside(net: Net, name: int, fork: int) -> list[int]:
@@ -92,7 +94,7 @@ def _from(net: Net, name: int, fork: int) -> list[int]:
 def _line(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the mean of points, and the direction in which they spread most."""
     middle = points.mean(axis=0)
-    return middle, np.linalg.svd(points - middle)[2][0]
+    return middle, stretches(points - middle)[1][0]
 
 
 def _roots(net: Net, fork: int) -> list[_Root]:
@@ -119,10 +121,10 @@ def _straighten(net: Net, root: _Root, place: NDArray[np.float64]) -> None:
 def _room(points: NDArray[np.float64], samples: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the distance to the nearest sample, (n,); there are few points, and they are far from all samples."""
     centred = samples - samples.mean(axis=0)
-    squares = np.einsum("ij,ij->i", centred, centred)
+    squares = dot(centred, centred)
     found = np.empty(len(points))
     for start in range(0, len(points), 64):
         some = points[start : start + 64]
-        row = (squares - 2.0 * (some - samples.mean(axis=0)) @ centred.T).argmin(axis=1)
+        row = (squares - 2.0 * times(some - samples.mean(axis=0), centred)).argmin(axis=1)
         found[start : start + 64] = np.linalg.norm(some - samples[row], axis=1)
     return found

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..samples.nearness import near, nearest
+from ..small_matrices import length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -37,7 +38,7 @@ def make_symmetric(net: Net, plane: float) -> bool:
     """
     rows = np.unique(np.concatenate([*net.branches.values(), list(net.at)]).astype(np.int64))
     points = net.points[rows]
-    allowed = SYMMETRIC * float(np.linalg.norm(np.ptp(points, axis=0)))
+    allowed = SYMMETRIC * length_of(np.ptp(points, axis=0))
     if not near(_image(points, plane), points, allowed).all():
         return False
     nodes = _images_of_nodes(net, plane, allowed)
@@ -86,11 +87,11 @@ def _images_of_branches(
                 if (rows[0], rows[-1]) == (start, end):
                     away = _at(net, rows, np.array([0.3, 0.7]))[0]
                     away -= _image(_at(net, chain, np.array([0.3, 0.7]))[0], plane)
-                    found.append((float(np.linalg.norm(away)), other, rows))
+                    found.append((length_of(away), other, rows))
         if not found:
             return None
         _, other, rows = min(found, key=lambda item: item[:2])
-        if np.linalg.norm(_at(net, rows, np.array([0.5]))[0][0] - middle) > 2.0 * allowed:
+        if length_of(_at(net, rows, np.array([0.5]))[0][0] - middle) > 2.0 * allowed:
             return None
         image[name] = other, rows
     return image if all(image[image[name][0]][0] == name for name in image) else None

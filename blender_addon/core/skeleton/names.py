@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import length_of
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -72,7 +74,7 @@ def _partners(
     partner = np.full(len(chains), -1, np.int64)
     if not chains:
         return partner
-    size = np.linalg.norm(np.ptp(np.concatenate((bones.head, bones.tail)), axis=0))
+    size = length_of(np.ptp(np.concatenate((bones.head, bones.tail)), axis=0))
     middles = np.array([_at_middle(bones, chain) for chain in chains]) - centre
     ends = np.array([bones.tail[chain[-1]] for chain in chains]) - centre
     mirror = np.array([-1.0, 1.0, 1.0])

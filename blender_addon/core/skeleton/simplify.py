@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -44,8 +46,10 @@ def _distance(
 ) -> NDArray[np.float64]:
     """Return the distances from points to a segment."""
     along = b - a
-    square = float(along @ along)
+    square = float(dot(along, along))
     share = (
-        np.clip((points - a) @ along / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(points))
+        np.clip(dot(points - a, along) / square, 0.0, 1.0)
+        if square > 0.0
+        else np.zeros(len(points))
     )
     return np.linalg.norm(points - a - share[:, None] * along, axis=1)

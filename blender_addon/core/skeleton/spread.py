@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -28,7 +30,7 @@ def graph_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> Graph:
     """Return the graph of (e, 2) edges between (n, 3) points, with their lengths in space."""
     ends = np.ascontiguousarray(edges.T)
     along = points[ends[0]] - points[ends[1]]
-    length = np.sqrt(np.einsum("ij,ij->i", along, along))
+    length = np.sqrt(dot(along, along))
     counts = [np.bincount(end, minlength=len(points)) for end in ends]
     first = np.zeros(len(points) + 1, np.int64)
     np.cumsum(counts[0] + counts[1], out=first[1:])

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine.native import own_errors
+from ..small_matrices import dot, shortest_solutions
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -157,7 +158,7 @@ class _Planes:
 
     def _radii(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
         away = vertices[self.vertex] - self.places
-        return np.maximum(self._radius + np.einsum("ij,ij->i", self._slopes, away), 0.0)
+        return np.maximum(self._radius + dot(self._slopes, away), 0.0)
 
     def normals_at(
         self, triangle: NDArray[np.int64], side: NDArray[np.int64]
@@ -192,17 +193,13 @@ class _Rows:
         normals: NDArray[np.float64],
     ) -> None:
         np.add.at(self._squares, vertex, normals[:, :, None] * normals[:, None, :])
-        offset = np.einsum("ij,ij->i", normals, places)
+        offset = dot(normals, places)
         np.add.at(self._targets, vertex, normals * offset[:, None])
 
     def solved(self, start: NDArray[np.float64]) -> NDArray[np.float64]:
         """(v, 3) the places in all planes of each vertex that are nearest to where it is."""
-        values, vectors = np.linalg.eigh(self._squares)
-        counts = values > _PLANE * np.maximum(values[:, -1:], np.finfo(float).tiny)
-        inverse = np.where(counts, 1.0 / np.where(counts, values, 1.0), 0.0)
-        lack = self._targets - np.einsum("vij,vj->vi", self._squares, start)
-        along = np.einsum("vji,vj->vi", vectors, lack) * inverse
-        return start + np.einsum("vij,vj->vi", vectors, along)
+        lack = self._targets - dot(self._squares, start[:, None])
+        return start + shortest_solutions(self._squares, lack, _PLANE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,7 +294,7 @@ def _walls_ahead(
     hits = (starts + way[:, None] * np.tile(out, (3, 1))).reshape(3, -1, 3)
     normals = np.cross(hits[1] - hits[0], hits[2] - hits[0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1), np.finfo(float).tiny)[:, None]
-    normals[~met | (np.abs(np.einsum("ij,ij->i", normals, out)) < _LIKE)] = 0.0
+    normals[~met | (np.abs(dot(normals, out)) < _LIKE)] = 0.0
     return hits[0], normals
 
 

@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..machine import native
+from ..portable_cosine import cosine
 from ..samples.triangles import unit_normals
 from ..settings import Between
+from ..small_matrices import dot
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -183,7 +185,7 @@ def _acute_edges(shape: Shape) -> NDArray[np.float64]:
     first, second = pairs[0][same], pairs[1][same]
     a, b = face[first], face[second]
     ends = shape.points[corners[first]]
-    turned = np.einsum("ij,ij->i", normals[a], normals[b])
+    turned = dot(normals[a], normals[b])
     third = shape.points[triangles[b]].sum(axis=1) - shape.points[corners[second]].sum(axis=1)
-    convex = np.einsum("ij,ij->i", normals[a], third - ends[:, 0]) < 0.0
-    return ends[convex & (turned < -math.cos(_ACUTE))]
+    convex = dot(normals[a], third - ends[:, 0]) < 0.0
+    return ends[convex & (turned < -cosine(_ACUTE))]

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import times
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -41,7 +43,8 @@ def face_pieces(
     for cut in np.unique(cuts).tolist():
         group = some[cuts == cut]
         shares, pieces = _lattice(cut)
-        points.append((shares @ shape.points[shape.triangles[group]]).reshape(-1, 3))
+        corners = shape.points[shape.triangles[group]].swapaxes(1, 2)
+        points.append(times(corners, shares).swapaxes(1, 2).reshape(-1, 3))
         start = count + len(shares) * np.arange(len(group))
         triangles.append((pieces + start[:, None, None]).reshape(-1, 3))
         of_pieces.append(np.repeat(group, len(pieces)))

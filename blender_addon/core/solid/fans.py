@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..samples.triangles import unit_normals
+from ..small_matrices import shortest_solutions
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -73,8 +74,7 @@ class Fans:
         np.add.at(wanted, self.vertex, amount[:, None] * self.normal)
         rows = np.flatnonzero(wanted.any(axis=1))
         moves = np.zeros((vertices, 3))
-        inverse = np.linalg.pinv(matrix[rows], rcond=_OPPOSITE, hermitian=True)
-        moves[rows] = np.einsum("nij,nj->ni", inverse, wanted[rows])
+        moves[rows] = shortest_solutions(matrix[rows], wanted[rows], _OPPOSITE)
         return moves
 
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..small_matrices import dot
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -91,7 +93,7 @@ def _keys(triangles: NDArray[np.int32], count: int) -> NDArray[np.int64]:
 def _halved(found: FineFaces, longest: float) -> FineFaces | None:
     points, triangles = found.points, found.triangles
     ways = points[np.roll(triangles, -1, axis=1)] - points[triangles]
-    lengths = np.sqrt(np.einsum("ijk,ijk->ij", ways, ways))
+    lengths = np.sqrt(dot(ways, ways))
     if not (lengths > longest).any():
         return None
     keys, of_sides = np.unique(_keys(triangles, len(points)), return_inverse=True)

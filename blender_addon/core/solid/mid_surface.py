@@ -26,6 +26,7 @@ from ..samples.outward_faces import outward_shape
 from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
 from ..settings import Form, MidSurfaceSettings, Settings, Side
+from ..small_matrices import length_of
 from .carried_sheets import CarriedSheets, Walls, carried
 from .even_triangles import divided
 from .thin_sheets import thin_sheets
@@ -158,7 +159,7 @@ def _walls(shape: Shape, settings: Settings) -> Walls:
 
 def _welded(sheets: CarriedSheets) -> CarriedSheets:
     """The sheets with one vertex at each place, without triangles that have no area, and with no other vertices."""
-    step = _SAME * float(np.linalg.norm(np.ptp(sheets.vertices, axis=0)))
+    step = _SAME * length_of(np.ptp(sheets.vertices, axis=0))
     ends = np.sort(
         np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2).reshape(-1, 2),
         axis=1,

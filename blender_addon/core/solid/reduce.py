@@ -15,6 +15,7 @@ from ..axis.turning import with_facets_turned
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..machine.progress import Progress
+from ..small_matrices import length_of
 from .solid_difference import PointDifference, difference_of_points
 
 if TYPE_CHECKING:
@@ -185,7 +186,7 @@ def reduced_difference(axis: MedialAxis, shape: Shape) -> PointDifference:
     """
     mesh = sphere_mesh(axis)
     used = shape.points[np.unique(shape.triangles)] if len(shape.triangles) else shape.points
-    diagonal = float(np.linalg.norm(np.ptp(used, axis=0)))
+    diagonal = length_of(np.ptp(used, axis=0))
 
     def signed(queries: NDArray[np.float64]) -> NDArray[np.float64]:
         with own_errors() as module:

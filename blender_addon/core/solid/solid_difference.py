@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
 from ..samples.shape import Shape
+from ..small_matrices import length_of
 
 SAMPLES = 100_000  # the number of samples of each surface, besides its vertices
 # Powers of the plastic number: the fractional parts of their multiples fill the square evenly (Roberts' R2 sequence).
@@ -66,7 +67,7 @@ def solid_difference(first: Shape, second: Shape) -> SolidDifference:
     if first.volume == 0.0:
         raise InvalidInputError("Expected a first solid with a volume, found one without")
     there, back = _distances(first, second), _distances(second, first)
-    diagonal = float(np.linalg.norm(np.ptp(first.points[first.triangles.ravel()], axis=0)))
+    diagonal = length_of(np.ptp(first.points[first.triangles.ravel()], axis=0))
     return SolidDifference(
         mean=max(there[:SAMPLES].mean(), back[:SAMPLES].mean()) / diagonal,
         largest=max(there.max(), back.max()) / diagonal,
@@ -106,7 +107,7 @@ def difference_of_points(
         nearest = np.asarray(module.nearest(points, queries[inside]))
         back = np.asarray(module.surface_distances(points, shape.points, shape.triangles))
     there[inside] = np.linalg.norm(points[nearest] - queries[inside], axis=1)
-    diagonal = float(np.linalg.norm(np.ptp(used, axis=0)))
+    diagonal = length_of(np.ptp(used, axis=0))
     return PointDifference(
         mean=float(there[:SAMPLES].mean()) / diagonal,
         largest=float(max(there.max(), back.max())) / diagonal,

@@ -24,6 +24,7 @@ from ..samples.outward_faces import outward_shape
 from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
 from ..settings import Edges, Moving, Settings, ThickenSettings, ThicknessSettings
+from ..small_matrices import dot
 from .face_lengths import are_enough, first_rows
 from .fans import fans_of
 from .measurement import Measurement
@@ -276,7 +277,7 @@ class _Walls:
         gain[self._still] = 0.0
         self._may_move &= gain > 0.0
         self._look_across(gain > 0.0)
-        gone = np.einsum("ij,ij->i", moves[self._fans.vertex], self._fans.normal)
+        gone = dot(moves[self._fans.vertex], self._fans.normal)
         gain = np.minimum(gain, np.maximum(self._most - gone, 0.0))
         step = self._fans.offsets(len(points), gain)
         length = np.linalg.norm(step, axis=1)
@@ -335,7 +336,7 @@ class _Walls:
         while True:
             step[self._held[self._row]] = 0.0
             after, _ = unit_normals((points + step)[self._triangles])
-            turned = np.einsum("ij,ij->i", before, after) < 0.0
+            turned = dot(before, after) < 0.0
             if not turned.any():
                 return step
             self._held[self._triangles[turned]] = True

@@ -89,7 +89,7 @@ bool Selection::in_limit_set(int32_t edge, std::span<const int32_t> ring) const 
   const double size = distance(at, facets_.points[q]);
   const double rho = tried_rho(facets_.significance, edge, wanted_.thresholds.rule);
   const double epsilon = size / (rho * mu);
-  return size >= std::pow(epsilon, 0.25) * mu;
+  return size >= std::sqrt(std::sqrt(epsilon)) * mu;
 }
 
 std::vector<int32_t> selected(const Selection& selection, std::span<const int32_t> edges,

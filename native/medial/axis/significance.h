@@ -9,6 +9,7 @@
 #include <medial/options.h>
 
 #include "axis/umbrellas.h"
+#include "base/portable_math.h"
 
 namespace medial {
 
@@ -33,7 +34,7 @@ struct Untried {
   static constexpr uint8_t larger_theta = 1, smaller_theta = 2, larger_rho = 4, smaller_rho = 8;
 };
 
-inline double theta_of(double sine) { return std::asin(sine); }
+inline double theta_of(double sine) { return portable::asin(sine); }
 
 // Returns the largest sine whose theta is not above a threshold.
 double largest_sine(double theta);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/select.h"
 #include "base/vec3.h"
 
 namespace medial {
@@ -43,8 +44,8 @@ int32_t build_tree(std::vector<Node>& nodes, int32_t begin, int32_t end, int32_t
 template <typename Item, typename Key>
 int32_t split_in_middle(std::vector<Item>& items, int32_t begin, int32_t end, const Key& key) {
   const int32_t middle = begin + (end - begin) / 2;
-  std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
-                   [&](const Item& s, const Item& t) { return key(s) < key(t); });
+  select(items.begin() + begin, items.begin() + middle, items.begin() + end,
+         [&](const Item& s, const Item& t) { return key(s) < key(t); });
   return middle;
 }
 

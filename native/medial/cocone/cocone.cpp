@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "base/portable_math.h"
+
 namespace medial {
 namespace {
 
@@ -31,7 +33,7 @@ struct CoconeInput {
 };
 
 Zones zones(const CoconeInput& s, const Run& run) {
-  const double sine = std::sin(s.options.cocone_angle);
+  const double sine = portable::sin(s.options.cocone_angle);
   Zones result(s.t.cells.size());
   parallel_for(s.t.cell_count(), run, [&](int64_t c) {
     for (int i = 0; i < 4; ++i) {
@@ -129,7 +131,7 @@ struct Growth {
 // thin samples may grow flat.
 std::vector<Growth> agreement(const CoconeInput& s, const Meetings& meetings, Cocone& result,
                               const Run& run) {
-  const double least = std::cos(s.options.flatness_angle);
+  const double least = portable::cos(s.options.flatness_angle);
   std::vector<std::vector<CellFace>> faces_of(run.threads);
   return parallel_append<Growth>(s.samples(), run, [&](int64_t id, auto& growths, int worker) {
     auto& faces = faces_of[worker];

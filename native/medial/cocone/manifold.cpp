@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cocone/manifold.h"
 
+#include "base/portable_math.h"
+
 namespace medial {
 namespace {
 
@@ -272,7 +274,7 @@ class Walk {
 FaceSet manifold(std::span<const Vec3> points, const Triangulation& t, const Csr<int32_t>& incident,
                  const Cocone& cocone, const CoconeOptions& options, const Run& run) {
   begin_stage(run.progress, "Manifold extraction", 0.93, 0.95);
-  const ManifoldInput s{points, t, incident, std::cos(options.sharp_angle)};
+  const ManifoldInput s{points, t, incident, portable::cos(options.sharp_angle)};
   FaceSet candidates = cocone.candidates;
   UmbrellaTriangles umbrellas{FaceSet(t), std::vector<uint8_t>(cocone.flat.size())};
   search_umbrellas(s, candidates, umbrellas, run,

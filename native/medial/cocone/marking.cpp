@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include "base/portable_math.h"
 #include "base/union_find.h"
 
 namespace medial {
@@ -214,12 +215,13 @@ Marks mark(std::span<const Vec3> points, const Triangulation& t, const Voronoi& 
   marks.good.resize(cocone.flat.size());
   marks.facing.resize(t.cells.size());
   const FaceSet surface = from_both_sides(t, front, run);
-  const Marker marker(points, t, voronoi, incident, front, surface, std::sin(options.cocone_angle),
-                      marks);
+  const Marker marker(points, t, voronoi, incident, front, surface,
+                      portable::sin(options.cocone_angle), marks);
   mark_cells(s, marker, marks, run);
   OrientedUnionFind patches(marks.good.size());
   unite_on_surface(s, marks.good, patches);
-  const auto agreeing = agreements(t, cocone, marks.good, std::cos(options.flatness_angle), run);
+  const auto agreeing =
+      agreements(t, cocone, marks.good, portable::cos(options.flatness_angle), run);
   const auto facing = facing_poles(s, marker, agreeing, marks, run);
   for (const auto& [cosine, p, q] : agreeing) {
     patches.unite(p, q, (cosine < 0) != (facing[p] != facing[q]));

@@ -12,14 +12,12 @@
 #include "base/polygon_edges.h"
 #include "base/text.h"
 #include "delaunay/cgal.h"
+#include "delaunay/insertion_order.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
 // clang-format on
 
 namespace medial {
@@ -191,19 +189,17 @@ class Runs {
 };
 
 // Returns the corners in an order in which insertion is fast: three that are not collinear, because
-// CGAL searches collinear points one by one, then all along a space-filling curve. Returns nothing
-// if all are on one line.
-std::vector<size_t> insertion_order(std::span<const Point2> points, const Ring& ring) {
-  using Traits =
-      CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::Pointer_property_map<Point2>::const_type>;
+// CGAL searches collinear points one by one, then all in rounds along the ring, in which neighbours
+// are close to each other. Returns nothing if all are on one line. (CGAL's own order depends on the
+// C++ library, and with it the triangles of corners on one circle.)
+std::vector<int32_t> corners_in_order(std::span<const Point2> points, const Ring& ring) {
   const auto off = std::find_if(ring.begin() + 2, ring.end(), [&](int32_t corner) {
     return !CGAL::collinear(points[ring[0]], points[ring[1]], points[corner]);
   });
   if (off == ring.end()) return {};
-  std::vector<size_t> order(ring.begin(), ring.end());
-  CGAL::spatial_sort(order.begin(), order.end(), Traits(CGAL::make_property_map(points.data())));
-  for (const int32_t corner : {*off, ring[1], ring[0]}) {
-    order.insert(order.begin(), static_cast<size_t>(corner));
+  std::vector<int32_t> order{ring[0], ring[1], *off};
+  for (const int32_t i : insertion_order(static_cast<int32_t>(ring.size()))) {
+    order.push_back(ring[i]);
   }
   return order;
 }
@@ -214,7 +210,7 @@ Plane triangulated(std::span<const Point2> points, const Ring& ring, const Place
   Plane plane;
   std::vector<Plane::Vertex_handle> vertices(places.corners.size());
   Plane::Face_handle near;
-  for (const size_t corner : insertion_order(points, ring)) {
+  for (const int32_t corner : corners_in_order(points, ring)) {
     const int32_t place = places.of_corner[corner];
     if (vertices[place] != Plane::Vertex_handle()) continue;
     vertices[place] = plane.insert(points[corner], near);

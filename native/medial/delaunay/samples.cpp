@@ -6,6 +6,8 @@
 #include <numbers>
 #include <string>
 
+#include "base/portable_math.h"
+
 namespace medial {
 
 void require_extent(std::span<const Vec3> rows) {
@@ -46,7 +48,8 @@ void add_bounding_sphere(Samples& samples) {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < kPoints; ++i) {
     const double z = 1 - (2 * i + 1.0) / kPoints, r = std::sqrt(1 - z * z);
-    const Vec3 direction{r * std::cos(golden_angle * i), r * std::sin(golden_angle * i), z};
+    const auto [sine, cosine] = portable::sine_cosine(golden_angle * i);
+    const Vec3 direction{r * cosine, r * sine, z};
     samples.points.push_back(centre + 2 * radius * direction);
   }
 }

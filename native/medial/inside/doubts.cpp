@@ -61,7 +61,7 @@ std::optional<NearPart> near_part(const DoubtInput& input, int32_t cell, int cor
 
 // Sorts the hits, and leaves one or none of those in one place.
 void merge(std::vector<Hit>& hits, double one_place) {
-  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.at < b.at; });
+  std::sort(hits.begin(), hits.end());
   size_t kept = 0;
   for (size_t begin = 0, end = 0; begin < hits.size(); begin = end) {
     int sum = 0;

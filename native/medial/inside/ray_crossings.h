@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <tuple>
 
 #include "base/box_tree.h"
 #include "base/progress.h"
@@ -25,6 +26,15 @@ class RayCrossings {
   struct Hit {
     double at, cosine;
     Vec3 normal;
+
+    // At one place, the ray enters before it leaves: bodies that touch are one. The rest of the
+    // order makes it total.
+    friend bool operator<(const Hit& s, const Hit& t) {
+      const auto key = [](const Hit& hit) {
+        return std::tie(hit.at, hit.cosine, hit.normal.x, hit.normal.y, hit.normal.z);
+      };
+      return key(s) < key(t);
+    }
   };
   // Finds all triangles that the ray meets up to `reach`, in no order. The triangle on which the
   // ray starts, against its normal, is omitted.

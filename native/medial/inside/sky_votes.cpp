@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "base/portable_math.h"
 #include "base/random.h"
 #include "base/rows.h"
 #include "inside/ray_crossings.h"
@@ -115,9 +116,9 @@ class Voting {
     const double cosine = kLeastCosine + (1 - kLeastCosine) * (k + 0.5) / kRays;
     const double sine = std::sqrt(1 - cosine * cosine);
     const double turn = k * std::numbers::phi + unit(place.random);
-    const double angle = 2 * std::numbers::pi * (turn - std::floor(turn));
+    const auto around = portable::sine_cosine(2 * std::numbers::pi * (turn - std::floor(turn)));
     const auto [u, v] = across(place.normal);
-    return cosine * place.normal + (sine * std::cos(angle)) * u + (sine * std::sin(angle)) * v;
+    return cosine * place.normal + (sine * around.cosine) * u + (sine * around.sine) * v;
   }
 
   bool escapes(const Vec3& place, const Vec3& ray) const {

@@ -4,6 +4,9 @@
 #include <numbers>
 #include <tuple>
 
+#include "base/portable_math.h"
+#include "base/select.h"
+
 namespace medial {
 namespace {
 
@@ -15,7 +18,7 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   const double la = length(a), lb = length(b), lc = length(c);
   const double numerator = dot(a, cross(b, c));
   const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  return 2 * std::atan2(numerator, denominator);
+  return 2 * portable::atan2(numerator, denominator);
 }
 
 void add_scaled(std::array<Vec3, 3>& moment, const Vec3& offset, const Vec3& area_vector) {
@@ -69,10 +72,12 @@ int32_t SolidAngle::split(int32_t begin, int32_t end) {
   };
   const auto before = [&](const auto& s, const auto& t) { return place(s) < place(t); };
   const auto middle = first + (end - begin) / 2;
-  std::nth_element(first, middle, last, before);
+  select(first, middle, last, before);
   const Corners at = *middle;
-  const auto low = std::partition(first, middle, [&](const auto& t) { return before(t, at); });
-  const auto high = std::partition(middle, last, [&](const auto& t) { return !before(at, t); });
+  const auto low =
+      std::stable_partition(first, middle, [&](const auto& t) { return before(t, at); });
+  const auto high =
+      std::stable_partition(middle, last, [&](const auto& t) { return !before(at, t); });
   const bool after = low == first || (high != last && high - middle < middle - low);
   return static_cast<int32_t>((after ? high : low) - corners_.begin());
 }
@@ -139,7 +144,9 @@ SolidAngle::Term SolidAngle::term(int32_t id, const Vec3& query) const {
 // and its error bound are good enough; both are times 4 pi.
 template <typename Enough>
 double SolidAngle::opened(const Vec3& query, const Enough& enough) const {
-  const auto smaller = [](const Term& s, const Term& t) { return s.error < t.error; };
+  const auto smaller = [](const Term& s, const Term& t) {
+    return s.error != t.error ? s.error < t.error : s.node > t.node;
+  };
   std::vector<Term> heap;
   heap.reserve(64);
   int unbounded = 0;  // terms in the heap without a finite bound

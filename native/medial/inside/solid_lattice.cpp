@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "base/parallel.h"
+#include "base/portable_math.h"
 
 namespace medial {
 namespace {
@@ -45,7 +46,7 @@ SolidLattice::SolidLattice(const WindingNumber& winding, const Box& box, int64_t
     fill(winding, box, step, run);
     if (2 * count_ >= places || (count_ == 0 && lattice_size(box, step) > kEmpty)) return;
     const auto wanted = static_cast<double>(places);
-    const double ratio = std::cbrt(wanted / static_cast<double>(std::max<int64_t>(count_, 1)));
+    const double ratio = portable::cbrt(wanted / static_cast<double>(std::max<int64_t>(count_, 1)));
     const double next = finer(box, step, ratio, most);
     if (next == step) return;
     step = next;

@@ -31,7 +31,7 @@ void check(std::span<const Vec3> points, std::span<const Vec3> normals,
 }
 
 double distance_of_wall(std::span<RayCrossings::Hit> hits) {
-  std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+  std::sort(hits.begin(), hits.end());
   int depth = 1;
   for (const auto& hit : hits) {
     depth += hit.cosine > 0 ? -1 : 1;

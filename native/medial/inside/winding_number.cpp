@@ -89,7 +89,7 @@ void WindingNumber::closed_along(const Vec3& first, double step, std::span<int> 
   const Vec3 origin = first - Vec3{step, 0, 0};
   std::vector<RayCrossings::Hit> hits;
   crossings_.hits(origin, {1, 0, 0}, step * static_cast<double>(result.size()), hits);
-  std::sort(hits.begin(), hits.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+  std::sort(hits.begin(), hits.end());
   int number = closed(origin);
   auto hit = hits.begin();
   for (size_t i = 0; i < result.size(); ++i) {

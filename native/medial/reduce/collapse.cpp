@@ -183,7 +183,8 @@ class Collapser {
     const auto free = sum.best(middle);
     if (free && free->radius >= 0) {
       const double cost = sum(*free);
-      const double reach = squared_length(s.centre - t.centre) + std::pow(s.radius - t.radius, 2);
+      const double rise = s.radius - t.radius;
+      const double reach = squared_length(s.centre - t.centre) + rise * rise;
       if (cost < best.cost - same - kSame * sum.weight() * reach) best = {*free, -1, cost, -1};
     }
     return best;

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/rows.h"
+#include "base/select.h"
 #include "reduce/checked_mesh.h"
 
 namespace medial {
@@ -57,8 +58,8 @@ int32_t Envelope::build(int32_t begin, int32_t end) {
     }
     return std::pair(low, part);
   };
-  std::nth_element(parts_.begin() + begin, parts_.begin() + middle, parts_.begin() + end,
-                   [&](const Part& s, const Part& t) { return key(s) < key(t); });
+  select(parts_.begin() + begin, parts_.begin() + middle, parts_.begin() + end,
+         [&](const Part& s, const Part& t) { return key(s) < key(t); });
   build(begin, middle);
   const int32_t right = build(middle, end);
   nodes_[id].right = right;

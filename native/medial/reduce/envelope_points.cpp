@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/portable_math.h"
 #include "base/rows.h"
 #include "base/text.h"
 #include "reduce/checked_mesh.h"
@@ -42,9 +43,10 @@ class Painter {
     const auto count = static_cast<int64_t>(on_ball(r));
     for (int64_t i = 0; i < count; ++i) {
       const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
-      const double turn = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0));
       const double flat = r * std::sqrt(std::max(0.0, 1 - z * z));
-      keep(mesh_.vertices[v] + Vec3{flat * std::cos(turn), flat * std::sin(turn), r * z}, out);
+      const auto [sine, cosine] =
+          portable::sine_cosine(static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0)));
+      keep(mesh_.vertices[v] + Vec3{flat * cosine, flat * sine, r * z}, out);
     }
   }
 
@@ -62,9 +64,9 @@ class Painter {
       const Vec3 centre = mesh_.vertices[a] + share * along;
       const double radius = mesh_.radius[a] + share * rise;
       for (int64_t j = 0; j < round; ++j) {
-        const double turn =
-            2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(round);
-        const Vec3 n = flat * (std::cos(turn) * u + std::sin(turn) * v) - k * axis;
+        const auto [sine, cosine] = portable::sine_cosine(
+            2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(round));
+        const Vec3 n = flat * (cosine * u + sine * v) - k * axis;
         keep(centre + radius * n, out);
       }
     }

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/parallel.h"
+#include "base/portable_math.h"
 #include "reduce/cone_and_slab.h"
 
 namespace medial {
@@ -17,8 +18,8 @@ std::array<Vec3, kDirections> directions() {
   std::array<Vec3, kDirections> result;
   for (int i = 0; i < kDirections; ++i) {
     const double z = 1 - (2 * i + 1.0) / kDirections, r = std::sqrt(1 - z * z);
-    const double turn = i * std::numbers::pi * (3 - std::sqrt(5.0));
-    result[i] = {r * std::cos(turn), r * std::sin(turn), z};
+    const auto [sine, cosine] = portable::sine_cosine(i * std::numbers::pi * (3 - std::sqrt(5.0)));
+    result[i] = {r * cosine, r * sine, z};
   }
   return result;
 }
@@ -50,8 +51,8 @@ class Places {
     const double radius = (mesh_.radius[a] + mesh_.radius[b]) / 2;
     const double area = 2 * half / steps * radius * whole;
     for (int i = 0; i < steps; ++i) {
-      const double turn = half * ((2 * i + 1.0) / steps - 1);
-      const Vec3 round = std::cos(turn) * outward + std::sin(turn) * across;
+      const auto turn = portable::sine_cosine(half * ((2 * i + 1.0) / steps - 1));
+      const Vec3 round = turn.cosine * outward + turn.sine * across;
       const Vec3 n = flat * round - k * axis;
       out.push_back({0.5 * (at(a) + at(b)) + radius * n, n, area, {a, b, -1}});
     }
@@ -92,7 +93,7 @@ class Places {
     const TangentNormals tangents = tangent_normals(sphere(a), sphere(b), sphere(third));
     if (!tangents.exist) return {outward, std::numbers::pi / 2};
     const double cosine = std::clamp(dot(tangents.normals[0], outward) / flat, -1.0, 1.0);
-    return {outward, std::acos(cosine)};
+    return {outward, portable::acos(cosine)};
   }
 
   const SphereMesh& mesh_;

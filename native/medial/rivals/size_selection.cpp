@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rivals/size_selection.h"
 
+#include "base/portable_math.h"
 #include "base/rows.h"
 
 namespace medial {
@@ -51,7 +52,7 @@ bool SizeSelection::is_seen_wide(int32_t edge, std::span<const int32_t> ring) co
     const double radius = infinite ? HUGE_VAL : distance(at, f.voronoi.centre[cell]);
     largest = std::max(largest, radius);
   }
-  return size(edge) / (2 * largest) >= std::sin(wanted().thresholds.theta);
+  return size(edge) / (2 * largest) >= portable::sin(wanted().thresholds.theta);
 }
 
 }  // namespace medial

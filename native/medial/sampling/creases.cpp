@@ -4,6 +4,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "base/portable_math.h"
 #include "base/rows.h"
 #include "base/sort.h"
 #include "inside/surface.h"
@@ -151,7 +152,7 @@ Crease crease_of(const TriangleMesh& mesh, const MeshEdge& edge, size_t uses, do
 }
 
 void add_edges(const TriangleMesh& mesh, double sharp_angle, Creases& creases, const Run& run) {
-  const double cosine = std::cos(std::max(0.0, sharp_angle - kAngleRounding));
+  const double cosine = portable::cos(std::max(0.0, sharp_angle - kAngleRounding));
   std::vector<std::vector<Use>> uses_of(run.threads);
   creases.edges = parallel_append<MeshEdge>(
       mesh.fans.size(), run, [&](int64_t point, std::vector<MeshEdge>& out, int worker) {
@@ -193,14 +194,14 @@ int32_t other_end(const MeshEdge& edge, int32_t p) { return edge.ends[edge.ends[
 bool straight(const TriangleMesh& mesh, int32_t before, int32_t at, int32_t after, double angle) {
   const Vec3 in = normalized(mesh.points[at] - mesh.points[before]);
   const Vec3 out = normalized(mesh.points[after] - mesh.points[at]);
-  return std::atan2(length(cross(in, out)), dot(in, out)) <= angle + kAngleRounding;
+  return portable::atan2(length(cross(in, out)), dot(in, out)) <= angle + kAngleRounding;
 }
 
 // Returns whether no crease ends here, but some triangle is steeper than the angle against the mean
 // normal.
 bool is_tip(const TriangleMesh& mesh, int32_t p, double angle) {
   const Vec3 mean = mesh.normal_sum(p);
-  const double least = std::cos(std::min(angle, std::numbers::pi / 2)) * length(mean);
+  const double least = portable::cos(std::min(angle, std::numbers::pi / 2)) * length(mean);
   const auto steep = [&](int32_t t) {
     return mesh.normal[t] != Vec3{} && dot(mesh.normal[t], mean) < least;
   };
@@ -267,7 +268,7 @@ double TriangleMesh::corner_angle(int32_t triangle, int corner) const {
   const Triangle& t = triangles[triangle];
   const Vec3 u = points[t[(corner + 1) % 3]] - points[t[corner]];
   const Vec3 v = points[t[(corner + 2) % 3]] - points[t[corner]];
-  return std::atan2(length(cross(u, v)), dot(u, v));
+  return portable::atan2(length(cross(u, v)), dot(u, v));
 }
 
 Vec3 TriangleMesh::normal_sum(int32_t point) const {

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "base/portable_math.h"
 #include "base/union_find.h"
 #include "sampling/flat_parts.h"
 
@@ -204,7 +205,7 @@ void CurvedSurface::add_normals(const Creases& creases) {
 // patches bent towards it would leave the cone. So each triangle keeps its own normal there, and
 // edges leave the tip straight.
 void CurvedSurface::split_steep_fans(double sharp_angle) {
-  const double least = std::cos(std::min(sharp_angle, std::numbers::pi / 2));
+  const double least = portable::cos(std::min(sharp_angle, std::numbers::pi / 2));
   std::vector<uint8_t> steep(fan_normals_.size(), 0);
   for (size_t t = 0; t < fan_of_.size(); ++t) {
     const Vec3& normal = mesh_.normal[t];

@@ -374,7 +374,7 @@ std::vector<PlacedDisk> one_size(const Darts& darts, const Grid& grid, double sc
 std::vector<std::vector<int32_t>> by_size(std::span<const Piece> pieces, double largest) {
   std::vector<std::vector<int32_t>> sizes;
   for (size_t i = 0; i < pieces.size(); ++i) {
-    const auto size = static_cast<size_t>(std::log2(largest / pieces[i].spacing));
+    const auto size = static_cast<size_t>(std::ilogb(largest / pieces[i].spacing));
     if (size >= sizes.size()) sizes.resize(size + 1);
     sizes[size].push_back(static_cast<int32_t>(i));
   }

@@ -2,6 +2,7 @@
 #include "scan/mover.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "base/parallel.h"
 #include "scan/local_quadric.h"
@@ -23,7 +24,7 @@ struct Near {
   Vec3 point;
 };
 
-// Gathers the points within a radius, nearest first.
+// Gathers the points within a radius, nearest first and ties by their coordinates.
 void gather(const PointTree& tree, const Vec3& centre, double radius, std::vector<Near>& near) {
   const double squared = radius * radius;
   near.clear();
@@ -32,8 +33,11 @@ void gather(const PointTree& tree, const Vec3& centre, double radius, std::vecto
                const double away = squared_length(p - centre);
                if (away <= squared) near.push_back({away, p});
              });
+  const auto key = [](const Near& a) {
+    return std::tie(a.squared, a.point.x, a.point.y, a.point.z);
+  };
   std::sort(near.begin(), near.end(),
-            [](const Near& a, const Near& b) { return a.squared < b.squared; });
+            [&](const Near& a, const Near& b) { return key(a) < key(b); });
 }
 
 // Climbs from a small neighbourhood to larger ones. Each takes only points near the quadric of the

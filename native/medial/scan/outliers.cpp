@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "base/portable_math.h"
 #include "scan/local_quadric.h"
 
 namespace medial {
@@ -100,7 +101,7 @@ bool is_border(const PointTree& tree, int32_t place, double reach, std::vector<N
   for (const Vec3& p : points) {
     const Vec3 away = p - tree[place];
     const double x = dot(away, u), y = dot(away, v);
-    if (x != 0 || y != 0) angles.push_back(std::atan2(y, x));
+    if (x != 0 || y != 0) angles.push_back(portable::atan2(y, x));
   }
   if (angles.empty()) return false;
   std::sort(angles.begin(), angles.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <numbers>
 
+#include "base/portable_math.h"
 #include "skeleton/crisp_parts.h"
 
 namespace medial {
@@ -34,8 +35,8 @@ Touch wire_end(const CrispState& state, int32_t v, int32_t next) {
   walls.add(before);
   const auto [right, up] = across(along);
   for (int i = 0; i < 3; ++i) {
-    const double angle = i * 2 * std::numbers::pi / 3;
-    const Vec3 out = std::cos(angle) * right + std::sin(angle) * up;
+    const auto [sine, cosine] = portable::sine_cosine(i * 2 * std::numbers::pi / 3);
+    const Vec3 out = cosine * right + sine * up;
     const int32_t t = state.samples.triangle_near(at.position + at.radius * out);
     if (t < 0 || !state.samples.faces().is_curved(t)) return {};
     walls.add(t);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/samples_on_faces.h"
 
+#include "base/portable_math.h"
+
 namespace medial {
 namespace {
 
@@ -36,7 +38,7 @@ SamplesOnFaces::SamplesOnFaces(const FacesInput& input, const Faces& faces, cons
       spacing_(spacing),
       tree_(std::span(samples.points.data(), samples.row.size())),
       reach_(kNearSamples * middle_of(spacing)),
-      most_alike_(std::cos(input.sharp_angle)),
+      most_alike_(portable::cos(input.sharp_angle)),
       triangle_(samples.row.size(), -1),
       normals_(samples.row.size()),
       on_crease_(samples.row.size(), 0) {
