@@ -27,7 +27,9 @@ constexpr double kTouched = 0.03, kOpposite = -0.5;
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
 constexpr int kMostInVain = 48, kMostBeside = 64;  // leaves of the tree of faces
 constexpr double kNothing = 1e-3;                  // a ball of so many roundings is none
-constexpr int64_t kRunOfPlaces = 64;  // in a run, each ball starts where the one before touched
+// In a run, each ball starts where the one before touched, on the wall opposite if there is one: in
+// a tube it then needs no search for this wall.
+constexpr int64_t kRunOfPlaces = 64;
 
 struct Place {
   Vec3 point, normal;
@@ -69,30 +71,30 @@ class Shrinking {
     return found;
   }
 
-  // Returns the radius of the ball between walls, or infinity if it lies between none: a ball that
-  // touches a place opposite. A ball in a tube touches it all round, and any of these places may be
-  // the one that was found.
-  double between_walls(const Place& x, const InnerBall& ball) const {
-    if (!(ball.radius > kNothing * rounding_)) return HUGE_VAL;
+  // Returns the ball between walls, or an infinite one if it lies between none: a ball that touches
+  // a place opposite. A ball in a tube touches it all round, and any of these places may be the one
+  // that was found.
+  InnerBall between_walls(const Place& x, const InnerBall& ball) const {
+    if (!(ball.radius > kNothing * rounding_)) return {};
     const Vec3 centre = centre_of(x, ball.radius);
     const auto is_opposite = [&](const Foot& q) {
       const double away = distance(q.point, centre);
       return away <= (1 + kTouched) * ball.radius &&
              dot(x.normal, q.point - centre) <= kOpposite * away;
     };
-    if (is_opposite(ball.foot)) return ball.radius;
+    if (is_opposite(ball.foot)) return ball;
     const auto beside = [&](const Foot& q) {
       return !is_opposite(faces_.lifted(q.triangle, centre));
     };
     const auto other = faces_.nearer_by_lift(centre - kHalfWay * ball.radius * x.normal,
                                              kReachOpposite * ball.radius, beside, kMostBeside);
-    if (!other) return HUGE_VAL;
+    if (!other) return {};
     InnerBall found = settled(x, faces_.lifted(other->triangle, centre));
     const auto is_beside = [&](const Foot& q) {
       return dot(x.normal, q.point - centre) > kOpposite * distance(q.point, centre);
     };
     shrink(x, found, is_beside);
-    return found.radius;
+    return found;
   }
 
  private:
@@ -199,7 +201,9 @@ InscribedBalls inscribed_balls(const Faces& faces, const FacePlaces& places, con
     last = shrinking.ball(x, last);
     if (last.foot.triangle < 0) return;
     result.diameter[i] = 2 * last.radius;
-    result.wall[i] = 2 * shrinking.between_walls(x, last);
+    const InnerBall wall = shrinking.between_walls(x, last);
+    result.wall[i] = 2 * wall.radius;
+    if (wall.foot.triangle >= 0) last = wall;
   };
   parallel_chunks(
       static_cast<int64_t>(count), run,
