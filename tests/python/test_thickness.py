@@ -264,7 +264,7 @@ def test_ellipsoids_of_any_rows_against_shrinking_balls():
         normals = mesh[0][some] / axes**2
         normals /= np.linalg.norm(normals, axis=1)[:, None]
         off = found.lengths[some] / shrinking_ball(mesh[0][some], normals, surface)[0] - 1
-        assert np.abs(off).mean() < 0.0025 and off.min() > -0.01 and off.max() < 0.04
+        assert np.abs(off).mean() < 0.0025 and off.min() > -0.01 and off.max() < 0.05
 
 
 def test_faces_are_cut_alike_on_both_sides_of_every_edge():
