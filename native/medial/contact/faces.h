@@ -67,6 +67,9 @@ class Faces {
     const Foot flat = flat_foot(triangle, from);
     return is_curved(triangle) ? lifted(flat, from) : flat;
   }
+  // Returns the nearest lifted foot on the triangles that meet where a foot is, in the same wall, or
+  // the foot itself if it is nearer.
+  Foot lifted_beside(const Foot& foot, const Vec3& from) const;
   // Returns the nearest lifted foot of all faces that is nearer than a distance, without those that
   // `ignored` is true of. Where very many faces are about as far away, as those of a sphere are
   // from its centre, it may be one of the others.
@@ -117,6 +120,8 @@ class Faces {
   uint8_t separation(const MeshEdge& edge) const;
   Foot descend(Foot foot, const Vec3& from) const;
   Foot best_neighbour(const Foot& foot, const Vec3& from) const;
+  template <typename FootOn>
+  Foot nearest_beside(const Foot& foot, const FootOn& foot_on_triangle) const;
   std::optional<Foot> foot_within(int32_t triangle, const Vec3& from, double within) const;
   static Foot foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
                             const Vec3& from);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kMostShrinks = 96;   // next to a convex edge each one halves the ball
 constexpr int kMostSettlings = 8;  // on one triangle
+constexpr int kMostSteps = 16;     // from triangle to triangle, before all others are searched
 constexpr double kInside = 1e-9;   // a place is inside if it is so deep, as a share of the radius
 // Faces whose normals differ by less than 60 degrees from that of a place look almost as it does.
 constexpr double kAlike = 0.5;
@@ -119,8 +120,19 @@ class Shrinking {
     if (beside.foot.triangle < 0) return found;
     const Foot foot = faces_.lifted(beside.foot.triangle, centre_of(x, beside.radius));
     if (is_own(x, foot)) return found;
-    const double radius = radius_through(x, foot.point);
-    return radius < reach_ ? InnerBall{radius, foot} : found;
+    const InnerBall walked = walk(x, settled(x, foot));
+    return walked.radius < reach_ ? walked : found;
+  }
+
+  // Shrinks a ball along the wall that it touches.
+  InnerBall walk(const Place& x, InnerBall found) const {
+    for (int i = 0; i < kMostSteps; ++i) {
+      const Vec3 centre = centre_of(x, found.radius);
+      const Foot next = faces_.lifted_beside(found.foot, centre);
+      if (!(next.distance < (1 - kInside) * found.radius) || is_own(x, next)) break;
+      found = settled(x, next);
+    }
+    return found;
   }
 
   // Returns the ball that touches the triangle of a foot, which lies in a larger ball.
