@@ -255,6 +255,24 @@ def test_rows_of_uneven_width_read_as_thick_as_they_are(mesh, truth, bar, turned
     np.testing.assert_allclose(found.lengths, truth, rtol=bar)
 
 
+@pytest.mark.parametrize("deep", [0.6, 0.85, 0.92])
+def test_no_small_cavity_is_overlooked_in_a_ball(deep):
+    """From the centre of the sphere all of its faces are as far away."""
+    outer, cavity = meshes.icosphere(4), meshes.icosphere(2)
+    places, radius = deep * np.array([(0.6, 0.64, 0.48), (-0.48, 0.6, -0.64)]), 0.03
+    voids = [(radius * cavity[0] + place, cavity[1][:, ::-1]) for place in places]
+    found = measure(
+        joined(outer, *voids), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL
+    )
+    away = outer[0][:, None] - places
+    square, height = (away**2).sum(axis=2), (away * outer[0][:, None]).sum(axis=2)
+    with np.errstate(divide="ignore"):
+        balls = np.where(height > -radius, (square - radius**2) / (height + radius), np.inf)
+    truth = np.minimum(2.0, balls.min(axis=1))
+    assert (truth < 1.5).sum() > 100
+    np.testing.assert_allclose(found.lengths[: len(truth)], truth, rtol=0.06)
+
+
 def test_ellipsoids_of_any_rows_against_shrinking_balls():
     axes = np.array([1.0, 0.7, 0.5])
     surface = dense_ellipsoid(axes, 60_000)

@@ -21,6 +21,11 @@ struct Foot {
   double distance = HUGE_VAL;
 };
 
+struct NearestLifted {
+  std::optional<Foot> foot;
+  bool gave_up = false;  // not all faces were searched
+};
+
 // Its const members may be called from several threads.
 class Faces {
  public:
@@ -72,10 +77,10 @@ class Faces {
   Foot lifted_beside(const Foot& foot, const Vec3& from) const;
   // Returns the nearest lifted foot of all faces that is nearer than a distance, without those that
   // `ignored` is true of. Where very many faces are about as far away, as those of a sphere are
-  // from its centre, it may be one of the others.
+  // from its centre, it gives up after some leaves of the tree in vain.
   template <typename Ignored>
-  std::optional<Foot> nearer_by_lift(const Vec3& from, double than, const Ignored& ignored,
-                                     int most_in_vain) const {
+  NearestLifted nearer_by_lift(const Vec3& from, double than, const Ignored& ignored,
+                               int most_in_vain) const {
     std::optional<Foot> best;
     double within = than;
     int in_vain = 0;
@@ -96,10 +101,10 @@ class Faces {
     const auto bound = [&](const Node& node) {
       return in_vain > most_in_vain ? HUGE_VAL : medial::squared_distance(node.box, from);
     };
-    if (nodes_.empty()) return best;
+    if (nodes_.empty()) return {};
     visit_nearest(
         nodes_, 0, bound, [&] { return within * within; }, visit);
-    return best;
+    return {best, in_vain > most_in_vain};
   }
   // Returns where each triangle is in the search tree, where neighbours are close to each other.
   std::vector<int32_t> places_in_tree() const;
