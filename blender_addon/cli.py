@@ -91,7 +91,7 @@ exit codes:
 _EXAMPLES_OF_THICKNESS = """\
 INPUT     as of medial_axis --help.
 OUTPUT    a file, or a folder; {name}, {file} and #### as there.
-          .csv   thickness at every vertex of the input
+          .csv   thickness at every vertex of the input and every other measured point
           .json  minimum, area and share below the limit, patches with place, area and minimum
           .ply   the measured surface, coloured: red at the limit, blue from three times the limit
 

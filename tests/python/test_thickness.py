@@ -207,6 +207,84 @@ def test_rows_of_a_ring_are_no_walls(around, across, turn):
     assert np.mean(np.abs(found.lengths / 0.4 - 1)) < 0.015
 
 
+def sphere_of_rows(rows, around, axes=(1.0, 1.0, 1.0)):
+    latitudes = np.concatenate(([0.0], np.cumsum(rows))) * np.pi / np.sum(rows)
+    vertices, triangles = lathe([(np.sin(x), -np.cos(x)) for x in latitudes], around)
+    return vertices * axes, triangles
+
+
+def capsule_of_rows(rows=16, around=48):
+    turn = np.pi / 2 * np.minimum(1.0, np.append(0.0, (np.arange(rows) + 0.5) / (rows - 0.5)))
+    low = [(np.sin(x), -1.0 - np.cos(x)) for x in turn]
+    return lathe([*low, *((r, -z) for r, z in low[::-1])], around)
+
+
+def torus_of_rows(around=60, across=24, jitter=0.25):
+    """A tube of radius 0.2 with random rows, bent to a ring of radius 1."""
+    random = np.random.default_rng(4)
+    u, v = (
+        2 * np.pi * (np.arange(n) + random.uniform(-jitter, jitter, n)) / n for n in (around, across)
+    )
+    vertices, triangles = meshes.torus(1.0, 0.2, around, across)
+    u, v = (x.ravel() for x in np.meshgrid(u, v, indexing="ij"))
+    far = 1.0 + 0.2 * np.cos(v)
+    return np.column_stack((far * np.cos(u), far * np.sin(u), 0.2 * np.sin(v))), triangles
+
+
+@pytest.mark.parametrize("turned", [0, 3])
+@pytest.mark.parametrize(
+    "mesh, truth, bar",
+    [
+        (sphere_of_rows([1.0] * 12, 24), 2.0, 0.01),
+        (sphere_of_rows([0.5, *[1.0] * 12, 0.5], 24), 2.0, 0.01),
+        (sphere_of_rows([*[1.0] * 5, *[0.1] * 5] * 4, 48), 2.0, 0.001),
+        (meshes.icosphere(3), 2.0, 0.001),
+        (capsule_of_rows(), 2.0, 0.03),
+        (meshes.torus(1.0, 0.2, 48, 20), 0.4, 0.012),
+        (torus_of_rows(), 0.4, 0.04),
+    ],
+    ids=["even", "half caps", "graded", "icosphere", "capsule", "tube", "uneven tube"],
+)
+def test_rows_of_uneven_width_read_as_thick_as_they_are(mesh, truth, bar, turned):
+    vertices, triangles = moved(mesh, 1.0, turned, False)
+    vertices = vertices.astype(np.float32).astype(float)
+    found = measure(
+        (vertices, triangles), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL
+    )
+    assert not found.at_edge.any()
+    np.testing.assert_allclose(found.lengths, truth, rtol=bar)
+
+
+@pytest.mark.parametrize("deep", [0.6, 0.85, 0.92])
+def test_no_small_cavity_is_overlooked_in_a_ball(deep):
+    """From the centre of the sphere all of its faces are as far away."""
+    outer, cavity = meshes.icosphere(4), meshes.icosphere(2)
+    places, radius = deep * np.array([(0.6, 0.64, 0.48), (-0.48, 0.6, -0.64)]), 0.03
+    voids = [(radius * cavity[0] + place, cavity[1][:, ::-1]) for place in places]
+    found = measure(
+        joined(outer, *voids), Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL
+    )
+    away = outer[0][:, None] - places
+    square, height = (away**2).sum(axis=2), (away * outer[0][:, None]).sum(axis=2)
+    with np.errstate(divide="ignore"):
+        balls = np.where(height > -radius, (square - radius**2) / (height + radius), np.inf)
+    truth = np.minimum(2.0, balls.min(axis=1))
+    assert (truth < 1.5).sum() > 100
+    np.testing.assert_allclose(found.lengths[: len(truth)], truth, rtol=0.06)
+
+
+def test_ellipsoids_of_any_rows_against_shrinking_balls():
+    axes = np.array([1.0, 0.7, 0.5])
+    surface = dense_ellipsoid(axes, 60_000)
+    for mesh in (ellipsoid(axes, 4), sphere_of_rows([0.5, *[1.0] * 40, 0.5], 60, axes)):
+        found = measure(mesh, Settings(sampling=SamplingMode.VERTICES), edges=Edges.BALL)
+        some = np.random.default_rng(1).choice(len(mesh[0]), 200, replace=False)
+        normals = mesh[0][some] / axes**2
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        off = found.lengths[some] / shrinking_ball(mesh[0][some], normals, surface)[0] - 1
+        assert np.abs(off).mean() < 0.0025 and off.min() > -0.01 and off.max() < 0.05
+
+
 def test_faces_are_cut_alike_on_both_sides_of_every_edge():
     vertices, triangles = BOX
     sharp = np.array([(0, 1), (0, 2), (0, 4)], np.int32)
@@ -469,15 +547,18 @@ def test_a_limit_is_no_negative_number():
 # --- files
 
 
-def test_csv_has_a_row_per_vertex(tmp_path):
+def test_csv_has_a_row_per_vertex_then_one_per_other_point(tmp_path):
     found = measure(BOX)
     path = export_thickness(found, find_thin_parts(found, 0.41), tmp_path / "box.csv")
     with open(path, newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    assert [int(row["vertex"]) for row in rows] == list(range(8))
-    places = np.array([[float(row[axis]) for axis in "xyz"] for row in rows])
-    np.testing.assert_array_equal(places, BOX[0])
-    assert [float(row["thickness"]) for row in rows] == pytest.approx([0.4] * 8, rel=0.01)
+        rows = [[float(x) for x in row.values()] for row in csv.DictReader(stream)]
+    assert [row[0] for row in rows[:8]] == list(range(8))
+    assert {row[0] for row in rows[8:]} == {-1} and len(rows) > 1000
+    np.testing.assert_array_equal([row[1:4] for row in rows[:8]], BOX[0])
+    assert [row[4] for row in rows[:8]] == pytest.approx([0.4] * 8, rel=0.01)
+    assert sorted(row[1:] for row in rows) == sorted(
+        [*point, length] for point, length in zip(found.points.tolist(), found.lengths, strict=True)
+    )
 
 
 def test_json_says_where(tmp_path):

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from ..axis.colours import colours
+from ..samples.nearness import same_place
 from ..small_matrices import times
 from ..solid.measurement import Measurement
 from ..solid.thickness_colours import scale_of
@@ -117,15 +118,26 @@ def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.flo
 
 def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:
     stream.write(b"vertex,x,y,z,thickness\n")
-    points, lengths = _mover(found)(found.shape.points), found.of_vertices
+    beside = _beside_vertices(found)
+    points = _mover(found)(np.concatenate((found.shape.points, found.points[beside])))
+    lengths = np.concatenate((found.of_vertices, found.lengths[beside]))
+    vertices = np.arange(len(points))
+    vertices[len(found.shape.points) :] = -1
     for start in range(0, len(points), _CHUNK):
-        end = min(start + _CHUNK, len(points))
-        rows = np.column_stack([points[start:end], lengths[start:end]]).tolist()
+        part = slice(start, start + _CHUNK)
+        rows = np.column_stack([points[part], lengths[part]]).tolist()
         text = "".join(
-            f"{start + i},{x:.17g},{y:.17g},{z:.17g},{length:.17g}\n"
-            for i, (x, y, z, length) in enumerate(rows)
+            f"{vertex},{x:.17g},{y:.17g},{z:.17g},{length:.17g}\n"
+            for vertex, (x, y, z, length) in zip(vertices[part].tolist(), rows, strict=True)
         )
         stream.write(text.encode("ascii"))
+
+
+def _beside_vertices(found: Measurement) -> NDArray[np.bool_]:
+    """(n,) whether each point of the measured surface is no vertex of the shape."""
+    count = len(found.shape.points)
+    place = same_place(np.concatenate((found.shape.points, found.points)))
+    return ~np.isin(place[count:], place[:count])
 
 
 def _write_json(found: Measurement, parts: ThinParts, labels: _Labels, stream: BinaryIO) -> None:

@@ -190,12 +190,14 @@ Foot Faces::descend(Foot foot, const Vec3& from) const {
   return foot;
 }
 
-// Returns the nearest foot on the triangles that meet where a foot is, in the same wall.
-Foot Faces::best_neighbour(const Foot& foot, const Vec3& from) const {
+// Returns the nearest foot, or the given one, on the triangles that meet where a foot is, in the
+// same wall.
+template <typename FootOn>
+Foot Faces::nearest_beside(const Foot& foot, const FootOn& foot_on_triangle) const {
   const double coordinates[3] = {foot.at.a, foot.at.b, foot.at.c};
   Foot best = foot;
   const auto take = [&](int32_t other) {
-    const Foot found = foot_on(other, from);
+    const Foot found = foot_on_triangle(other);
     if (found.distance < best.distance) best = found;
   };
   for (int i = 0; i < 3; ++i) {
@@ -214,6 +216,14 @@ Foot Faces::best_neighbour(const Foot& foot, const Vec3& from) const {
     take(sides[sides[0] == foot.triangle]);
   }
   return best;
+}
+
+Foot Faces::best_neighbour(const Foot& foot, const Vec3& from) const {
+  return nearest_beside(foot, [&](int32_t triangle) { return foot_on(triangle, from); });
+}
+
+Foot Faces::lifted_beside(const Foot& foot, const Vec3& from) const {
+  return nearest_beside(foot, [&](int32_t triangle) { return lifted(triangle, from); });
 }
 
 std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {

@@ -21,6 +21,11 @@ struct Foot {
   double distance = HUGE_VAL;
 };
 
+struct NearestLifted {
+  std::optional<Foot> foot;
+  bool gave_up = false;  // not all faces were searched
+};
+
 // Its const members may be called from several threads.
 class Faces {
  public:
@@ -67,12 +72,15 @@ class Faces {
     const Foot flat = flat_foot(triangle, from);
     return is_curved(triangle) ? lifted(flat, from) : flat;
   }
+  // Returns the nearest lifted foot on the triangles that meet where a foot is, in the same wall, or
+  // the foot itself if it is nearer.
+  Foot lifted_beside(const Foot& foot, const Vec3& from) const;
   // Returns the nearest lifted foot of all faces that is nearer than a distance, without those that
   // `ignored` is true of. Where very many faces are about as far away, as those of a sphere are
-  // from its centre, it may be one of the others.
+  // from its centre, it gives up after some leaves of the tree in vain.
   template <typename Ignored>
-  std::optional<Foot> nearer_by_lift(const Vec3& from, double than, const Ignored& ignored,
-                                     int most_in_vain) const {
+  NearestLifted nearer_by_lift(const Vec3& from, double than, const Ignored& ignored,
+                               int most_in_vain) const {
     std::optional<Foot> best;
     double within = than;
     int in_vain = 0;
@@ -93,10 +101,10 @@ class Faces {
     const auto bound = [&](const Node& node) {
       return in_vain > most_in_vain ? HUGE_VAL : medial::squared_distance(node.box, from);
     };
-    if (nodes_.empty()) return best;
+    if (nodes_.empty()) return {};
     visit_nearest(
         nodes_, 0, bound, [&] { return within * within; }, visit);
-    return best;
+    return {best, in_vain > most_in_vain};
   }
   // Returns where each triangle is in the search tree, where neighbours are close to each other.
   std::vector<int32_t> places_in_tree() const;
@@ -117,6 +125,8 @@ class Faces {
   uint8_t separation(const MeshEdge& edge) const;
   Foot descend(Foot foot, const Vec3& from) const;
   Foot best_neighbour(const Foot& foot, const Vec3& from) const;
+  template <typename FootOn>
+  Foot nearest_beside(const Foot& foot, const FootOn& foot_on_triangle) const;
   std::optional<Foot> foot_within(int32_t triangle, const Vec3& from, double within) const;
   static Foot foot_on_patch(const Patch& patch, int32_t triangle, const Barycentric& start,
                             const Vec3& from);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kMostShrinks = 96;   // next to a convex edge each one halves the ball
 constexpr int kMostSettlings = 8;  // on one triangle
+constexpr int kMostSteps = 16;     // from triangle to triangle, before all others are searched
 constexpr double kInside = 1e-9;   // a place is inside if it is so deep, as a share of the radius
 // Faces whose normals differ by less than 60 degrees from that of a place look almost as it does.
 constexpr double kAlike = 0.5;
@@ -25,9 +26,12 @@ constexpr double kUnknown = 1.0 / 64, kUnknownBetween = 1.0 / 4;
 constexpr double kTouched = 0.03, kOpposite = -0.5;
 // It is looked for from half of the way to the place opposite, up to so far from there, in radii.
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
-constexpr int kMostInVain = 48, kMostBeside = 64;  // leaves of the tree of faces
+constexpr int kMostInVain = 24, kMostBeside = 64;  // leaves of the tree of faces
+constexpr double kSmaller = 0.95;                  // a ball that is searched to the end
 constexpr double kNothing = 1e-3;                  // a ball of so many roundings is none
-constexpr int64_t kRunOfPlaces = 64;  // in a run, each ball starts where the one before touched
+// In a run, each ball starts where the one before touched, on the wall opposite if there is one: in
+// a tube it then needs no search for this wall.
+constexpr int64_t kRunOfPlaces = 64;
 
 struct Place {
   Vec3 point, normal;
@@ -69,46 +73,60 @@ class Shrinking {
     return found;
   }
 
-  // Returns the radius of the ball between walls, or infinity if it lies between none: a ball that
-  // touches a place opposite. A ball in a tube touches it all round, and any of these places may be
-  // the one that was found.
-  double between_walls(const Place& x, const InnerBall& ball) const {
-    if (!(ball.radius > kNothing * rounding_)) return HUGE_VAL;
+  // Returns the ball between walls, or an infinite one if it lies between none: a ball that touches
+  // a place opposite. A ball in a tube touches it all round, and any of these places may be the one
+  // that was found.
+  InnerBall between_walls(const Place& x, const InnerBall& ball) const {
+    if (!(ball.radius > kNothing * rounding_)) return {};
     const Vec3 centre = centre_of(x, ball.radius);
     const auto is_opposite = [&](const Foot& q) {
       const double away = distance(q.point, centre);
       return away <= (1 + kTouched) * ball.radius &&
              dot(x.normal, q.point - centre) <= kOpposite * away;
     };
-    if (is_opposite(ball.foot)) return ball.radius;
+    if (is_opposite(ball.foot)) return ball;
     const auto beside = [&](const Foot& q) {
       return !is_opposite(faces_.lifted(q.triangle, centre));
     };
-    const auto other = faces_.nearer_by_lift(centre - kHalfWay * ball.radius * x.normal,
-                                             kReachOpposite * ball.radius, beside, kMostBeside);
-    if (!other) return HUGE_VAL;
+    const auto [other, _] =
+        faces_.nearer_by_lift(centre - kHalfWay * ball.radius * x.normal,
+                              kReachOpposite * ball.radius, beside, kMostBeside);
+    if (!other) return {};
     InnerBall found = settled(x, faces_.lifted(other->triangle, centre));
     const auto is_beside = [&](const Foot& q) {
       return dot(x.normal, q.point - centre) > kOpposite * distance(q.point, centre);
     };
     shrink(x, found, is_beside);
-    return found.radius;
+    return found;
   }
 
  private:
   // Shrinks a ball until it holds no place, except those that `left_out` is true of.
   template <typename LeftOut>
   void shrink(const Place& x, InnerBall& found, const LeftOut& left_out) const {
-    const auto outside = [&](const Foot& q) {
-      const double unknown = x.unknown + kUnknown * faces_.bulge(q.triangle);
-      return q.distance + unknown > found.radius || left_out(q);
-    };
     for (int i = 0; i < kMostShrinks && found.radius > kNothing * rounding_; ++i) {
-      const auto inside = faces_.nearer_by_lift(centre_of(x, found.radius),
-                                                (1 - kInside) * found.radius, outside, kMostInVain);
+      const auto inside = inside_of(x, found.radius, left_out);
       if (!inside) break;
       found = settled(x, *inside);
     }
+  }
+
+  // Returns a place in a ball. Where very many faces touch the ball, the search gives up; then a
+  // smaller ball is searched to the end, which few of them touch.
+  template <typename LeftOut>
+  std::optional<Foot> inside_of(const Place& x, double radius, const LeftOut& left_out) const {
+    const auto outside = [&](const Foot& q) {
+      const double unknown = x.unknown + kUnknown * faces_.bulge(q.triangle);
+      return q.distance + unknown > radius || left_out(q);
+    };
+    const auto search = [&](int most_in_vain) {
+      return faces_.nearer_by_lift(centre_of(x, radius), (1 - kInside) * radius, outside,
+                                   most_in_vain);
+    };
+    const auto [foot, gave_up] = search(kMostInVain);
+    if (foot || !gave_up) return foot;
+    radius *= kSmaller;
+    return search(std::numeric_limits<int>::max()).foot;
   }
 
   // A ball that goes through a place of the faces is never smaller than the one that is wanted.
@@ -117,8 +135,19 @@ class Shrinking {
     if (beside.foot.triangle < 0) return found;
     const Foot foot = faces_.lifted(beside.foot.triangle, centre_of(x, beside.radius));
     if (is_own(x, foot)) return found;
-    const double radius = radius_through(x, foot.point);
-    return radius < reach_ ? InnerBall{radius, foot} : found;
+    const InnerBall walked = walk(x, settled(x, foot));
+    return walked.radius < reach_ ? walked : found;
+  }
+
+  // Shrinks a ball along the wall that it touches.
+  InnerBall walk(const Place& x, InnerBall found) const {
+    for (int i = 0; i < kMostSteps; ++i) {
+      const Vec3 centre = centre_of(x, found.radius);
+      const Foot next = faces_.lifted_beside(found.foot, centre);
+      if (!(next.distance < (1 - kInside) * found.radius) || is_own(x, next)) break;
+      found = settled(x, next);
+    }
+    return found;
   }
 
   // Returns the ball that touches the triangle of a foot, which lies in a larger ball.
@@ -199,7 +228,9 @@ InscribedBalls inscribed_balls(const Faces& faces, const FacePlaces& places, con
     last = shrinking.ball(x, last);
     if (last.foot.triangle < 0) return;
     result.diameter[i] = 2 * last.radius;
-    result.wall[i] = 2 * shrinking.between_walls(x, last);
+    const InnerBall wall = shrinking.between_walls(x, last);
+    result.wall[i] = 2 * wall.radius;
+    if (wall.foot.triangle >= 0) last = wall;
   };
   parallel_chunks(
       static_cast<int64_t>(count), run,

@@ -6,6 +6,7 @@
 #include "base/portable_math.h"
 #include "base/union_find.h"
 #include "sampling/flat_parts.h"
+#include "sampling/smooth_normal.h"
 
 namespace medial {
 namespace {
@@ -58,6 +59,79 @@ void add_beside(const TriangleMesh& mesh, const Creases& creases, const FlatPart
     add(edge, t, s);
   }
 }
+
+// The weight with which a sum of normals is exact where all vertices lie on a sphere (Max 1999).
+double weight_on_spheres(const TriangleMesh& mesh, int32_t triangle, int corner) {
+  const Triangle& t = mesh.triangles[triangle];
+  const Vec3& here = mesh.points[t[corner]];
+  const Vec3 next = mesh.points[t[(corner + 1) % 3]] - here;
+  const Vec3 last = mesh.points[t[(corner + 2) % 3]] - here;
+  return length(cross(next, last)) / (squared_length(next) * squared_length(last));
+}
+
+// Finds the normals of smooth fans. Where a fan ends at creases, is flat, or holds a dominant wall,
+// they are means by angles.
+struct FanNormals {
+  const TriangleMesh& mesh;
+  const Creases& creases;
+  const FlatParts& flat;
+  std::span<const Triangle> fan_of, edge_of;
+
+  Vec3 of_fan_at(int32_t triangle, int corner, const Largest& largest) const {
+    const int32_t vertex = mesh.triangles[triangle][corner], fan = fan_of[triangle][corner];
+    Vec3 by_angle, of_sphere;
+    bool closed = true, bent = false;
+    std::vector<int32_t> round;
+    for (const int32_t t : mesh.fans[vertex]) {
+      const int i = corner_of(mesh.triangles[t], vertex);
+      if (fan_of[t][i] != fan) continue;
+      closed &= largest.counts(flat.part[t]) && is_smooth(t, i) && is_smooth(t, (i + 2) % 3);
+      if (!largest.counts(flat.part[t])) continue;
+      bent |= flat.part[t] != flat.part[triangle];
+      by_angle = by_angle + mesh.corner_angle(t, i) * mesh.normal[t];
+      of_sphere = of_sphere + weight_on_spheres(mesh, t, i) * mesh.normal[t];
+      add_beyond(t, (i + 1) % 3, round);
+    }
+    const Vec3 mean = normalized(by_angle);
+    if (!closed || !bent || of_sphere == Vec3{}) return mean;
+    const Vec3 found =
+        smooth_normal(mesh.points[vertex], places(round, vertex), {mean, normalized(of_sphere)});
+    return dot(found, mean) < least_agreement(vertex, fan, mean) ? mean : found;
+  }
+
+ private:
+  bool is_smooth(int32_t triangle, int side) const {
+    return creases.edges[edge_of[triangle][side]].crease == Crease::none;
+  }
+  // Adds the ends of a side, and the vertex across it.
+  void add_beyond(int32_t triangle, int side, std::vector<int32_t>& round) const {
+    const MeshEdge& edge = creases.edges[edge_of[triangle][side]];
+    round.insert(round.end(), edge.ends.begin(), edge.ends.end());
+    if (edge.crease != Crease::none) return;
+    const Triangle& other = mesh.triangles[edge.triangles[edge.triangles[0] == triangle ? 1 : 0]];
+    round.push_back(other[0] + other[1] + other[2] - edge.ends[0] - edge.ends[1]);
+  }
+  // Returns each vertex once, in ascending order, without one.
+  std::vector<Vec3> places(std::vector<int32_t>& ids, int32_t without) const {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    std::vector<Vec3> found;
+    for (const int32_t id : ids) {
+      if (id != without) found.push_back(mesh.points[id]);
+    }
+    return found;
+  }
+  // Returns the least cosine between a mean normal and those of the fan's triangles. A normal that
+  // is farther away is none of the surface that the triangles stand for.
+  double least_agreement(int32_t vertex, int32_t fan, const Vec3& mean) const {
+    double least = 1;
+    for (const int32_t t : mesh.fans[vertex]) {
+      if (fan_of[t][corner_of(mesh.triangles[t], vertex)] != fan) continue;
+      least = std::min(least, dot(mean, mesh.normal[t]));
+    }
+    return least;
+  }
+};
 
 // Returns a third of the chord, made tangent to both sides. Its length is not kept; neither is it
 // with one side.
@@ -147,7 +221,6 @@ CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, b
                              const Run& run)
     : mesh_(mesh) {
   if (!smooth) return;
-  add_normals(creases);
   const auto count = static_cast<int64_t>(mesh.triangles.size());
   edge_of_.resize(mesh.triangles.size());
   parallel_for(count, run, [&](int64_t t) {
@@ -156,6 +229,7 @@ CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, b
       edge_of_[t][i] = creases.find(corners[i], corners[(i + 1) % 3]);
     }
   });
+  add_normals(creases, run);
   handles_.resize(creases.edges.size());
   parallel_for(static_cast<int64_t>(creases.edges.size()), run,
                [&](int64_t e) { handles_[e] = handles_of(creases.edges[e]); });
@@ -166,7 +240,7 @@ size_t CurvedSurface::bytes() const {
          (fan_of_.size() + edge_of_.size()) * sizeof(Triangle);
 }
 
-void CurvedSurface::add_normals(const Creases& creases) {
+void CurvedSurface::add_normals(const Creases& creases, const Run& run) {
   UnionFind corners(3 * mesh_.triangles.size());
   for (const MeshEdge& edge : creases.edges) {
     if (edge.crease != Crease::none) continue;
@@ -180,24 +254,23 @@ void CurvedSurface::add_normals(const Creases& creases) {
   const FlatParts flat = flat_parts(mesh_, creases);
   const auto count = static_cast<int32_t>(root.size());
   fan_of_.resize(mesh_.triangles.size());
-  std::vector<int32_t> fan(root.size(), -1);
+  std::vector<int32_t> fan(root.size(), -1), first;
   std::vector<Largest> largest;
   for (int32_t c = 0; c < count; ++c) {
     if (fan[root[c]] < 0) {
       fan[root[c]] = static_cast<int32_t>(largest.size());
       largest.emplace_back();
+      first.push_back(c);
     }
     fan_of_[c / 3][c % 3] = fan[root[c]];
     largest[fan[root[c]]].add(flat, c / 3);
   }
   add_beside(mesh_, creases, flat, fan_of_, largest);
   fan_normals_.resize(largest.size());
-  for (int32_t c = 0; c < count; ++c) {
-    const int32_t t = c / 3, f = fan_of_[t][c % 3];
-    if (!largest[f].counts(flat.part[t])) continue;
-    fan_normals_[f] = fan_normals_[f] + mesh_.corner_angle(t, c % 3) * mesh_.normal[t];
-  }
-  for (Vec3& normal : fan_normals_) normal = normalized(normal);
+  const FanNormals normals{mesh_, creases, flat, fan_of_, edge_of_};
+  parallel_for(static_cast<int64_t>(first.size()), run, [&](int64_t f) {
+    fan_normals_[f] = normals.of_fan_at(first[f] / 3, first[f] % 3, largest[f]);
+  });
   split_steep_fans(creases.sharp_angle);
 }
 

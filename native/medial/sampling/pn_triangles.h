@@ -79,7 +79,7 @@ class CurvedSurface {
   // Holds the inner control points of an edge, next to p and next to q.
   using Handles = std::array<Vec3, 2>;
 
-  void add_normals(const Creases& creases);
+  void add_normals(const Creases& creases, const Run& run);
   void split_steep_fans(double sharp_angle);
   Handles handles_of(const MeshEdge& edge) const;
   const Vec3& fan_normal(int32_t triangle, int32_t vertex) const;

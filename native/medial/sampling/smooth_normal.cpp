@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sampling/smooth_normal.h"
+
+namespace medial {
+namespace {
+
+// Slope, curvature as of a sphere, two terms more of a quadric, four of a cubic.
+constexpr int kSlopes = 2, kQuadric = 5, kTerms = 9;
+using Terms = std::array<double, kTerms>;
+// So little, relative to their sizes, is every curvature and cubic term held back, which decides
+// them where the points do not. That of a sphere is not held back less, as it costs nothing.
+constexpr double kHeldBack = 1e-9;
+// A surface of more terms is taken if the mean square of what it leaves is at most this share of
+// what one of fewer terms leaves. With noise alone both are about the same.
+constexpr double kBetter = 0.1;
+
+// Returns the terms for a point at (u, v) along the plane, at a squared distance. On every sphere
+// the height is a slope and a multiple of the squared distance, which makes these exact.
+Terms terms(double u, double v, double squared) {
+  return {u, v, squared, u * u - v * v, 2 * u * v, u * u * u, u * u * v, u * v * v, v * v * v};
+}
+
+// A weighted least-squares fit by Cholesky's method, in which later terms add to the earlier ones.
+struct Fit {
+  std::array<Terms, kTerms> matrix{};  // the lower half, then its factor
+  Terms right{};
+  double heights = 0;  // the weighted sum of squares
+
+  void add(const Terms& row, double height, double weight) {
+    for (int i = 0; i < kTerms; ++i) {
+      const double weighted = weight * row[i];
+      for (int j = 0; j <= i; ++j) matrix[i][j] += weighted * row[j];
+      right[i] += weighted * height;
+    }
+    heights += weight * height * height;
+  }
+  void hold_back() {
+    const double least = kHeldBack * matrix[kSlopes][kSlopes];
+    for (int i = kSlopes; i < kTerms; ++i) matrix[i][i] += least;
+  }
+  // Replaces the matrix by its factor and the right side by what each term takes of the heights;
+  // returns whether the points determine the slope.
+  bool factorise() {
+    for (int i = 0; i < kTerms; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        double rest = matrix[i][j];
+        for (int k = 0; k < j; ++k) rest -= matrix[i][k] * matrix[j][k];
+        if (j < i) {
+          matrix[i][j] = rest / matrix[j][j];
+        } else if (rest > 0) {
+          matrix[i][i] = std::sqrt(rest);
+        } else {
+          return false;
+        }
+      }
+      for (int k = 0; k < i; ++k) right[i] -= matrix[i][k] * right[k];
+      right[i] /= matrix[i][i];
+    }
+    return true;
+  }
+  // Returns the weighted mean square that the first terms leave of the heights of some points.
+  double left_by(int terms, int points) const {
+    double left = heights;
+    for (int i = 0; i < terms; ++i) left -= right[i] * right[i];
+    return std::max(left, 0.0) / (points - terms);
+  }
+  Terms solved() const {
+    Terms x = right;
+    for (int i = kTerms - 1; i >= 0; --i) {
+      for (int j = i + 1; j < kTerms; ++j) x[i] -= matrix[j][i] * x[j];
+      x[i] /= matrix[i][i];
+    }
+    return x;
+  }
+};
+
+}  // namespace
+
+// What a cubic surface leaves grows as the fourth power of the distance; weights that fall as its
+// third power leave enough to the far points, which determine the cubic terms.
+Vec3 smooth_normal(const Vec3& here, std::span<const Vec3> around, const TriangleNormals& of) {
+  const auto count = static_cast<int>(around.size());
+  if (count <= kQuadric) return of.by_angle;
+  double squares = 0;
+  for (const Vec3& p : around) squares += squared_length(p - here);
+  const double scale = std::sqrt(count / squares);
+  const auto [u, v] = across(of.of_sphere);
+  Fit fit;
+  for (const Vec3& p : around) {
+    const Vec3 away = scale * (p - here);
+    const double squared = squared_length(away);
+    fit.add(terms(dot(away, u), dot(away, v), squared), dot(away, of.of_sphere),
+            1 / (squared * squared * squared));
+  }
+  fit.hold_back();
+  if (!fit.factorise()) return of.by_angle;
+  const double by_plane = fit.left_by(kSlopes, count), by_quadric = fit.left_by(kQuadric, count);
+  if (count > kTerms && fit.left_by(kTerms, count) <= kBetter * by_quadric) {
+    const Terms found = fit.solved();
+    return normalized(of.of_sphere - found[0] * u - found[1] * v);
+  }
+  return by_quadric <= kBetter * by_plane ? of.of_sphere : of.by_angle;
+}
+
+}  // namespace medial
