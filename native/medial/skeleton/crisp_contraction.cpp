@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <numeric>
+
+#include "skeleton/crisp_parts.h"
+
+namespace medial {
+namespace {
+
+constexpr double kLongest = 0.5;  // holes between the samples from a vertex to where it may go
+constexpr int kRounds = 8;
+
+class Contraction {
+ public:
+  explicit Contraction(CrispState& state) : c_(state), next_(state.complex.cell.size()) {
+    std::iota(next_.begin(), next_.end(), 0);
+    for (const int32_t v : c_.followers) std::swap(next_[v], next_[c_.follows[v]]);
+  }
+
+  void contract() {
+    std::vector<int32_t> suspects = c_.facets;
+    for (int round = 0; round < kRounds; ++round) {
+      throw_if_cancelled(c_.progress);
+      suspects = folded(suspects);
+      bool changed = false;
+      for (const int32_t f : suspects) changed |= contract(f);
+      if (!changed) return;
+    }
+  }
+
+ private:
+  struct Step {
+    int32_t from, to;
+    double length;
+  };
+
+  std::vector<int32_t> folded(std::span<const int32_t> of) const {
+    return parallel_append<int32_t>(static_cast<int64_t>(of.size()), c_.run,
+                                    [&](int64_t i, auto& out, int) {
+                                      if (is_folded(c_, of[i], false)) out.push_back(of[i]);
+                                    });
+  }
+
+  // Takes the shortest step of a corner to the next one that leaves fewer folds.
+  bool contract(int32_t facet) {
+    if (!is_folded(c_, facet, false)) return false;
+    std::vector<Step> steps = steps_of(facet);
+    std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) {
+      return std::tuple(a.length, a.from, a.to) < std::tuple(b.length, b.from, b.to);
+    });
+    return std::any_of(steps.begin(), steps.end(), [&](const Step& s) { return take(s); });
+  }
+
+  std::vector<Step> steps_of(int32_t facet) const {
+    std::vector<Step> steps;
+    const auto ring = c_.complex.ring(facet);
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const int32_t a = ring[i].vertex, b = ring[(i + 1) % ring.size()].vertex;
+      const double length = distance(c_.made.position[a], c_.made.position[b]);
+      for (const auto& [from, to] : {Edge{a, b}, Edge{b, a}}) {
+        if (length > kLongest * c_.spacing_at(from) || !may_go(from, to, ring[i].edge)) continue;
+        steps.push_back({from, to, length});
+      }
+    }
+    return steps;
+  }
+
+  // Vertices of rims go along these, and those of seams along seams.
+  bool may_go(int32_t from, int32_t to, int32_t edge) const {
+    const int uses = c_.edge_uses[edge];
+    bool may = true;
+    for_group(from, [&](int32_t v) {
+      const Placing place = c_.made.place[v];
+      const bool ends = place == Placing::corner || place == Placing::voronoi || c_.stays[v];
+      const bool leaves = place == Placing::crease && c_.made.place[to] < Placing::crease;
+      may &= v != to && !ends && !leaves && (!c_.on_rim[v] || uses == 1) &&
+             (!c_.on_seam[v] || uses == 3);
+    });
+    return may;
+  }
+
+  // Calls found(v) for the vertices in the place of one, which move with it.
+  template <typename Found>
+  void for_group(int32_t of, const Found& found) const {
+    int32_t v = of;
+    do {
+      found(v);
+      v = next_[v];
+    } while (v != of);
+  }
+
+  bool take(const Step& step) {
+    const std::vector<int32_t> facets = facets_at(step.from);
+    const size_t before = folded(facets).size();
+    const Vec3 from = c_.made.position[step.from];
+    for_group(step.from, [&](int32_t v) { c_.made.position[v] = c_.made.position[step.to]; });
+    if (folded(facets).size() >= before) {
+      for_group(step.from, [&](int32_t v) { c_.made.position[v] = from; });
+      return false;
+    }
+    for_group(step.from, [&](int32_t v) {
+      c_.made.radius[v] = c_.made.radius[step.to];
+      c_.made.place[v] = c_.made.place[step.to];
+      c_.walls[v] = c_.walls[step.to];
+    });
+    std::swap(next_[step.from], next_[step.to]);
+    return true;
+  }
+
+  std::vector<int32_t> facets_at(int32_t group) const {
+    std::vector<int32_t> all;
+    for_group(group, [&](int32_t v) {
+      all.insert(all.end(), c_.facets_at[v].begin(), c_.facets_at[v].end());
+    });
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+  }
+
+  CrispState& c_;
+  std::vector<int32_t> next_;  // per vertex: the next one in its place, round to itself
+};
+
+}  // namespace
+
+void contract_folds(CrispState& state) { Contraction(state).contract(); }
+
+}  // namespace medial
