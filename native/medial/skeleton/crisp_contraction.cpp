@@ -40,14 +40,49 @@ class Contraction {
                                     });
   }
 
-  // Takes the shortest step of a corner to the next one that leaves fewer folds.
+  // Takes the shortest step of a corner to the next one that leaves fewer folds, or else moves all
+  // corners to one.
   bool contract(int32_t facet) {
     if (!is_folded(c_, facet, false)) return false;
     std::vector<Step> steps = steps_of(facet);
     std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) {
       return std::tuple(a.length, a.from, a.to) < std::tuple(b.length, b.from, b.to);
     });
-    return std::any_of(steps.begin(), steps.end(), [&](const Step& s) { return take(s); });
+    const auto takes = [&](const Step& s) { return take({&s.from, 1}, s.to); };
+    return std::any_of(steps.begin(), steps.end(), takes) || gather(facet);
+  }
+
+  bool gather(int32_t facet) {
+    const auto ring = c_.complex.ring(facet);
+    return std::any_of(ring.begin(), ring.end(), [&](const Corner& to) {
+      std::vector<int32_t> from;
+      for (const Corner& c : ring) {
+        const double room = kLongest * c_.spacing_at(c.vertex);
+        const Vec3 &here = c_.made.position[c.vertex], &there = c_.made.position[to.vertex];
+        if (is_together(c.vertex, to.vertex)) continue;
+        if (distance(here, there) > room || !is_free(c.vertex)) return false;
+        from.push_back(c.vertex);
+      }
+      return take(from, to.vertex);
+    });
+  }
+
+  bool is_together(int32_t a, int32_t b) const {
+    bool found = false;
+    for_group(a, [&](int32_t v) { found |= v == b; });
+    return found;
+  }
+
+  // Returns whether a vertex is inside a sheet, where it may go anywhere.
+  bool is_free(int32_t v) const {
+    bool free = true;
+    for_group(v, [&](int32_t u) { free &= !c_.on_rim[u] && !c_.on_seam[u] && !is_fixed(u); });
+    return free;
+  }
+
+  bool is_fixed(int32_t v) const {
+    const Placing place = c_.made.place[v];
+    return place == Placing::corner || place == Placing::voronoi || c_.stays[v];
   }
 
   std::vector<Step> steps_of(int32_t facet) const {
@@ -69,10 +104,8 @@ class Contraction {
     const int uses = c_.edge_uses[edge];
     bool may = true;
     for_group(from, [&](int32_t v) {
-      const Placing place = c_.made.place[v];
-      const bool ends = place == Placing::corner || place == Placing::voronoi || c_.stays[v];
-      const bool leaves = place == Placing::crease && c_.made.place[to] < Placing::crease;
-      may &= v != to && !ends && !leaves && (!c_.on_rim[v] || uses == 1) &&
+      const bool leaves = c_.made.place[v] == Placing::crease && c_.made.place[to] < Placing::crease;
+      may &= v != to && !is_fixed(v) && !leaves && (!c_.on_rim[v] || uses == 1) &&
              (!c_.on_seam[v] || uses == 3);
     });
     return may;
@@ -88,32 +121,48 @@ class Contraction {
     } while (v != of);
   }
 
-  bool take(const Step& step) {
-    const std::vector<int32_t> facets = facets_at(step.from);
+  // Moves vertices, and those in their places, to the place of another one if that leaves fewer
+  // folds.
+  bool take(std::span<const int32_t> from, int32_t to) {
+    const std::vector<int32_t> moving = groups_of(from), facets = facets_at(moving);
     const size_t before = folded(facets).size();
-    const Vec3 from = c_.made.position[step.from];
-    for_group(step.from, [&](int32_t v) { c_.made.position[v] = c_.made.position[step.to]; });
+    std::vector<Vec3> places;
+    for (const int32_t v : moving) places.push_back(c_.made.position[v]);
+    for (const int32_t v : moving) c_.made.position[v] = c_.made.position[to];
     if (folded(facets).size() >= before) {
-      for_group(step.from, [&](int32_t v) { c_.made.position[v] = from; });
+      for (size_t i = 0; i < moving.size(); ++i) c_.made.position[moving[i]] = places[i];
       return false;
     }
-    for_group(step.from, [&](int32_t v) {
-      c_.made.radius[v] = c_.made.radius[step.to];
-      c_.made.place[v] = c_.made.place[step.to];
-      c_.walls[v] = c_.walls[step.to];
-    });
-    std::swap(next_[step.from], next_[step.to]);
+    for (const int32_t v : moving) {
+      c_.made.radius[v] = c_.made.radius[to];
+      c_.made.place[v] = c_.made.place[to];
+      c_.walls[v] = c_.walls[to];
+    }
+    for (const int32_t v : from) {
+      if (!is_together(v, to)) std::swap(next_[v], next_[to]);
+    }
     return true;
   }
 
-  std::vector<int32_t> facets_at(int32_t group) const {
+  std::vector<int32_t> groups_of(std::span<const int32_t> vertices) const {
     std::vector<int32_t> all;
-    for_group(group, [&](int32_t v) {
-      all.insert(all.end(), c_.facets_at[v].begin(), c_.facets_at[v].end());
-    });
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    for (const int32_t of : vertices) for_group(of, [&](int32_t v) { all.push_back(v); });
+    sort_out(all);
     return all;
+  }
+
+  std::vector<int32_t> facets_at(std::span<const int32_t> vertices) const {
+    std::vector<int32_t> all;
+    for (const int32_t v : vertices) {
+      all.insert(all.end(), c_.facets_at[v].begin(), c_.facets_at[v].end());
+    }
+    sort_out(all);
+    return all;
+  }
+
+  static void sort_out(std::vector<int32_t>& ids) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
 
   CrispState& c_;

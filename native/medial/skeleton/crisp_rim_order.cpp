@@ -7,8 +7,10 @@ namespace {
 constexpr int kMostRounds = 400;  // of steps towards the middle of the neighbours along a rim
 constexpr int kFirstRounds = 4;   // of these, the rounds in which all vertices take steps
 constexpr int kEvenRounds = 4;    // of means along the rim of the ways to the end of the sheet
+constexpr int kSmoothRounds = 40;  // of means along the rim of where the sheet ends, twice
 // Lengths are in holes between the samples.
 constexpr double kDeepest = 1;  // from a vertex to the end of the sheet that is found for it
+
 class RimOrder {
  public:
   explicit RimOrder(CrispState& state) : c_(state) {
@@ -21,6 +23,7 @@ class RimOrder {
     straighten();
     end_again();
     straighten();
+    smooth_ends();
     flatten_ears();
     for (const int32_t v : moving_) c_.end_at(v, c_.made.position[v]);
   }
@@ -86,6 +89,32 @@ class RimOrder {
       for (size_t i = 0; i < moving_.size(); ++i) way[moving_[i]] = mean[i];
     }
     for (const int32_t v : moving_) c_.made.position[v] = c_.made.position[v] + way[v];
+  }
+
+  // Each vertex finds the end of the sheet alone, from how curved the faces are, and the curvature
+  // of curved triangles is rough. Vertices move out of the sheet or into it, to where the means of
+  // the rim are, so that waves of a dozen edges and less are gone.
+  void smooth_ends() {
+    const auto& ends = c_.made.position;
+    std::vector<Vec3> smooth = means(ends), lost(smooth.size());
+    for (size_t v = 0; v < lost.size(); ++v) lost[v] = ends[v] - smooth[v];
+    const std::vector<Vec3> back = means(lost);
+    for (const int32_t v : moving_) {
+      const Vec3& outward = c_.smooth_rim[v].outward;
+      const double room = kDeepest * c_.spacing_at(v);
+      const double way = dot(smooth[v] + back[v] - ends[v], outward);
+      c_.made.position[v] = ends[v] + std::clamp(way, -room, room) * outward;
+    }
+  }
+
+  // Returns means along the rim of vectors at its vertices.
+  std::vector<Vec3> means(std::span<const Vec3> of) const {
+    std::vector<Vec3> mean(of.begin(), of.end()), next(moving_.size());
+    for (int round = 0; round < kSmoothRounds; ++round) {
+      for (size_t i = 0; i < moving_.size(); ++i) next[i] = mean_way(moving_[i], mean);
+      for (size_t i = 0; i < moving_.size(); ++i) mean[moving_[i]] = next[i];
+    }
+    return mean;
   }
 
   Vec3 mean_way(int32_t v, std::span<const Vec3> way) const {
