@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kLongest = 0.5;  // holes between the samples from a vertex to where it may go
 constexpr int kRounds = 8;
+constexpr size_t kMostTogether = 32;  // vertices that move at once: a whole line of a fillet does not
 
 class Contraction {
  public:
@@ -124,7 +125,9 @@ class Contraction {
   // Moves vertices, and those in their places, to the place of another one if that leaves fewer
   // folds.
   bool take(std::span<const int32_t> from, int32_t to) {
-    const std::vector<int32_t> moving = groups_of(from), facets = facets_at(moving);
+    const std::vector<int32_t> moving = groups_of(from);
+    if (moving.size() > kMostTogether) return false;
+    const std::vector<int32_t> facets = facets_at(moving);
     const size_t before = folded(facets).size();
     std::vector<Vec3> places;
     for (const int32_t v : moving) places.push_back(c_.made.position[v]);

@@ -2,12 +2,13 @@
 #include "skeleton/rims.h"
 
 #include "base/csr.h"
+#include "skeleton/rim_waves.h"
 
 namespace medial {
 namespace {
 
 constexpr int kSteps = 3;
-constexpr int kRounds = 40;   // of means along the rim, twice in each step
+constexpr int kRounds = 40;  // of means along the rim: waves of 16 edges
 constexpr int kHalvings = 6;  // of a step that folds a facet; after these the vertex stays
 
 class Relaxer {
@@ -23,9 +24,10 @@ class Relaxer {
   }
 
   std::vector<int32_t> relax() && {
+    const RimWaves waves(moving_, {neighbours_.begin(), neighbours_.end()}, places_.size(), kRounds);
     for (int step = 0; step < kSteps; ++step) {
       throw_if_cancelled(run_.progress);
-      take_step();
+      take_step(waves);
     }
     return std::move(moving_);
   }
@@ -102,11 +104,11 @@ class Relaxer {
     return sum;
   }
 
-  // Moves vertices to the means of the rim; where facets fold, half of that, and so on.
-  void take_step() {
+  // Moves vertices to where the rim has no short waves; where facets fold, half of that, and so on.
+  void take_step(const RimWaves& waves) {
     std::vector<Vec3> from;
     for (const int32_t v : moving_) from.push_back(places_[v]);
-    const std::vector<Vec3> move = moves_to_means(from);
+    const std::vector<Vec3> move = waves.moves(places_);
     for (size_t i = 0; i < moving_.size(); ++i) places_[moving_[i]] = from[i] + move[i];
     std::vector<int> halvings(moving_.size(), 0);
     auto folded = folded_of(static_cast<int64_t>(touched_.size()), [](int64_t t) { return t; });
@@ -119,32 +121,6 @@ class Relaxer {
       const auto near = facets_at(smaller);
       folded = folded_of(static_cast<int64_t>(near.size()), [&](int64_t k) { return near[k]; });
     }
-  }
-
-  // Means alone would draw the rim in, so the means of what they take away are given back: what is
-  // left out are waves of a dozen edges and less.
-  std::vector<Vec3> moves_to_means(std::span<const Vec3> from) const {
-    std::vector<Vec3> lost = means(from, [&](int32_t v) { return places_[v]; });
-    for (size_t i = 0; i < from.size(); ++i) lost[i] = from[i] - lost[i];
-    const std::vector<Vec3> back = means(lost, [](int32_t) { return Vec3{}; });
-    for (size_t i = 0; i < from.size(); ++i) lost[i] = back[i] - lost[i];
-    return lost;
-  }
-
-  // Returns means along the rim of vectors, of which there is one per moving vertex; `fixed` has
-  // those of vertices that stay.
-  template <typename Fixed>
-  std::vector<Vec3> means(std::span<const Vec3> of, const Fixed& fixed) const {
-    std::vector<Vec3> mean(of.begin(), of.end()), next(of.size());
-    const auto value = [&](int32_t v) { return row_[v] >= 0 ? mean[row_[v]] : fixed(v); };
-    for (int round = 0; round < kRounds; ++round) {
-      for (size_t i = 0; i < mean.size(); ++i) {
-        const auto& [a, b] = neighbours_[i];
-        next[i] = 0.5 * mean[i] + 0.25 * (value(a) + value(b));
-      }
-      std::swap(mean, next);
-    }
-    return mean;
   }
 
   // Returns those of the given touched facets that are turned over.
