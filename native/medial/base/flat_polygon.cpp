@@ -72,4 +72,16 @@ bool crosses_itself(std::span<const FlatPoint> corners) {
   return false;
 }
 
+bool is_on_line(std::span<const FlatPoint> corners) {
+  FlatPoint chord;
+  for (const FlatPoint& corner : corners) {
+    const FlatPoint way = from(corners[0], corner);
+    if (length(way) > length(chord)) chord = way;
+  }
+  const double room = kRoundingOfTurn * length(chord) * length(chord);
+  return std::all_of(corners.begin(), corners.end(), [&](const FlatPoint& corner) {
+    return std::abs(cross(chord, from(corners[0], corner))) <= room;
+  });
+}
+
 }  // namespace medial

@@ -19,4 +19,7 @@ bool turns_back(std::span<const FlatPoint> corners);
 // Returns whether two sides that are no neighbours cross inside both.
 bool crosses_itself(std::span<const FlatPoint> corners);
 
+// Returns whether all corners are on one line, or at one point.
+bool is_on_line(std::span<const FlatPoint> corners);
+
 }  // namespace medial

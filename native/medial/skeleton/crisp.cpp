@@ -156,6 +156,7 @@ CrispPlaces crisp_places(const InnerComplex& complex, const Triangulation& trian
   join_seams(state);
   end_wires(state);
   unfold(state);
+  contract_folds(state);
   return std::move(state.made);
 }
 

@@ -222,6 +222,7 @@ bool is_folded(const CrispState& state, int32_t facet, bool dented) {
     const Vec3 at = state.made.position[c.vertex] - origin;
     corners.push_back({dot(at, right), dot(at, up)});
   }
+  if (is_on_line(corners)) return false;
   return is_turned_over(corners) || turns_back(corners) || crosses_itself(corners) ||
          (dented && has_dent(corners, kDeepDent));
 }

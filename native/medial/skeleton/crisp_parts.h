@@ -207,4 +207,10 @@ void unfold(CrispState& state);
 // rim of a hole has a slight one.
 bool is_folded(const CrispState& state, int32_t facet, bool dented);
 
+// --- crisp_contraction.cpp
+
+// Facets that no step unfolds have corners that nearly coincide. One of these goes to the place of
+// another, along an edge, where fewer facets are folded then.
+void contract_folds(CrispState& state);
+
 }  // namespace medial

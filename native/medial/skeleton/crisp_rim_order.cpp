@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/crisp_parts.h"
+#include "skeleton/rim_waves.h"
 
 namespace medial {
 namespace {
@@ -7,8 +8,10 @@ namespace {
 constexpr int kMostRounds = 400;  // of steps towards the middle of the neighbours along a rim
 constexpr int kFirstRounds = 4;   // of these, the rounds in which all vertices take steps
 constexpr int kEvenRounds = 4;    // of means along the rim of the ways to the end of the sheet
+constexpr int kSmoothRounds = 300;  // of means along the rim of where the sheet ends: waves of 43 edges
 // Lengths are in holes between the samples.
 constexpr double kDeepest = 1;  // from a vertex to the end of the sheet that is found for it
+
 class RimOrder {
  public:
   explicit RimOrder(CrispState& state) : c_(state) {
@@ -21,6 +24,7 @@ class RimOrder {
     straighten();
     end_again();
     straighten();
+    smooth_ends();
     flatten_ears();
     for (const int32_t v : moving_) c_.end_at(v, c_.made.position[v]);
   }
@@ -86,6 +90,23 @@ class RimOrder {
       for (size_t i = 0; i < moving_.size(); ++i) way[moving_[i]] = mean[i];
     }
     for (const int32_t v : moving_) c_.made.position[v] = c_.made.position[v] + way[v];
+  }
+
+  // Each vertex finds the end of the sheet alone, from how curved the faces are, and the curvature
+  // of curved triangles is rough. Vertices move out of the sheet or into it, so that short waves
+  // are gone.
+  void smooth_ends() {
+    std::vector<std::span<const int32_t>> beside;
+    for (const int32_t v : moving_) beside.push_back(c_.beside[v]);
+    const RimWaves waves(moving_, beside, c_.made.position.size(), kSmoothRounds);
+    const std::vector<Vec3> moves = waves.moves(c_.made.position);
+    for (size_t i = 0; i < moving_.size(); ++i) {
+      const int32_t v = moving_[i];
+      const Vec3& outward = c_.smooth_rim[v].outward;
+      const double room = kDeepest * c_.spacing_at(v);
+      const double way = std::clamp(dot(moves[i], outward), -room, room);
+      c_.made.position[v] = c_.made.position[v] + way * outward;
+    }
   }
 
   Vec3 mean_way(int32_t v, std::span<const Vec3> way) const {

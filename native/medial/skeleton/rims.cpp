@@ -2,12 +2,13 @@
 #include "skeleton/rims.h"
 
 #include "base/csr.h"
+#include "skeleton/rim_waves.h"
 
 namespace medial {
 namespace {
 
-constexpr int kSteps = 5;
-constexpr double kFactor = 0.5;
+constexpr int kSteps = 3;
+constexpr int kRounds = 40;  // of means along the rim: waves of 16 edges
 constexpr int kHalvings = 6;  // of a step that folds a facet; after these the vertex stays
 
 class Relaxer {
@@ -23,9 +24,10 @@ class Relaxer {
   }
 
   std::vector<int32_t> relax() && {
+    const RimWaves waves(moving_, {neighbours_.begin(), neighbours_.end()}, places_.size(), kRounds);
     for (int step = 0; step < kSteps; ++step) {
       throw_if_cancelled(run_.progress);
-      take_step();
+      take_step(waves);
     }
     return std::move(moving_);
   }
@@ -102,15 +104,11 @@ class Relaxer {
     return sum;
   }
 
-  // Moves vertices half way to the middle of their neighbours; where facets fold, half of that, and
-  // so on.
-  void take_step() {
-    std::vector<Vec3> from, move;
-    for (size_t i = 0; i < moving_.size(); ++i) {
-      const auto& [a, b] = neighbours_[i];
-      from.push_back(places_[moving_[i]]);
-      move.push_back(kFactor * (0.5 * (places_[a] + places_[b]) - from[i]));
-    }
+  // Moves vertices to where the rim has no short waves; where facets fold, half of that, and so on.
+  void take_step(const RimWaves& waves) {
+    std::vector<Vec3> from;
+    for (const int32_t v : moving_) from.push_back(places_[v]);
+    const std::vector<Vec3> move = waves.moves(places_);
     for (size_t i = 0; i < moving_.size(); ++i) places_[moving_[i]] = from[i] + move[i];
     std::vector<int> halvings(moving_.size(), 0);
     auto folded = folded_of(static_cast<int64_t>(touched_.size()), [](int64_t t) { return t; });
