@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Noisy points of ten exact shapes, as they are and prepared: a Markdown table.
+"""Noisy points of ten exact shapes or of meshes, as they are and prepared: a Markdown table.
 
     python3 lab/benchmarks/scans.py [--output table.md] [--shapes torus ...] [--noise 0.5 ...] [--picture scans.png]
+    python3 lab/benchmarks/scans.py --meshes
+
+The second command takes the shared closed meshes instead, with 20,000 samples each, and leaves distances out.
 
 Each shape has some 8,000 even samples, moved by Gaussian errors in all coordinates; the noise is their standard
 deviation in spacings, and a spacing the median distance of a clean sample to its nearest neighbour. Measured: the noise
@@ -18,11 +21,12 @@ import _module
 import numpy as np
 from scipy.spatial import cKDTree
 
-_module.load()
+MEDIAL = _module.load()
 
 from medial_axis.core.axis.compute import compute  # noqa: E402
 from medial_axis.core.errors import MedialAxisError  # noqa: E402
 from medial_axis.core.files.picture import png  # noqa: E402
+from medial_axis.core.files.read_shape import read_shape  # noqa: E402
 from medial_axis.core.settings import Prepare, Settings  # noqa: E402
 from support.shapes import SHAPES, Cyclide, HoledPlate, RoundCone  # noqa: E402
 
@@ -36,11 +40,28 @@ SOLIDS = {
     "holed plate": (PLATE, PLATE.betti),
 }
 NOISE = (0.0, 0.25, 0.5, 1.0)
-COUNT = 8000
+MESHES = ["3holes.off", "dilo.off", "hand_closed.obj", "knot1.off", "mannequin.off"]
+MESHES += ["rocker-arm.off", "screwdriver.off", "spot_low.obj"]
+COUNT, COUNT_OF_MESHES = 8000, 20_000
 DRAWN, TILE = 4000, 260
 HEADER = ["shape", "seed", "noise", "measured", "Betti, off", "Betti, prepared", "kept"]
 HEADER += ["o->t mean %", "t->o mean %", "seconds", "named"]
 NO_FACES = np.zeros((0, 3), np.int32)
+
+
+class Meshed:
+    """The samples and the topology of a mesh."""
+
+    def __init__(self, name: str) -> None:
+        self._shape = read_shape(_module.DATA / name)[0]
+
+    def sample(self, count: int, seed: int) -> np.ndarray:
+        shape = self._shape
+        return MEDIAL.sample_surface(shape.points, shape.triangles, count=count, seed=seed).points
+
+    @property
+    def betti(self) -> tuple[int, int, int]:
+        return MEDIAL.solid_betti(self._shape.points, self._shape.triangles)
 
 
 def noisy(shape, noise: float, seed: int, count: int = COUNT) -> tuple[np.ndarray, float]:
@@ -61,8 +82,13 @@ def betti_of(points: np.ndarray, prepare: Prepare):
 
 
 def row(name: str, noise: float, seed: int) -> list[str]:
-    shape, truth = SOLIDS[name]
-    points, spacing = noisy(shape, noise, seed)
+    if name in SOLIDS:
+        shape, truth = SOLIDS[name]
+        points, spacing = noisy(shape, noise, seed)
+    else:
+        shape = Meshed(name)
+        truth = shape.betti
+        points, spacing = noisy(shape, noise, seed, COUNT_OF_MESHES)
     raw, was = betti_of(points, Prepare.OFF)
     start = time.process_time()
     found, now = betti_of(points, Prepare.AUTOMATIC)
@@ -70,17 +96,23 @@ def row(name: str, noise: float, seed: int) -> list[str]:
     cells = [bold(was, raw, truth), bold(now, found, truth)]
     if found is None:
         return [name, str(seed), f"{noise:g}", "", *cells, "", "", "", f"{seconds:.1f}", ""]
-    scan, vertices = found.chosen.scan, found.axis.vertices
-    diagonal = np.linalg.norm(np.ptp(points, axis=0)) / 100
-    to_truth = shape.axis_distance(vertices).mean() / diagonal
-    back = cKDTree(vertices).query(shape.axis_points(4000))[0].mean() / diagonal
+    scan = found.chosen.scan
+    distances = distances_of(found.axis.vertices, shape, points) if name in SOLIDS else ("", "")
     named = any("too sparse" not in warning for warning in found.warnings)
     wrong = found.axis.level.betti != truth
     return [
         *(name, str(seed), f"{noise:g}", f"{scan.noise * scan.spacing / spacing:.3f}", *cells),
-        *(f"{scan.kept:,}", f"{to_truth:.2f}", f"{back:.2f}", f"{seconds:.1f}"),
+        *(f"{scan.kept:,}", *distances, f"{seconds:.1f}"),
         ("yes" if named else "**no**") if wrong else "",
     ]
+
+
+def distances_of(vertices: np.ndarray, shape, points: np.ndarray) -> tuple[str, str]:
+    """Mean distances to the exact axis, and back, in percent of the diagonal."""
+    diagonal = np.linalg.norm(np.ptp(points, axis=0)) / 100
+    to_truth = shape.axis_distance(vertices).mean() / diagonal
+    back = cKDTree(vertices).query(shape.axis_points(4000))[0].mean() / diagonal
+    return f"{to_truth:.2f}", f"{back:.2f}"
 
 
 def bold(text: str, found, truth: tuple[int, int, int]) -> str:
@@ -116,6 +148,7 @@ def dots(tile: np.ndarray, places: np.ndarray, frame: np.ndarray, colour: tuple)
 def main() -> None:
     parser = _module.parser(__doc__)
     parser.add_argument("--shapes", nargs="+", choices=list(SOLIDS), default=list(SOLIDS))
+    parser.add_argument("--meshes", action="store_true")
     parser.add_argument("--noise", nargs="+", type=float, default=NOISE)
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument(
@@ -126,7 +159,7 @@ def main() -> None:
         draw(wanted.picture, wanted.shapes)
         return
     rows = []
-    for name in wanted.shapes:
+    for name in MESHES if wanted.meshes else wanted.shapes:
         for noise in wanted.noise:
             for seed in range(1, wanted.seeds + 1):
                 rows.append(row(name, noise, seed))

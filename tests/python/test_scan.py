@@ -96,7 +96,8 @@ def test_points_come_to_lie_on_the_sphere(noise):
     apart = np.median(cKDTree(found.points).query(found.points, 2)[0][:, 1])
     assert left.std() < 0.1 * apart and abs(left.mean()) < 0.1 * noise * spacing
     assert np.array_equal(scan.moved, np.linalg.norm(found.points - points[found.rows], axis=1))
-    assert np.median(scan.moved) == pytest.approx(0.67 * noise * spacing, rel=0.2)
+    # Points off the surface have fewer neighbours, so more of them stay than of the others.
+    assert 0.6 < np.median(scan.moved) / (noise * spacing) < 0.9
 
 
 def test_the_edges_of_the_faces_stay_flat():

@@ -113,25 +113,21 @@ std::optional<LocalQuadric> fit_quadric(std::span<const Vec3> points, const Vec3
   const auto [u, v] = across(normal);
   LocalQuadric found{origin, u, v, normal, radius};
   NormalEquations equations;
-  const auto weight_of = [&](const Vec3& away) {
-    return weights == Weights::equal ? 1.0 : smooth_weight(squared_length(away));
-  };
   for (const Vec3& p : points) {
     const Vec3 away = (1 / radius) * (p - origin);
-    equations.add(monomials(dot(away, u), dot(away, v)), dot(away, normal), weight_of(away));
+    const double weight = weights == Weights::equal ? 1.0 : smooth_weight(squared_length(away));
+    equations.add(monomials(dot(away, u), dot(away, v)), dot(away, normal), weight);
   }
   if (!equations.factorise()) return {};
   found.terms = equations.solved(equations.right);
   found.variance = equations.solved({1})[0];
-  double squares = 0, sum = 0;
-  for (const Vec3& p : points) {
-    const double weight = weight_of((1 / radius) * (p - origin)), off = found.above(p);
-    squares += weight * off * off;
-    sum += weight;
-  }
-  const auto count = static_cast<double>(points.size());
-  found.spread = std::sqrt(squares / sum * count / (count - kTerms));
   return found;
+}
+
+double spread(std::span<const Vec3> points, const LocalQuadric& quadric) {
+  double squares = 0;
+  for (const Vec3& p : points) squares += std::pow(quadric.above(p), 2);
+  return std::sqrt(squares / static_cast<double>(points.size() - kTerms));
 }
 
 }  // namespace medial

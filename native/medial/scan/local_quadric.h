@@ -17,7 +17,6 @@ struct LocalQuadric {
   double radius = 0;
   std::array<double, 6> terms{};
   double variance = 0;  // of c0, in units of that of a point; an upper bound where weights differ
-  double spread = 0;    // the standard deviation of the points from the quadric, a length
 
   // Returns how far a point lies above the quadric, along the normal of the plane.
   double above(const Vec3& p) const;
@@ -36,5 +35,9 @@ Vec3 least_spread(std::span<const Vec3> points);
 // Returns nothing if the points do not determine it.
 std::optional<LocalQuadric> fit_quadric(std::span<const Vec3> points, const Vec3& origin,
                                         const Vec3& normal, double radius, Weights weights);
+
+// Returns the standard deviation of points from the quadric that was fitted to them with equal
+// weights, a length.
+double spread(std::span<const Vec3> points, const LocalQuadric& quadric);
 
 }  // namespace medial

@@ -13,18 +13,19 @@ namespace {
 constexpr size_t kFirst = 12;      // points of the smallest neighbourhood
 constexpr size_t kMost = 500;      // points of the largest
 constexpr double kFirstNoise = 3;  // the smallest radius, in units of the noise
-constexpr double kStep = 1.3;      // from radius to radius
+constexpr double kStep = 1.3;      // from radius to radius where one is chosen
+constexpr double kLeap = 1.7;      // from radius to radius where it is known
 constexpr double kAgree = 2;       // standard errors within which neighbourhoods agree
 constexpr double kSheet = 4;       // units of the noise beyond which a point is of another sheet
 constexpr double kStray = 5;       // units of the noise beyond which a point is of no sheet
-constexpr size_t kBeside = 8;      // centres whose radii are compared
+constexpr size_t kBeside = 8;      // places whose radii are compared
 
 struct Near {
   double squared;
   Vec3 point;
 };
 
-// Gathers the points within a radius, nearest first and ties by their coordinates.
+// Gathers the points within a radius.
 void gather(const PointTree& tree, const Vec3& centre, double radius, std::vector<Near>& near) {
   const double squared = radius * radius;
   near.clear();
@@ -33,29 +34,34 @@ void gather(const PointTree& tree, const Vec3& centre, double radius, std::vecto
                const double away = squared_length(p - centre);
                if (away <= squared) near.push_back({away, p});
              });
-  const auto key = [](const Near& a) {
-    return std::tie(a.squared, a.point.x, a.point.y, a.point.z);
-  };
-  std::sort(near.begin(), near.end(),
-            [&](const Near& a, const Near& b) { return key(a) < key(b); });
 }
 
 // Climbs from a small neighbourhood to larger ones. Each takes only points near the quadric of the
 // one before, so that the other wall of a thin part stays out.
 class Climb {
  public:
-  Climb(const Vec3& centre, std::span<const Near> near, double noise)
+  // Reorders the points near the centre.
+  Climb(const Vec3& centre, std::span<Near> near, double noise)
       : centre_(centre), near_(near), noise_(noise) {}
 
-  // Returns the last quadric up to a radius; with `agree`, the last one with which all smaller ones
-  // agree.
-  std::optional<LocalQuadric> to(double first, double last, bool agree) {
+  // Returns the last quadric up to a radius with which all smaller ones agree.
+  std::optional<LocalQuadric> while_they_agree(double first, double last) {
+    return climb(first, last, kStep, [&](const LocalQuadric& next) { return agrees(next); });
+  }
+  // Returns the last quadric up to a radius.
+  std::optional<LocalQuadric> to(double first, double last) {
+    return climb(first, last, kLeap, [](const LocalQuadric&) { return true; });
+  }
+
+ private:
+  template <typename Taken>
+  std::optional<LocalQuadric> climb(double first, double last, double step, const Taken& taken) {
     std::optional<LocalQuadric> best;
-    for (double radius = first;; radius = std::min(radius * kStep, last)) {
+    for (double radius = first;; radius = std::min(radius * step, last)) {
       accept(radius, best);
       const auto next = fitted(radius, best);
       if (next) {
-        if (agree && !agrees(*next)) return best;
+        if (!taken(*next)) return best;
         smaller_.push_back(*next);
         best = next;
       }
@@ -63,16 +69,21 @@ class Climb {
     }
   }
 
- private:
   void accept(double radius, const std::optional<LocalQuadric>& sheet) {
-    for (; at_ < near_.size() && near_[at_].squared <= radius * radius; ++at_) {
-      const Vec3& p = near_[at_].point;
-      if (!sheet || std::abs(sheet->above(p)) <= kSheet * noise_) accepted_.push_back(p);
+    const auto rest = near_.subspan(near_.size() - left_);
+    size_t taken = 0;
+    for (Near& one : rest) {
+      if (one.squared > radius * radius) continue;
+      if (!sheet || std::abs(sheet->above(one.point)) <= kSheet * noise_) {
+        accepted_.push_back(one.point);
+      }
+      std::swap(one, rest[taken++]);
     }
+    left_ -= taken;
   }
 
   std::optional<LocalQuadric> fitted(double radius, const std::optional<LocalQuadric>& sheet) {
-    if (accepted_.size() < kFirst) return {};
+    if (accepted_.size() < (sheet ? kFirst : 2 * kFirst)) return {};
     const Vec3 normal = sheet ? sheet->tilted() : least_spread(accepted_);
     auto quadric = fit_quadric(accepted_, centre_, normal, radius, Weights::smooth);
     if (quadric && !sheet) {  // once more, without points off the first sheet and upright
@@ -91,45 +102,46 @@ class Climb {
   }
 
   Vec3 centre_;
-  std::span<const Near> near_;
+  std::span<Near> near_;
   double noise_;
-  size_t at_ = 0;
+  size_t left_ = near_.size();  // points at the end of the list that no radius has reached yet
   std::vector<Vec3> accepted_;
   std::vector<LocalQuadric> smaller_;
 };
 
-struct Radii {
-  double first, last;
-};
-
-// Returns the smallest and the largest radius at a place.
-Radii radii_at(const PointTree& tree, const Vec3& centre, double noise, double largest) {
+// Chooses the widest neighbourhood of a place with which all smaller ones agree.
+Neighbourhood chosen_at(const PointTree& tree, const Vec3& centre, double noise, double largest) {
   const double few = tree.reach(centre, kFirst + 1),
                first = std::min(largest, std::max(1.5 * few, kFirstNoise * noise)),
-               many = few * std::sqrt(static_cast<double>(kMost) / kFirst);
-  return {first, std::clamp(many, first, largest)};
+               many = few * std::sqrt(static_cast<double>(kMost) / kFirst),
+               last = std::clamp(many, first, largest);
+  std::vector<Near> near;
+  gather(tree, centre, last, near);
+  const auto best = Climb(centre, near, noise).while_they_agree(first, last);
+  if (!best) return {first};
+  return {first, best->radius, noise * std::sqrt(best->variance)};
 }
 
-// Returns the median radius of the centres beside each, so that neighbours use similar ones.
-std::vector<double> evened(const PointTree& tree, std::span<const int32_t> centres,
-                           const std::vector<double>& radii, const Run& run) {
-  std::vector<Vec3> places;
-  for (const int32_t id : centres) places.push_back(tree[id]);
-  const PointTree beside(places);
-  std::vector<double> even(radii.size());
+// Returns for each place the neighbourhood with the median radius of those beside it, so that
+// neighbours use similar ones.
+std::vector<Neighbourhood> evened(const PointTree& places, std::span<const Neighbourhood> chosen,
+                                  const Run& run) {
+  std::vector<Neighbourhood> even(chosen.size());
   parallel_for(
-      static_cast<int64_t>(radii.size()), run,
+      places.size(), run,
       [&](int64_t i) {
         std::vector<Neighbour> near;
-        beside.find(places[i], kBeside + 1, near);
-        std::vector<double> some;
-        for (const auto& [away, id] : near) {
-          if (radii[id] > 0) some.push_back(radii[id]);
-        }
-        if (some.empty()) return;
-        const auto middle = some.begin() + static_cast<int64_t>(some.size() / 2);
-        std::nth_element(some.begin(), middle, some.end());
-        even[i] = *middle;
+        places.find(places[static_cast<int32_t>(i)], kBeside + 1, near);
+        std::erase_if(near, [&](const Neighbour& one) { return !(chosen[one.id].radius > 0); });
+        if (near.empty()) return;
+        const auto middle = near.begin() + static_cast<int64_t>(near.size() / 2);
+        std::nth_element(
+            near.begin(), middle, near.end(), [&](const Neighbour& a, const Neighbour& b) {
+              return std::pair(chosen[a.id].radius, a.id) < std::pair(chosen[b.id].radius, b.id);
+            });
+        even[i] = chosen[middle->id];
+        even[i].radius = std::max(even[i].radius, chosen[i].first);
+        even[i].first = chosen[i].first;
       },
       128);
   return even;
@@ -137,35 +149,38 @@ std::vector<double> evened(const PointTree& tree, std::span<const int32_t> centr
 
 }  // namespace
 
-std::vector<Moved> moved_points(const PointTree& tree, std::span<const int32_t> centres,
-                                double noise, double largest, const Run& run) {
-  const auto count = static_cast<int64_t>(centres.size());
-  std::vector<double> chosen(centres.size(), 0), first(centres.size(), 0);
+std::vector<Neighbourhood> neighbourhoods(const PointTree& tree, std::span<const int32_t> centres,
+                                          double noise, double largest, const Run& run) {
+  std::vector<Neighbourhood> chosen(centres.size());
   parallel_for(
-      count, run,
-      [&](int64_t i) {
-        const Vec3& centre = tree[centres[i]];
-        const Radii radii = radii_at(tree, centre, noise, largest);
-        std::vector<Near> near;
-        gather(tree, centre, radii.last, near);
-        const auto best = Climb(centre, near, noise).to(radii.first, radii.last, true);
-        first[i] = radii.first;
-        if (best) chosen[i] = best->radius;
-      },
-      128);
-  const auto even = evened(tree, centres, chosen, run);
+      static_cast<int64_t>(centres.size()), run,
+      [&](int64_t i) { chosen[i] = chosen_at(tree, tree[centres[i]], noise, largest); }, 32);
+  std::vector<Vec3> places;
+  for (const int32_t id : centres) places.push_back(tree[id]);
+  const PointTree beside(places);
+  const auto even = evened(beside, chosen, run);
+  std::vector<Neighbourhood> found(static_cast<size_t>(tree.size()));
+  parallel_for(
+      tree.size(), run,
+      [&](int64_t i) { found[i] = even[beside.nearest(tree[static_cast<int32_t>(i)]).id]; }, 512);
+  return found;
+}
+
+std::vector<Moved> moved_points(const PointTree& tree, std::span<const int32_t> centres,
+                                std::span<const Neighbourhood> neighbourhoods, double noise,
+                                const Run& run) {
   std::vector<Moved> moved(centres.size());
   parallel_for(
-      count, run,
+      static_cast<int64_t>(centres.size()), run,
       [&](int64_t i) {
         const Vec3& centre = tree[centres[i]];
-        if (!(even[i] > 0)) return;
-        const double last = std::max(first[i], even[i]);
+        const auto& [first, last, left] = neighbourhoods[centres[i]];
+        if (!(last > 0)) return;
         std::vector<Near> near;
         gather(tree, centre, last, near);
-        const auto best = Climb(centre, near, noise).to(first[i], last, false);
+        const auto best = Climb(centre, near, noise).to(first, last);
         if (!best || std::abs(best->terms[0]) * best->radius > kStray * noise) return;
-        moved[i] = {best->place(), best->radius, noise * std::sqrt(best->variance)};
+        moved[i] = {best->place(), {first, best->radius, noise * std::sqrt(best->variance)}};
       },
       128);
   return moved;

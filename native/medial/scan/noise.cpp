@@ -47,8 +47,12 @@ Ladder ladder_at(const PointTree& tree, int32_t place) {
     if (!quadric) continue;
     const auto turned =
         fit_quadric(points, tree[place], quadric->tilted(), ladder.radius[i], Weights::equal);
-    if (turned && turned->spread < quadric->spread) quadric = turned;
-    ladder.spread[i] = quadric->spread;
+    ladder.spread[i] = spread(points, *quadric);
+    const double off = turned ? spread(points, *turned) : ladder.spread[i];
+    if (off < ladder.spread[i]) {
+      quadric = turned;
+      ladder.spread[i] = off;
+    }
     ladder.kurtosis[i] = kurtosis_of(*quadric, points);
   }
   return ladder;

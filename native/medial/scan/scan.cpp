@@ -14,9 +14,11 @@ namespace medial {
 namespace {
 
 constexpr double kWidest = 0.12;       // of the diagonal, the radius of neighbourhoods
+constexpr double kApart = 3;             // spacings between places at which neighbourhoods are chosen
 constexpr double kBorder = 6;          // spacings over which a border is looked for
 constexpr double kLeft = 0.05;         // of the new spacing, what may be left of the noise
 constexpr double kOfRadius = 1.0 / 3;  // of the neighbourhood, the largest new spacing
+constexpr double kClose = 0.5;         // of the new spacing, how close moved points may be
 
 // Returns the ids that stay if, in an order that is random but always the same, each that is left
 // takes all others within its own distance away; those of distance 0 are taken away.
@@ -41,9 +43,9 @@ std::vector<int32_t> thinned(const PointTree& tree, std::span<const double> dist
 }
 
 // Returns the distance of neighbours after moving: the rest of the noise is a small share of it.
-double apart(const Moved& moved, double spacing) {
-  if (!(moved.radius > 0)) return 0;
-  return std::clamp(moved.left / kLeft, 0.7 * spacing, std::max(spacing, kOfRadius * moved.radius));
+double apart(const Neighbourhood& near, double spacing) {
+  if (!(near.radius > 0)) return 0;
+  return std::clamp(near.left / kLeft, 0.7 * spacing, std::max(spacing, kOfRadius * near.radius));
 }
 
 // A point that is kept: the caller's row, and its new place.
@@ -62,21 +64,24 @@ std::vector<Kept> together(std::span<const Vec3> points, const ScanMeasure& meas
   return kept;
 }
 
-// Moves points in spatial order and thins them.
+// Thins points in spatial order, moves those that are left, and thins what came too close.
 std::vector<Kept> smoothed(std::span<const Kept> given, const ScanMeasure& measure,
                            const Run& run) {
   std::vector<Vec3> places;
   for (const Kept& one : given) places.push_back(one.second);
   const PointTree tree(places);
-  const double diagonal = length(box_of(places).extent()),
-               first = std::min(measure.noise, measure.spacing);
-  const auto centres = thinned(tree, std::vector<double>(places.size(), first));
-  const auto moved = moved_points(tree, centres, measure.noise, kWidest * diagonal, run);
+  const double widest = kWidest * length(box_of(places).extent());
+  std::vector<double> distances(places.size(), kApart * measure.spacing);
+  const auto near = neighbourhoods(tree, thinned(tree, distances), measure.noise, widest, run);
+  distances.clear();
+  for (const Neighbourhood& one : near) distances.push_back(apart(one, measure.spacing));
+  const auto centres = thinned(tree, distances);
+  const auto moved = moved_points(tree, centres, near, measure.noise, run);
   std::vector<Vec3> after;
-  std::vector<double> distances;
+  distances.clear();
   for (const Moved& one : moved) {
     after.push_back(one.place);
-    distances.push_back(apart(one, measure.spacing));
+    distances.push_back(kClose * apart(one.of, measure.spacing));
   }
   std::vector<Kept> kept;
   for (const int32_t i : thinned(PointTree(after), distances)) {
