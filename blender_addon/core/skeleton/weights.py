@@ -67,7 +67,10 @@ def edges_of(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
 
 
 def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -> NDArray[np.int64]:
-    """Give each vertex the bone next to it, and return the chain of that bone, or -1 if there is none."""
+    """Give each vertex the bone next to it, and return the chain of that bone, or -1 if there is none.
+
+    A stub follows the bone at whose end it lies.
+    """
     chain = np.full(len(weight), -1, np.int64)
     length = np.linalg.norm(bones.tail - bones.head, axis=1)
     for bone in np.flatnonzero(bones.branch >= 0):
@@ -77,7 +80,13 @@ def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -
         here &= (places.along <= high) if closed else (places.along < high)
         chain[here] = bones.chain[bone]
         weight[here, bone] = 1.0
-    for bone in np.flatnonzero(bones.branch >= 0):
+    stubs = bones.stubs
+    for branch, (low, high), bone in zip(stubs.branch, stubs.along, stubs.bone, strict=True):
+        here = (places.branch == branch) & (places.along >= low) & (places.along <= high)
+        chain[here] = bones.chain[bone]
+        weight[here] = 0.0
+        weight[here, bone] = 1.0
+    for bone in np.flatnonzero(bones.parent >= 0):
         before = bones.parent[bone]
         if bones.chain[before] == bones.chain[bone]:
             _blend(weight, bones, places, before, bone, length)
