@@ -115,3 +115,11 @@ def _with_partners(body: Body, chains: list[int]) -> list[dict[str, int]]:
         elif body.sides.is_left(body.tree[number]):
             found.append({".L": number, ".R": other})
     return found
+
+
+def target_of(name: str) -> str:
+    """Return the name for the target of a limb from that of its first bone: `IK.limb.02.L` from `limb.02.01.L`."""
+    stem, _, side = name.rpartition(".")
+    if side not in ("L", "R"):
+        return f"IK.{stem}"
+    return f"IK.{stem.rpartition('.')[0]}.{side}"
