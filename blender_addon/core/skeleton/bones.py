@@ -8,7 +8,7 @@ one goes on from that bone directly, as a neck from a spine.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from .skeleton import Skeleton
     from .tree import Chain
 
+_HIPS = 0.75  # the pelvis is at most so many radii above the place between the hips
 _BEFORE = 0.5  # a limb has what lies so many radii before its head, so that its skin bends evenly on both sides
 _TRIED = 24  # so many places are tried for the start of a limb, from the rim of the ball inwards
 
@@ -151,6 +152,7 @@ class _Maker:
     def add(self, tree: list[Chain]) -> Body:
         """Add the bones of a connected part."""
         sides = sides_of(tree)
+        tree = _from_hips(tree, sides)
         goes_on = [_goes_on(tree, sides, number) for number in range(len(tree))]
         spine = _goes_on(tree, sides, -1)
         if sides.found and not sides.within[spine]:
@@ -179,7 +181,9 @@ class _Maker:
     def _add_spine(self, body: Body) -> None:
         """Add the root bone, within its ball, and the bones that go on from it along the spine."""
         chain = body.tree[body.spine]
-        tried = np.linspace(chain.leaves_ball(), chain.length, _TRIED + 1)
+        away = np.linalg.norm(chain.points - chain.points[0], axis=1)
+        rim = np.interp(chain.radius[0], away, chain.marks)
+        tried = np.linspace(min(rim, chain.length), chain.length, _TRIED + 1)
         points, radius, _ = chain.at(tried)
         long = np.linalg.norm(points - chain.points[0], axis=1) >= np.maximum(radius, radius[0])
         left = np.linalg.norm(points - points[-1], axis=1) >= np.maximum(radius, radius[-1])
@@ -274,6 +278,41 @@ class _Maker:
         )
 
 
+def _from_hips(tree: list[Chain], sides: Sides) -> list[Chain]:
+    """Return the chains of a body; those in its plane start between the hips, if the fork of the legs lies far above.
+
+    Where legs are nearly parallel, the place of their fork says little, but not the places where they part.
+    """
+    pairs = [n for n, c in enumerate(tree) if c.parent < 0 and sides.partner[n] >= 0]
+    if not pairs:
+        return tree
+    fork, radius = tree[0].points[0], tree[0].radius[0]
+    largest = max(pairs, key=lambda n: (tree[n].volume, -n))
+    hips = [tree[n] for n in (largest, int(sides.partner[largest]))]
+    between = np.mean([chain.at(np.array([chain.rim]))[0][0] for chain in hips], axis=0)
+    up = fork - between
+    far = float(np.linalg.norm(up))
+    if far <= _HIPS * radius:
+        return tree
+    pelvis = between + up * (_HIPS * radius / far)
+    return [
+        _started_at(chain, pelvis) if chain.parent < 0 and sides.within[n] else chain
+        for n, chain in enumerate(tree)
+    ]
+
+
+def _started_at(chain: Chain, place: NDArray[np.float64]) -> Chain:
+    """Return a chain that starts at another place."""
+    more = float(np.linalg.norm(chain.points[0] - place))
+    return replace(
+        chain,
+        points=np.concatenate((place[None], chain.points)),
+        radius=np.concatenate((chain.radius[:1], chain.radius)),
+        along=np.concatenate((chain.along[:1], chain.along)),
+        rim=chain.rim + more,
+    )
+
+
 def _goes_on(tree: list[Chain], sides: Sides, parent: int) -> int:
     """Return the chain that goes on at the end of another one, or at the root (-1); it is -1 if there is none.
 
@@ -305,7 +344,7 @@ def _begin(chain: Chain, goes_on: bool) -> float | None:
 
     It starts where it leaves the ball of its fork, or so much before that it is as long as the balls at its ends.
     """
-    rim = 0.0 if goes_on else chain.leaves_ball()
+    rim = 0.0 if goes_on else chain.rim
     marks = np.linspace(rim, 0.0, _TRIED + 1)
     points, radius, _ = chain.at(np.append(marks, chain.length))
     long = np.linalg.norm(points[:-1] - points[-1], axis=1)

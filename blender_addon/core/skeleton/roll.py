@@ -93,7 +93,7 @@ def upright(normal: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[n
 
 def _hinge(chain: Chain) -> NDArray[np.float64] | None:
     """Return the axis about which a chain is bent outside of the ball at its fork, or None if it is straight."""
-    begin = min(chain.leaves_ball(), chain.length / 2)
+    begin = min(chain.rim, chain.length / 2)
     points = chain.at(np.linspace(begin, chain.length, 33))[0]
     chord = _unit(points[-1] - points[0])
     away = points - points[0]

@@ -94,14 +94,14 @@ def _alike(a: Chain, b: Chain) -> bool:
 
 def _outside(chain: Chain) -> tuple[float, float]:
     """Return the length of a chain outside the ball at its start, and the mean radius there."""
-    begin = min(chain.leaves_ball(), chain.length / 2)
+    begin = min(chain.rim, chain.length / 2)
     radius = chain.at(np.linspace(begin, chain.length, 9))[1]
     return chain.length - begin, float(radius.mean())
 
 
 def _start(chain: Chain) -> NDArray[np.float64]:
-    """Return the place where a chain leaves the ball of its fork."""
-    return chain.at(np.array([chain.leaves_ball()]))[0][0]
+    """Return the place where a chain leaves the balls at its fork."""
+    return chain.at(np.array([chain.rim]))[0][0]
 
 
 def _paired(tree: list[Chain], normal: NDArray[np.float64], origin: NDArray[np.float64]) -> Sides:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import heapq
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .skeleton import Skeleton
+
+
+_FAR = 4.0  # chains are compared up to so many radii from their fork
+_SAMPLES = 65  # at so many places
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +38,8 @@ class Chain:
         The length of the way from the root to the start.
     to_tip : bool
         The chain ends in a tip.
+    rim : float
+        After this length the chain has left the balls of its fork, and of the other chains there, for good.
     """
 
     branch: int
@@ -43,6 +49,7 @@ class Chain:
     parent: int
     from_root: float
     to_tip: bool
+    rim: float = 0.0
     marks: NDArray[np.float64] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -71,16 +78,6 @@ class Chain:
             np.interp(marks, self.marks, self.radius),
             np.interp(marks, self.marks, self.along),
         )
-
-    def leaves_ball(self) -> float:
-        """Return the length after which the chain has left the ball at its start for good."""
-        away = np.linalg.norm(self.points - self.points[0], axis=1) - self.radius[0]
-        inside = np.flatnonzero(away <= 0.0)
-        last = int(inside[-1])
-        if last == len(away) - 1:
-            return self.length
-        share = away[last] / (away[last] - away[last + 1])
-        return float(self.marks[last] + share * (self.marks[last + 1] - self.marks[last]))
 
 
 def trees_of(skeleton: Skeleton) -> list[list[Chain]]:
@@ -137,7 +134,36 @@ def _tree(
                 else:
                     half = (away[other] + chain.length - away[node]) / 2
                     found.append(_placed(_until(chain, half), arrives[node], away[node], False))
-    return found
+    return [replace(chain, rim=_rim(found, number)) for number, chain in enumerate(found)]
+
+
+def _rim(tree: list[Chain], number: int) -> float:
+    """Return the length after which a chain is in no ball of another chain at its fork."""
+    chain = tree[number]
+    others = [other for n, other in enumerate(tree) if other.parent == chain.parent and n != number]
+    balls = [_near(other, chain.radius[0], 0.0) for other in others]
+    if chain.parent >= 0:
+        parent = tree[chain.parent]
+        balls.append(_near(parent, chain.radius[0], parent.length))
+    balls.append((chain.points[:1], chain.radius[:1]))
+    points, radius = (np.concatenate(column) for column in zip(*balls, strict=True))
+    marks = np.linspace(0.0, min(chain.length, _FAR * chain.radius[0]), _SAMPLES)
+    away = np.linalg.norm(chain.at(marks)[0][:, None] - points, axis=2) - radius
+    inside = np.flatnonzero((away <= 0.0).any(axis=1))
+    last = int(inside[-1])
+    if last == len(marks) - 1:
+        return float(marks[-1])
+    before, after = away[last].min(), away[last + 1].min()
+    return float(marks[last] + (marks[last + 1] - marks[last]) * before / (before - after))
+
+
+def _near(
+    chain: Chain, radius: float, mark: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return points and radii of a chain near one of its ends."""
+    far = _FAR * radius
+    marks = np.linspace(max(0.0, mark - far), min(chain.length, mark + far), _SAMPLES)
+    return chain.at(marks)[:2]
 
 
 def _chain(skeleton: Skeleton, branch: int) -> Chain:
