@@ -3,7 +3,7 @@
 
 Two limbs are a pair if they are alike, leave the same place, or places that are a pair, and start as mirror images of
 each other. Where they end does not matter, so a body in a pose has the same pairs. The plane goes through the root. It
-is that across X if this has pairs enough, else the one that leaves the least without a partner.
+is that across X if no other one is better, or across another axis, or aslant if more limbs have a partner.
 """
 
 from __future__ import annotations
@@ -22,6 +22,10 @@ _ALIKE = 1.6  # the lengths of two like limbs outside their forks, and the mean 
 _STARTS = 0.75  # starts are mirror images up to this share of the radius of the ball at their fork
 _WITHIN = 0.5  # a chain lies in the plane if it is, in the mean, within this share of its radius
 _ENOUGH = 0.5  # this share of the length that lies aside of the plane belongs to pairs
+_STRAIGHT = 0.5  # the weight of starts that are off, in radii, beside limbs without a partner
+_AS_GOOD = 0.1  # the plane across an axis is taken if it costs so little more than the best one
+_ASLANT = 0.5  # a plane across no axis may cost so much of what others may
+_TINY = float(np.finfo(float).tiny)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,15 +60,43 @@ class Sides:
 def sides_of(tree: list[Chain]) -> Sides:
     """Return the sides of a body with the chains of a tree."""
     origin = tree[0].points[0]
-    best, left_over = _none(tree, origin), 1.0 - _ENOUGH
-    for number, normal in enumerate(_normals(tree)):
-        found = _paired(tree, normal, origin)
-        rest = _without_partner(tree, found)
-        if (found.partner >= 0).any() and rest < left_over:
-            best, left_over = found, rest
-            if number == 0:
-                break  # X has pairs enough
-    return best
+    tried = [_paired(tree, normal, origin) for normal in _normals(tree)]
+    tried += [_paired(tree, _between(tree, sides), origin) for sides in tried]
+    costs = np.array([_cost(tree, sides) for sides in tried])
+    costs[3:] /= _ASLANT
+    upright = np.flatnonzero(costs[:3] <= costs.min() + _AS_GOOD)
+    best = int(upright[0] if len(upright) else costs.argmin())
+    return tried[best] if costs[best] < 1.0 else _none(tree, origin)
+
+
+def _cost(tree: list[Chain], sides: Sides) -> float:
+    """Return how bad a plane is: 0 if all is symmetric, 1 or more if there are too few pairs."""
+    rows = np.flatnonzero(sides.partner >= 0)
+    if not len(rows):
+        return np.inf
+    starts = np.array([_start(chain) for chain in tree])
+    image = starts - 2.0 * ((starts - sides.origin) @ sides.normal)[:, None] * sides.normal
+    radius = np.array([chain.radius[0] for chain in tree])
+    off = np.linalg.norm(starts[sides.partner[rows]] - image[rows], axis=1) / radius[rows]
+    length = np.array([chain.length for chain in tree])
+    aside = ~sides.within
+    alone = length[aside & (sides.partner < 0)].sum() / max(length[aside].sum(), _TINY)
+    return float(alone / (1.0 - _ENOUGH) + _STRAIGHT * off.mean())
+
+
+def _between(tree: list[Chain], sides: Sides) -> NDArray[np.float64]:
+    """Return the normal of the plane halfway between the starts of all pairs, or the same one if there are none."""
+    rows = [row for row in np.flatnonzero(sides.partner >= 0) if sides.is_left(tree[row])]
+    across = [_start(tree[row]) - _start(tree[sides.partner[row]]) for row in rows]
+    if not across:
+        return sides.normal
+    return _signed(np.sum(across, axis=0))
+
+
+def _signed(normal: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a vector with length 1 and a positive largest component."""
+    normal = normal / max(float(np.linalg.norm(normal)), _TINY)
+    return normal * np.sign(normal[np.argmax(np.abs(normal))])
 
 
 def _none(tree: list[Chain], origin: NDArray[np.float64]) -> Sides:
@@ -78,9 +110,7 @@ def _normals(tree: list[Chain]) -> list[NDArray[np.float64]]:
     for a, first in enumerate(tree):
         for second in tree[a + 1 :]:
             if first.parent == second.parent and _alike(first, second):
-                across = _start(first) - _start(second)
-                across /= max(float(np.linalg.norm(across)), np.finfo(float).tiny)
-                found.append(across * np.sign(across[np.argmax(np.abs(across))]))
+                found.append(_signed(_start(first) - _start(second)))
     return found
 
 
@@ -150,11 +180,3 @@ def _parents_fit(
     if first < 0 or second < 0:
         return first == second
     return bool(within[first]) if first == second else bool(partner[first] == second)
-
-
-def _without_partner(tree: list[Chain], sides: Sides) -> float:
-    """Return the share of the length aside of the plane that has no partner."""
-    length = np.array([chain.length for chain in tree])
-    aside = ~sides.within
-    alone = aside & (sides.partner < 0)
-    return float(length[alone].sum() / max(length[aside].sum(), np.finfo(float).tiny))
