@@ -170,7 +170,7 @@ def test_a_pose_keeps_the_pairs():
 
 def test_a_shape_without_sides_has_none():
     """Branches of a plant, of different lengths."""
-    ends = np.array([(1, 0.3, 1), (-2, 0.5, 2), (0.4, -3, 2.5), (-0.2, 1, -1.5)]) * [[1], [1], [2], [6]]
+    ends = np.array([(1, 0.3, 1), (-2, 0.5, 2), (0.4, -3, 2.5), (-0.2, 1, -1.5)]) * [[1], [1.2], [2], [10]]
     names, _, bodies = named(skeleton(*(((0, 0, 0, 0.3), (*end, 0.1)) for end in ends)))
     assert not bodies[0].sides.found and "root" in names
     assert not any(name[-2:] in (".L", ".R") for name in names)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """This module finds the pelvis: the node of a skeleton from which all bones go out.
 
-It is the fork with the thickest ball. Of forks that are nearly as thick, it is the one whose limbs are longest, for the
-legs of an animal are longer than its arms. A skeleton without a fork starts at its thicker end.
+It is the fork with the thickest ball. Of forks that are nearly as thick, it is the one with the longest limb, for legs
+and tails are longer than arms. A skeleton without a fork starts at its thicker end.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def pelvis_of(
     radius = skeleton.radius[forks]
     thick = [node for node in forks if skeleton.radius[node] >= _AS_THICK * radius.max()]
     limbs = [
-        sum(_length(skeleton, branch) for branch in at[node] if (degree[list(ends[branch])] == 1).any())
+        max((_length(skeleton, b) for b in at[node] if (degree[list(ends[b])] == 1).any()), default=0.0)
         for node in thick
     ]
     return thick[int(np.argmax(limbs))]
