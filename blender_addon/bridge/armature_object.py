@@ -293,7 +293,9 @@ def _free_name(name: str, taken: set[str]) -> str:
 def _constrain(armature: bpy.types.Object, rig: Rig, mark: str, ik: bool) -> None:
     """Let limbs reach for their targets; their joints but the first turn about one axis, so they bend in their plane."""
     key = MADE + mark
-    by_name = {bone[key]: armature.pose.bones[bone.name] for bone in armature.data.bones if key in bone}
+    by_name = {
+        bone[key]: armature.pose.bones[bone.name] for bone in armature.data.bones if key in bone
+    }
     for bone in by_name.values():
         for constraint in [c for c in bone.constraints if c.type == "IK" and c.name == _IK]:
             bone.constraints.remove(constraint)

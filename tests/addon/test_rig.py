@@ -23,7 +23,13 @@ def figure(name="Figure"):
         "elbow": (0.5, 0.08, 1.2, 0.06),
         "hand": (0.75, 0.0, 0.9, 0.05),
     }
-    bones = [("pelvis", "chest"), ("chest", "head"), ("pelvis", "hip"), ("hip", "knee"), ("knee", "ankle")]
+    bones = [
+        ("pelvis", "chest"),
+        ("chest", "head"),
+        ("pelvis", "hip"),
+        ("hip", "knee"),
+        ("knee", "ankle"),
+    ]
     bones += [("chest", "shoulder"), ("shoulder", "elbow"), ("elbow", "hand")]
     rows, places, edges = {}, [], []
     for side in (1, -1):
@@ -73,7 +79,11 @@ def test_names_say_what_the_shape_tells():
 def test_symmetrize_gives_the_same_bones_again():
     """Blender mirrors the left side, and its right side is ours, with the roll."""
     thing = make(figure(), bind="NONE")
-    before = {b.name: (b.matrix_local.copy(), b.parent.name) for b in thing.data.bones if b.name.endswith(".R")}
+    before = {
+        b.name: (b.matrix_local.copy(), b.parent.name)
+        for b in thing.data.bones
+        if b.name.endswith(".R")
+    }
     select(thing)
     bpy.ops.object.mode_set(mode="EDIT")
     bones = thing.data.edit_bones
@@ -110,7 +120,9 @@ def test_limbs_reach_for_their_targets():
     assert not target.bone.use_deform and "IK.limb.02.L" not in source.vertex_groups
     rest = shown(source)
     np.testing.assert_allclose(rest, positions(source.data), atol=2e-3)  # nothing moves yet
-    target.location = target.bone.matrix_local.to_3x3().inverted() @ (thing.data.bones["pelvis"].vector.normalized() * 0.25)
+    target.location = target.bone.matrix_local.to_3x3().inverted() @ (
+        thing.data.bones["pelvis"].vector.normalized() * 0.25
+    )
     bpy.context.view_layer.update()
     assert (foot.tail - target.head).length < 0.02
     knee = thing.pose.bones["limb.02.01.L"].tail
@@ -188,5 +200,7 @@ def test_a_turned_figure_is_symmetric_in_its_armature():
     for bone in thing.data.bones:
         if bone.name.endswith(".L"):
             other = thing.data.bones[bone.name[:-1] + "R"]
-            np.testing.assert_allclose(np.array(other.tail_local) * (-1, 1, 1), bone.tail_local, atol=0.1)
+            np.testing.assert_allclose(
+                np.array(other.tail_local) * (-1, 1, 1), bone.tail_local, atol=0.1
+            )
             assert (thing.matrix_world @ bone.tail_local).x > 0.0

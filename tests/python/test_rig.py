@@ -56,7 +56,10 @@ def biped(fork=1.0, elbow=0.0):
 def quadruped():
     """A figure along Y that looks to -Y: the hind part is thick, the tail is behind."""
     hind, fore = (0, 1.0, 1.0), (0, -1.0, 1.0)
-    legs = [pair((*fork, r), (0.3, fork[1], 0.7, 0.12), (0.3, fork[1], 0, 0.1)) for fork, r in ((hind, 0.3), (fore, 0.25))]
+    legs = [
+        pair((*fork, r), (0.3, fork[1], 0.7, 0.12), (0.3, fork[1], 0, 0.1))
+        for fork, r in ((hind, 0.3), (fore, 0.25))
+    ]
     trunk, tail = ((*hind, 0.3), (*fore, 0.25)), ((*hind, 0.3), (0, 2.2, 1.0, 0.05))
     neck = ((*fore, 0.25), (0, -1.5, 1.6, 0.15), (0, -1.9, 1.6, 0.1))
     return skeleton(trunk, tail, neck, *legs[0], *legs[1])
@@ -96,7 +99,9 @@ def test_a_figure_has_a_pelvis_a_spine_a_head_and_two_sides():
     for name, row in names.items():
         if name.endswith(".L"):
             assert bones.tail[row, 0] > 0.0
-            np.testing.assert_allclose(bones.tail[names[swapped(name)]], bones.tail[row] * (-1, 1, 1), atol=1e-12)
+            np.testing.assert_allclose(
+                bones.tail[names[swapped(name)]], bones.tail[row] * (-1, 1, 1), atol=1e-12
+            )
     assert bones.tail[names["limb.01.01.L"], 2] > bones.tail[names["limb.02.01.L"], 2]  # arms first
     assert bones.parent[names["limb.02.01.L"]] == names["pelvis"] == 0
     assert bones.connected[names["spine.01"]] and not bones.connected[names["limb.02.01.L"]]
@@ -120,7 +125,14 @@ def test_names_do_not_depend_on_how_a_figure_is_turned(figure):
         back = bones.tail @ frame
         assert set(names) == set(usual)
         for name, row in names.items():
-            other = name if seed < 6 else min((name, swapped(name)), key=lambda n: np.linalg.norm(first.tail[usual[n]] - back[row]))
+            other = (
+                name
+                if seed < 6
+                else min(
+                    (name, swapped(name)),
+                    key=lambda n: np.linalg.norm(first.tail[usual[n]] - back[row]),
+                )
+            )
             np.testing.assert_allclose(back[row], first.tail[usual[other]], atol=1e-6)
     names, bones, _ = named(moved(figure(), np.diag((-1.0, 1.0, 1.0))))
     for name, row in names.items():
@@ -159,10 +171,27 @@ def test_a_short_limb_has_as_many_bones_as_there_is_room_for():
 
 def test_a_pose_keeps_the_pairs():
     """One arm up, one leg to the side: left and right are those of before."""
-    arms = [((0, 0, 1.5, 0.17), (0.2, 0, 1.5, 0.07), (0.9, 0, 1.5, 0.04)), ((0, 0, 1.5, 0.17), (-0.2, 0, 1.5, 0.07), (-0.3, -0.6, 1.8, 0.04))]
-    legs = [((*FORK, 0.2), (0.12, 0, 0.9, 0.1), (0.7, 0, 0.3, 0.05)), ((*FORK, 0.2), (-0.12, 0, 0.9, 0.1), (-0.14, -0.3, 0.05, 0.05))]
-    names, bones, _ = named(skeleton(((*FORK, 0.2), (*CHEST, 0.17)), ((*CHEST, 0.17), (0, 0.05, 1.9, 0.1)), *arms, *legs))
-    assert {"pelvis", "head.01", "limb.01.01.L", "limb.01.01.R", "limb.02.01.L", "limb.02.01.R"} <= set(names)
+    arms = [
+        ((0, 0, 1.5, 0.17), (0.2, 0, 1.5, 0.07), (0.9, 0, 1.5, 0.04)),
+        ((0, 0, 1.5, 0.17), (-0.2, 0, 1.5, 0.07), (-0.3, -0.6, 1.8, 0.04)),
+    ]
+    legs = [
+        ((*FORK, 0.2), (0.12, 0, 0.9, 0.1), (0.7, 0, 0.3, 0.05)),
+        ((*FORK, 0.2), (-0.12, 0, 0.9, 0.1), (-0.14, -0.3, 0.05, 0.05)),
+    ]
+    names, bones, _ = named(
+        skeleton(
+            ((*FORK, 0.2), (*CHEST, 0.17)), ((*CHEST, 0.17), (0, 0.05, 1.9, 0.1)), *arms, *legs
+        )
+    )
+    assert {
+        "pelvis",
+        "head.01",
+        "limb.01.01.L",
+        "limb.01.01.R",
+        "limb.02.01.L",
+        "limb.02.01.R",
+    } <= set(names)
     for name, row in names.items():
         if name[-2:] in (".L", ".R"):
             assert (bones.tail[row, 0] > 0) == name.endswith(".L")
@@ -170,7 +199,12 @@ def test_a_pose_keeps_the_pairs():
 
 def test_a_shape_without_sides_has_none():
     """Branches of a plant, of different lengths."""
-    ends = np.array([(1, 0.3, 1), (-2, 0.5, 2), (0.4, -3, 2.5), (-0.2, 1, -1.5)]) * [[1], [1.2], [2], [10]]
+    ends = np.array([(1, 0.3, 1), (-2, 0.5, 2), (0.4, -3, 2.5), (-0.2, 1, -1.5)]) * [
+        [1],
+        [1.2],
+        [2],
+        [10],
+    ]
     names, _, bodies = named(skeleton(*(((0, 0, 0, 0.3), (*end, 0.1)) for end in ends)))
     assert not bodies[0].sides.found and "root" in names
     assert not any(name[-2:] in (".L", ".R") for name in names)
@@ -205,7 +239,12 @@ def test_elbows_bend_in_their_plane_and_mirror_images_alike():
 def test_a_straight_flat_limb_bends_towards_its_flat_side(seed):
     """A tube of an elliptic section, three times as wide as thick."""
     frame = turn(np.random.default_rng(seed).normal(size=3), 1.0 + seed)
-    t, z = (x.ravel() for x in np.meshgrid(np.linspace(0, 2 * np.pi, 24, endpoint=False), np.linspace(0.02, 0.98, 40)))
+    t, z = (
+        x.ravel()
+        for x in np.meshgrid(
+            np.linspace(0, 2 * np.pi, 24, endpoint=False), np.linspace(0.02, 0.98, 40)
+        )
+    )
     vertices = np.column_stack((0.3 * np.cos(t), 0.1 * np.sin(t), 4 * z)) @ frame.T
     line = moved(skeleton(((0, 0, 0, 0.1), (0, 0, 4.0, 0.1))), frame)
     flats = flats_of(line, Places(np.zeros(len(z), np.int32), z), vertices)
@@ -221,7 +260,12 @@ def test_parts_that_are_apart_have_their_own_roots():
     far = biped().placed(np.diag((0.5, 0.5, 0.5, 1.0)) + np.eye(4, k=3) * 5.0)
     both = biped()
     rows = [*both.branches, *(rows + len(both.points) for rows in far.branches)]
-    found = skeleton_of(np.concatenate((both.points, far.points)), np.concatenate((both.radius, far.radius / 2)), rows, np.zeros(0, np.int64))
+    found = skeleton_of(
+        np.concatenate((both.points, far.points)),
+        np.concatenate((both.radius, far.radius / 2)),
+        rows,
+        np.zeros(0, np.int64),
+    )
     names, bones, bodies = named(found)
     assert len(bodies) == 2 and {"pelvis", "02.pelvis"} <= set(names)
     assert (bones.parent < 0).sum() == 2
@@ -232,7 +276,13 @@ def test_a_rod_and_a_ring_have_bones():
     assert "root" in rod and len(rod) > 2
     angle = np.linspace(0, 2 * np.pi, 25)[:-1]
     points = np.column_stack((np.cos(angle), np.sin(angle), 0 * angle))
-    ring = Skeleton(points, np.full(24, 0.1), np.array([0, 25], np.int32), np.array([*range(24), 0], np.int32), np.array([0], np.int32))
+    ring = Skeleton(
+        points,
+        np.full(24, 0.1),
+        np.array([0, 25], np.int32),
+        np.array([*range(24), 0], np.int32),
+        np.array([0], np.int32),
+    )
     _, bones, _ = named(ring)
     assert np.isfinite(bones.up).all() and (bones.parent < 0).sum() == 1
 
@@ -244,7 +294,12 @@ def test_a_rod_and_a_ring_have_bones():
     ("name", "stable", "turned"),
     [
         ("spot_low.obj", {"pelvis", "IK.spine"}, False),
-        pytest.param("human_woman.obj", {"pelvis", "IK.head", "IK.limb.01.L", "IK.limb.02.R"}, True, marks=pytest.mark.slow),
+        pytest.param(
+            "human_woman.obj",
+            {"pelvis", "IK.head", "IK.limb.01.L", "IK.limb.02.R"},
+            True,
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_real_bodies_have_the_same_pelvis_at_every_density(data_file, name, stable, turned):
@@ -253,7 +308,9 @@ def test_real_bodies_have_the_same_pelvis_at_every_density(data_file, name, stab
     for samples in (16_000, 32_000):
         settings = Settings(sampling=SamplingMode.SURFACE, samples=samples)
         frame = turn((0.3, 0.2, 1.0), np.radians(20)) if turned and first is not None else np.eye(3)
-        rig = compute_rig(Shape(shape.points @ frame.T, shape.triangles), settings, SkeletonSettings())
+        rig = compute_rig(
+            Shape(shape.points @ frame.T, shape.triangles), settings, SkeletonSettings()
+        )
         assert stable <= stems(rig.names)
         pelvis = rig.bones.head[rig.names.index("pelvis")] @ frame
         first = pelvis if first is None else first

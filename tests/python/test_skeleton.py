@@ -756,7 +756,9 @@ def test_a_chord_that_leaves_gets_points(count):
 
 
 def straight_net(points):
-    wires = np.column_stack((np.arange(len(points) - 1), np.arange(1, len(points)))).astype(np.int32)
+    wires = np.column_stack((np.arange(len(points) - 1), np.arange(1, len(points)))).astype(
+        np.int32
+    )
     room = Between()(points)
     return Net(points, room, wires, np.zeros(0, np.int32), np.ones(len(points)))
 

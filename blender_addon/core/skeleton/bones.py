@@ -233,7 +233,9 @@ class _Maker:
         tail = self._rows[parent][1] if parent >= 0 else None
         connected = goes_on and tail is not None and bool((tail == points[0]).all())
         joints = points, radius, along
-        self._add_bones(body.bones[number], chain.branch, joints, ups, parent, connected, chain.to_tip)
+        self._add_bones(
+            body.bones[number], chain.branch, joints, ups, parent, connected, chain.to_tip
+        )
 
     def _add_bones(
         self,
@@ -272,9 +274,7 @@ class _Maker:
             along=along,
             chain=chain.astype(np.int32),
             to_tip=to_tip.astype(bool),
-            stubs=Stubs(
-                stubs[:, 0].astype(np.int32), stubs[:, 1:3], stubs[:, 3].astype(np.int32)
-            ),
+            stubs=Stubs(stubs[:, 0].astype(np.int32), stubs[:, 1:3], stubs[:, 3].astype(np.int32)),
         )
 
 

@@ -72,9 +72,7 @@ def keep_inside(net: Net, depth: Depth) -> int:
     outside : int
         So many edges still leave it: no ball between their ends overlaps those at both.
     """
-    edges = [
-        (name, *pair) for name, chain in net.branches.items() for pair in pairwise(chain)
-    ]
+    edges = [(name, *pair) for name, chain in net.branches.items() for pair in pairwise(chain)]
     outside = 0
     for _ in range(_ROUNDS):
         edges, lost = _split(net, edges, depth)

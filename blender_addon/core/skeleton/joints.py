@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 ERROR = 0.5  # a bone may deviate from the curve by this share of the local radius
 LONG = 10.0  # a bone is at most so many mean radii long, as forearms are
 _THIN = 0.5  # a ball counts as no thinner than this share of the mean of the chain
-_STEPS, _MOST_STEPS = 48, 192  # joints are looked for at so many steps; 2, 3, 4, 6 and 8 divide these
+_STEPS, _MOST_STEPS = (
+    48,
+    192,
+)  # joints are looked for at so many steps; 2, 3, 4, 6 and 8 divide these
 
 
 def joints_of(chain: Chain, begin: float, count: int = 0) -> NDArray[np.float64]:

@@ -37,7 +37,10 @@ def pelvis_of(
     radius = skeleton.radius[forks]
     thick = [node for node in forks if skeleton.radius[node] >= _AS_THICK * radius.max()]
     limbs = [
-        max((_length(skeleton, b) for b in at[node] if (degree[list(ends[b])] == 1).any()), default=0.0)
+        max(
+            (_length(skeleton, b) for b in at[node] if (degree[list(ends[b])] == 1).any()),
+            default=0.0,
+        )
         for node in thick
     ]
     return thick[int(np.argmax(limbs))]

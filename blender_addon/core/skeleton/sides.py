@@ -116,10 +116,7 @@ def _normals(tree: list[Chain]) -> list[NDArray[np.float64]]:
 
 def _alike(a: Chain, b: Chain) -> bool:
     (short, thin), (long, thick) = np.sort([_outside(a), _outside(b)], axis=0)
-    return (
-        a.to_tip == b.to_tip
-        and bool(long <= _ALIKE * short and thick <= _ALIKE * thin)
-    )
+    return a.to_tip == b.to_tip and bool(long <= _ALIKE * short and thick <= _ALIKE * thin)
 
 
 def _outside(chain: Chain) -> tuple[float, float]:

@@ -111,7 +111,9 @@ def _tree(
     skeleton: Skeleton, root: int, ends: list[tuple[int, int]], at: dict[int, list[int]]
 ) -> list[Chain]:
     whole = {
-        branch: _chain(skeleton, branch) for node in _connected(root, ends, at) for branch in at[node]
+        branch: _chain(skeleton, branch)
+        for node in _connected(root, ends, at)
+        for branch in at[node]
     }
     away, through = _nearest_first(root, ends, at, {b: c.length for b, c in whole.items()})
     degree = skeleton.degree
@@ -181,9 +183,7 @@ def _turned(chain: Chain) -> Chain:
 
 
 def _placed(chain: Chain, parent: int, from_root: float, to_tip: bool) -> Chain:
-    return Chain(
-        chain.branch, chain.points, chain.radius, chain.along, parent, from_root, to_tip
-    )
+    return Chain(chain.branch, chain.points, chain.radius, chain.along, parent, from_root, to_tip)
 
 
 def _until(chain: Chain, length: float) -> Chain:
@@ -217,5 +217,7 @@ def _nearest_first(
             through[node] = branch
         for leaving in at[node]:
             start, end = ends[leaving]
-            heapq.heappush(queue, (so_far + length[leaving], end if start == node else start, leaving))
+            heapq.heappush(
+                queue, (so_far + length[leaving], end if start == node else start, leaving)
+            )
     return away, through

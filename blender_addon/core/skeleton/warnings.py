@@ -10,9 +10,7 @@ if TYPE_CHECKING:
     from .rules import Loops
 
 
-def skeleton_warnings(
-    chosen: ChosenSamples, loops: Loops, sheets: int, outside: int
-) -> list[str]:
+def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int, outside: int) -> list[str]:
     """Return the warnings, the most important first.
 
     Parameters

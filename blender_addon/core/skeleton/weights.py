@@ -199,16 +199,16 @@ def _diffuse(weight: NDArray[np.float64], graph: Graph, bones: Bones) -> None:
     flow = _Flow(graph, 1.0 / square, kept)
     for bone in range(weight.shape[1]):
         if weight[:, bone].any():
-            weight[:, bone] = np.clip(flow.solved(kept * weight[:, bone], weight[:, bone]), 0.0, 1.0)
+            weight[:, bone] = np.clip(
+                flow.solved(kept * weight[:, bone], weight[:, bone]), 0.0, 1.0
+            )
     weight /= weight.sum(axis=1, keepdims=True)
 
 
 class _Flow:
     """Solves (kept + Laplacian) x = right by conjugate gradients, each unknown scaled by its diagonal."""
 
-    def __init__(
-        self, graph: Graph, along: NDArray[np.float64], kept: NDArray[np.float64]
-    ) -> None:
+    def __init__(self, graph: Graph, along: NDArray[np.float64], kept: NDArray[np.float64]) -> None:
         self._to, self._along = graph.to, along
         self._joined = np.flatnonzero(np.diff(graph.first))
         self._first = graph.first[self._joined]
@@ -220,9 +220,7 @@ class _Flow:
         found[self._joined] -= np.add.reduceat(self._along * x[self._to], self._first)
         return found
 
-    def solved(
-        self, right: NDArray[np.float64], start: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
+    def solved(self, right: NDArray[np.float64], start: NDArray[np.float64]) -> NDArray[np.float64]:
         x = start.copy()
         rest = right - self._times(x)
         way = scaled = rest / self._diagonal
