@@ -291,7 +291,7 @@ def _free_name(name: str, taken: set[str]) -> str:
 
 
 def _constrain(armature: bpy.types.Object, rig: Rig, mark: str, ik: bool) -> None:
-    """Let limbs reach for their targets; their joints but the first turn about one axis, so they bend in their plane."""
+    """Let limbs reach for their targets; their joints but the first turn about one axis, so they bend in a plane."""
     key = MADE + mark
     by_name = {
         bone[key]: armature.pose.bones[bone.name] for bone in armature.data.bones if key in bone

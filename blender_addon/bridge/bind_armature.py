@@ -60,7 +60,7 @@ def check_bindable(source: bpy.types.Object, bind: bool, replace_weights: bool =
 
 
 def groups_of_others(source: bpy.types.Object) -> set[str]:
-    """The names of the vertex groups of a source that were not made for its armature; it marks older ones on the way."""
+    """The vertex groups of a source that were not made for its armature, by name; it marks older ones on the way."""
     made = rig_of(source)
     if made is None:
         return _names(source)

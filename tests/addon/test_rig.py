@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Armatures as animators use them: Symmetrize, joints that bend in their plane, targets, and an armature that is there."""
+"""Armatures as animators use them: Symmetrize, joints that bend in a plane, targets, and an armature that is there."""
 
 import math
 
@@ -130,7 +130,7 @@ def test_limbs_reach_for_their_targets():
     moved = np.linalg.norm(shown(source) - rest, axis=1)
     assert moved.max() > 0.2 and moved[rest[:, 0] < -0.15].max() < 0.01
     make(source, per_limb=2)
-    assert not any(name.startswith("IK") for name in thing.data.bones.keys())
+    assert not any(bone.name.startswith("IK") for bone in thing.data.bones)
     assert not any(len(bone.constraints) or bone.lock_ik_y for bone in thing.pose.bones)
 
 
@@ -164,7 +164,7 @@ def test_bones_are_added_to_an_armature_that_is_there(bind):
     for source, before in zip((first, second), places, strict=True):
         np.testing.assert_allclose(world_positions(source), before, atol=1e-4)
         assert [m.object for m in source.modifiers] == [cast]
-    name = next(n for n in cast.data.bones.keys() if n.startswith("limb.01.01.L"))
+    name = next(b.name for b in cast.data.bones if b.name.startswith("limb.01.01.L"))
     cast.pose.bones[name].rotation_mode = "XYZ"
     cast.pose.bones[name].rotation_euler = (1.0, 0, 0)
     moved = [np.abs(shown(s) - positions(s.data)).max() for s in (first, second)]

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigs: pelvis, sides, names, joints and roll, on figures whose mirror plane and joints are known, and on real bodies."""
+"""Rigs: pelvis, sides, names, joints and roll, on figures whose plane and joints are known, and on real bodies."""
+
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -24,7 +26,7 @@ def skeleton(*branches):
     rows, chains, row = [], [], {}
     for corners in branches:
         corners = np.asarray(corners, float)
-        places = np.concatenate([np.linspace(a, b, 9)[:-1] for a, b in zip(corners, corners[1:])])
+        places = np.concatenate([np.linspace(a, b, 9)[:-1] for a, b in pairwise(corners)])
         chain = []
         for place in (*places, corners[-1]):
             key = tuple(place)
@@ -116,7 +118,7 @@ def test_the_names_of_an_animal_go_from_head_to_tail():
 
 @pytest.mark.parametrize("figure", [biped, quadruped])
 def test_names_do_not_depend_on_how_a_figure_is_turned(figure):
-    """Any turn keeps the names of the middle and the pairs; up to 30 degrees left stays left, also of the mirror image."""
+    """Any turn keeps the middle and the pairs; up to 30 degrees left stays left, also of the mirror image."""
     usual, first, _ = named(figure())
     for seed in range(12):
         rng = np.random.default_rng(seed)
@@ -141,7 +143,7 @@ def test_names_do_not_depend_on_how_a_figure_is_turned(figure):
 
 @pytest.mark.parametrize("fork", [0.95, 1.05, 1.2])
 def test_the_pelvis_is_between_the_hips_wherever_legs_fork(fork):
-    """Nearly parallel legs may be drawn to fork at any height; hips and pelvis move by a third of its radius at most."""
+    """Nearly parallel legs may fork at any height; hips and pelvis move by a third of its radius at most."""
     names, bones, _ = named(biped(fork))
     usual, first, _ = named(biped())
     for name in ("pelvis", "limb.02.01.L"):
@@ -157,7 +159,7 @@ def test_no_bone_is_shorter_than_the_balls_on_it(figure):
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_limbs_have_as_many_bones_as_wanted(count):
-    names, bones, bodies = named(biped(), count)
+    names, bones, _ = named(biped(), count)
     limbs = [row for name, row in names.items() if name.startswith("limb") and ".01." in name[7:]]
     assert [int((bones.chain == bones.chain[row]).sum()) for row in limbs] == [count] * 4
     head = lengths(bones)[[row for name, row in names.items() if name.startswith("head")]]

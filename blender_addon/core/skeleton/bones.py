@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .joints import joints_of
-from .roll import ups_of, upright
+from .roll import upright, ups_of
 from .sides import sides_of
 from .tree import trees_of
 

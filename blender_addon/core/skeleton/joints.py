@@ -66,7 +66,7 @@ def _fits(
 
 
 def _deviations(points: NDArray[np.float64], radius: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how far a bone from a point to a later one is off those between, at most, (n, n), in allowed deviations."""
+    """Return how far a bone from a point to a later one is off those between at most, (n, n), in allowed ones."""
     count = len(points)
     found = np.zeros((count, count))
     for start in range(count - 2):

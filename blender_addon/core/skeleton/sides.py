@@ -161,7 +161,7 @@ def _paired(tree: list[Chain], normal: NDArray[np.float64], origin: NDArray[np.f
 
 
 def _leaves(tree: list[Chain]) -> list[int]:
-    """Return the chain at whose end each chain starts, or -1; a chain within the ball at its start is no place apart."""
+    """Return the chain at whose end each chain starts, or -1; a chain within the ball at its start is passed over."""
     found: list[int] = []
     for chain in tree:
         parent = chain.parent

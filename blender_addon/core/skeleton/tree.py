@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A skeleton is read as a tree of chains from a root outwards; each loop is opened where it is farthest from the root."""
+"""A skeleton becomes a tree of chains from a root outwards; loops are opened where they are farthest from the root."""
 
 from __future__ import annotations
 
