@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Armatures along skeletons: how they are found, made and updated, and how a mesh is bound to them."""
+"""Armatures along skeletons: how they are found, made and updated, also within an armature of the artist's own."""
 
 from __future__ import annotations
 
-import hashlib
 import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,68 +10,92 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from mathutils import Vector
 
 from ..core.errors import InvalidInputError
-from .output_object import Product, inverse_of, new_object, place, remember
-from .skeleton_object import rows_of_vertices
+from ..core.skeleton.names import target_of
+from .output_object import SOURCE, Product, check_mode, is_gone, new_object, place, remember
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ..core.skeleton.rig import Rig
 
 _SHORTEST = 1e-6  # Blender deletes shorter bones
 
 BONES = "ma_bones"
-MODIFIER = "Medial Axis Armature"
-_MADE = "ma_bone"  # on each bone that was made here: the name that it got then, which an artist may change
-_GROUPS = "ma_groups"  # the vertex groups that were made here, a name per line
-_GROUP = (
-    "ma_group"  # on a bone: the name of its group there; Blender renames groups with their bones
-)
-_WEIGHTS = "ma_weights"  # a hash of the weights in them
+MADE = "ma_bone"  # on each bone that was made here: the name that it got then, which an artist may change
+_FRAME = "ma_frame"  # the frame of the rig that the armature has now
+_IK = "Medial Axis IK"  # the constraints that were made here
 
 
 ARMATURE = Product(" Armature", (BONES,), type="ARMATURE")
 is_armature, armature_of = ARMATURE.has, ARMATURE.of
 
 
-def check_armature_writable(
-    source: bpy.types.Object, bind: bool, replace_weights: bool = False
-) -> None:
-    """Raise InvalidInputError when an armature cannot be made now, or the source not be bound to it.
-
-    Parameters
-    ----------
-    source : Object
-    bind : bool
-        Whether the source gets weights.
-    replace_weights : bool
-        Whether weights may go that were painted since the last time.
-    """
-    if bpy.context.mode != "OBJECT":
-        raise InvalidInputError(
-            f"Expected object mode, found '{bpy.context.object.name}' in another one; leave that mode"
-        )
-    if bind and (source.type != "MESH" or source.data.library is not None):
-        raise InvalidInputError(
-            f"Expected a mesh of this file to bind, found '{source.name}', which is not; choose Bind None"
-        )
-    if bind and not 0.0 < abs(source.matrix_world.determinant()) < float("inf"):
-        raise InvalidInputError(
-            f"Expected a scale that Blender can invert, found one too large or too small of '{source.name}'; "
-            "apply the scale, or choose Bind None"
-        )
+def rig_of(source: bpy.types.Object) -> bpy.types.Object | None:
+    """The armature with the bones of a source: that which was made of it, or an artist's that they were added to."""
     made = armature_of(source)
-    if bind and not replace_weights and made is not None and _is_painted(source, made):
+    if made is not None:
+        return made
+    others = (o for o in bpy.data.objects if o.type == "ARMATURE" and not is_gone(o))
+    return next((o for o in others if mark_of(o, source) is not None), None)
+
+
+def mark_of(armature: bpy.types.Object, source: bpy.types.Object) -> str | None:
+    """What the keys end in under which an armature keeps what belongs to a source; None where it keeps nothing.
+
+    In an armature that was made of the source they end in nothing; in others, in the number of the source there.
+    """
+    if armature.get(SOURCE) == source:
+        return ""
+    numbers = itertools.count(1)
+    marks = itertools.takewhile(lambda mark: SOURCE + mark in armature, (f"_{n}" for n in numbers))
+    return next((mark for mark in marks if armature[SOURCE + mark] == source), None)
+
+
+def find_armature(name: str) -> bpy.types.Object | None:
+    """The artist's armature of this name, None for no name.
+
+    Raises
+    ------
+    InvalidInputError
+        There is none, or bones cannot be added to it now.
+    """
+    if not name:
+        return None
+    thing = bpy.data.objects.get(name)
+    if thing is None or thing.type != "ARMATURE":
         raise InvalidInputError(
-            f"Expected the weights of '{source.name}' as they were made, found some painted since; "
-            "choose Bind None to keep them, or Replace Weights"
+            f"Expected the name of an armature, found '{name}', which is none; choose one, or clear the field"
+        )
+    if thing.library is not None or thing.data.library is not None or not thing.visible_get():
+        raise InvalidInputError(
+            f"Expected an armature of this file that is shown, found '{name}', which is not; "
+            "show it, or make it local"
+        )
+    check_mode(thing)
+    if not 0.0 < abs(thing.matrix_world.determinant()) < float("inf"):
+        raise InvalidInputError(
+            f"Expected a scale that Blender can invert, found one too large or too small of '{name}'; apply the scale"
+        )
+    return thing
+
+
+def check_no_other(source: bpy.types.Object, into: bpy.types.Object | None) -> None:
+    """Raise InvalidInputError when the bones of a source are in another armature than they are to be added to."""
+    made = rig_of(source)
+    if into is not None and made is not None and made != into:
+        raise InvalidInputError(
+            f"Expected no other armature of '{source.name}', found '{made.name}', and two would move it twice; "
+            f"delete that, or clear the field of the armature"
         )
 
 
 @contextmanager
 def in_rest(source: bpy.types.Object) -> Iterator[None]:
     """The source without the modifier that binds it to its armature, so that it is read as it is at rest."""
-    made = armature_of(source)
+    made = rig_of(source)
     bound = [m for m in source.modifiers if m.type == "ARMATURE" and made and m.object == made]
     shown = [modifier.show_viewport for modifier in bound]
     for modifier in bound:
@@ -88,10 +111,18 @@ def in_rest(source: bpy.types.Object) -> Iterator[None]:
             bpy.context.view_layer.update()
 
 
-def write_armature(source: bpy.types.Object, rig: Rig, frame: np.ndarray) -> bpy.types.Object:
+def write_armature(
+    source: bpy.types.Object,
+    rig: Rig,
+    frame: np.ndarray,
+    taken: set[str],
+    ik: bool = False,
+    into: bpy.types.Object | None = None,
+) -> bpy.types.Object:
     """Make the armature of a source, or give the existing one other bones; the source is not bound to it.
 
     Bones that an artist added stay, with their constraints, and so do the pose and the names that he gave to others.
+    The armature of its own is symmetric in its X, where the body has two sides.
 
     Parameters
     ----------
@@ -99,202 +130,56 @@ def write_armature(source: bpy.types.Object, rig: Rig, frame: np.ndarray) -> bpy
     rig : Rig
     frame : (4, 4) float64
         Where the bones lie in the world; rotation and translation only.
+    taken : set of str
+        Names of vertex groups that belong to something else, which no new bone may have.
+    ik : bool
+        Limbs get targets.
+    into : Object, optional
+        An armature of the artist's own, which stays where it is.
     """
-    _check_lengths(rig)
-    thing = armature_of(source)
-    if thing is None:
-        thing = new_object(
-            source, ARMATURE.suffix, bpy.data.armatures.new(source.name + ARMATURE.suffix)
-        )
-        thing.show_in_front = True
-    place(thing, frame)
-    bpy.context.view_layer.update()
-    _mark_older(thing)
-    _set_groups(thing, _own_groups(thing))
-    taken = _names(source) - set(_own_groups(thing))
-    with _active(thing):
+    thing = into or rig_of(source)
+    own = thing is None or mark_of(thing, source) == ""
+    if own:
+        to_local = np.linalg.inv(rig.frame)
+        _check_lengths(rig, to_local)
+        if thing is None:
+            armature = bpy.data.armatures.new(source.name + ARMATURE.suffix)
+            thing = new_object(source, ARMATURE.suffix, armature)
+            thing.show_in_front = True
+        place(thing, frame @ rig.frame)
+        bpy.context.view_layer.update()
+        mark = ""
+    else:
+        to_local = np.linalg.inv(np.array(thing.matrix_world, np.float64)) @ frame
+        _check_lengths(rig, to_local)
+        mark = _new_mark(thing, source)
+    moved = to_local @ np.array(thing.get(_FRAME, rig.frame)).reshape(4, 4) if own else np.eye(4)
+    with active(thing):
         bpy.ops.object.mode_set(mode="EDIT")
         try:
-            _fill(thing.data, rig, taken)
+            _move_others(thing.data, moved)
+            _fill(thing.data, rig, to_local, mark, taken, ik)
         finally:
             bpy.ops.object.mode_set(mode="OBJECT")
-    remember(thing, source, rig.made_of.points, rig.made_of.duplicates, rig.warnings)
-    thing[BONES] = rig.bones.count
+    _constrain(thing, rig, mark, ik)
+    if own:
+        remember(thing, source, rig.made_of.points, rig.made_of.duplicates, rig.warnings)
+        thing[BONES], thing[_FRAME] = rig.bones.count, rig.frame.ravel().tolist()
     return thing
 
 
-def _check_lengths(rig: Rig) -> None:
-    shortest = float(np.linalg.norm(rig.bones.tail - rig.bones.head, axis=1).min(initial=np.inf))
-    if shortest <= _SHORTEST:
-        raise InvalidInputError(
-            f"Expected bones longer than {_SHORTEST:g}, for Blender deletes shorter ones, found one of "
-            f"{shortest:.2g}; scale the object up"
-        )
-
-
-def bind_by_axis(source: bpy.types.Object, armature: bpy.types.Object, rig: Rig) -> None:
-    """Weights of the axis, as vertex groups; a modifier; and the armature as parent."""
-    _forget_groups(source, armature)
-    groups = [source.vertex_groups.new(name=name) for name in _bones_of(armature, rig)]
-    rows = rows_of_vertices(source, rig.made_of.shape)
-    bone, weight = rig.bone[rows], rig.weight[rows]
-    order = np.argsort(bone, axis=None, kind="stable")
-    for vertex, group, value in zip(
-        (order // bone.shape[1]).tolist(),
-        bone.ravel()[order].tolist(),
-        weight.ravel()[order].tolist(),
-        strict=True,
-    ):
-        if value > 0.0:
-            groups[group].add((vertex,), value, "REPLACE")
-    _remember_groups(source, armature, [group.name for group in groups])
-    _attach(source, armature)
-
-
-def bind_by_heat(source: bpy.types.Object, armature: bpy.types.Object, rig: Rig) -> bool:
-    """Blender's automatic weights. Whether every vertex got one; if not, nothing is bound."""
-    _forget_groups(source, armature)
-    kept, before = list(source.modifiers), _names(source)
-    parent = source.parent, source.parent_type, source.parent_bone
-    inverse, world = source.matrix_parent_inverse.copy(), source.matrix_world.copy()
-    with _active(armature):
-        source.select_set(True)
-        bpy.ops.object.parent_set(type="ARMATURE_AUTO")
-    source.parent, source.parent_type, source.parent_bone = parent
-    source.matrix_parent_inverse, source.matrix_world = inverse, world
-    for modifier in [m for m in source.modifiers if m not in kept]:
-        source.modifiers.remove(modifier)
-    made = sorted(_names(source) - before)
-    _remember_groups(source, armature, made)
-    numbers = {source.vertex_groups[name].index for name in made}
-    if any(numbers.isdisjoint(g.group for g in v.groups) for v in source.data.vertices):
-        _forget_groups(source, armature)
-        return False
-    _attach(source, armature)
-    return True
-
-
-def _fill(armature: bpy.types.Armature, rig: Rig, taken: set[str]) -> None:
-    """Give the armature the bones of a rig; a bone that was made before for the same place in it is used again.
-
-    `taken` are names of vertex groups that belong to something else, which no bone may have.
-    """
-    bones, made = rig.bones, []
-    old = {bone[_MADE]: bone for bone in armature.edit_bones if _MADE in bone}
-    for name in old.keys() - set(rig.names):
-        armature.edit_bones.remove(old.pop(name))
-    for number, name in enumerate(rig.names):
-        bone = old.get(name)
-        if bone is None:
-            bone = armature.edit_bones.new(_free_name(name, taken))
-            bone[_MADE] = name
-        bone.use_connect, bone.parent = False, None
-        made.append(bone)
-        bone.head, bone.tail = bones.head[number].tolist(), bones.tail[number].tolist()
-        bone.head_radius = float(bones.head_radius[number])
-        bone.tail_radius = float(bones.tail_radius[number])
-    for number, bone in enumerate(made):
-        if bones.parent[number] >= 0:
-            bone.parent, bone.use_connect = made[bones.parent[number]], True
-
-
-def _free_name(name: str, taken: set[str]) -> str:
-    """The name, or the first with a number behind it that no foreign vertex group has."""
-    numbered = (f"{name}.{number:03d}" for number in itertools.count(1))
-    return name if name not in taken else next(n for n in numbered if n not in taken)
-
-
-def _bones_of(armature: bpy.types.Object, rig: Rig) -> list[str]:
+def bones_of(armature: bpy.types.Object, source: bpy.types.Object, rig: Rig) -> list[str]:
     """The bones of a rig by the names that they have in the armature, in the order of the rig."""
-    names = {bone[_MADE]: bone.name for bone in armature.data.bones if _MADE in bone}
+    mark = MADE + (mark_of(armature, source) or "")
+    names = {bone[mark]: bone.name for bone in armature.data.bones if mark in bone}
     return [names[name] for name in rig.names]
 
 
-def _attach(source: bpy.types.Object, armature: bpy.types.Object) -> None:
-    """The armature as modifier and parent; the source stays where it is.
-
-    What an artist hung the source on stays its parent, and becomes that of the armature.
-    """
-    bound = [m for m in source.modifiers if m.type == "ARMATURE" and m.object == armature]
-    if not bound:
-        source.modifiers.new(MODIFIER, "ARMATURE").object = armature
-    if source.parent in (None, armature):
-        child, parent = source, armature
-        kind, bone = "OBJECT", ""
-    else:
-        child, parent = armature, source.parent
-        kind, bone = source.parent_type, source.parent_bone
-    world = child.matrix_world.copy()
-    child.parent, child.parent_type, child.parent_bone = parent, kind, bone
-    child.matrix_parent_inverse = inverse_of(parent.matrix_world)
-    child.matrix_world = world
-
-
-def _mark_older(armature: bpy.types.Object) -> None:
-    """Mark the bones and groups of an armature from before they were marked: all of its bones were made here."""
-    bones = armature.data.bones
-    if len(bones) and not any(_MADE in bone for bone in bones):
-        for bone in bones:
-            bone[_MADE] = bone.name
-        _set_groups(armature, [bone.name for bone in bones])
-
-
-def _names(source: bpy.types.Object) -> set[str]:
-    return {group.name for group in source.vertex_groups}
-
-
-def _own_groups(armature: bpy.types.Object) -> list[str]:
-    """The vertex groups that were made for this armature, by the names that they have now."""
-    now = {bone[_GROUP]: bone.name for bone in armature.data.bones if _GROUP in bone}
-    return [now.get(name, name) for name in armature.get(_GROUPS, "").splitlines()]
-
-
-def _set_groups(armature: bpy.types.Object, names: list[str]) -> None:
-    armature[_GROUPS] = "\n".join(names)
-    for bone in armature.data.bones:
-        if bone.name in names:
-            bone[_GROUP] = bone.name
-
-
-def _remember_groups(
-    source: bpy.types.Object, armature: bpy.types.Object, names: list[str]
-) -> None:
-    _set_groups(armature, names)
-    armature[_WEIGHTS] = _hash_of_weights(source, names)
-
-
-def _forget_groups(source: bpy.types.Object, armature: bpy.types.Object) -> None:
-    """Remove the vertex groups that were made for this armature before."""
-    for name in _own_groups(armature):
-        if group := source.vertex_groups.get(name):
-            source.vertex_groups.remove(group)
-    _set_groups(armature, [])
-
-
-def _is_painted(source: bpy.types.Object, armature: bpy.types.Object) -> bool:
-    """Whether someone changed the weights since they were made; groups that are gone have nothing to lose."""
-    names = _own_groups(armature)
-    if _names(source).isdisjoint(names) or _WEIGHTS not in armature:
-        return False
-    return armature[_WEIGHTS] != _hash_of_weights(source, names)
-
-
-def _hash_of_weights(source: bpy.types.Object, names: list[str]) -> str:
-    """A hash of the weights in some groups, whatever these are called."""
-    place = {name: number for number, name in enumerate(names)}
-    column = {group.index: place.get(group.name) for group in source.vertex_groups}
-    digest = hashlib.blake2b(digest_size=16)
-    for vertex in source.data.vertices:
-        rows = ((column[g.group], g.weight) for g in vertex.groups)
-        digest.update(repr(sorted(row for row in rows if row[0] is not None)).encode())
-    return digest.hexdigest()
-
-
 @contextmanager
-def _active(thing: bpy.types.Object) -> Iterator[None]:
+def active(thing: bpy.types.Object) -> Iterator[None]:
     """One object active and selected alone, as Blender's operators want it; then as it was."""
     layer = bpy.context.view_layer
-    active, selected = layer.objects.active, list(bpy.context.selected_objects)
+    before, selected = layer.objects.active, list(bpy.context.selected_objects)
     for other in selected:
         other.select_set(False)
     layer.objects.active = thing
@@ -303,6 +188,124 @@ def _active(thing: bpy.types.Object) -> Iterator[None]:
         yield
     finally:
         thing.select_set(False)
-        layer.objects.active = active
+        layer.objects.active = before
         for other in selected:
             other.select_set(True)
+
+
+def _new_mark(armature: bpy.types.Object, source: bpy.types.Object) -> str:
+    """The mark of a source in an artist's armature, which is given to it where it has none."""
+    mark = mark_of(armature, source)
+    if mark is None:
+        marks = (f"_{number}" for number in itertools.count(1))
+        mark = next(mark for mark in marks if SOURCE + mark not in armature)
+        armature[SOURCE + mark] = source
+    return mark
+
+
+def _check_lengths(rig: Rig, to_local: NDArray[np.float64]) -> None:
+    along = (rig.bones.tail - rig.bones.head) @ to_local[:3, :3].T
+    shortest = float(np.linalg.norm(along, axis=1).min(initial=np.inf))
+    if shortest <= _SHORTEST:
+        raise InvalidInputError(
+            f"Expected bones longer than {_SHORTEST:g}, for Blender deletes shorter ones, found one of "
+            f"{shortest:.2g}; scale the object up"
+        )
+
+
+def _move_others(armature: bpy.types.Armature, moved: NDArray[np.float64]) -> None:
+    """Keep the bones of an artist in place when the frame of the armature has changed."""
+    if np.allclose(moved, np.eye(4), rtol=0.0, atol=1e-12):
+        return
+    for bone in armature.edit_bones:
+        if MADE not in bone:
+            up = Vector(moved[:3, :3] @ np.array(bone.z_axis))
+            ends = [moved[:3, :3] @ np.array(end) + moved[:3, 3] for end in (bone.head, bone.tail)]
+            bone.head, bone.tail = (end.tolist() for end in ends)
+            bone.align_roll(up)
+
+
+def _fill(
+    armature: bpy.types.Armature,
+    rig: Rig,
+    to_local: NDArray[np.float64],
+    mark: str,
+    taken: set[str],
+    ik: bool,
+) -> None:
+    """Give the armature the bones of a rig; a bone that was made before for the same place in it is used again."""
+    bones, turn = rig.bones, to_local[:3, :3]
+    head, tail = (ends @ turn.T + to_local[:3, 3] for ends in (bones.head, bones.tail))
+    scale = abs(float(np.linalg.det(turn))) ** (1.0 / 3.0)
+    key = MADE + mark
+    limbs = [limb for limb in rig.limbs if len(limb) > 1] if ik else []
+    targets = [target_of(rig.names[limb[0]]) for limb in limbs]
+    old = {bone[key]: bone for bone in armature.edit_bones if key in bone}
+    for name in old.keys() - {*rig.names, *targets}:
+        armature.edit_bones.remove(old.pop(name))
+    made = [_bone(armature, old, key, name, taken) for name in (*rig.names, *targets)]
+    for number, bone in enumerate(made[: bones.count]):
+        _lay(bone, head[number], tail[number], turn @ bones.up[number])
+        bone.head_radius = scale * float(bones.head_radius[number])
+        bone.tail_radius = scale * float(bones.tail_radius[number])
+    for number, bone in enumerate(made[: bones.count]):
+        if bones.parent[number] >= 0:
+            bone.parent = made[bones.parent[number]]
+            bone.use_connect = bool(bones.connected[number])
+    for limb, bone in zip(limbs, made[bones.count :], strict=True):
+        last = limb[-1]
+        beyond = tail[last] + (tail[last] - head[last]) / 2
+        _lay(bone, tail[last], beyond, turn @ bones.up[last])
+        bone.use_deform = False
+
+
+def _bone(
+    armature: bpy.types.Armature,
+    old: dict[str, bpy.types.EditBone],
+    key: str,
+    name: str,
+    taken: set[str],
+) -> bpy.types.EditBone:
+    bone = old.get(name)
+    if bone is None:
+        bone = armature.edit_bones.new(_free_name(name, taken))
+        bone[key] = name
+    bone.use_connect, bone.parent = False, None
+    return bone
+
+
+def _lay(
+    bone: bpy.types.EditBone,
+    head: NDArray[np.float64],
+    tail: NDArray[np.float64],
+    up: NDArray[np.float64],
+) -> None:
+    bone.head, bone.tail = head.tolist(), tail.tolist()
+    bone.align_roll(Vector(up.tolist()))
+
+
+def _free_name(name: str, taken: set[str]) -> str:
+    """The name, or the first with a number behind it that no foreign vertex group has."""
+    numbered = (f"{name}.{number:03d}" for number in itertools.count(1))
+    return name if name not in taken else next(n for n in numbered if n not in taken)
+
+
+def _constrain(armature: bpy.types.Object, rig: Rig, mark: str, ik: bool) -> None:
+    """Let limbs reach for their targets; their joints but the first turn about one axis, so they bend in a plane."""
+    key = MADE + mark
+    by_name = {
+        bone[key]: armature.pose.bones[bone.name] for bone in armature.data.bones if key in bone
+    }
+    for bone in by_name.values():
+        for constraint in [c for c in bone.constraints if c.type == "IK" and c.name == _IK]:
+            bone.constraints.remove(constraint)
+            bone.lock_ik_y = bone.lock_ik_z = False
+    for limb in [limb for limb in rig.limbs if len(limb) > 1] if ik else []:
+        last = by_name[rig.names[limb[-1]]]
+        reach = last.constraints.new("IK")
+        reach.name, reach.target = _IK, armature
+        reach.subtarget = by_name[target_of(rig.names[limb[0]])].name
+        reach.chain_count = len(limb)
+        for number in limb[1:]:
+            bone = by_name[rig.names[number]]
+            bone.lock_ik_y = bone.lock_ik_z = True

@@ -480,6 +480,28 @@ class SkeletonSettings(Options):
 
 
 SKELETON_OPTIONS = options_of(SkeletonSettings)
+
+
+@dataclass(frozen=True)
+class RigSettings(Options):
+    """The bones that a rig has along a skeleton."""
+
+    per_limb: int = integer(
+        "Bones per Limb",
+        "The number of bones along each limb, where there is room for so many; "
+        "0: as many as its bends and its length need",
+        default=0,
+        limits=(0, 100),
+        soft_limits=(0, 8),
+    )
+    ik: bool = switch(
+        "IK",
+        "Each limb with two or more bones gets a target that it reaches for; its joints bend in their plane",
+        default=False,
+    )
+
+
+RIG_OPTIONS = options_of(RigSettings)
 BIND = Choice(
     label="Bind",
     description="How the object follows the armature",

@@ -5,13 +5,8 @@ from functools import partial
 
 import bpy
 
-from ..bridge.armature_object import (
-    bind_by_axis,
-    bind_by_heat,
-    check_armature_writable,
-    in_rest,
-    write_armature,
-)
+from ..bridge.armature_object import check_no_other, find_armature, in_rest, write_armature
+from ..bridge.bind_armature import bind_by_axis, bind_by_heat, check_bindable, groups_of_others
 from ..bridge.read_object import read_object
 from ..bridge.skeleton_object import (
     check_parts_writable,
@@ -20,7 +15,14 @@ from ..bridge.skeleton_object import (
     write_skeleton,
 )
 from ..bridge.source_state import same_state
-from ..core.settings import BIND, LOOKS, OPTIONS, SKELETON_OPTIONS, SkeletonSettings
+from ..core.settings import (
+    BIND,
+    LOOKS,
+    OPTIONS,
+    RIG_OPTIONS,
+    SKELETON_OPTIONS,
+    SkeletonSettings,
+)
 from ..core.skeleton.compute import compute_skeleton
 from ..core.skeleton.rig import compute_rig
 from .compute_operator import ComputeOperator
@@ -109,8 +111,18 @@ class OBJECT_OT_medial_axis_skeleton(
         )
 
 
+@with_options(RIG_OPTIONS)
+class RigProperties:
+    """The options of the bones of an armature."""
+
+
 class OBJECT_OT_medial_axis_armature(
-    ComputeOperator, SamplingProperties, SkeletonProperties, ArmatureProperties, bpy.types.Operator
+    ComputeOperator,
+    SamplingProperties,
+    SkeletonProperties,
+    ArmatureProperties,
+    RigProperties,
+    bpy.types.Operator,
 ):
     bl_idname = "object.medial_axis_armature"
     bl_label = "Make Armature"
@@ -128,15 +140,23 @@ class OBJECT_OT_medial_axis_armature(
         description="Replace weights also where they were painted since they were made",
         default=False,
     )
+    armature: bpy.props.StringProperty(
+        name="Armature",
+        description="Add the bones to this armature; without a name, the object gets one of its own",
+    )
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in ("bind", "replace_weights", *SKELETON_OPTIONS, "sides", "sampling"):
+        for name in (*RIG_OPTIONS, "bind", "replace_weights"):
+            self.layout.prop(self, name)
+        self.layout.prop_search(self, "armature", bpy.data, "objects")
+        for name in (*SKELETON_OPTIONS, "sides", "sampling"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
     def check_writable(self, thing):
-        check_armature_writable(thing, self.bind != "NONE", self.replace_weights)
+        check_bindable(thing, self.bind != "NONE", self.replace_weights)
+        check_no_other(thing, find_armature(self.armature))
 
     def read(self, thing, _depsgraph):
         with in_rest(thing):
@@ -144,10 +164,11 @@ class OBJECT_OT_medial_axis_armature(
 
     def work(self, shape):
         settings, wanted = settings_from(self), settings_from(self, SkeletonSettings)
-        return partial(compute_rig, shape, settings, wanted, limit=memory_limit())
+        return partial(compute_rig, shape, settings, wanted, self.per_limb, limit=memory_limit())
 
     def write(self, thing, rig, frame):
-        made = write_armature(thing, rig, frame)
+        taken, into = groups_of_others(thing), find_armature(self.armature)
+        made = write_armature(thing, rig, frame, taken, self.ik, into)
         with same_state(thing):
             self._bind(thing, made, rig)
         return made

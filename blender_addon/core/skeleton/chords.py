@@ -7,6 +7,7 @@ stays inside if such balls around places along it cover it. An edge that they do
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -66,25 +67,44 @@ def kept_inside(
         kept = np.union1d(kept, pairs.sum(axis=1) // 2)
 
 
-def keep_inside(net: Net, depth: Depth) -> None:
+def keep_inside(net: Net, depth: Depth) -> int:
     """Add points to a net where the way between two neighbours leaves the solid; radii are distances to the surface.
 
-    Neighbours that are too far apart for one ball between them stay as they are.
+    Returns
+    -------
+    outside : int
+        So many edges still leave it: no ball between their ends overlaps those at both.
     """
+    edges = [(name, *pair) for name, chain in net.branches.items() for pair in pairwise(chain)]
+    outside = 0
     for _ in range(_ROUNDS):
-        edges = [
-            (name, place) for name, chain in net.branches.items() for place in range(1, len(chain))
-        ]
-        ends = [net.branches[name][at - 1 : at + 1] for name, at in edges]
-        rows = np.array(ends, np.intp).reshape(-1, 2)
-        bad = np.flatnonzero(leave(net.points[rows], net.radius[rows], depth))
-        if not len(bad):
-            return
-        for i in bad[::-1]:  # from the end of a branch, so that positions before it stay
-            place = _between(net.points[rows[i]], net.radius[rows[i]], depth)
-            if place is not None:
-                name, at = edges[i]
-                net.insert(name, at, place, float(depth(place[None])[0]))
+        edges, lost = _split(net, edges, depth)
+        outside += lost
+    return outside + len(_leaving(net, edges, depth))
+
+
+def _split(
+    net: Net, edges: list[tuple[int, int, int]], depth: Depth
+) -> tuple[list[tuple[int, int, int]], int]:
+    """Split the edges that leave the solid, and return the halves, and the number of those that cannot be split."""
+    halves, lost = [], 0
+    for name, a, b in _leaving(net, edges, depth):
+        place = _between(net.points[[a, b]], net.radius[[a, b]], depth)
+        if place is None:
+            lost += 1
+            continue
+        at = list(pairwise(net.branches[name])).index((a, b)) + 1
+        middle = net.insert(name, at, place, float(depth(place[None])[0]))
+        halves += [(name, a, middle), (name, middle, b)]
+    return halves, lost
+
+
+def _leaving(
+    net: Net, edges: list[tuple[int, int, int]], depth: Depth
+) -> list[tuple[int, int, int]]:
+    rows = np.array([ends for _, *ends in edges], np.intp).reshape(-1, 2)
+    bad = leave(net.points[rows], net.radius[rows], depth)
+    return [edges[i] for i in np.flatnonzero(bad)]
 
 
 def _between(

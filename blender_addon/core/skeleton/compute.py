@@ -59,6 +59,8 @@ class Skeletonization(OfChosenSamples):
         They count the small loops that were cut and filled.
     mirrored : bool
         Both halves were replaced by their mean.
+    outside : int
+        So many edges of the skeleton leave the solid.
     chosen : ChosenSamples
         The samples that were analysed, the reason for them, and their density.
     warnings : tuple of str
@@ -71,6 +73,7 @@ class Skeletonization(OfChosenSamples):
     parts: Parts
     loops: Loops
     mirrored: bool
+    outside: int
     chosen: ChosenSamples
     warnings: tuple[str, ...]
     seconds: float
@@ -112,7 +115,7 @@ def compute_skeleton(
     mirrored = wanted.mirror and make_symmetric(net, plane)
     if mirrored:
         inscribe(net, depth, plane)
-    keep_inside(net, depth)
+    outside = keep_inside(net, depth)
     place = places(net, names).of(net.stands_for()[owner])
     sample = _samples_of_vertices(shape, chosen)
     return Skeletonization(
@@ -121,10 +124,11 @@ def compute_skeleton(
         parts=parts_of(place.of(sample), shape.triangles),
         loops=loops,
         mirrored=mirrored,
+        outside=outside,
         chosen=chosen,
         warnings=(
             *reading_warnings(begun.shape),
-            *skeleton_warnings(chosen, loops, sheets),
+            *skeleton_warnings(chosen, loops, sheets, outside),
         ),
         seconds=begun.seconds,
     )

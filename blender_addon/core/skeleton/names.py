@@ -1,99 +1,125 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones are named by chain, from the root outwards, with .L or .R if a chain has a mirror image.
+"""Bones are named by what the shape tells of their chains, in order from head to tail and from the root outwards.
 
-`limb.02.03.L` is the third bone of the second chain that ends in a tip, and `limb.02.03.R` is its mirror image in X;
-chains between forks are called trunk. Left means positive X, as in Blender. No limb is guessed to be an arm or a leg.
+Where a body has two sides, its root is called pelvis if limbs go out on both; the bones between the sides are called
+spine, head and tail. `limb.02.03.L` is the third bone of the second limb, and `limb.02.03.R` its mirror image; chains
+between forks are called trunk. Left means positive X, as in Blender. No limb is guessed to be an arm or a leg.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from ..small_matrices import length_of
+from .roll import upright
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from .bones import Bones
-
-SYMMETRIC = 0.02  # a mirror image may be off by this share of the size
+    from .bones import Body
 
 
-def names_of(bones: Bones, centre: NDArray[np.float64]) -> list[str]:
-    """Return a name for each bone.
-
-    Parameters
-    ----------
-    bones : Bones
-    centre : (3,) float64
-        It lies on the mirror plane.
-    """
-    chains = [
-        np.flatnonzero(bones.chain == chain) for chain in range(bones.chain.max(initial=-1) + 1)
-    ]
-    roots = [chain for chain in chains if bones.parent[chain[0]] < 0]
-    names = [""] * bones.count
-    for number, chain in enumerate(roots):
-        names[chain[0]] = "root" if number == 0 else f"root.{number + 1:02d}"
-    for word, to_tip in (("trunk", False), ("limb", True)):
-        alike = [c for c in chains if bones.parent[c[0]] >= 0 and bones.to_tip[c[0]] == to_tip]
-        for number, side, chain in _numbered(bones, alike, centre):
-            for step, bone in enumerate(chain):
-                names[bone] = f"{word}.{number:02d}.{step + 1:02d}{side}"
+def names_of(bodies: list[Body], count: int) -> list[str]:
+    """Return a name for each of `count` bones; those of further bodies begin with a number."""
+    names = [""] * count
+    for number, body in enumerate(bodies):
+        for bone, name in _names_of_body(body).items():
+            names[bone] = name if number == 0 else f"{number + 1:02d}.{name}"
     return names
 
 
-def _numbered(
-    bones: Bones, chains: list[NDArray[np.intp]], centre: NDArray[np.float64]
-) -> list[tuple[int, str, NDArray[np.intp]]]:
-    """Return number, side and bones of each chain, sorted from top to bottom, then along Y.
+def limbs_of(bodies: list[Body]) -> list[list[int]]:
+    """Return the bones of each limb, that is of each chain that ends in a tip, without the root."""
+    found = [
+        [bone for bone in bones if bone != body.root]
+        for body in bodies
+        for chain, bones in zip(body.tree, body.bones, strict=True)
+        if chain.to_tip
+    ]
+    return [bones for bones in found if bones]
 
-    Mirror images have the same number.
+
+def _names_of_body(body: Body) -> dict[int, str]:
+    forked = any(
+        chain.parent < 0 and body.sides.partner[n] >= 0 for n, chain in enumerate(body.tree)
+    )
+    middle = _of_the_middle(body)
+    names: dict[int, str] = {}
+    for word, chains in middle.items():
+        bones = [bone for number in chains for bone in body.bones[number] if bone != body.root]
+        names |= {bone: f"{word}.{step + 1:02d}" for step, bone in enumerate(bones)}
+    rest = [n for n in _from_head_to_tail(body) if not any(n in m for m in middle.values())]
+    for word, to_tip in (("trunk", False), ("limb", True)):
+        alike = [n for n in rest if body.tree[n].to_tip == to_tip]
+        for number, chains in enumerate(_with_partners(body, alike)):
+            for side, chain in chains.items():
+                bones = [bone for bone in body.bones[chain] if bone != body.root]
+                names |= {
+                    bone: f"{word}.{number + 1:02d}.{step + 1:02d}{side}"
+                    for step, bone in enumerate(bones)
+                }
+    return names | {body.root: "pelvis" if forked else "root"}
+
+
+def _of_the_middle(body: Body) -> dict[str, list[int]]:
+    """Return the chains of spine, head and tail, from the root outwards; there are none without two sides."""
+    if not body.sides.found or body.spine < 0:
+        return {}
+    way = [body.spine]
+    while (after := body.goes_on[way[-1]]) >= 0 and body.sides.within[after]:
+        way.append(after)
+    head = way[-1:] if len(way) > 1 and body.tree[way[-1]].to_tip else []
+    tails = [
+        number
+        for number, chain in enumerate(body.tree)
+        if chain.parent < 0 and chain.to_tip and body.sides.within[number] and number not in way
+    ]
+    tail = max(tails, key=lambda n: (body.tree[n].length, -n), default=None)
+    return {
+        "spine": [number for number in way if number not in head],
+        "head": head,
+        "tail": [] if tail is None else [tail],
+    }
+
+
+def _from_head_to_tail(body: Body) -> list[int]:
+    """Return the chains by the place where their way leaves the spine, that farthest from the root first.
+
+    Of those that leave at one place the nearest to the root comes first, then the longest, then the highest.
     """
-    ends = np.array([bones.tail[chain[-1]] for chain in chains]).reshape(-1, 3) - centre
-    partner = _partners(bones, chains, centre)
-    found, number = [], 0
-    for index in np.lexsort((-ends[:, 0], ends[:, 1], -ends[:, 2])):
-        other = partner[index]
-        if other >= 0 and ends[index, 0] < 0.0:
-            continue  # it is named together with its partner
-        number += 1
+    up, _ = upright(body.sides.normal)
+    spine = {body.spine}
+    leaves = [0.0] * len(body.tree)  # how far from the root, along the spine
+    for number, chain in enumerate(body.tree):
+        if chain.parent in spine:
+            leaves[number] = chain.from_root
+            if body.goes_on[chain.parent] == number:
+                spine.add(number)
+        elif chain.parent >= 0:
+            leaves[number] = leaves[chain.parent]
+    size = max(chain.from_root + chain.length for chain in body.tree)
+
+    def key(number: int) -> tuple[float, ...]:
+        chain = body.tree[number]
+        rise = float((chain.points[-1] - chain.points[0]) @ up)
+        shares = (leaves[number], -chain.from_root, chain.length, rise)
+        return tuple(-round(share / size, 2) for share in shares)
+
+    return sorted(range(len(body.tree)), key=key)
+
+
+def _with_partners(body: Body, chains: list[int]) -> list[dict[str, int]]:
+    """Return the chains in order, by side: those that are a pair come together."""
+    found = []
+    for number in chains:
+        other = int(body.sides.partner[number])
         if other < 0:
-            found.append((number, "", chains[index]))
-        else:
-            found += [(number, ".L", chains[index]), (number, ".R", chains[other])]
+            found.append({"": number})
+        elif body.sides.is_left(body.tree[number]):
+            found.append({".L": number, ".R": other})
     return found
 
 
-def _partners(
-    bones: Bones, chains: list[NDArray[np.intp]], centre: NDArray[np.float64]
-) -> NDArray[np.int64]:
-    """Return the mirror image of each chain on the other side; it is -1 if there is none, or if there are several."""
-    partner = np.full(len(chains), -1, np.int64)
-    if not chains:
-        return partner
-    size = length_of(np.ptp(np.concatenate((bones.head, bones.tail)), axis=0))
-    middles = np.array([_at_middle(bones, chain) for chain in chains]) - centre
-    ends = np.array([bones.tail[chain[-1]] for chain in chains]) - centre
-    mirror = np.array([-1.0, 1.0, 1.0])
-    off = np.maximum(_distances(ends * mirror, ends), _distances(middles * mirror, middles))
-    close = off <= SYMMETRIC * size
-    aside = np.abs(ends[:, 0]) > SYMMETRIC * size
-    for index in np.flatnonzero(aside):
-        images = np.flatnonzero(close[index])
-        if len(images) == 1 and close[:, index].sum() == 1 and close[images[0], index]:
-            partner[index] = images[0]
-    return partner
-
-
-def _at_middle(bones: Bones, chain: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return the point half-way along a chain."""
-    joints = np.concatenate((bones.head[chain[:1]], bones.tail[chain]))
-    marks = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(joints, axis=0), axis=1))))
-    return np.array([np.interp(marks[-1] / 2, marks, joints[:, axis]) for axis in range(3)])
-
-
-def _distances(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.linalg.norm(a[:, None] - b[None], axis=2)
+def target_of(name: str) -> str:
+    """Return the name for the target of a limb from that of its first bone: `IK.limb.02.L` from `limb.02.01.L`."""
+    stem, _, side = name.rpartition(".")
+    if side not in ("L", "R"):
+        return f"IK.{stem}"
+    return f"IK.{stem.rpartition('.')[0]}.{side}"

@@ -143,14 +143,15 @@ class Net:
         way = [*kept, tip]
         self.branches[name] = way if chain[0] == way[0] else way[::-1]
 
-    def insert(self, name: int, at: int, place: NDArray[np.float64], radius: float) -> None:
-        """Add a point to a branch before the one at position `at`, which is not its first."""
+    def insert(self, name: int, at: int, place: NDArray[np.float64], radius: float) -> int:
+        """Add a point to a branch before the one at position `at`, which is not its first, and return its row."""
         row = len(self.points)
         self.points = np.concatenate((self.points, place[None]))
         self.radius, self.load = np.append(self.radius, radius), np.append(self.load, 0.0)
         self.moved = np.append(self.moved, row)
         chain = self.branches[name]
         self.branches[name] = [*chain[:at], row, *chain[at:]]
+        return row
 
     def cut(self, name: int) -> None:
         """Remove a branch of a loop; each half leaves its load to the node at its end."""

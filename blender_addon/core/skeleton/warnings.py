@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from .rules import Loops
 
 
-def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int) -> list[str]:
+def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int, outside: int) -> list[str]:
     """Return the warnings, the most important first.
 
     Parameters
@@ -20,6 +20,8 @@ def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int) -> list[
         They count the small loops that were cut and filled.
     sheets : int
         The number of facets of closed sheets, which have no curve.
+    outside : int
+        The number of edges that leave the solid.
     """
     found = []
     if chosen.thinned:
@@ -27,6 +29,11 @@ def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int) -> list[
     if sheets:
         found.append(
             f"{sheets:,} facets of the axis are closed sheets round cavities, which have no curve; fill the cavities"
+        )
+    if outside:
+        found.append(
+            f"{outside:,} edges of the skeleton leave the solid, where it is thinner than their ends are apart; "
+            "take more samples"
         )
     if loops.cut:
         found.append(

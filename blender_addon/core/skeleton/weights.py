@@ -3,7 +3,7 @@
 
 A vertex follows the bone next to it. Near a joint within a chain the two bones share the vertices. At the rim of the
 part of a limb and its descendants, vertices follow the parent bone of the limb: so the weights are continuous, and no
-limb moves the skin of another one.
+limb moves the skin of another one. Then they diffuse along the surface, as heat does, over half the radius of the limb.
 """
 
 from __future__ import annotations
@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from .parts import Places
 
 MOST = 4  # a vertex follows at most so many bones
-_SMOOTHED = 2  # the weights are averaged with those of the neighbours so many times
+_DIFFUSED = 0.5  # weights diffuse so far, as a share of the radius of the limb
+_SHORT = 1e-6  # the square of an edge counts as no less than this share of the mean
+_CLOSE, _MOST_STEPS = 1e-3, 200  # weights are solved for up to this error, in at most so many steps
 
 
 def axis_weights(
@@ -50,8 +52,7 @@ def axis_weights(
     _to_nearest(weight, chain, bones, vertices)
     graph = graph_of(vertices, edges)
     _share_with_parents(weight, chain, bones, vertices, edges)
-    for _ in range(_SMOOTHED):
-        _smooth(weight, graph)
+    _diffuse(weight, graph, bones)
     bone = np.argsort(-weight, axis=1, kind="stable")[:, :MOST]
     found = np.take_along_axis(weight, bone, axis=1)
     missing = MOST - bone.shape[1]
@@ -67,7 +68,10 @@ def edges_of(triangles: NDArray[np.int32]) -> NDArray[np.int32]:
 
 
 def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -> NDArray[np.int64]:
-    """Give each vertex the bone next to it, and return the chain of that bone, or -1 if there is none."""
+    """Give each vertex the bone next to it, and return the chain of that bone, or -1 if there is none.
+
+    A stub follows the bone at whose end it lies.
+    """
     chain = np.full(len(weight), -1, np.int64)
     length = np.linalg.norm(bones.tail - bones.head, axis=1)
     for bone in np.flatnonzero(bones.branch >= 0):
@@ -77,7 +81,13 @@ def _along_branches(weight: NDArray[np.float64], bones: Bones, places: Places) -
         here &= (places.along <= high) if closed else (places.along < high)
         chain[here] = bones.chain[bone]
         weight[here, bone] = 1.0
-    for bone in np.flatnonzero(bones.branch >= 0):
+    stubs = bones.stubs
+    for branch, (low, high), bone in zip(stubs.branch, stubs.along, stubs.bone, strict=True):
+        here = (places.branch == branch) & (places.along >= low) & (places.along <= high)
+        chain[here] = bones.chain[bone]
+        weight[here] = 0.0
+        weight[here, bone] = 1.0
+    for bone in np.flatnonzero(bones.parent >= 0):
         before = bones.parent[bone]
         if bones.chain[before] == bones.chain[bone]:
             _blend(weight, bones, places, before, bone, length)
@@ -176,17 +186,56 @@ def _all_below(name: int, bones: Bones, first: NDArray[np.int64]) -> NDArray[np.
     return found
 
 
-def _smooth(weight: NDArray[np.float64], graph: Graph) -> None:
-    """Replace each weight by half of itself plus half the mean of the neighbours; the sum of each vertex stays."""
-    count = np.diff(graph.first)
-    joined = np.flatnonzero(count)
-    if not len(joined):
+def _diffuse(weight: NDArray[np.float64], graph: Graph, bones: Bones) -> None:
+    """Let weights diffuse along the edges, in one implicit step of the heat equation; the sum of each vertex stays.
+
+    They remain between 0 and 1, and a surface with twice as many vertices gets the same.
+    """
+    if not len(graph.to):
         return
+    far = _DIFFUSED * (weight @ ((bones.head_radius + bones.tail_radius) / 2))
+    square = np.maximum(graph.length**2, _SHORT * float((graph.length**2).mean()))
+    kept = 1.0 / np.maximum(far**2, _SHORT * float(square.mean()))
+    flow = _Flow(graph, 1.0 / square, kept)
     for bone in range(weight.shape[1]):
-        column = weight[:, bone]
-        if column.any():
-            total = np.add.reduceat(column[graph.to], graph.first[joined])
-            weight[joined, bone] = (column[joined] + total / count[joined]) / 2
+        if weight[:, bone].any():
+            weight[:, bone] = np.clip(
+                flow.solved(kept * weight[:, bone], weight[:, bone]), 0.0, 1.0
+            )
+    weight /= weight.sum(axis=1, keepdims=True)
+
+
+class _Flow:
+    """Solves (kept + Laplacian) x = right by conjugate gradients, each unknown scaled by its diagonal."""
+
+    def __init__(self, graph: Graph, along: NDArray[np.float64], kept: NDArray[np.float64]) -> None:
+        self._to, self._along = graph.to, along
+        self._joined = np.flatnonzero(np.diff(graph.first))
+        self._first = graph.first[self._joined]
+        self._diagonal = kept.copy()
+        self._diagonal[self._joined] += np.add.reduceat(along, self._first)
+
+    def _times(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        found = self._diagonal * x
+        found[self._joined] -= np.add.reduceat(self._along * x[self._to], self._first)
+        return found
+
+    def solved(self, right: NDArray[np.float64], start: NDArray[np.float64]) -> NDArray[np.float64]:
+        x = start.copy()
+        rest = right - self._times(x)
+        way = scaled = rest / self._diagonal
+        size = float((rest * scaled).sum())
+        for _ in range(_MOST_STEPS):
+            if np.abs(scaled).max() <= _CLOSE:
+                break
+            across = self._times(way)
+            step = size / float((way * across).sum())
+            x += step * way
+            rest = rest - step * across
+            scaled = rest / self._diagonal
+            before, size = size, float((rest * scaled).sum())
+            way = scaled + (size / before) * way
+        return x
 
 
 def _smoothstep(x: NDArray[np.float64]) -> NDArray[np.float64]:
