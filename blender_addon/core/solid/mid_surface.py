@@ -29,6 +29,7 @@ from ..settings import Form, MidSurfaceSettings, Settings, Side
 from .carried_sheets import CarriedSheets, Walls, carried
 from .even_triangles import divided
 from .thin_sheets import thin_sheets
+from .united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -164,7 +165,7 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
         axis=1,
     )
     along = sheets.vertices[ends[:, 0]] - sheets.vertices[ends[:, 1]]
-    row = _united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
+    row = united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
     triangles = row[sheets.triangles]
     kept = (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
     used, triangles = np.unique(triangles[kept], return_inverse=True)
@@ -174,20 +175,6 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
         sheets.part[kept],
         sheets.at_corners[kept],
     )
-
-
-def _united(count: int, pairs: NDArray[np.int32]) -> NDArray[np.int64]:
-    """(count,) the lowest row that pairs connect each row with."""
-    label = np.arange(count)
-    while True:
-        found = label.copy()
-        lowest = label[pairs].min(axis=1, initial=count)
-        for end in pairs.T:
-            np.minimum.at(found, end, lowest)
-        found = found[found]
-        if np.array_equal(found, label):
-            return label
-        label = found
 
 
 @dataclass(frozen=True, eq=False)
@@ -314,7 +301,7 @@ def _left_out(share: float) -> tuple[str, ...]:
 
 def _torn(triangles: NDArray[np.int32], found: Computation) -> tuple[str, ...]:
     ends = np.concatenate((triangles[:, :2], triangles[:, 1:]))
-    label = _united(int(triangles.max()) + 1, ends)
+    label = united(int(triangles.max()) + 1, ends)
     pieces = len(np.unique(label[triangles[:, 0]]))
     level = found.axis.level
     if level is None or pieces <= level.betti[0]:
