@@ -70,6 +70,7 @@ class Hollow(TriangleFaces):
     warnings: tuple[str, ...]
     seconds: float
     duplicates: int = 0
+    chosen: None = None  # nothing is sampled
 
     @property
     def points(self) -> int:

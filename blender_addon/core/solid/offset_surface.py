@@ -124,7 +124,7 @@ def _inside(cells: NDArray[np.int64], winding: Field) -> NDArray[np.int64]:
 
 def _keys(nodes: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """(n,) a number for each node, in the order of its coordinates, and (3,) what each coordinate counts."""
-    wide = int(nodes.max(initial=0)) + 4
+    wide = int(nodes.max(initial=0)) + 5  # neighbours are 2 farther on both sides
     weights = np.array((wide * wide, wide, 1))
     return (nodes + 2) @ weights, weights
 
