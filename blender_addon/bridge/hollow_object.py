@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
+from ..core.solid.drain_hole import drain_hole
 from .output_object import Product, new_object, place, remember, replace_mesh
 from .write_mesh import new_mesh
 
@@ -25,6 +26,23 @@ _AROUND = 48  # corners of the cylinder
 
 HOLLOW = Product(" Hollow", (WALL,))
 is_hollow, hollow_of, check_hollow_writable = HOLLOW.has, HOLLOW.of, HOLLOW.check_writable
+
+
+def hole_of(
+    found: Hollow, frame: NDArray[np.float64], width: float, at_cursor: bool
+) -> DrainHole:
+    """The hole in a hollow solid, at its lowest place in the world or where its wall is nearest to the 3D cursor.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+    turned = frame[:3, :3].T
+    down = turned @ (0.0, 0.0, -1.0)
+    if not at_cursor:
+        return drain_hole(found, width, down)
+    cursor = np.array(bpy.context.scene.cursor.location)
+    return drain_hole(found, width, down, turned @ (cursor - frame[:3, 3]))
 
 
 def write_hollow(

@@ -5,10 +5,9 @@ from functools import partial
 
 import bpy
 
-from ..bridge.hollow_object import check_hollow_writable, write_hollow
+from ..bridge.hollow_object import check_hollow_writable, hole_of, write_hollow
 from ..core.samples.density import share_text
 from ..core.settings import DRAIN_OPTIONS, HOLLOW_OPTIONS, LOOKS, DrainAt, HollowSettings
-from ..core.solid.drain_hole import drain_hole
 from ..core.solid.hollow import hollow
 from .compute_operator import ComputeOperator
 from .object_menus import register_with_entry, unregister_with_entry
@@ -52,18 +51,9 @@ class OBJECT_OT_medial_axis_hollow(
         return partial(hollow, shape, settings_from(self, HollowSettings))
 
     def write(self, thing, found, frame):
-        hole = None
-        if self.drain > 0.0:
-            hole = drain_hole(found, self.drain, *self._directions(frame))
+        at_cursor = self.drain_at == DrainAt.CURSOR.name
+        hole = hole_of(found, frame, self.drain, at_cursor) if self.drain > 0.0 else None
         return write_hollow(thing, found, frame, hole)
-
-    def _directions(self, frame):
-        """Down, and the place of the 3D cursor if it is meant, in the frame of the shape."""
-        turned = frame[:3, :3].T
-        if self.drain_at == DrainAt.LOWEST.name:
-            return turned @ (0.0, 0.0, -1.0), None
-        cursor = bpy.context.scene.cursor.location
-        return turned @ (0.0, 0.0, -1.0), turned @ (cursor - frame[:3, 3])
 
     def summary(self, found):
         return (
