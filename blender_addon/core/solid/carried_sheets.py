@@ -93,7 +93,7 @@ def _clear(sheets: ThinSheets, bent: NDArray[np.bool_]) -> NDArray[np.bool_]:
         at = np.zeros(len(bent), bool)
         at[sheets.triangles[of_facets[sheets.facet]]] = True
         unclear = at[sheets.triangles].any(axis=1)
-    return ~unclear
+    return ~unclear & ~sheets.sliver
 
 
 class _Planes:

@@ -41,6 +41,7 @@ _PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one 
 _SAME = 1e-7  # of the diagonal: vertices so close are one
 _NARROW = 1e-6  # triangles lower than this share of their longest edge are lines
 _PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
+_CURVED = 1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
 _SLACK = 1.4  # edges may be longer than the size by this factor, as those of even triangles of that area are
 _MOST = 0.99  # where less of the volume is sheet, a warning says so
 
@@ -187,10 +188,10 @@ class _Faces:
 
 def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -> _Faces:
     """The sheets with the faces that show their shape, or with even triangles of a size."""
-    whole, wanted = len(sheets.vertices), len(sheets.vertices)
-    if size > 0.0:
-        area = 0.5 * float(unit_normals(sheets.vertices[sheets.triangles])[1].sum())
-        wanted = min(whole, int(_PER_AREA * area / size**2) + 1)
+    whole = len(sheets.vertices)
+    area = 0.5 * float(unit_normals(sheets.vertices[sheets.triangles])[1].sum())
+    length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
+    wanted = min(whole, int(_PER_AREA * area / length**2) + 1)
     found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
     faces = cast("_Faces", found)
     if size <= 0.0:

@@ -49,6 +49,8 @@ class ThinSheets:
         The facet of the axis that each triangle is a part of.
     facing : (t,) bool
         Whether the walls face each other there; no others tell where their sheet goes on.
+    sliver : (t,) bool
+        The facet is hardly more than a line, and tells nothing.
     normals : (t, 3) float64
         Unit normals of the facets that the triangles are of.
     slopes : (t, 3) float64
@@ -63,6 +65,7 @@ class ThinSheets:
     part: NDArray[np.int32]
     facet: NDArray[np.int64]
     facing: NDArray[np.bool_]
+    sliver: NDArray[np.bool_]
     normals: NDArray[np.float64]
     slopes: NDArray[np.float64]
     parts: int
@@ -111,7 +114,8 @@ def thin_sheets(
         radius=turned.radius,
         at_edge=at_edge,
         facet=facets,
-        facing=(facing & ~slivers & _even(turned))[facets],
+        facing=(facing & _even(turned))[facets],
+        sliver=slivers[facets],
         triangles=triangulate_facets(turned.vertices, *polygons)[rows],
         part=number[part[facets]].astype(np.int32),
         normals=normals[facets],
