@@ -28,9 +28,7 @@ HOLLOW = Product(" Hollow", (WALL,))
 is_hollow, hollow_of, check_hollow_writable = HOLLOW.has, HOLLOW.of, HOLLOW.check_writable
 
 
-def hole_of(
-    found: Hollow, frame: NDArray[np.float64], width: float, at_cursor: bool
-) -> DrainHole:
+def hole_of(found: Hollow, frame: NDArray[np.float64], width: float, at_cursor: bool) -> DrainHole:
     """The hole in a hollow solid, at its lowest place in the world or where its wall is nearest to the 3D cursor.
 
     Raises

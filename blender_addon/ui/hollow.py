@@ -30,7 +30,7 @@ class OBJECT_OT_medial_axis_hollow(
     bl_idname = "object.medial_axis_hollow"
     bl_label = "Hollow"
     bl_description = (
-        "Make a hollow copy of a solid with a wall of one thickness, and a drain hole, whose cylinder can be moved"
+        "Make a hollow copy of a solid with a wall of one thickness, and with a drain hole whose cylinder can be moved"
     )
     bl_options = {"REGISTER", "UNDO"}
 

@@ -44,7 +44,8 @@ def hull(points):
 
 def inner_volume(points, wall):
     """Of the places of a convex solid that are at least so far from its faces, by Qhull."""
-    planes = ConvexHull(points).equations + (0, 0, 0, wall)
+    planes = ConvexHull(points).equations
+    planes[:, 3] += wall
     return ConvexHull(HalfspaceIntersection(planes, points.mean(axis=0)).intersections).volume
 
 
@@ -137,4 +138,6 @@ def test_files_and_figures(tmp_path, capsys):
     said = json.loads(capsys.readouterr().out.splitlines()[-1])
     assert said["volume"] == pytest.approx(720 - 120, rel=0.01)
     assert 1.95 < said["least_wall"] <= 2.0 and said["cavities"] == 1
-    assert cli.main(["hollow", source, str(tmp_path / "b.stl"), "--wall", "5", "--quiet"]) == cli.INPUT
+    assert (
+        cli.main(["hollow", source, str(tmp_path / "b.stl"), "--wall", "5", "--quiet"]) == cli.INPUT
+    )

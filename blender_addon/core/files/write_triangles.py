@@ -50,9 +50,7 @@ def export_triangles(
     return write_whole(path, lambda stream: write(placed, triangles, stream))
 
 
-def write_stl(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO
-) -> None:
+def write_stl(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
     """Write a binary `.stl`."""
     corners = points[triangles]
     facets = np.zeros(
@@ -64,24 +62,18 @@ def write_stl(
     stream.write(facets.tobytes())
 
 
-def _write_obj(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO
-) -> None:
+def _write_obj(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
     write_rows(stream, "v %.17g %.17g %.17g\n", points)
     write_rows(stream, "f %d %d %d\n", triangles + 1)
 
 
-def _write_off(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO
-) -> None:
+def _write_off(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
     stream.write(f"OFF\n{len(points)} {len(triangles)} 0\n".encode("ascii"))
     write_rows(stream, "%.17g %.17g %.17g\n", points)
     write_rows(stream, "3 %d %d %d\n", triangles)
 
 
-def _write_ply(
-    points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO
-) -> None:
+def _write_ply(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
     header = f"""ply
 format binary_little_endian 1.0
 element vertex {len(points)}
@@ -99,6 +91,9 @@ end_header
     stream.write(faces.tobytes())
 
 
-TRIANGLE_FORMATS: dict[
-    str, Callable[[NDArray[np.float64], NDArray[np.int32], BinaryIO], None]
-] = {".stl": write_stl, ".ply": _write_ply, ".obj": _write_obj, ".off": _write_off}
+TRIANGLE_FORMATS: dict[str, Callable[[NDArray[np.float64], NDArray[np.int32], BinaryIO], None]] = {
+    ".stl": write_stl,
+    ".ply": _write_ply,
+    ".obj": _write_obj,
+    ".off": _write_off,
+}

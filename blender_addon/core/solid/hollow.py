@@ -217,9 +217,7 @@ def least_distances(surface: OffsetSurface) -> NDArray[np.float64]:
     sqrt(d^2 - r^2) from the faces, if its corners are at least d from them.
     """
     corners = surface.vertices[surface.triangles]
-    a, b, c = np.sort(
-        np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2), axis=1
-    ).T
+    a, b, c = np.sort(np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2), axis=1).T
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     doubled = np.linalg.norm(np.cross(first, second), axis=1)
     sharp = a * a + b * b > c * c

@@ -41,7 +41,9 @@ _PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one 
 _SAME = 1e-7  # of the diagonal: vertices so close are one
 _NARROW = 1e-6  # triangles lower than this share of their longest edge are lines
 _PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
-_CURVED = 1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
+_CURVED = (
+    1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
+)
 _SLACK = 1.4  # edges may be longer than the size by this factor, as those of even triangles of that area are
 _MOST = 0.99  # where less of the volume is sheet, a warning says so
 

@@ -25,7 +25,11 @@ COARSEST = 0.5  # the step is at most this share of the distance, so that no tet
 _APART = 1e-3  # vertices keep this share of their edge to its ends, so that no two coincide
 _CLOSE = 1e-7  # of the distance: so near to it a vertex is at it
 _ROUNDS = 40  # each halves an edge at least every second time
-_SHIFT = (0.381966, 0.270141, 0.445042)  # steps: planes of the lattice shall not be those of the model
+_SHIFT = (
+    0.381966,
+    0.270141,
+    0.445042,
+)  # steps: planes of the lattice shall not be those of the model
 _CORNERS = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 _BESIDE = 2 * np.concatenate((np.identity(3, int), -np.identity(3, int)))
 
@@ -137,7 +141,9 @@ def _tetrahedra(cells: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np
         low = np.unique(np.concatenate((keys, keys - way @ weights)))
         face = _CORNERS[_CORNERS @ way > 0][[0, 1, 3, 2]]  # one corner after the other
         for a, b in zip(face, np.roll(face, -1, axis=0), strict=True):
-            found.append(np.stack((low, low + way @ weights, low + a @ weights, low + b @ weights), axis=1))
+            found.append(
+                np.stack((low, low + way @ weights, low + a @ weights, low + b @ weights), axis=1)
+            )
     used, tetrahedra = np.unique(np.concatenate(found), return_inverse=True)
     rest, z = np.divmod(used, weights[1])
     return np.column_stack((*np.divmod(rest, weights[1]), z)) - 2, tetrahedra.reshape(-1, 4)
