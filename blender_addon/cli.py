@@ -52,6 +52,7 @@ from .core.machine.memory_limit import MemoryLimit
 from .core.settings import (
     BallSettings,
     Division,
+    HollowSettings,
     MidSurfaceSettings,
     Settings,
     Side,
@@ -70,7 +71,7 @@ OUTPUT    a file (.ma .ply .obj .off .npz, or .csv for a table of the sheets), o
           the object or the file, {file} the file, #### the frame.
 
 Other results: medial_axis thickness --help, medial_axis skeleton --help, medial_axis balls --help,
-medial_axis midsurface --help
+medial_axis midsurface --help, medial_axis hollow --help
 
 examples:
   medial_axis bunny.ply bunny.ma
@@ -81,6 +82,7 @@ examples:
   medial_axis skeleton neuron.ply neuron.swc
   medial_axis balls robot.stl robot.json --count 64 --mode around
   medial_axis midsurface part.stl part.inp
+  medial_axis hollow figure.stl shell.stl --wall 2
 
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used   4 cancelled
@@ -154,6 +156,20 @@ examples:
 
 exit codes:
   0 all is there   1 something failed   2 wrong usage   3 an input cannot be used, or has no thin wall
+  4 cancelled   141 nobody reads the results any more
+"""
+
+_EXAMPLES_OF_HOLLOW = """\
+INPUT     as of medial_axis --help; the faces are closed.
+OUTPUT    a file (.stl .ply .obj .off), or a folder; {name}, {file} and #### as there. It has the faces of
+          the input, as triangles, and those of the cavity.
+
+examples:
+  medial_axis hollow figure.stl shell.stl --wall 2
+  medial_axis hollow figures/*.stl shells/ --format stl --wall 2 --json
+
+exit codes:
+  0 all is there   1 something failed   2 wrong usage   3 an input cannot be used, or is nowhere so thick
   4 cancelled   141 nobody reads the results any more
 """
 
@@ -331,12 +347,33 @@ def _mid_surface_work(wanted: argparse.Namespace) -> Work:
     return MidSurfaceWork(sampling_from(wanted), settings_from(wanted, MidSurfaceSettings))
 
 
+def _hollow_parser() -> argparse.ArgumentParser:
+    from .core.files.write_triangles import TRIANGLE_FORMATS
+
+    parser = _parser(
+        "medial_axis hollow",
+        "Solids with a cavity, so that a wall of one thickness is left.",
+        _EXAMPLES_OF_HOLLOW,
+    )
+    add_options(parser.add_argument_group("hollow"), HollowSettings)
+    _add_files(parser, [suffix[1:] for suffix in TRIANGLE_FORMATS], "stl")
+    parser.set_defaults(known=(*TRIANGLE_FORMATS,), work_from=_hollow_work)
+    return parser
+
+
+def _hollow_work(wanted: argparse.Namespace) -> Work:
+    from .core.batch.hollow_work import HollowWork
+
+    return HollowWork(settings_from(wanted, HollowSettings))
+
+
 # The parsers by the first word of the command. Modules that only one of them needs are imported when it is used.
 _PARSERS = {
     "thickness": _thickness_parser,
     "skeleton": _skeleton_parser,
     "balls": _balls_parser,
     "midsurface": _mid_surface_parser,
+    "hollow": _hollow_parser,
 }
 
 

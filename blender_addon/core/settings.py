@@ -741,6 +741,64 @@ class MidSurfaceSettings(Options):
 MID_SURFACE_OPTIONS = options_of(MidSurfaceSettings)
 
 
+@dataclass(frozen=True)
+class HollowSettings(Options):
+    """The wall of a hollow solid."""
+
+    wall: float = number(
+        "Wall",
+        "How thick the wall is that is left",
+        default=0.0,
+        limits=(0.0, math.inf),
+        soft_maximum=1000.0,
+        unit="length",
+    )
+    voxel_size: float = number(
+        "Voxel Size",
+        "How fine the surface inside is, at most half of the wall; 0: a quarter of the wall, or more on large solids",
+        default=0.0,
+        limits=(0.0, math.inf),
+        soft_maximum=1000.0,
+        unit="length",
+    )
+
+
+HOLLOW_OPTIONS = options_of(HollowSettings)
+
+
+class DrainAt(Enum):
+    """Where the hole in the wall of a hollow solid is."""
+
+    LOWEST = "LOWEST"
+    CURSOR = "CURSOR"
+
+
+@dataclass(frozen=True)
+class DrainSettings(Options):
+    """The hole in the wall of a hollow solid."""
+
+    drain: float = number(
+        "Drain Hole",
+        "How wide the hole in the wall is, through which what is inside flows out; 0: none",
+        default=0.0,
+        limits=(0.0, math.inf),
+        soft_maximum=1000.0,
+        unit="length",
+    )
+    drain_at: DrainAt = choice(
+        "Drain At",
+        "Where the hole is",
+        default=DrainAt.LOWEST,
+        items={
+            DrainAt.LOWEST: ("Lowest Place", "Below the lowest place inside"),
+            DrainAt.CURSOR: ("3D Cursor", "Where the wall is nearest to the 3D cursor"),
+        },
+    )
+
+
+DRAIN_OPTIONS = options_of(DrainSettings)
+
+
 # --- balls
 
 

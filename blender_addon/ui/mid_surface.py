@@ -7,12 +7,12 @@ import bpy
 
 from ..bridge.mid_surface_object import check_mid_surface_writable, write_mid_surface
 from ..core.samples.density import share_text
-from ..core.settings import LOOKS, MID_SURFACE_OPTIONS, OPTIONS, MidSurfaceSettings
+from ..core.settings import MID_SURFACE_OPTIONS, MidSurfaceSettings
 from ..core.solid.mid_surface import mid_surface
-from .compute_operator import ComputeOperator
 from .object_menus import register_with_entry, unregister_with_entry
 from .preferences import memory_limit
-from .properties import SamplingProperties, draw_sampling, prop, settings_from, with_options
+from .properties import settings_from, with_options
+from .wall_operator import WallOperator
 
 
 @with_options(MID_SURFACE_OPTIONS)
@@ -20,9 +20,7 @@ class MidSurfaceProperties:
     """Which parts become sheets, and how fine these are."""
 
 
-class OBJECT_OT_medial_axis_unsolidify(
-    ComputeOperator, MidSurfaceProperties, SamplingProperties, bpy.types.Operator
-):
+class OBJECT_OT_medial_axis_unsolidify(WallOperator, MidSurfaceProperties, bpy.types.Operator):
     bl_idname = "object.medial_axis_unsolidify"
     bl_label = "Unsolidify"
     bl_description = (
@@ -32,19 +30,8 @@ class OBJECT_OT_medial_axis_unsolidify(
     bl_options = {"REGISTER", "UNDO"}
 
     product = "middle surface"
+    shown = (*MID_SURFACE_OPTIONS, "parent")
     check_writable = staticmethod(check_mid_surface_writable)
-
-    sides: prop(OPTIONS["sides"])
-    parent: prop(LOOKS["parent"])
-
-    def draw(self, _context):
-        self.layout.use_property_split = True
-        for name in (*MID_SURFACE_OPTIONS, "parent"):
-            self.layout.prop(self, name)
-        box = self.layout.box().column()
-        for name in ("sides", "sampling"):
-            box.prop(self, name)
-        draw_sampling(box, self)
 
     def work(self, shape):
         wanted = settings_from(self, MidSurfaceSettings)

@@ -12,11 +12,11 @@ from ..bridge.source_state import remember_state, state_of
 from ..bridge.thicken_modifier import check_thickenable, selected_triangles, write_moves
 from ..bridge.thickness_object import check_thickness_writable, write_thickness
 from ..core.samples.density import share_text
-from ..core.settings import LOOKS, OPTIONS, THICKEN_OPTIONS, Moving, ThickenSettings
+from ..core.settings import THICKEN_OPTIONS, Moving, ThickenSettings
 from ..core.solid.thicken import thicken
-from .compute_operator import ComputeOperator
 from .preferences import memory_limit
-from .properties import SamplingProperties, draw_sampling, prop, settings_from, with_options
+from .properties import settings_from, with_options
+from .wall_operator import WallOperator
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,7 @@ class ThickenProperties:
     """The options of thicker walls."""
 
 
-class OBJECT_OT_medial_axis_thicken(
-    ComputeOperator, ThickenProperties, SamplingProperties, bpy.types.Operator
-):
+class OBJECT_OT_medial_axis_thicken(WallOperator, ThickenProperties, bpy.types.Operator):
     bl_idname = "object.medial_axis_thicken"
     bl_label = "Thicken to the Limit"
     bl_description = (
@@ -48,18 +46,7 @@ class OBJECT_OT_medial_axis_thicken(
     bl_options = {"REGISTER", "UNDO"}
 
     product = "thicker walls"
-
-    sides: prop(OPTIONS["sides"])
-    parent: prop(LOOKS["parent"])
-
-    def draw(self, _context):
-        self.layout.use_property_split = True
-        for name in THICKEN_OPTIONS:
-            self.layout.prop(self, name)
-        box = self.layout.box().column()
-        for name in ("sides", "sampling"):
-            box.prop(self, name)
-        draw_sampling(box, self)
+    shown = THICKEN_OPTIONS
 
     @staticmethod
     def check_writable(thing):

@@ -73,6 +73,8 @@ def _draw_found(context, layout, carrier):
     if not carrier[of.GAP] and current_job.job() is None:
         button = layout.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
         copy_settings(context.scene.medial_axis, button)
+        button = layout.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE")
+        button.wall = context.scene.medial_axis_thickness.limit
     shown = shows_colours(context.space_data)
     layout.operator("view3d.medial_axis_show_colours", icon="COLOR", depress=shown)
     if shown:

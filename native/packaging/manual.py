@@ -23,6 +23,7 @@ PAGES = (
     "skeleton",
     "balls",
     "mid_surface",
+    "hollow",
     "small_mesh",
     "parts",
     "command_line",

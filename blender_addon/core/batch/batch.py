@@ -35,7 +35,7 @@ from ..samples.shape import Shape
 class Work(Protocol):
     """Work is one kind of computation for each shape; its `repr` has all settings that the output depends on.
 
-    The result of `compute` has `chosen`, `warnings` and `seconds`.
+    The result of `compute` has `warnings`, `seconds`, and `chosen`, which is None where nothing was sampled.
     """
 
     def compute(self, shape: Shape, limit: MemoryLimit, progress: Progress | None) -> Any: ...
@@ -158,7 +158,7 @@ def finish(begun: Begun, outcome: Outcome) -> dict[str, Any]:
         "warnings": [*begun.warnings, *found.warnings, *left_out],
         "seconds": round(found.seconds, 3),
         "version": __version__,
-        "stamp": begun.stamp(thinned=bool(found.chosen.thinned)),
+        "stamp": begun.stamp(thinned=found.chosen is not None and bool(found.chosen.thinned)),
         "digest": _digest(output),
     }
     _write_report(report, output)

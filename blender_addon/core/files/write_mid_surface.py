@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
-from ..samples.triangles import unit_normals
 from ..small_matrices import times
 from ..solid.mid_surface import MidSurface
 from .extensions import extension_of
 from .whole_file import write_whole
+from .write_triangles import write_stl
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -142,14 +142,7 @@ end_header
 
 
 def _write_stl(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:
-    corners = points[found.triangles]
-    facets = np.zeros(
-        len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("n", "<u2")]
-    )
-    facets["normal"], facets["corners"] = unit_normals(corners)[0], corners
-    stream.write(b"middle surface".ljust(80))
-    stream.write(np.uint32(len(facets)).astype("<u4").tobytes())
-    stream.write(facets.tobytes())
+    write_stl(points, found.triangles, stream)
 
 
 def _write_csv(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO) -> None:

@@ -26,6 +26,7 @@ _TOUCHES = 0.01  # a ball whose distance from an edge differs by less than this 
 _REACH = 4.0  # so many radii away the wall at a rim is looked for
 _ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
 _LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
+_LAST = 2  # so many vertices at the end of a bend may be in one of its sheets only
 _RINGS = 3  # so many rings of facets round a bent one tell nothing either
 _SHORT = 1e-6  # in radii: a shorter edge has no direction
 _PLANE = 0.02  # planes whose directions differ by less do not determine where they meet
@@ -66,6 +67,7 @@ def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
     planes = _Planes(sheets, bent)
     rows = _Rows(len(sheets.vertices))
     rows.add(planes.vertex, planes.places, planes.normals)
+    rows.add(*planes.at_ends_of_bends(sheets))
     straight = rows.solved(sheets.vertices)
     _add_rims(rows, _rim(sheets, straight, planes, walls), bent, walls)
     vertices = rows.solved(straight)
@@ -94,7 +96,7 @@ def _clear(sheets: ThinSheets, bent: NDArray[np.bool_]) -> NDArray[np.bool_]:
         at = np.zeros(len(bent), bool)
         at[sheets.triangles[of_facets[sheets.facet]]] = True
         unclear = at[sheets.triangles].any(axis=1)
-    return ~unclear
+    return ~unclear & ~sheets.sliver
 
 
 class _Planes:
@@ -114,6 +116,31 @@ class _Planes:
         site = self._sites(sheets.vertices, part, known)
         self.places, self.normals = sheets.vertices[self.vertex[site]], normals[site]
         self._radius, self._slopes = sheets.radius[self.vertex[site]], slopes[site]
+
+    def at_ends_of_bends(
+        self, sheets: ThinSheets
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+        """Vertices, and places and normals of planes through them.
+
+        Two sheets that meet at a sharp convex edge may have its last vertices in one of them only. These are in the
+        plane of the other sheet, too, as the vertex before them is.
+        """
+        sides = np.stack((sheets.triangles, np.roll(sheets.triangles, -1, axis=1)), axis=2)
+        sides = sides.reshape(-1, 2).astype(np.int64)
+        sides = sides[sheets.at_edge[sides].all(axis=1)]
+        sides = np.unique(np.concatenate((sides, sides[:, ::-1])), axis=0)
+        count = np.bincount(self.vertex, minlength=len(sheets.vertices))
+        like = np.where(count > 1, np.arange(len(count)), -1)
+        for _ in range(_LAST):
+            new = sides[(like[sides[:, 0]] < 0) & (like[sides[:, 1]] >= 0)]
+            like[new[:, 0]] = like[new[:, 1]]
+        vertex = np.flatnonzero((like >= 0) & (count == 1))
+        order = np.argsort(self.vertex, kind="stable")
+        first = np.searchsorted(self.vertex[order], like[vertex])
+        many = count[like[vertex]]
+        within = np.arange(many.sum()) - np.repeat(np.cumsum(many) - many, many)
+        pair = order[np.repeat(first, many) + within]
+        return np.repeat(vertex, many), self.places[pair], self.normals[pair]
 
     def _means(
         self, sheets: ThinSheets, bent: NDArray[np.bool_]

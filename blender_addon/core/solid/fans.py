@@ -14,6 +14,7 @@ import numpy as np
 
 from ..samples.triangles import unit_normals
 from ..small_matrices import shortest_solutions
+from .united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -46,7 +47,7 @@ class Fans:
     def of_smooth_parts(self, sharp: NDArray[np.int32]) -> NDArray[np.bool_]:
         """(k,) the fans of parts of the surface that no sharp edge bounds; `sharp` is as of `fans_of`."""
         pairs = np.concatenate((self.of_corners[:, :2], self.of_corners[:, 1:]))
-        part = _united(len(self.vertex), pairs)
+        part = united(len(self.vertex), pairs)
         at_sharp = np.isin(self.vertex, sharp)
         return ~np.isin(part, part[at_sharp])
 
@@ -91,7 +92,7 @@ def fans_of(
     sharp : (e, 2) int32
         The ends of the sharp edges, in any order.
     """
-    label = _united(triangles.size, _corners_beside(triangles, sharp, len(points)))
+    label = united(triangles.size, _corners_beside(triangles, sharp, len(points)))
     first, fan = np.unique(label, return_inverse=True)
     of_corners = fan.reshape(triangles.shape)
     normals, doubled = unit_normals(points[triangles])
@@ -127,17 +128,3 @@ def _corners_beside(
     )
     starts, ends = np.column_stack((one, other_start)), np.column_stack((after[one], other_end))
     return np.concatenate((starts, ends))
-
-
-def _united(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
-    """(count,) the smallest item that each item is connected with by pairs."""
-    label = np.arange(count)
-    while True:
-        lowest = label[pairs].min(axis=1)
-        found = label.copy()
-        for end in pairs.T:
-            np.minimum.at(found, end, lowest)
-        found = found[found]
-        if np.array_equal(found, label):
-            return label
-        label = found

@@ -30,6 +30,7 @@ from ..small_matrices import length_of
 from .carried_sheets import CarriedSheets, Walls, carried
 from .even_triangles import divided
 from .thin_sheets import thin_sheets
+from .united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -41,6 +42,9 @@ _PLAIN = 1e-3  # a sheet whose thickness varies by less than this share has one 
 _SAME = 1e-7  # of the diagonal: vertices so close are one
 _NARROW = 1e-6  # triangles lower than this share of their longest edge are lines
 _PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squared edge
+_CURVED = (
+    1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
+)
 _SLACK = 1.4  # edges may be longer than the size by this factor, as those of even triangles of that area are
 _MOST = 0.99  # where less of the volume is sheet, a warning says so
 
@@ -165,7 +169,7 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
         axis=1,
     )
     along = sheets.vertices[ends[:, 0]] - sheets.vertices[ends[:, 1]]
-    row = _united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
+    row = united(len(sheets.vertices), ends[np.linalg.norm(along, axis=1) < step])
     triangles = row[sheets.triangles]
     kept = (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
     used, triangles = np.unique(triangles[kept], return_inverse=True)
@@ -175,20 +179,6 @@ def _welded(sheets: CarriedSheets) -> CarriedSheets:
         sheets.part[kept],
         sheets.at_corners[kept],
     )
-
-
-def _united(count: int, pairs: NDArray[np.int32]) -> NDArray[np.int64]:
-    """(count,) the lowest row that pairs connect each row with."""
-    label = np.arange(count)
-    while True:
-        found = label.copy()
-        lowest = label[pairs].min(axis=1, initial=count)
-        for end in pairs.T:
-            np.minimum.at(found, end, lowest)
-        found = found[found]
-        if np.array_equal(found, label):
-            return label
-        label = found
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,10 +191,10 @@ class _Faces:
 
 def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -> _Faces:
     """The sheets with the faces that show their shape, or with even triangles of a size."""
-    whole, wanted = len(sheets.vertices), len(sheets.vertices)
-    if size > 0.0:
-        area = 0.5 * float(unit_normals(sheets.vertices[sheets.triangles])[1].sum())
-        wanted = min(whole, int(_PER_AREA * area / size**2) + 1)
+    whole = len(sheets.vertices)
+    area = 0.5 * float(unit_normals(sheets.vertices[sheets.triangles])[1].sum())
+    length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
+    wanted = min(whole, int(_PER_AREA * area / length**2) + 1)
     found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
     faces = cast("_Faces", found)
     if size <= 0.0:
@@ -315,7 +305,7 @@ def _left_out(share: float) -> tuple[str, ...]:
 
 def _torn(triangles: NDArray[np.int32], found: Computation) -> tuple[str, ...]:
     ends = np.concatenate((triangles[:, :2], triangles[:, 1:]))
-    label = _united(int(triangles.max()) + 1, ends)
+    label = united(int(triangles.max()) + 1, ends)
     pieces = len(np.unique(label[triangles[:, 0]]))
     level = found.axis.level
     if level is None or pieces <= level.betti[0]:

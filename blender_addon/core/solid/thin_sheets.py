@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from ..axis.directions import facet_areas, facet_normals
 from ..axis.facet_triangles import triangulate_facets
-from ..axis.medial_axis import ON_CREASE
+from ..axis.medial_axis import ON_CREASE, ON_RIM
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors
 
@@ -49,6 +49,8 @@ class ThinSheets:
         The facet of the axis that each triangle is a part of.
     facing : (t,) bool
         Whether the walls face each other there; no others tell where their sheet goes on.
+    sliver : (t,) bool
+        The facet is hardly more than a line, and tells nothing.
     normals : (t, 3) float64
         Unit normals of the facets that the triangles are of.
     slopes : (t, 3) float64
@@ -63,6 +65,7 @@ class ThinSheets:
     part: NDArray[np.int32]
     facet: NDArray[np.int64]
     facing: NDArray[np.bool_]
+    sliver: NDArray[np.bool_]
     normals: NDArray[np.float64]
     slopes: NDArray[np.float64]
     parts: int
@@ -83,7 +86,7 @@ def thin_sheets(
         So many times as wide as its thickness a wall is at least.
     """
     structure = cast("Structure", axis.structure)
-    turned = with_facets_turned(axis, structure.turned)
+    turned = _with_plain_rims(with_facets_turned(axis, structure.turned))
     polygons = turned.face_offsets, turned.face_vertices
     areas = facet_areas(turned.vertices, *polygons)
     normals = facet_normals(turned.vertices, *polygons)
@@ -111,12 +114,28 @@ def thin_sheets(
         radius=turned.radius,
         at_edge=at_edge,
         facet=facets,
-        facing=(facing & ~slivers & _even(turned))[facets],
+        facing=(facing & _even(turned))[facets],
+        sliver=slivers[facets],
         triangles=triangulate_facets(turned.vertices, *polygons)[rows],
         part=number[part[facets]].astype(np.int32),
         normals=normals[facets],
         slopes=slopes[facets],
         parts=int(chosen.sum()),
+    )
+
+
+def _with_plain_rims(axis: MedialAxis) -> MedialAxis:
+    """The axis with vertices at smooth rims where the Voronoi diagram has them.
+
+    Their crisp places are where the walls that a ball touches become one. Where a junction comes to the end of a part,
+    these are beyond the walls of the sheet, and their order along the rim may be another one.
+    """
+    level = cast("LevelValues", axis.level)
+    at_rim = level.place == ON_RIM
+    return replace(
+        axis,
+        vertices=np.where(at_rim[:, None], level.exact, axis.vertices),
+        radius=np.where(at_rim, level.exact_radius, axis.radius),
     )
 
 

@@ -47,6 +47,10 @@ class SamplesOnFaces {
 
  private:
   void place(int32_t sample, int32_t triangle);
+  // Returns whether two samples lie on reflex edges with walls that face each other, as those round
+  // the line in which two walls cross. Neither sample satisfies the Angle condition, since its
+  // umbrella has triangles of the other wall, too.
+  bool are_opposite_reflex_edges(const Edge& samples) const;
   // The same for one pair of normals.
   std::optional<Vec3> meeting_of_planes(const Edge& samples, const Vec3& n, const Vec3& m,
                                         const Vec3& at) const;

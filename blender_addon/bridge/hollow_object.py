@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hollow solids as objects, with a drain hole that a Boolean modifier cuts with a cylinder, which can be moved."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..core.solid.drain_hole import drain_hole
+from .output_object import Product, new_object, place, remember, replace_mesh
+from .write_mesh import new_mesh
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..core.solid.drain_hole import DrainHole
+    from ..core.solid.hollow import Hollow
+
+WALL, LEAST = "ma_hollow_wall", "ma_hollow_least"
+_DRAIN = "Medial Axis Drain"  # the modifier
+_AROUND = 48  # corners of the cylinder
+
+HOLLOW = Product(" Hollow", (WALL,))
+is_hollow, hollow_of, check_hollow_writable = HOLLOW.has, HOLLOW.of, HOLLOW.check_writable
+
+
+def hole_of(found: Hollow, frame: NDArray[np.float64], width: float, at_cursor: bool) -> DrainHole:
+    """The hole in a hollow solid, at its lowest place in the world or where its wall is nearest to the 3D cursor.
+
+    Raises
+    ------
+    InvalidInputError
+    """
+    turned = frame[:3, :3].T
+    down = turned @ (0.0, 0.0, -1.0)
+    if not at_cursor:
+        return drain_hole(found, width, down)
+    cursor = np.array(bpy.context.scene.cursor.location)
+    return drain_hole(found, width, down, turned @ (cursor - frame[:3, 3]))
+
+
+def write_hollow(
+    source: bpy.types.Object, found: Hollow, frame: NDArray[np.float64], hole: DrainHole | None
+) -> bpy.types.Object:
+    """Make the hollow solid of a source, or update the existing one; all or nothing.
+
+    Parameters
+    ----------
+    source : Object
+        It is not changed.
+    found : Hollow
+    frame : (4, 4) float64
+        Where it lies in the world; rotation and translation only.
+    hole : DrainHole or None
+
+    Raises
+    ------
+    InvalidInputError
+        It cannot be changed now, or Blender cannot hold it.
+    """
+    thing, _ = HOLLOW.write_mesh(source, partial(new_mesh, found))
+    place(thing, frame)
+    remember(thing, source, found.points, found.duplicates, found.warnings)
+    thing[WALL], thing[LEAST] = found.wall, found.least
+    _write_drain(thing, hole)
+    return thing
+
+
+def _write_drain(thing: bpy.types.Object, hole: DrainHole | None) -> None:
+    modifier = thing.modifiers.get(_DRAIN)
+    if hole is None:
+        if modifier is not None:
+            _remove(modifier.object)
+            thing.modifiers.remove(modifier)
+        return
+    if modifier is None:
+        modifier = thing.modifiers.new(_DRAIN, "BOOLEAN")
+        modifier.operation, modifier.solver = "DIFFERENCE", "EXACT"
+    if modifier.object is None:
+        modifier.object = new_object(thing, " Drain", _cylinder(hole, thing.name + " Drain"))
+    else:
+        replace_mesh(modifier.object, partial(_cylinder, hole))
+    cutter = modifier.object
+    cutter.display_type, cutter.hide_render = "WIRE", True
+    cutter.parent, cutter.matrix_parent_inverse = thing, Matrix.Identity(4)
+    cutter.matrix_basis = Matrix.Translation(hole.start.tolist())
+
+
+def _remove(cutter: bpy.types.Object | None) -> None:
+    if cutter is not None:
+        mesh = cutter.data
+        bpy.data.objects.remove(cutter)
+        if not mesh.users:
+            bpy.data.meshes.remove(mesh)
+
+
+def _cylinder(hole: DrainHole, name: str) -> bpy.types.Mesh:
+    """A prism from the origin to where the hole ends."""
+    along = hole.end - hole.start
+    aside = np.cross(along, np.identity(3)[np.argmin(np.abs(along))])
+    aside /= np.linalg.norm(aside)
+    up = np.cross(along, aside) / np.linalg.norm(along)
+    turn = 2.0 * np.pi * np.arange(_AROUND) / _AROUND
+    ring = 0.5 * hole.width * (np.cos(turn)[:, None] * aside + np.sin(turn)[:, None] * up)
+    i = np.arange(_AROUND)
+    sides = np.column_stack((i, np.roll(i, -1), np.roll(i, -1) + _AROUND, i + _AROUND))
+    faces = [*sides.tolist(), i[::-1].tolist(), (i + _AROUND).tolist()]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(np.concatenate((ring, ring + along)).tolist(), [], faces)
+    return mesh

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""This module writes triangles as `.stl`, `.ply`, `.obj` and `.off`; a file appears whole or not at all."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
+
+import numpy as np
+
+from ..samples.triangles import unit_normals
+from .extensions import extension_of
+from .rows_of_text import write_rows
+from .whole_file import write_whole
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+def export_triangles(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    path: str | os.PathLike[str],
+    frame: NDArray[np.float64],
+) -> Path:
+    """Write triangles; the extension of `path` chooses the format.
+
+    Parameters
+    ----------
+    points : (v, 3) float64
+    triangles : (t, 3) int32
+    path : path of the file; its folder must exist. A file of that name is replaced.
+    frame : (4, 4) float64
+        From the points to the world.
+
+    Returns
+    -------
+    path : Path
+        The file that was written, with links resolved.
+
+    Raises
+    ------
+    ExportError
+        The extension is unknown, or the system refused to write; an old file is then unchanged.
+    """
+    write = TRIANGLE_FORMATS[extension_of(path, TRIANGLE_FORMATS)]
+    placed = points @ frame[:3, :3].T + frame[:3, 3]
+    return write_whole(path, lambda stream: write(placed, triangles, stream))
+
+
+def write_stl(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
+    """Write a binary `.stl`."""
+    corners = points[triangles]
+    facets = np.zeros(
+        len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("n", "<u2")]
+    )
+    facets["normal"], facets["corners"] = unit_normals(corners)[0], corners
+    stream.write(b"triangles".ljust(80))
+    stream.write(np.uint32(len(facets)).astype("<u4").tobytes())
+    stream.write(facets.tobytes())
+
+
+def _write_obj(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
+    write_rows(stream, "v %.17g %.17g %.17g\n", points)
+    write_rows(stream, "f %d %d %d\n", triangles + 1)
+
+
+def _write_off(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
+    stream.write(f"OFF\n{len(points)} {len(triangles)} 0\n".encode("ascii"))
+    write_rows(stream, "%.17g %.17g %.17g\n", points)
+    write_rows(stream, "3 %d %d %d\n", triangles)
+
+
+def _write_ply(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:
+    header = f"""ply
+format binary_little_endian 1.0
+element vertex {len(points)}
+property double x
+property double y
+property double z
+element face {len(triangles)}
+property list uchar int vertex_indices
+end_header
+"""
+    stream.write(header.encode("ascii"))
+    stream.write(points.astype("<f8").tobytes())
+    faces = np.empty(len(triangles), [("n", "u1"), ("corners", "<i4", 3)])
+    faces["n"], faces["corners"] = 3, triangles
+    stream.write(faces.tobytes())
+
+
+TRIANGLE_FORMATS: dict[str, Callable[[NDArray[np.float64], NDArray[np.int32], BinaryIO], None]] = {
+    ".stl": write_stl,
+    ".ply": _write_ply,
+    ".obj": _write_obj,
+    ".off": _write_off,
+}

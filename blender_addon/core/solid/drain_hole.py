@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The hole through the wall of a hollow solid: the shortest way out of a place of the cavity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import InvalidInputError
+from ..machine.native import own_errors
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .hollow import Hollow
+
+_LEVEL = 0.05  # of the wall: vertices that are less above the lowest are as low
+_STEP = 1e-3  # of the wall: differences over so much tell the shortest way
+_LONGEST = 4.0  # walls: so far a way out is looked for
+_PARTS = 256  # of that way
+_CLEAR = 0.1  # so much slope at least the distance has where a shortest way is told
+
+
+@dataclass(frozen=True, eq=False)
+class DrainHole:
+    """A cylinder that opens the wall.
+
+    Parameters
+    ----------
+    start, end : (3,) float64
+        The middles of its ends, in the cavity and outside.
+    width : float
+        Its diameter.
+    """
+
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    width: float
+
+
+def drain_hole(
+    found: Hollow,
+    width: float,
+    down: NDArray[np.float64],
+    near: NDArray[np.float64] | None = None,
+) -> DrainHole:
+    """Find the hole at the lowest place of the cavity, or at the one nearest to a place.
+
+    Parameters
+    ----------
+    found : Hollow
+    width : float
+        The diameter of the hole.
+    down : (3,) float64
+        The direction in which things fall, of length 1, in the frame of the shape.
+    near : (3,) float64, optional
+        In the frame of the shape.
+
+    Raises
+    ------
+    InvalidInputError
+        The way out is longer than `_LONGEST` walls.
+    NativeModuleError
+    """
+    row = _lowest(found, down) if near is None else _nearest(found, near)
+    place = found.cavity[row]
+    way = _way_out(found, place, down)
+    steps = np.linspace(0.0, _LONGEST * found.wall, _PARTS + 1)
+    along = np.ascontiguousarray(place + steps[:, None] * way)
+    with own_errors() as module:
+        outer = found.triangles[: found.outer]
+        inside = np.asarray(module.winding_number(along, found.shape.points, outer)) > 0.5
+    if inside.all():
+        raise InvalidInputError(
+            f"Expected a way out of less than {_LONGEST:g} walls for the drain hole, found a longer one; place it "
+            "with the 3D cursor"
+        )
+    out = float(steps[int(np.argmin(inside))])
+    reach = 0.5 * width + steps[1]
+    return DrainHole(place - reach * way, place + (out + reach) * way, width)
+
+
+def _lowest(found: Hollow, down: NDArray[np.float64]) -> int:
+    """The vertex in the middle of the lowest ones."""
+    depth = found.cavity @ down
+    rows = np.flatnonzero(depth >= depth.max() - _LEVEL * found.wall)
+    low = found.cavity[rows]
+    away = np.linalg.norm(low - low.mean(axis=0), axis=1)
+    return int(rows[np.argmin(away)])
+
+
+def _nearest(found: Hollow, place: NDArray[np.float64]) -> int:
+    return int(np.argmin(np.linalg.norm(found.cavity - place, axis=1)))
+
+
+def _way_out(
+    found: Hollow, place: NDArray[np.float64], down: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(3,) the direction in which the distance from the faces falls fastest; down where none is the fastest."""
+    step = _STEP * found.wall
+    sides = np.concatenate((np.identity(3), -np.identity(3))) * step
+    with own_errors() as module:
+        distances = np.asarray(
+            module.surface_distances(
+                place + sides, found.shape.points, found.triangles[: found.outer]
+            )
+        )
+    way = (distances[3:] - distances[:3]) / (2.0 * step)
+    length = float(np.linalg.norm(way))
+    return way / length if length > _CLEAR else down

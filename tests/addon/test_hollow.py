@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hollow: a copy of a solid with a cavity, and a drain hole that a modifier cuts."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from mathutils import Vector
+from scene import refuse
+
+WALL, VOXEL = 0.3, 0.15
+
+
+def cube(**placed):
+    bpy.ops.mesh.primitive_cube_add(size=2, **placed)
+    return bpy.context.object
+
+
+def hollow(source, **options):
+    bpy.context.view_layer.objects.active = source
+    found = bpy.ops.object.medial_axis_hollow(wall=WALL, voxel_size=VOXEL, **options)
+    assert found == {"FINISHED"}
+    return bpy.data.objects["Cube Hollow"]
+
+
+def shown(thing):
+    """Volume, Euler characteristic and vertices in the world of what a modifier makes."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    mesh = bmesh.new()
+    mesh.from_object(thing, depsgraph)
+    euler = len(mesh.verts) - len(mesh.edges) + len(mesh.faces)
+    assert all(edge.is_manifold for edge in mesh.edges)
+    volume = mesh.calc_volume()
+    places = np.array([thing.matrix_world @ vertex.co for vertex in mesh.verts])
+    mesh.free()
+    return volume, euler, places
+
+
+def test_a_cube_becomes_a_shell():
+    source = cube()
+    made = hollow(source)
+    assert made.parent == source and len(source.data.polygons) == 6
+    volume, euler, _ = shown(made)
+    assert volume == pytest.approx(8 - 1.4**3, rel=0.01) and euler == 4
+    assert 0.94 * WALL < made["ma_hollow_least"] <= WALL
+
+
+def test_a_drain_hole_opens_the_lowest_place():
+    """The shell becomes one closed surface; a turned cube stands on a corner, where its hole is."""
+    turn = (np.arctan(np.sqrt(2)), 0.0, np.pi / 4)
+    made = hollow(cube(rotation=turn, location=(3.0, 0.0, 5.0)), drain=0.2)
+    _, euler, _ = shown(made)
+    assert euler == 2
+    cutter = made.modifiers["Medial Axis Drain"].object
+    corners = np.array([cutter.matrix_world @ vertex.co for vertex in cutter.data.vertices])
+    np.testing.assert_allclose(corners.mean(axis=0)[:2], (3.0, 0.0), atol=WALL)
+    assert corners[:, 2].max() < 5.0
+    cutter.location.z += 10.0
+    assert shown(made)[1] == 4, "the cylinder can be moved away"
+
+
+def test_the_cursor_places_the_hole_and_without_a_hole_there_is_no_cylinder():
+    source = cube(location=(3.0, 0.0, 0.0))
+    bpy.context.scene.cursor.location = Vector((9.0, 0.0, 0.0))
+    made = hollow(source, drain=0.2, drain_at="CURSOR")
+    cutter = made.modifiers["Medial Axis Drain"].object
+    corners = np.array([cutter.matrix_world @ vertex.co for vertex in cutter.data.vertices])
+    assert corners[:, 0].max() > 4.0 and np.abs(corners[:, 1:]).max() < 0.3
+    assert hollow(source) == made and not made.modifiers
+    assert not any("Drain" in thing.name for thing in bpy.data.objects)
+
+
+def test_what_cannot_be_hollow_changes_nothing():
+    bpy.ops.mesh.primitive_plane_add(size=2)
+    before = set(bpy.data.objects)
+    refuse("closed faces", operator="medial_axis_hollow", wall=0.1)
+    assert set(bpy.data.objects) == before

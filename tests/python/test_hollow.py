@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hollow solids whose cavity is known in closed form, and what cannot be hollow."""
+
+import json
+
+import numpy as np
+import pytest
+from medial_axis import cli
+from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import HollowSettings
+from medial_axis.core.solid.drain_hole import drain_hole
+from medial_axis.core.solid.hollow import hollow
+from scipy.spatial import ConvexHull, HalfspaceIntersection
+from support import topology
+from support.crossing_triangles import crossing_pairs
+from support.distance import to_triangle
+from support.meshes import icosphere, read, torus, write_off
+from support.thick_meshes import block
+from support.thin_solids import turned, union
+
+
+def hollowed(mesh, wall, **wanted):
+    points, triangles = mesh
+    shape = Shape(np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32))
+    return hollow(shape, HollowSettings(wall=wall, **wanted))
+
+
+def away(places, mesh):
+    """(k,) exact distances of some of the places, (n, 3), from the faces, by all pairs."""
+    corners = np.asarray(mesh[0])[mesh[1]]
+    rows = np.linspace(0, len(places) - 1, 10 + 200_000 // len(corners)).astype(int)
+    pairs = np.repeat(places[rows], len(corners), axis=0), np.tile(corners, (len(rows), 1, 1))
+    return to_triangle(*pairs).reshape(len(rows), -1).min(axis=1)
+
+
+def hull(points):
+    """The triangles of a convex hull, outward."""
+    found = ConvexHull(points)
+    a, b, c = points[found.simplices].transpose(1, 0, 2)
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), found.equations[:, :3]) < 0
+    return np.where(inward[:, None], found.simplices[:, ::-1], found.simplices)
+
+
+def inner_volume(points, wall):
+    """Of the places of a convex solid that are at least so far from its faces, by Qhull."""
+    planes = ConvexHull(points).equations
+    planes[:, 3] += wall
+    return ConvexHull(HalfspaceIntersection(planes, points.mean(axis=0)).intersections).volume
+
+
+def profile_l():
+    """Two arms of length 2 and width 1 in a plane, 1 high."""
+    return union(((0, 0, 0), (2, 1, 1)), ((0, 0, 0), (1, 2, 1)))
+
+
+def of_l(wall):
+    """Volume of the cavity; round the reflex edge its wall is a quarter of a cylinder."""
+    arm, width = 2 - 2 * wall, 1 - 2 * wall
+    return (2 * arm * width - width**2 + wall**2 * (1 - np.pi / 4)) * width
+
+
+BLOB = np.random.default_rng(5).normal(size=(40, 3))
+CASES = {
+    "block": (block(1.0, 0.9, 0.8), 0.1, 0.8 * 0.7 * 0.6),
+    "turned": (turned(block(1.0, 0.9, 0.8), seed=3), 0.1, 0.8 * 0.7 * 0.6),
+    "sphere": (icosphere(2), 0.3, inner_volume(icosphere(2)[0], 0.3)),
+    "blob": ((BLOB, hull(BLOB)), 0.4, inner_volume(BLOB, 0.4)),
+    "reflex": (profile_l(), 0.2, of_l(0.2)),
+    "torus": (torus(1.0, 0.5, 96, 48), 0.2, 2 * np.pi**2 * 0.3**2),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_cavities_in_closed_form(name):
+    mesh, wall, volume = CASES[name]
+    found = hollowed(mesh, wall, voxel_size=wall / 2)
+    inner = found.triangles[found.outer :]
+    assert found.solid_volume - found.volume == pytest.approx(volume, rel=0.015)
+    np.testing.assert_array_equal(found.triangles[: found.outer], mesh[1])
+    _, uses = topology.edges(inner)
+    assert (uses == 2).all()
+    assert topology.euler(inner) == (0 if name == "torus" else 2) and found.cavities == 1
+    np.testing.assert_allclose(away(found.cavity, mesh), wall, rtol=5e-4)
+    inside = np.random.default_rng(0).dirichlet((1, 1, 1), len(inner))
+    places = (found.vertices[inner] * inside[:, :, None]).sum(axis=1)
+    assert away(places, mesh).min() >= found.least > 0.94 * wall
+    assert not len(crossing_pairs(found.vertices, inner))
+
+
+def test_scale_changes_the_unit_alone():
+    plain = hollowed(block(1.0, 0.9, 0.8), 0.2, voxel_size=0.1)
+    large = hollowed(block(1024.0, 0.9 * 1024, 0.8 * 1024), 0.2 * 1024, voxel_size=102.4)
+    np.testing.assert_array_equal(plain.triangles, large.triangles)
+    np.testing.assert_allclose(large.vertices, 1024 * plain.vertices, rtol=1e-9)
+
+
+def test_two_rooms_are_told():
+    """A dumb-bell whose bar is thinner than two walls."""
+    mesh = union(((0, 0, 0), (1, 1, 1)), ((2, 0, 0), (3, 1, 1)), ((1, 0.4, 0.4), (2, 0.6, 0.6)))
+    found = hollowed(mesh, 0.2, voxel_size=0.1)
+    assert found.cavities == 2 and any("2 places" in text for text in found.warnings)
+
+
+@pytest.mark.parametrize(
+    "mesh, wall, voxel, words",
+    (
+        (block(1.0, 0.9, 0.8), 0.0, 0.0, "wall above 0"),
+        (block(1.0, 0.9, 0.8), 0.45, 0.0, "thinner wall"),
+        (block(1.0, 0.9, 0.8), 0.1, 1e-4, "larger voxels"),
+        ((block(1.0, 0.9, 0.8)[0], block(1.0, 0.9, 0.8)[1][1:]), 0.1, 0.0, "closed faces"),
+    ),
+)
+def test_what_cannot_be_hollow(mesh, wall, voxel, words):
+    with pytest.raises(InvalidInputError, match=words):
+        hollowed(mesh, wall, voxel_size=voxel)
+
+
+def test_the_drain_hole_leads_from_the_lowest_place_through_the_wall():
+    found = hollowed(block(1.0, 0.9, 0.8), 0.1)
+    down = np.array((0.0, 0.0, -1.0))
+    hole = drain_hole(found, 0.05, down)
+    np.testing.assert_allclose(hole.start[:2], 0.0, atol=0.05)
+    assert hole.end[2] < -0.4 and hole.start[2] > -0.3
+    aside = drain_hole(found, 0.05, down, near=np.array((2.0, 0.0, 0.0)))
+    assert aside.end[0] > 0.5 and np.abs(aside.end[1:]).max() < 0.1
+
+
+def test_files_and_figures(tmp_path, capsys):
+    source = write_off(tmp_path / "block.off", block(10.0, 9.0, 8.0))
+    for name in ("a.stl", "a.ply", "a.obj", "a.off"):
+        words = ["hollow", source, str(tmp_path / name), "--wall", "2", "--quiet", "--json"]
+        assert cli.main(words) == cli.DONE
+        points, triangles = read(tmp_path / name) if name != "a.stl" else ((), ())
+        if len(triangles):
+            a, b, c = (points[triangles[:, i]] for i in range(3))
+            assert np.einsum("ij,ij", a, np.cross(b, c)) / 6 == pytest.approx(720 - 120, rel=0.01)
+    said = json.loads(capsys.readouterr().out.splitlines()[-1])
+    assert said["volume"] == pytest.approx(720 - 120, rel=0.01)
+    assert 1.95 < said["least_wall"] <= 2.0 and said["cavities"] == 1
+    assert (
+        cli.main(["hollow", source, str(tmp_path / "b.stl"), "--wall", "5", "--quiet"]) == cli.INPUT
+    )
