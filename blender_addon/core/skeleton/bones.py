@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import length_of
 from .joints import joints_of
 from .roll import upright, ups_of
 from .sides import sides_of
@@ -291,7 +292,7 @@ def _from_hips(tree: list[Chain], sides: Sides) -> list[Chain]:
     hips = [tree[n] for n in (largest, int(sides.partner[largest]))]
     between = np.mean([chain.at(np.array([chain.rim]))[0][0] for chain in hips], axis=0)
     up = fork - between
-    far = float(np.linalg.norm(up))
+    far = length_of(up)
     if far <= _HIPS * radius:
         return tree
     pelvis = between + up * (_HIPS * radius / far)
@@ -303,7 +304,7 @@ def _from_hips(tree: list[Chain], sides: Sides) -> list[Chain]:
 
 def _started_at(chain: Chain, place: NDArray[np.float64]) -> Chain:
     """Return a chain that starts at another place."""
-    more = float(np.linalg.norm(chain.points[0] - place))
+    more = length_of(chain.points[0] - place)
     return replace(
         chain,
         points=np.concatenate((place[None], chain.points)),
@@ -357,6 +358,6 @@ def _long_enough(
 ) -> NDArray[np.float64]:
     """Return the tail of the last bone of a limb, farther out if the bone is shorter than the balls at its ends."""
     along = tail - head
-    length = float(np.linalg.norm(along))
+    length = length_of(along)
     wanted = float(radius.max())
     return tail if length >= wanted or length == 0.0 else head + along * (wanted / length)

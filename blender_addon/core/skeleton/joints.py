@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -72,8 +74,8 @@ def _deviations(points: NDArray[np.float64], radius: NDArray[np.float64]) -> NDA
     for start in range(count - 2):
         to = points[start + 2 :] - points[start]  # the ends of bones
         inner = points[start + 1 : -1] - points[start]
-        square = np.maximum(np.einsum("ij,ij->i", to, to), np.finfo(float).tiny)
-        share = np.clip(to @ inner.T / square[:, None], 0.0, 1.0)
+        square = np.maximum(dot(to, to), np.finfo(float).tiny)
+        share = np.clip(dot(to[:, None], inner) / square[:, None], 0.0, 1.0)
         away = np.linalg.norm(inner[None] - share[:, :, None] * to[:, None], axis=2)
         away /= ERROR * radius[start + 1 : -1]
         found[start, start + 2 :] = np.where(np.tri(*away.shape, dtype=bool), away, 0.0).max(axis=1)

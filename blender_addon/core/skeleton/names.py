@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..small_matrices import dot
 from .roll import upright
 
 if TYPE_CHECKING:
@@ -98,7 +99,7 @@ def _from_head_to_tail(body: Body) -> list[int]:
 
     def key(number: int) -> tuple[float, ...]:
         chain = body.tree[number]
-        rise = float((chain.points[-1] - chain.points[0]) @ up)
+        rise = float(dot(chain.points[-1] - chain.points[0], up))
         shares = (leaves[number], -chain.from_root, chain.length, rise)
         return tuple(-round(share / size, 2) for share in shares)
 

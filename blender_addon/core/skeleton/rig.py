@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import DegenerateInputError
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
+from ..small_matrices import dot, times
 from .bones import Body, Bones, bones_of
 from .compute import Skeletonization, compute_skeleton
 from .names import limbs_of, names_of
@@ -108,7 +109,7 @@ def _frame_of(body: Body) -> NDArray[np.float64]:
     if body.sides.found:
         normal = body.sides.normal
         frame[:3, :3] = _turn_of_x(normal)
-        frame[:3, 3] = (body.sides.origin @ normal) * normal
+        frame[:3, 3] = dot(body.sides.origin, normal) * normal
     return frame
 
 
@@ -117,4 +118,4 @@ def _turn_of_x(normal: NDArray[np.float64]) -> NDArray[np.float64]:
     across = np.cross((1.0, 0.0, 0.0), normal)
     x, y, z = across
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + cross + cross @ cross / (1.0 + normal[0])
+    return np.eye(3) + cross + times(cross, cross.T) / (1.0 + normal[0])

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot, stretches
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -50,7 +52,7 @@ def ups_of(
     if hinge is not None:
         up = np.cross(hinge, along)
     else:
-        up = np.tile(flat * np.where((front @ flat).sum() < 0.0, -1.0, 1.0), (len(along), 1))
+        up = np.tile(flat * np.where(dot(front, flat).sum() < 0.0, -1.0, 1.0), (len(along), 1))
     up -= (up * along).sum(axis=1)[:, None] * along
     weak = np.linalg.norm(up, axis=1) < _ALONG
     up[weak] = front[weak]
@@ -78,16 +80,16 @@ def flats_of(
 
 def _thinnest(across: NDArray[np.float64], along: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the direction in which (n, 3) spokes at right angles to a limb are short, or 0 if it is round."""
-    squares, axes = np.linalg.eigh(across.T @ across / len(across))
-    least = int(np.argmax(np.abs(axes.T @ along)))  # the axis of the limb itself
-    thin, wide = (axis for axis in range(3) if axis != least)
-    return axes[:, thin] if squares[thin] <= _FLAT**2 * squares[wide] else np.zeros(3)
+    size, axes, _ = stretches(across)
+    least = int(np.argmax(np.abs(dot(axes, along))))  # the axis of the limb itself
+    wide, thin = (axis for axis in range(3) if axis != least)
+    return axes[thin] if size[thin] <= _FLAT * size[wide] else np.zeros(3)
 
 
 def upright(normal: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the direction in a plane that is nearest to Z, or to Y if Z is its normal, and the front."""
     axis = np.eye(3)[2 if abs(normal[2]) < 0.9 else 1]
-    up = _unit(axis - (axis @ normal) * normal)
+    up = _unit(axis - dot(axis, normal) * normal)
     return up, np.cross(normal, up)
 
 
@@ -97,7 +99,7 @@ def _hinge(chain: Chain) -> NDArray[np.float64] | None:
     points = chain.at(np.linspace(begin, chain.length, 33))[0]
     chord = _unit(points[-1] - points[0])
     away = points - points[0]
-    away -= np.outer(away @ chord, chord)
+    away -= dot(away, chord)[:, None] * chord
     far = np.linalg.norm(away, axis=1)
     if far.max() <= _BENT * chain.radius.mean():
         return None
@@ -107,9 +109,9 @@ def _hinge(chain: Chain) -> NDArray[np.float64] | None:
 def _front(normal: NDArray[np.float64], along: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the front of a body whose left is along a normal, or up for bones that look to the front."""
     up, front = upright(normal)
-    return up if abs(float(along @ front)) > 0.7 else front
+    return up if abs(float(dot(along, front))) > 0.7 else front
 
 
 def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    length = np.sqrt(dot(vectors, vectors))[..., None]
     return vectors / np.maximum(length, np.finfo(float).tiny)

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot, length_of
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -54,7 +56,7 @@ class Sides:
 
     def is_left(self, chain: Chain) -> bool:
         """Return whether a chain that has a partner is the left one of the two."""
-        return bool(((_start(chain) - self.origin) @ self.normal) > 0.0)
+        return bool(dot(_start(chain) - self.origin, self.normal) > 0.0)
 
 
 def sides_of(tree: list[Chain]) -> Sides:
@@ -75,7 +77,7 @@ def _cost(tree: list[Chain], sides: Sides) -> float:
     if not len(rows):
         return np.inf
     starts = np.array([_start(chain) for chain in tree])
-    image = starts - 2.0 * ((starts - sides.origin) @ sides.normal)[:, None] * sides.normal
+    image = starts - 2.0 * dot(starts - sides.origin, sides.normal)[:, None] * sides.normal
     radius = np.array([chain.radius[0] for chain in tree])
     off = np.linalg.norm(starts[sides.partner[rows]] - image[rows], axis=1) / radius[rows]
     length = np.array([chain.length for chain in tree])
@@ -95,7 +97,7 @@ def _between(tree: list[Chain], sides: Sides) -> NDArray[np.float64]:
 
 def _signed(normal: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return a vector with length 1 and a positive largest component."""
-    normal = normal / max(float(np.linalg.norm(normal)), _TINY)
+    normal = normal / max(length_of(normal), _TINY)
     return normal * np.sign(normal[np.argmax(np.abs(normal))])
 
 
@@ -135,7 +137,7 @@ def _paired(tree: list[Chain], normal: NDArray[np.float64], origin: NDArray[np.f
     count = len(tree)
     partner, within = np.full(count, -1), np.zeros(count, bool)
     starts = np.array([_start(chain) for chain in tree])
-    height = (starts - origin) @ normal
+    height = dot(starts - origin, normal)
     image = starts - 2.0 * height[:, None] * normal
     leaves = _leaves(tree)
     for a, chain in enumerate(tree):
@@ -154,7 +156,7 @@ def _paired(tree: list[Chain], normal: NDArray[np.float64], origin: NDArray[np.f
             b = min(may, key=lambda other: off[other])
             partner[a], partner[b] = b, a
         if partner[a] < 0:
-            away = np.abs((chain.points - origin) @ normal)
+            away = np.abs(dot(chain.points - origin, normal))
             above = chain.parent < 0 or within[chain.parent]
             within[a] = above and away.mean() <= _WITHIN * chain.radius.mean()
     return Sides(normal, origin, partner, within, True)

@@ -193,7 +193,7 @@ def _diffuse(weight: NDArray[np.float64], graph: Graph, bones: Bones) -> None:
     """
     if not len(graph.to):
         return
-    far = _DIFFUSED * (weight @ ((bones.head_radius + bones.tail_radius) / 2))
+    far = _DIFFUSED * (weight * ((bones.head_radius + bones.tail_radius) / 2)).sum(axis=1)
     square = np.maximum(graph.length**2, _SHORT * float((graph.length**2).mean()))
     kept = 1.0 / np.maximum(far**2, _SHORT * float(square.mean()))
     flow = _Flow(graph, 1.0 / square, kept)

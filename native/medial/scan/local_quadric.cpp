@@ -126,7 +126,10 @@ std::optional<LocalQuadric> fit_quadric(std::span<const Vec3> points, const Vec3
 
 double spread(std::span<const Vec3> points, const LocalQuadric& quadric) {
   double squares = 0;
-  for (const Vec3& p : points) squares += std::pow(quadric.above(p), 2);
+  for (const Vec3& p : points) {
+    const double off = quadric.above(p);
+    squares += off * off;
+  }
   return std::sqrt(squares / static_cast<double>(points.size() - kTerms));
 }
 
