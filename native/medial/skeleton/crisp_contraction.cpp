@@ -7,8 +7,9 @@ namespace medial {
 namespace {
 
 constexpr double kLongest = 0.5;  // holes between the samples from a vertex to where it may go
-constexpr int kRounds = 8;
-constexpr size_t kMostTogether = 32;  // vertices that move at once: a whole line of a fillet does not
+constexpr int kContractionRounds = 8;
+constexpr size_t kMostTogether =
+    32;  // vertices that move at once: a whole line of a fillet does not
 
 class Contraction {
  public:
@@ -19,7 +20,7 @@ class Contraction {
 
   void contract() {
     std::vector<int32_t> suspects = c_.facets;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kContractionRounds; ++round) {
       throw_if_cancelled(c_.progress);
       suspects = folded(suspects);
       bool changed = false;
@@ -105,7 +106,8 @@ class Contraction {
     const int uses = c_.edge_uses[edge];
     bool may = true;
     for_group(from, [&](int32_t v) {
-      const bool leaves = c_.made.place[v] == Placing::crease && c_.made.place[to] < Placing::crease;
+      const bool leaves =
+          c_.made.place[v] == Placing::crease && c_.made.place[to] < Placing::crease;
       may &= v != to && !is_fixed(v) && !leaves && (!c_.on_rim[v] || uses == 1) &&
              (!c_.on_seam[v] || uses == 3);
     });
