@@ -416,7 +416,8 @@ std::vector<double> radii_without_waves(int count, int waves) {
   std::vector<int32_t> moving;
   std::vector<Edge> edges;
   for (int i = 0; i < count; ++i) {
-    const double angle = 2 * 3.14159265358979 * i / count, size = 1 + 0.05 * std::cos(waves * angle);
+    const double angle = 2 * 3.14159265358979 * i / count,
+                 size = 1 + 0.05 * std::cos(waves * angle);
     places.push_back({size * std::cos(angle), size * std::sin(angle), 0});
     moving.push_back(i);
     edges.push_back({(i + count - 1) % count, (i + 1) % count});

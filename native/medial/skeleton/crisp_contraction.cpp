@@ -6,9 +6,10 @@
 namespace medial {
 namespace {
 
-constexpr double kLongest = 0.5;  // holes between the samples from a vertex to where it may go
-constexpr int kRounds = 8;
-constexpr size_t kMostTogether = 32;  // vertices that move at once: a whole line of a fillet does not
+constexpr double kLongestStep = 0.5;  // holes between the samples from a vertex to where it may go
+constexpr int kContractionRounds = 8;
+constexpr size_t kMostTogether =
+    32;  // vertices that move at once: a whole line of a fillet does not
 
 class Contraction {
  public:
@@ -19,7 +20,7 @@ class Contraction {
 
   void contract() {
     std::vector<int32_t> suspects = c_.facets;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kContractionRounds; ++round) {
       throw_if_cancelled(c_.progress);
       suspects = folded(suspects);
       bool changed = false;
@@ -58,7 +59,7 @@ class Contraction {
     return std::any_of(ring.begin(), ring.end(), [&](const Corner& to) {
       std::vector<int32_t> from;
       for (const Corner& c : ring) {
-        const double room = kLongest * c_.spacing_at(c.vertex);
+        const double room = kLongestStep * c_.spacing_at(c.vertex);
         const Vec3 &here = c_.made.position[c.vertex], &there = c_.made.position[to.vertex];
         if (is_together(c.vertex, to.vertex)) continue;
         if (distance(here, there) > room || !is_free(c.vertex)) return false;
@@ -93,7 +94,8 @@ class Contraction {
       const int32_t a = ring[i].vertex, b = ring[(i + 1) % ring.size()].vertex;
       const double length = distance(c_.made.position[a], c_.made.position[b]);
       for (const auto& [from, to] : {Edge{a, b}, Edge{b, a}}) {
-        if (length > kLongest * c_.spacing_at(from) || !may_go(from, to, ring[i].edge)) continue;
+        if (length > kLongestStep * c_.spacing_at(from) || !may_go(from, to, ring[i].edge))
+          continue;
         steps.push_back({from, to, length});
       }
     }
@@ -105,7 +107,8 @@ class Contraction {
     const int uses = c_.edge_uses[edge];
     bool may = true;
     for_group(from, [&](int32_t v) {
-      const bool leaves = c_.made.place[v] == Placing::crease && c_.made.place[to] < Placing::crease;
+      const bool leaves =
+          c_.made.place[v] == Placing::crease && c_.made.place[to] < Placing::crease;
       may &= v != to && !is_fixed(v) && !leaves && (!c_.on_rim[v] || uses == 1) &&
              (!c_.on_seam[v] || uses == 3);
     });
