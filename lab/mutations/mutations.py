@@ -588,10 +588,16 @@ MUTATIONS = (
         "facets fold at relaxed rims",
     ),
     Mutation(
-        "skeleton/rims.cpp",
-        "constexpr double kFactor = 0.5;",
-        "constexpr double kFactor = -0.5;",
+        "skeleton/rim_waves.cpp",
+        "back[i] = back[i] - lost[i];",
+        "back[i] = lost[i] - back[i];",
         "rims move away from their neighbours",
+    ),
+    Mutation(
+        "skeleton/rim_waves.cpp",
+        "constexpr double kRoundsOfRim = 1.0 / 44;",
+        "constexpr double kRoundsOfRim = 1.0;",
+        "rims of few edges are drawn together",
     ),
     Mutation(
         "skeleton/relax.cpp",

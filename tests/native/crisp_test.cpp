@@ -262,6 +262,14 @@ TEST(FlatPolygon, TellsFoldsFromDents) {
   EXPECT_FALSE(is_turned_over(dented) || turns_back(dented) || crosses_itself(dented));
 }
 
+TEST(FlatPolygon, TellsLines) {
+  const std::vector<FlatPoint> line{{0.1, 0.3}, {0.2, 0.6}, {0.1, 0.3}, {1, 3}, {0.3, 0.9}};
+  EXPECT_TRUE(is_on_line(line));
+  EXPECT_TRUE(is_on_line(std::vector<FlatPoint>(4, {0.1, 0.3})));
+  const std::vector<FlatPoint> sliver{{0, 0}, {1, 0}, {2, 1e-7}};
+  EXPECT_FALSE(is_on_line(sliver));
+}
+
 struct CrispBox {
   SurfaceSamples samples;
   std::optional<Hierarchy> hierarchy;

@@ -16,6 +16,7 @@
 #include "skeleton/curves.h"
 #include "skeleton/fringe.h"
 #include "skeleton/level.h"
+#include "skeleton/rim_waves.h"
 #include "skeleton/rims.h"
 #include "skeleton/wires.h"
 
@@ -406,6 +407,33 @@ TEST(Rims, RelaxAndNeverFold) {
     const Vec3 &a = places[corners[3 * i + 1]], &b = places[corners[3 * i + 2]];
     EXPECT_GT(cross(a, b).z, 0);
   }
+}
+
+// Returns the radii of a closed rim round the origin after its short waves are gone; `waves` of
+// them were there.
+std::vector<double> radii_without_waves(int count, int waves) {
+  std::vector<Vec3> places;
+  std::vector<int32_t> moving;
+  std::vector<Edge> edges;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / count,
+                 size = 1 + 0.05 * std::cos(waves * angle);
+    places.push_back({size * std::cos(angle), size * std::sin(angle), 0});
+    moving.push_back(i);
+    edges.push_back({(i + count - 1) % count, (i + 1) % count});
+  }
+  const RimWaves rim(moving, {edges.begin(), edges.end()}, places.size(), 40);
+  const std::vector<Vec3> moves = rim.moves(places);
+  std::vector<double> radii;
+  for (int i = 0; i < count; ++i) radii.push_back(length(places[i] + moves[i]));
+  return radii;
+}
+
+TEST(RimWaves, ShortOnesGoAndTheRimIsNotDrawnIn) {
+  for (const double radius : radii_without_waves(240, 40)) EXPECT_NEAR(radius, 1, 2e-3);
+  const auto few = radii_without_waves(240, 2);
+  EXPECT_NEAR(*std::max_element(few.begin(), few.end()), 1.05, 1e-3);
+  for (const double radius : radii_without_waves(8, 0)) EXPECT_GT(radius, 0.9);
 }
 
 TEST(Rims, DoNotPassTheHubOfAFan) {

@@ -6,7 +6,7 @@
 namespace medial {
 namespace {
 
-constexpr double kLongest = 0.5;  // holes between the samples from a vertex to where it may go
+constexpr double kLongestStep = 0.5;  // holes between the samples from a vertex to where it may go
 constexpr int kContractionRounds = 8;
 constexpr size_t kMostTogether =
     32;  // vertices that move at once: a whole line of a fillet does not
@@ -59,7 +59,7 @@ class Contraction {
     return std::any_of(ring.begin(), ring.end(), [&](const Corner& to) {
       std::vector<int32_t> from;
       for (const Corner& c : ring) {
-        const double room = kLongest * c_.spacing_at(c.vertex);
+        const double room = kLongestStep * c_.spacing_at(c.vertex);
         const Vec3 &here = c_.made.position[c.vertex], &there = c_.made.position[to.vertex];
         if (is_together(c.vertex, to.vertex)) continue;
         if (distance(here, there) > room || !is_free(c.vertex)) return false;
@@ -94,7 +94,8 @@ class Contraction {
       const int32_t a = ring[i].vertex, b = ring[(i + 1) % ring.size()].vertex;
       const double length = distance(c_.made.position[a], c_.made.position[b]);
       for (const auto& [from, to] : {Edge{a, b}, Edge{b, a}}) {
-        if (length > kLongest * c_.spacing_at(from) || !may_go(from, to, ring[i].edge)) continue;
+        if (length > kLongestStep * c_.spacing_at(from) || !may_go(from, to, ring[i].edge))
+          continue;
         steps.push_back({from, to, length});
       }
     }

@@ -12,9 +12,9 @@ namespace medial {
 // Holds the vertices of rims that move, and their neighbours along the rims.
 class RimWaves {
  public:
-  // `beside` has the neighbours of each vertex of `moving`, two at least; those that do not move are
-  // fixed. `vertices` is more than any of them. Waves of up to about 2.5 times the square root of
-  // `rounds` edges are taken out, and less where a rim is shorter than a few of these waves.
+  // `beside` has the neighbours of each vertex of `moving`, two at least; those that do not move
+  // are fixed. `vertices` is more than any of them. Waves of up to about 2.5 times the square root
+  // of `rounds` edges are taken out, and less where a rim is shorter than a few of these waves.
   RimWaves(std::vector<int32_t> moving, std::vector<std::span<const int32_t>> beside,
            size_t vertices, int rounds);
 

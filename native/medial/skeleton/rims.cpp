@@ -8,8 +8,8 @@ namespace medial {
 namespace {
 
 constexpr int kSteps = 3;
-constexpr int kRounds = 40;  // of means along the rim: waves of 16 edges
-constexpr int kHalvings = 6;  // of a step that folds a facet; after these the vertex stays
+constexpr int kRimMeans = 40;  // of means along the rim: waves of 16 edges
+constexpr int kHalvings = 6;   // of a step that folds a facet; after these the vertex stays
 
 class Relaxer {
  public:
@@ -24,7 +24,8 @@ class Relaxer {
   }
 
   std::vector<int32_t> relax() && {
-    const RimWaves waves(moving_, {neighbours_.begin(), neighbours_.end()}, places_.size(), kRounds);
+    const RimWaves waves(moving_, {neighbours_.begin(), neighbours_.end()}, places_.size(),
+                         kRimMeans);
     for (int step = 0; step < kSteps; ++step) {
       throw_if_cancelled(run_.progress);
       take_step(waves);
