@@ -72,12 +72,13 @@ class Faces {
     const Foot flat = flat_foot(triangle, from);
     return is_curved(triangle) ? lifted(flat, from) : flat;
   }
-  // Returns the nearest lifted foot on the triangles that meet where a foot is, in the same wall, or
-  // the foot itself if it is nearer.
+  // Returns the nearest lifted foot on the triangles that meet where a foot is, in the same wall,
+  // or the foot itself if it is nearer.
   Foot lifted_beside(const Foot& foot, const Vec3& from) const;
   // Returns the nearest lifted foot of all faces that is nearer than a distance, without those that
   // `ignored` is true of. Where very many faces are about as far away, as those of a sphere are
-  // from its centre, it gives up after some leaves of the tree in vain.
+  // from its centre, it gives up after some leaves of the tree in vain. Curved ones count twice, as
+  // many of them touch a ball and none of them is exact.
   template <typename Ignored>
   NearestLifted nearer_by_lift(const Vec3& from, double than, const Ignored& ignored,
                                int most_in_vain) const {
@@ -85,7 +86,7 @@ class Faces {
     double within = than;
     int in_vain = 0;
     const auto visit = [&](const Node& leaf) {
-      ++in_vain;
+      in_vain += is_curved(order_[leaf.begin]) ? 2 : 1;
       for (int32_t i = leaf.begin; i < leaf.end; ++i) {
         const int32_t t = order_[i];
         const Foot flat = flat_foot(t, from);

@@ -26,9 +26,9 @@ constexpr double kUnknown = 1.0 / 64, kUnknownBetween = 1.0 / 4;
 constexpr double kTouched = 0.03, kOpposite = -0.5;
 // It is looked for from half of the way to the place opposite, up to so far from there, in radii.
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
-constexpr int kMostInVain = 24, kMostBeside = 64;  // leaves of the tree of faces
-constexpr double kSmaller = 0.95;                  // a ball that is searched to the end
-constexpr double kNothing = 1e-3;                  // a ball of so many roundings is none
+constexpr int kMostInVain = 48, kMostBeside = 128;  // leaves of the tree of faces
+constexpr double kSmaller = 0.95;                   // a ball that is searched to the end
+constexpr double kNothing = 1e-3;                   // a ball of so many roundings is none
 // In a run, each ball starts where the one before touched, on the wall opposite if there is one: in
 // a tube it then needs no search for this wall.
 constexpr int64_t kRunOfPlaces = 64;
