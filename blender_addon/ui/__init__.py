@@ -12,6 +12,7 @@ def _modules() -> tuple[ModuleType, ...]:
     from . import (
         apply_later,
         asset_library,
+        auto_update,
         balls,
         command,
         compute_sequence,
@@ -57,6 +58,7 @@ def _modules() -> tuple[ModuleType, ...]:
         asset_library,
         preferences,
         operators,
+        auto_update,
         skeleton_operators,
         thickness_limits,
         thickness_operators,

@@ -30,6 +30,7 @@ TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's ow
 COMPUTE = (102, 50)
 CANCEL = (48, 50)
 RECONSTRUCT = (102, 81)  # where there are points without faces
+AUTO_UPDATE = (30, 320)  # beside the light of the panel Result
 THETA_LEFT, THETA_RIGHT = (120, 127), (50, 127)
 SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 105), (50, 105)
 GERMAN_TAB = (13, 270)
@@ -316,6 +317,72 @@ def scene_sliders_with_escape():
     yield patience(1.0)
     look("curve")
     assert facets() == 0
+
+
+def scene_auto_update():
+    """An edit is followed without a step of undo, and what undo and redo bring back is followed, too."""
+    monkey()
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield patience(1.0)
+    look("offered")  # the panel Result is open after the first computation
+    yield from click(*at(AUTO_UPDATE))
+    assert live_result().medial_axis_auto_update, "the switch was missed"
+    first = followed()
+    yield from key("Tab")
+    yield from key("s")
+    xdotool("key", "x", "2", "Return")
+    yield patience(1.5)
+    assert followed() == first, "in edit mode it waits"
+    yield from key("Tab")
+    yield lambda: followed() > 1.5 * first
+    yield no_job
+    look("edited")
+    assert not changed_since()
+    yield from key("ctrl+z")
+    yield from key("ctrl+z")
+    yield lambda: abs(followed() - first) < 1e-3
+    assert bpy.context.object.mode == "OBJECT" and not changed_since()
+    yield from key("ctrl+shift+z")
+    yield from key("ctrl+shift+z")
+    yield lambda: followed() > 1.5 * first
+    yield no_job
+    with held(addon("core.axis.compute"), "extract"):
+        bpy.context.object.scale.y = 3.0
+        yield job_exists
+        yield 0.5
+        look("in-the-thread")
+        yield from key("Escape")
+        yield no_job
+    yield 2.0
+    assert job() is None and changed_since(), "what was cancelled is not begun again"
+    bpy.context.object.scale.y = 2.0
+    yield job_exists
+    bpy.data.objects.remove(bpy.context.object)
+    yield no_job
+    yield 2.0
+    assert job() is None and not bpy.context.scene.medial_axis.note
+    assert addon("ui.auto_update")._after_update not in bpy.app.handlers.depsgraph_update_post
+
+
+def live_result():
+    return bpy.data.objects["Suzanne Medial Axis"]
+
+
+def followed():
+    """How wide the result is in X."""
+    return float(np.ptp(positions_of(live_result())[:, 0]))
+
+
+def positions_of(thing):
+    found = np.empty(3 * len(thing.data.vertices), np.float32)
+    thing.data.vertices.foreach_get("co", found)
+    return found.reshape(-1, 3)
+
+
+def changed_since():
+    return addon("bridge.source_state").differs(live_result(), bpy.context.view_layer.depsgraph)
 
 
 def no_update():

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Auto Update: which result is computed next, and what its updates write; the window's part is a scene."""
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, compute, ellipsoid, positions, result_of, select
+
+auto, live = addon("ui.auto_update"), addon("bridge.live_result")
+
+
+@pytest.fixture
+def pair():
+    source = ellipsoid(segments=4)
+    bpy.context.scene.medial_axis.sampling = "VERTICES"
+    compute(sampling="VERTICES")
+    result = result_of(source)
+    result.medial_axis_auto_update = True
+    return source, result
+
+
+def wanted():
+    bpy.context.view_layer.update()
+    return auto.next_result(bpy.context)
+
+
+def edit(source, factor=1.3):
+    for vertex in source.data.vertices:
+        vertex.co.x *= factor
+    source.data.update()
+
+
+def update(result, coarse=False):
+    """Do what the operator does, without its thread."""
+    bpy.context.view_layer.update()
+    settings = auto.wish(bpy.context, result)[1]
+    read = live.read_live(result, bpy.context.view_layer.depsgraph)
+    computation = addon("core.axis.compute").compute_axis(
+        read.shape, settings.coarse if coarse else settings
+    )
+    live.write_live(read, computation, coarse)
+
+
+def test_it_is_off_at_first_and_watches_nothing_in_the_background():
+    source = ellipsoid()
+    compute()
+    assert not result_of(source).medial_axis_auto_update
+    result_of(source).medial_axis_auto_update = True
+    assert auto._after_update not in bpy.app.handlers.depsgraph_update_post
+    assert not bpy.app.timers.is_registered(auto._begin)
+
+
+def test_edits_modifiers_and_scale_are_seen_and_moves_are_not(pair):
+    source, result = pair
+    assert wanted() is None
+    source.location, source.rotation_euler = (1, 2, 3), (0.1, 0.2, 0.3)
+    assert wanted() is None
+    source.scale = (2, 1, 1)
+    assert wanted() == result
+    source.scale = (1, 1, 1)
+    assert wanted() is None
+    wave = source.modifiers.new("Wave", "DISPLACE")
+    wave.strength = 0.05
+    assert wanted() == result
+    result.medial_axis_auto_update = False
+    assert wanted() is None
+
+
+def test_an_update_is_what_a_computation_makes(pair):
+    source, result = pair
+    edit(source)
+    update(result)
+    assert wanted() is None
+    updated = positions(result.data)
+    select(source)
+    compute(sampling="VERTICES")
+    assert np.array_equal(updated, positions(result_of(source).data))
+
+
+def test_a_coarse_update_leaves_the_result_outdated(pair):
+    source, result = pair
+    crisp = auto.wish(bpy.context, result)[1].crisp
+    edit(source)
+    update(result, coarse=True)
+    assert result["ma_sampling"] == "SURFACE" and wanted() == result
+    assert auto.wish(bpy.context, result)[1].crisp == crisp, "what was coarse is not wished"
+    update(result)
+    assert result["ma_sampling"] != "SURFACE" and wanted() is None
+
+
+def test_filters_stay_those_of_the_result(pair):
+    _, result = pair
+    result["ma_simplify"] = 0.125
+    bpy.context.scene.medial_axis.samples = 900
+    _, settings = auto.wish(bpy.context, result)
+    assert (settings.simplify, settings.samples) == (0.125, 900)
+
+
+def test_what_was_refused_is_tried_again_after_another_edit(pair):
+    source, result = pair
+    edit(source)
+    bpy.context.view_layer.update()
+    auto._refused[result.name] = auto.wish(bpy.context, result)
+    assert wanted() is None
+    edit(source)
+    assert wanted() == result
+    auto._refused.clear()
+
+
+def test_sources_in_other_modes_wait_and_deleted_ones_end_it(pair):
+    source, result = pair
+    edit(source)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    assert wanted() is None
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert wanted() == result
+    bpy.data.objects.remove(source)
+    assert wanted() is None
+
+
+def test_a_result_that_went_away_is_not_written(pair):
+    source, result = pair
+    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
+    bpy.data.objects.remove(result)
+    live.write_live(read, None, False)
+    assert result_of(source) is None
