@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.errors import MedialAxisError
 from .axis_object import look_of, result_of, write_result
 from .output_object import SECONDS, follow, is_gone, source_of
 from .read_object import read_object
@@ -89,11 +90,13 @@ def write_live(read: LiveSource, computation: Computation, is_coarse: bool) -> N
 
     Raises
     ------
-    InvalidInputError
+    MedialAxisError
     """
     result = bpy.data.objects.get(read.name)
     if result is None or result not in live_results():
         return
+    if computation.axis.is_empty:
+        raise MedialAxisError(computation.warnings[-1])
     source, look = source_of(result), look_of(result)
     kept = {name: result[name] for name in _NOT_COARSE if name in result}
     write_result(source, computation, read.shape.frame, look)

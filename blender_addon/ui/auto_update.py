@@ -2,8 +2,12 @@
 """Auto Update: a result is computed again when its source has rested after an edit.
 
 A handler looks at Blender's changes while some result has Auto Update on, and a timer runs while an edit waits. The
-work is done in the job's thread by an operator that makes no step of undo, so Ctrl+Z still takes back what an artist
-did; the handlers see that, too, and the result follows. Moves need no computation, because results are children.
+work is done in the job's thread by an operator that makes no step of undo, so Ctrl+Z takes back what an artist did, and
+Redo still has its steps. Blender restores an object of a step as it was when the step was made, before the update of
+that step, because each update gives it another mesh (a mesh that is changed in place keeps the new content, while the
+object gets back its old properties). So the handlers of undo look at all live results, and these follow.
+
+Moves need no computation, because results are children.
 """
 
 import time
@@ -45,7 +49,7 @@ _refused = {}  # name of a result -> the wish that was cancelled or failed; it i
 def draw_auto_update(layout, result):
     """Draws the switch of a result, an icon without words."""
     if can_be_live(result):
-        layout.prop(result, LIVE, text="", icon="RECOVER_LAST")
+        layout.prop(result, LIVE, text="", icon="FILE_REFRESH")
 
 
 # --- which result is computed next
@@ -173,7 +177,9 @@ def _begin():
 
 
 def _is_busy(windows):
-    """Whether a modal operator runs, such as a transform; Blender tells this from 4.2 on."""
+    """Whether Blender renders, or a modal operator runs, such as a transform; it tells the latter from 4.2 on."""
+    if bpy.app.is_job_running("RENDER"):
+        return True
     return any(len(getattr(window, "modal_operators", ())) for window in windows)
 
 
@@ -266,6 +272,8 @@ def register():
         **IN_CONTEXT,
     )
     bpy.app.handlers.load_post.append(_after_load)
+    if not bpy.app.background:  # a file may be open already, which no add-on may look at while it is registered
+        bpy.app.timers.register(_watch, first_interval=_LOOK)
 
 
 def unregister():
@@ -274,8 +282,9 @@ def unregister():
     for handlers in _undo_handlers():
         if _after_undo in handlers:
             handlers.remove(_after_undo)
-    if bpy.app.timers.is_registered(_begin):
-        bpy.app.timers.unregister(_begin)
+    for timer in (_begin, _watch):
+        if bpy.app.timers.is_registered(timer):
+            bpy.app.timers.unregister(timer)
     _forget()
     _refused.clear()
     del bpy.types.Object.medial_axis_auto_update

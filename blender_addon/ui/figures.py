@@ -11,7 +11,6 @@ from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
 from ..bridge.source_state import has_changed
 from ..core.axis.verdict import Light
 from . import manual
-from .auto_update import draw_auto_update
 from .guide import WHY
 from .inward_faces import draw_inward_faces
 from .legend import draw_legend, light
@@ -134,15 +133,12 @@ def _draw_verdict(context, layout, result):
         return
     if reason := why_outdated(context, result):
         draw_wrapped(context, layout, reason, icon_value=light(Light.LOOK.name))
-        row = layout.row(align=True)
-        again = row.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
+        again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
         copy_settings(context.scene.medial_axis, again)
-        draw_auto_update(row, result)
         return
     row = layout.row()
     sentence = _short(say(result[axis_object.VERDICT]))
-    draw_wrapped(context, row, sentence, icon_value=light(name), beside=2 * _BUTTON)
-    draw_auto_update(row, result)
+    draw_wrapped(context, row, sentence, icon_value=light(name), beside=_BUTTON)
     if manual.has(WHY[name].partition("#")[0]):
         why = row.row()
         why.alignment = "RIGHT"

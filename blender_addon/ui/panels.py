@@ -8,6 +8,7 @@ from ..bridge.wires import width_of, wires_of
 from ..core.machine import native
 from ..core.settings import Form, Side, SidesFrom
 from . import current_job
+from .auto_update import draw_auto_update
 from .figures import (
     draw_details,
     draw_report,
@@ -133,6 +134,10 @@ class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
     @classmethod
     def poll(cls, context):
         return _shown(context) is not None
+
+    def draw_header_preset(self, context):
+        if result := shown_result(context):
+            draw_auto_update(self.layout, result)
 
     def draw(self, context):
         layout = self.layout

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Auto Update: which result is computed next, and what its updates write; the window's part is a scene."""
 
+import dataclasses
+
 import bpy
 import numpy as np
 import pytest
@@ -124,3 +126,53 @@ def test_a_result_that_went_away_is_not_written(pair):
     bpy.data.objects.remove(result)
     live.write_live(read, None, False)
     assert result_of(source) is None
+
+
+def test_an_axis_without_facets_is_told_and_not_written(pair):
+    source, result = pair
+    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
+    settings = dataclasses.replace(auto.wish(bpy.context, result)[1], theta=np.pi / 2, rho=1e9)
+    settings = dataclasses.replace(settings, form=addon("core.settings").Form.PUBLISHED)
+    computation = addon("core.axis.compute").compute_axis(read.shape, settings)
+    facets = len(result.data.polygons)
+    with pytest.raises(addon("core.errors").MedialAxisError, match="no facet passes"):
+        live.write_live(read, computation, False)
+    assert len(result.data.polygons) == facets > 0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_undo_and_redo_step_over_updates(pair, seed):
+    """Each step of an artist is one step of undo, whatever updates came between, and nothing is left over."""
+    bpy.context.preferences.edit.use_global_undo = True
+    names = [thing.name for thing in pair]
+    bpy.ops.ed.undo_push(message="set")
+    rng, shapes, now = np.random.default_rng(seed), [positions(pair[0].data)], 0
+    kept = (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
+    for _ in range(14):
+        action = rng.integers(4)
+        if action == 0 and now > 0:
+            now -= bpy.ops.ed.undo() == {"FINISHED"}
+        elif action == 1 and now + 1 < len(shapes):
+            now += bpy.ops.ed.redo() == {"FINISHED"}
+        elif action == 2:
+            edit(bpy.data.objects[names[0]], rng.uniform(0.8, 1.25))
+            del shapes[now + 1 :]
+            shapes.append(positions(bpy.data.objects[names[0]].data))
+            now += 1
+            bpy.ops.ed.undo_push(message="edit")
+        source, result = (bpy.data.objects[name] for name in names)
+        assert np.array_equal(positions(source.data), shapes[now]), "a step was lost"
+        if wanted() is not None and rng.random() < 0.8:
+            update(result, coarse=rng.random() < 0.3)
+        assert kept == (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
+        if wanted() is None:
+            assert_belongs(source, result)
+    assert len(shapes) > 2, "nothing was edited"
+
+
+def assert_belongs(source, result):
+    """What the light calls up to date is the axis of the source."""
+    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
+    settings = auto.wish(bpy.context, result)[1]
+    axis = addon("core.axis.compute").compute_axis(read.shape, settings).axis
+    assert np.allclose(positions(result.data), axis.vertices, rtol=0, atol=1e-6)

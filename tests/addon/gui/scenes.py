@@ -30,7 +30,7 @@ TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's ow
 COMPUTE = (102, 50)
 CANCEL = (48, 50)
 RECONSTRUCT = (102, 81)  # where there are points without faces
-AUTO_UPDATE = (30, 320)  # beside the light of the panel Result
+AUTO_UPDATE = (62, 283)  # in the header of the panel Result
 THETA_LEFT, THETA_RIGHT = (120, 127), (50, 127)
 SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 105), (50, 105)
 GERMAN_TAB = (13, 270)
@@ -320,8 +320,10 @@ def scene_sliders_with_escape():
 
 
 def scene_auto_update():
-    """An edit is followed without a step of undo, and what undo and redo bring back is followed, too."""
-    monkey()
+    """A result follows edits, undo, redo and another session; it waits where it should, and Escape stops it."""
+    monkey().modifiers.clear()
+    bpy.context.scene.medial_axis.sampling = "SURFACE"
+    bpy.context.scene.medial_axis.samples = 2_000
     yield from open_tab()
     yield from click(*at(COMPUTE))
     yield result_exists
@@ -329,25 +331,90 @@ def scene_auto_update():
     look("offered")  # the panel Result is open after the first computation
     yield from click(*at(AUTO_UPDATE))
     assert live_result().medial_axis_auto_update, "the switch was missed"
+    for part in (
+        moves_need_nothing,
+        edit_mode_waits,
+        undo_is_followed,
+        coarse_comes_first,
+        escape_stops_it,
+        files_keep_it,
+        disabled_while_it_waits,
+        deleted_source_ends_it,
+    ):
+        yield from part()
+
+
+def moves_need_nothing():
+    yield from key("g")
+    xdotool("key", "x", "1", "Return")
+    yield 0.5
+    assert abs(live_result().matrix_world.translation.x - 1.0) < 1e-3, "a child moves at once"
+    yield from stays_without_job(1.5)
+
+
+def stays_without_job(seconds):
+    for _ in range(int(10 * seconds)):
+        assert no_job(), "nothing should be computed now"
+        yield 0.1
+
+
+def edit_mode_waits():
     first = followed()
     yield from key("Tab")
     yield from key("s")
     xdotool("key", "x", "2", "Return")
-    yield patience(1.5)
-    assert followed() == first, "in edit mode it waits"
+    yield from stays_without_job(1.5)
+    assert followed() == first
     yield from key("Tab")
     yield lambda: followed() > 1.5 * first
     yield no_job
     look("edited")
     assert not changed_since()
-    yield from key("ctrl+z")
-    yield from key("ctrl+z")
+    for stroke in ("ctrl+z", "ctrl+z", "ctrl+z"):  # out of edit mode, the scale, into edit mode
+        yield from key(stroke)
     yield lambda: abs(followed() - first) < 1e-3
+    yield no_job
     assert bpy.context.object.mode == "OBJECT" and not changed_since()
-    yield from key("ctrl+shift+z")
-    yield from key("ctrl+shift+z")
+
+
+def undo_is_followed():
+    """One stroke takes back one step of the artist; redo still knows it after the result has followed."""
+    first, things = followed(), len(bpy.data.objects)
+    yield from key("s")
+    xdotool("key", "x", "2", "Return")
     yield lambda: followed() > 1.5 * first
     yield no_job
+    for _ in range(2):
+        yield from key("ctrl+z")
+        assert bpy.context.object.scale.x == 1.0, "one stroke takes back one step"
+        yield lambda: abs(followed() - first) < 1e-3
+        yield no_job
+        yield 1.0
+        look("undone")
+        yield from key("ctrl+shift+z")
+        assert bpy.context.object.scale.x == 2.0, "redo must know the step after an update"
+        yield lambda: followed() > 1.5 * first
+        yield no_job
+    assert len(bpy.data.objects) == things and not changed_since()
+    yield 1.0
+    look("redone")
+
+
+def coarse_comes_first():
+    live_result()["ma_seconds"] = 5.0  # as if it were slow
+    addon("core.settings").COARSE = 500
+    bpy.context.object.scale.z = 1.5
+    yield job_exists
+    seen = set()
+    while job() is not None:
+        seen.add((live_result()["ma_points"], changed_since()))
+        yield 0.05
+    seen.add((live_result()["ma_points"], changed_since()))
+    few, (full, outdated) = min(seen), max(seen)
+    assert few[0] < 1_000 < full and few[1] and not outdated, seen
+
+
+def escape_stops_it():
     with held(addon("core.axis.compute"), "extract"):
         bpy.context.object.scale.y = 3.0
         yield job_exists
@@ -355,8 +422,43 @@ def scene_auto_update():
         look("in-the-thread")
         yield from key("Escape")
         yield no_job
+    yield from stays_without_job(2.0)
+    assert changed_since(), "what was cancelled is not begun again"
+    look("cancelled")
+    bpy.context.object.scale.y = 1.0
     yield 2.0
-    assert job() is None and changed_since(), "what was cancelled is not begun again"
+    yield no_job
+    assert not changed_since()
+
+
+def files_keep_it():
+    path, first = str(Path(FOLDER) / "live.blend"), followed()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path)
+    yield from stays_without_job(2.0)
+    assert live_result().medial_axis_auto_update and not changed_since()
+    bpy.context.object.scale.x = 3.0
+    yield lambda: followed() > 1.2 * first
+    yield no_job
+
+
+def disabled_while_it_waits():
+    """What waits is dropped with the add-on, and found again when that comes back."""
+    first, module = followed(), os.environ["MEDIAL_AXIS_MODULE"]
+    before = bpy.app.handlers.depsgraph_update_post[:]
+    bpy.context.object.scale.x = 1.0
+    yield 0.2
+    bpy.ops.preferences.addon_disable(module=module)
+    yield 1.5
+    assert followed() == first and threads() == []
+    assert len(bpy.app.handlers.depsgraph_update_post) == len(before) - 1
+    bpy.ops.preferences.addon_enable(module=module)
+    yield lambda: followed() < 0.7 * first
+    yield no_job
+
+
+def deleted_source_ends_it():
     bpy.context.object.scale.y = 2.0
     yield job_exists
     bpy.data.objects.remove(bpy.context.object)
@@ -364,6 +466,8 @@ def scene_auto_update():
     yield 2.0
     assert job() is None and not bpy.context.scene.medial_axis.note
     assert addon("ui.auto_update")._after_update not in bpy.app.handlers.depsgraph_update_post
+    yield 0.5
+    look("deleted")
 
 
 def live_result():
