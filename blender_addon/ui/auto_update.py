@@ -272,7 +272,9 @@ def register():
         **IN_CONTEXT,
     )
     bpy.app.handlers.load_post.append(_after_load)
-    if not bpy.app.background:  # a file may be open already, which no add-on may look at while it is registered
+    if (
+        not bpy.app.background
+    ):  # a file may be open already, which no add-on may look at while it is registered
         bpy.app.timers.register(_watch, first_interval=_LOOK)
 
 

@@ -10,7 +10,6 @@ from ..core.samples.density import share_text
 from ..core.settings import LOOKS, MID_SURFACE_OPTIONS, OPTIONS, MidSurfaceSettings
 from ..core.solid.mid_surface import mid_surface
 from .compute_operator import ComputeOperator
-from .object_menus import register_with_entry, unregister_with_entry
 from .preferences import memory_limit
 from .properties import SamplingProperties, draw_sampling, prop, settings_from, with_options
 
@@ -61,16 +60,6 @@ class OBJECT_OT_medial_axis_unsolidify(
         return f"{sheets}, {thick} thick, with {share_text(found.share)} of the volume"
 
 
-def _menu(self, _context):
-    self.layout.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
-
-
 CLASSES = (OBJECT_OT_medial_axis_unsolidify,)
 
-
-def register():
-    register_with_entry(CLASSES, _menu)
-
-
-def unregister():
-    unregister_with_entry(CLASSES, _menu)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

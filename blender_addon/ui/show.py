@@ -21,6 +21,12 @@ def show_colours(space):
     shading.color_type = "VERTEX"
 
 
+def draw_colours(context, layout):
+    """The button that shows colours, pressed while they are shown."""
+    shown = shows_colours(context.space_data)
+    layout.operator("view3d.medial_axis_show_colours", icon="COLOR", depress=shown)
+
+
 class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
     bl_idname = "view3d.medial_axis_show_colours"
     bl_label = "Show Colours"

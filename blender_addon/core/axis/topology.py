@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from ..settings import OPTIONS, Form, SidesFrom
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..samples.analysed import AnalysedSamples
     from .medial_axis import MedialAxis
 
@@ -49,6 +51,16 @@ def betti_words(betti: tuple[int, int, int]) -> str:
     one = {0: f"no loop, {cavity}", 1: f"1 loop, {cavity}"}
     loop = one.get(loops, f"{loops:,} loops, {cavity}")
     return f"1 piece, {loop}" if pieces == 1 else f"{pieces:,} pieces, {loop}"
+
+
+def betti_in_short(betti: Sequence[int]) -> str:
+    """Format Betti numbers as '1 piece', '1 piece, 5 loops' or '2 pieces, 1 cavity'."""
+    words = (("piece", "pieces"), ("loop", "loops"), ("cavity", "cavities"))
+    return ", ".join(
+        f"{count:,} {one if count == 1 else many}"
+        for count, (one, many) in zip(betti, words, strict=True)
+        if count or one == "piece"
+    )
 
 
 def _why(
