@@ -146,7 +146,8 @@ def _draw_pieces(layout, result):
     betti = result.get(axis_object.BETTI, (result.get(axis_object.PIECES, 0), 0, 0))
     agrees = result.get(axis_object.TOPOLOGY, "").endswith(", as the solid")
     icon = "CHECKMARK" if agrees else "MESH_DATA"
-    layout.label(text=say(betti_in_short(betti)), icon=icon, translate=False)
+    words = ", ".join(map(say, betti_in_short(betti)))
+    layout.label(text=words, icon=icon, translate=False)
 
 
 def why_outdated(context, result):

@@ -21,7 +21,7 @@ from .guide import draw_guide
 from .presets import VIEW3D_PT_medial_axis_presets
 from .properties import copy_settings, shown_report, shown_result, shown_surface
 from .selected_sources import has_faces, obstacle, sources
-from .show import draw_colours, shows_colours
+from .show import draw_colours, draw_source, shows_colours
 from .shown import shown_frame, shown_thing
 from .tab import MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
 from .translation import say
@@ -67,7 +67,9 @@ class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         result, report, frame = shown_result(context), shown_report(context), shown_frame(context)
-        draw_colours(context, layout)
+        row = layout.row(align=True)
+        draw_colours(context, row)
+        draw_source(row, shown_thing(context))
         if frame is not None:
             draw_sequence(context, layout, frame)
         if result is not None:

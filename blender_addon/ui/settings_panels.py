@@ -3,12 +3,10 @@
 
 import bpy
 
-from ..bridge import output_object
 from ..bridge.wires import width_of, wires_of
 from ..core.settings import Form, SidesFrom
 from .form_panel import draw_more_of_form
 from .properties import copy_settings, draw_sampling, settings_from
-from .show import draw_colours
 from .shown import shown_thing
 from .tab import SETTINGS, Closed, InSettings, draws_buttons, settings_column
 
@@ -75,11 +73,8 @@ class VIEW3D_PT_medial_axis_show(InSettings, bpy.types.Panel):
 
     def draw(self, context):
         thing, settings = shown_thing(context), context.scene.medial_axis
-        draw_colours(context, self.layout)
         column = settings_column(self.layout)
         column.prop(thing, "show_in_front", text="In Front")
-        if output_object.source_of(thing) is not None:
-            _draw_source(column, thing)
         column.prop(settings, "parent")
         if Form[settings.form] is Form.PUBLISHED:
             column.prop(settings, "smallest_island", slider=True)
@@ -88,15 +83,6 @@ class VIEW3D_PT_medial_axis_show(InSettings, bpy.types.Panel):
         modifier = wires_of(thing)
         if modifier is not None and (width := width_of(modifier)):
             column.prop(*width, text="Wire Width")
-
-
-def _draw_source(layout, thing):
-    source = output_object.source_of(thing)
-    layout.operator(
-        "object.medial_axis_source_as_wire",
-        icon="SHADING_WIRE",
-        depress=source.display_type == "WIRE",
-    ).name = thing.name
 
 
 CLASSES = (

@@ -129,7 +129,7 @@ def test_a_result_that_went_away_is_not_written(pair):
 
 
 def test_an_axis_without_facets_is_told_and_not_written(pair):
-    source, result = pair
+    _source, result = pair
     read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
     settings = dataclasses.replace(auto.wish(bpy.context, result)[1], theta=np.pi / 2, rho=1e9)
     settings = dataclasses.replace(settings, form=addon("core.settings").Form.PUBLISHED)

@@ -90,6 +90,6 @@ def test_a_few_words_of_good_open_and_unknown_results():
 
 
 def test_betti_numbers_in_short_leave_out_what_there_is_none_of():
-    assert topology.betti_in_short((1, 0, 0)) == "1 piece"
-    assert topology.betti_in_short((2, 1, 0)) == "2 pieces, 1 loop"
-    assert topology.betti_in_short((1, 1234, 2)) == "1 piece, 1,234 loops, 2 cavities"
+    assert topology.betti_in_short((1, 0, 0)) == ["1 piece"]
+    assert topology.betti_in_short((2, 1, 0)) == ["2 pieces", "1 loop"]
+    assert topology.betti_in_short((1, 1234, 2)) == ["1 piece", "1,234 loops", "2 cavities"]

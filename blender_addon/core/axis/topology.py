@@ -53,14 +53,15 @@ def betti_words(betti: tuple[int, int, int]) -> str:
     return f"1 piece, {loop}" if pieces == 1 else f"{pieces:,} pieces, {loop}"
 
 
-def betti_in_short(betti: Sequence[int]) -> str:
-    """Format Betti numbers as '1 piece', '1 piece, 5 loops' or '2 pieces, 1 cavity'."""
-    words = (("piece", "pieces"), ("loop", "loops"), ("cavity", "cavities"))
-    return ", ".join(
-        f"{count:,} {one if count == 1 else many}"
-        for count, (one, many) in zip(betti, words, strict=True)
-        if count or one == "piece"
-    )
+def betti_in_short(betti: Sequence[int]) -> list[str]:
+    """Format those Betti numbers that are not 0 as '1 piece', '5 loops' and '1 cavity'."""
+    pieces, loops, cavities = betti
+    found = ["1 piece" if pieces == 1 else f"{pieces:,} pieces"]
+    if loops:
+        found.append("1 loop" if loops == 1 else f"{loops:,} loops")
+    if cavities:
+        found.append("1 cavity" if cavities == 1 else f"{cavities:,} cavities")
+    return found
 
 
 def _why(

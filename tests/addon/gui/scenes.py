@@ -30,20 +30,23 @@ TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's ow
 COMPUTE = (102, 50)
 CANCEL = (48, 50)
 RECONSTRUCT = (102, 81)  # where there are points without faces
-AUTO_UPDATE = (62, 283)  # in the header of the panel Result
-THETA_LEFT, THETA_RIGHT = (120, 127), (50, 127)
-SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 105), (50, 105)
+THETA_LEFT, THETA_RIGHT = (120, 150), (50, 150)
+SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 128), (50, 128)
 GERMAN_TAB = (13, 270)
 # Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
-SAMPLING, SKELETON, THICKNESS = (185, 206), (150, 258), (150, 284)
+SKELETON, THICKNESS, SETTINGS = (150, 229), (150, 255), (150, 307)
 RESULT, REBUILD = (
-    (150, 283),
-    (150, 413),
+    (150, 229),
+    (150, 307),
 )  # where there is a result; the second, when the first is closed
+AUTO_UPDATE = (62, 229)  # in the header of the panel Result
+SAMPLING = (150, 359)  # in Settings
 REPORT = (102, 442)
-EXTRACT_SKELETON, MAKE_ARMATURE = (102, 384), (102, 410)
-MEASURE_THICKNESS, THICKEN = (102, 432), (102, 548)
-REBUILD_SOLID = (102, 443)
+EXTRACT_SKELETON, MAKE_ARMATURE = (102, 355), (102, 381)
+MEASURE_THICKNESS, THICKEN = (102, 403), (102, 519)
+REBUILD_SOLID = (102, 337)
+FORM, SKELETON_OPTIONS_END = (200, 95), (30, 340)
+SETTINGS_OF_RESULT = (150, 385)
 
 
 # --- hands and eyes
@@ -317,6 +320,56 @@ def scene_sliders_with_escape():
     yield patience(1.0)
     look("curve")
     assert facets() == 0
+
+
+def scene_steady_panels():
+    """Nothing moves when a computation begins, and every verb is in one menu, where F3 finds it."""
+    select(bpy.data.objects["Cube"])
+    bpy.context.scene.medial_axis.sampling = "SURFACE"
+    bpy.context.scene.medial_axis.samples = 600
+    yield from open_tab()
+    yield from fold(SKELETON)
+    look("before")
+    with held(addon("core.axis.compute"), "extract"):
+        yield from click(*at(COMPUTE))
+        yield job_exists
+        yield patience(1.0)
+        look("computing")
+        yield from key("Escape")
+        yield no_job
+    assert_same_below(FORM, SKELETON_OPTIONS_END, "before", "computing")
+    yield from fold(SKELETON)
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield patience(1.0)
+    look("result")
+    yield from fold(RESULT)
+    yield from fold(SETTINGS_OF_RESULT)
+    look("settings")
+    yield from key("F3")
+    xdotool("type", "thick")
+    yield patience(1.0)
+    look("found")
+    yield from key("Escape")
+    with in_viewport():
+        bpy.ops.wm.call_menu(name="VIEW3D_MT_medial_axis")
+    yield patience(1.0)
+    look("menu")
+    yield from key("Escape")
+
+
+def assert_same_below(start, end, *names):
+    """Two pictures show the same of the sidebar between two places."""
+    seen = []
+    for name in names:
+        image = bpy.data.images.load(str(Path(FOLDER) / f"{NAME}-{name}.png"))
+        pixels = np.array(image.pixels[:]).reshape(*image.size[::-1], 4)[::-1]
+        (left, top), (right, bottom) = at(start), at(end)
+        seen.append(pixels[top:bottom, left:right])
+        bpy.data.images.remove(image)
+    assert np.allclose(*seen, atol=0.02), (
+        f"{np.ptp(np.argwhere(np.abs(seen[0] - seen[1]) > 0.02), axis=0)}"
+    )
 
 
 def scene_auto_update():
