@@ -36,8 +36,8 @@ from ..core.settings import ANALYSED, SAMPLING_OPTIONS
 from . import current_job
 from .preferences import memory_limit
 from .properties import needs_analysis, settings_from, shown_result
-from .translation import IN_CONTEXT, say
-from .watched_job import WatchedJob
+from .translation import IN_CONTEXT
+from .watched_job import CANCELLED, WatchedJob
 
 _REST = 0.5  # seconds without edits
 _LOOK = 0.25  # seconds between two looks at an edit that waits
@@ -205,7 +205,7 @@ class OBJECT_OT_medial_axis_auto_update(WatchedJob, bpy.types.Operator):
         try:
             self._read = read_live(result, context.view_layer.depsgraph)
         except MedialAxisError as error:
-            return self._refuse(context, str(error))
+            return self._refuse(context, f"'{self._name}': {error}")
         settings = self._wish[1]
         coarse = settings.coarse
         has_faces = len(self._read.shape.triangles) > 0
@@ -243,10 +243,10 @@ class OBJECT_OT_medial_axis_auto_update(WatchedJob, bpy.types.Operator):
             if outcome.error is not None:
                 raise outcome.error
             write_live(self._read, outcome.value, is_coarse=bool(self._stages))
-        except Cancelled as error:
-            return {"CANCELLED"} if waits() else self._refuse(context, say(str(error)))
+        except Cancelled:
+            return {"CANCELLED"} if waits() else self._refuse(context, CANCELLED)
         except MedialAxisError as error:
-            return self._refuse(context, str(error))
+            return self._refuse(context, f"'{self._name}': {error}")
         if self._stages:
             self.start_job(context, self._tasks(), "medial axis")
             return {"RUNNING_MODAL"}
@@ -257,7 +257,7 @@ class OBJECT_OT_medial_axis_auto_update(WatchedJob, bpy.types.Operator):
     def _refuse(self, context, sentence):
         """Tell it in the panel; the same is tried again only after another edit."""
         _refused[self._name] = self._wish
-        context.scene.medial_axis.note = f"'{self._name}': {sentence}"
+        context.scene.medial_axis.note = sentence
         return {"CANCELLED"}
 
 

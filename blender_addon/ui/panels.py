@@ -131,22 +131,23 @@ def _settle_when_changed(context):
 def _draw_settings(context, layout):
     settings, column = context.scene.medial_axis, settings_column(layout)
     draw_form(context, column, settings)
-    for name in ("theta", "rho"):
-        column.prop(settings, name, slider=True)
-    if result := shown_result(context):
-        _draw_what_binds(context, column, result)
+    for name, does_little in _thresholds(shown_result(context)).items():
+        row = column.row()
+        row.active = not does_little
+        row.prop(settings, name, slider=True)
     column.prop(settings, "side")
     if Side[settings.side] in (Side.OUTER, Side.BOTH):
         column.prop(settings, "within")
 
 
-def _draw_what_binds(context, layout, result):
-    """Why a slider that is dragged does little: the other condition keeps what its own drops."""
-    ratio, angle = result.get(axis_object.ONLY_RATIO, 0.0), result.get(axis_object.ONLY_ANGLE, 0.0)
-    if ratio > _BINDS:
-        draw_wrapped(context, layout, "Rho binds, not Theta", "INFO")
-    elif angle > _BINDS:
-        draw_wrapped(context, layout, "Theta binds, not Rho", "INFO")
+def _thresholds(result):
+    """The two thresholds, and whether each does little for a result: the other one keeps what it drops."""
+    if result is None:
+        return {"theta": False, "rho": False}
+    return {
+        "theta": result.get(axis_object.ONLY_RATIO, 0.0) > _BINDS,
+        "rho": result.get(axis_object.ONLY_ANGLE, 0.0) > _BINDS,
+    }
 
 
 def _draw_compute(context, layout):

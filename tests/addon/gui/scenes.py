@@ -30,23 +30,27 @@ TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's ow
 COMPUTE = (102, 50)
 CANCEL = (48, 50)
 RECONSTRUCT = (102, 81)  # where there are points without faces
-THETA_LEFT, THETA_RIGHT = (120, 150), (50, 150)
-SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 128), (50, 128)
+THETA_LEFT, THETA_RIGHT = (120, 153), (50, 153)
+SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 130), (50, 130)
 GERMAN_TAB = (13, 270)
 # Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
-SKELETON, THICKNESS, SETTINGS = (150, 229), (150, 255), (150, 307)
-RESULT, REBUILD = (
-    (150, 229),
-    (150, 307),
-)  # where there is a result; the second, when the first is closed
-AUTO_UPDATE = (62, 229)  # in the header of the panel Result
-SAMPLING = (150, 359)  # in Settings
+SKELETON, THICKNESS, SETTINGS = (150, 231), (150, 257), (150, 309)
+(
+    RESULT,
+    REBUILD,
+    SETTINGS_OF_RESULT,
+) = (  # where there is a result; the others, when the first is closed
+    (150, 231),
+    (150, 309),
+    (150, 387),
+)
+AUTO_UPDATE = (62, 231)  # in the header of the panel Result
+SAMPLING = (150, 439)  # in Settings of a result
 REPORT = (102, 442)
-EXTRACT_SKELETON, MAKE_ARMATURE = (102, 355), (102, 381)
-MEASURE_THICKNESS, THICKEN = (102, 403), (102, 519)
-REBUILD_SOLID = (102, 337)
-FORM, SKELETON_OPTIONS_END = (200, 95), (30, 340)
-SETTINGS_OF_RESULT = (150, 385)
+EXTRACT_SKELETON, MAKE_ARMATURE = (102, 357), (102, 383)
+MEASURE_THICKNESS, THICKEN = (102, 405), (102, 521)
+REBUILD_SOLID = (102, 339)
+FORM, SKELETON_END = (200, 95), (30, 345)
 
 
 # --- hands and eyes
@@ -337,7 +341,10 @@ def scene_steady_panels():
         look("computing")
         yield from key("Escape")
         yield no_job
-    assert_same_below(FORM, SKELETON_OPTIONS_END, "before", "computing")
+    yield patience(1.0)
+    look("cancelled")
+    assert_same_below(FORM, SKELETON_END, "before", "computing")
+    assert_same_below(FORM, SKELETON_END, "before", "cancelled")
     yield from fold(SKELETON)
     yield from click(*at(COMPUTE))
     yield result_exists
@@ -363,7 +370,7 @@ def assert_same_below(start, end, *names):
     seen = []
     for name in names:
         image = bpy.data.images.load(str(Path(FOLDER) / f"{NAME}-{name}.png"))
-        pixels = np.array(image.pixels[:]).reshape(*image.size[::-1], 4)[::-1]
+        pixels = np.array(image.pixels[:]).reshape(*reversed(image.size), 4)[::-1]
         (left, top), (right, bottom) = at(start), at(end)
         seen.append(pixels[top:bottom, left:right])
         bpy.data.images.remove(image)
