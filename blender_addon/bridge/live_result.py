@@ -61,8 +61,9 @@ def live_results() -> list[bpy.types.Object]:
 
 
 def is_at_rest(result: bpy.types.Object) -> bool:
-    """Whether neither a result nor its source is in edit mode, sculpted or painted."""
-    return result.mode == "OBJECT" and source_of(result).mode == "OBJECT"
+    """Whether a result and its source are in object mode, and Blender evaluates the source, which is not hidden."""
+    source = source_of(result)
+    return result.mode == source.mode == "OBJECT" and source.visible_get()
 
 
 def is_slow(result: bpy.types.Object) -> bool:
@@ -99,7 +100,7 @@ def write_live(read: LiveSource, computation: Computation, is_coarse: bool) -> N
         raise MedialAxisError(computation.warnings[-1])
     source, look = source_of(result), look_of(result)
     kept = {name: result[name] for name in _NOT_COARSE if name in result}
-    write_result(source, computation, read.shape.frame, look)
+    write_result(source, computation, read.shape.frame, look, between_steps=True)
     follow(result, source, read.world, look.parent)
     if is_coarse:
         for name, value in kept.items():

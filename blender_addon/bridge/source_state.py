@@ -16,7 +16,7 @@ import numpy as np
 
 from ..core.errors import InvalidInputError
 from .mesh_arrays import read_corners, read_positions
-from .output_object import is_gone, source_of
+from .output_object import is_gone, is_torn, source_of
 from .read_object import split_transform
 
 if TYPE_CHECKING:
@@ -116,6 +116,8 @@ def differs(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bool:
     source = source_of(output) or output  # thickness may be written on the source itself
     if is_gone(source) or STATE not in output:
         return False
+    if is_torn(output):
+        return True
     state = state_of(source, depsgraph)
     if state is None:
         return False

@@ -3,9 +3,9 @@
 
 A handler looks at Blender's changes while some result has Auto Update on, and a timer runs while an edit waits. The
 work is done in the job's thread by an operator that makes no step of undo, so Ctrl+Z takes back what an artist did, and
-Redo still has its steps. Blender restores an object of a step as it was when the step was made, before the update of
-that step, because each update gives it another mesh (a mesh that is changed in place keeps the new content, while the
-object gets back its old properties). So the handlers of undo look at all live results, and these follow.
+Redo still has its steps. An update uses only what a step of undo has, and fills the mesh that there is (`replace_mesh`
+says why). Undo may then bring back the object, its mesh, both or neither as they were when the step was made. So the
+handlers of undo look at all live results, and these follow.
 
 Moves need no computation, because results are children.
 """
@@ -29,6 +29,7 @@ from ..bridge.live_result import (
 )
 from ..bridge.output_object import source_of
 from ..bridge.source_state import differs, state_of
+from ..bridge.wires import wires_group
 from ..core.axis.compute import compute_axis
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task
@@ -126,6 +127,7 @@ def _watch():
         _switch_handler(False)
         return
     _switch_handler(True)
+    wires_group()  # an update makes none
     for handlers in _undo_handlers():  # Blender removes them when another file is opened
         if _after_undo not in handlers:
             handlers.append(_after_undo)

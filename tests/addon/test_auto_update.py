@@ -18,6 +18,7 @@ def pair():
     compute(sampling="VERTICES")
     result = result_of(source)
     result.medial_axis_auto_update = True
+    addon("bridge.wires").wires_group()  # as in a window, where the switch makes it
     return source, result
 
 
