@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 LIVE = "medial_axis_auto_update"  # a property of every object; off where it was never set
 
-# What a coarse answer leaves as it was: the next computation asks for it.
+# A coarse answer leaves these as they were: the next computation asks for them.
 _NOT_COARSE = (SECONDS, "ma_crisp")
 
 

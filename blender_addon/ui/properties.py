@@ -200,7 +200,7 @@ def _wanted(kept, panel):
 
 
 def _after_undo(_scene, _depsgraph=None):
-    """What the thread has written is in no undo step, so the object, or its mesh, may not be that of this step."""
+    """The update of the thread is in no undo step, so the object, or its mesh, may not be that of this step."""
     panel, result = bpy.context.scene.medial_axis, shown_result(bpy.context)
     if result is None or is_gone(result):
         return

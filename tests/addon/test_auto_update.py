@@ -172,7 +172,7 @@ def test_undo_and_redo_step_over_updates(pair, seed):
 
 
 def assert_belongs(source, result):
-    """What the light calls up to date is the axis of the source."""
+    """A result that the light calls up to date is the axis of the source."""
     read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
     settings = auto.wish(bpy.context, result)[1]
     axis = addon("core.axis.compute").compute_axis(read.shape, settings).axis

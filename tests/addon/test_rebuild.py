@@ -150,7 +150,7 @@ def test_the_group_by_itself_takes_small_axes(size):
 
 
 def test_others_step_back_and_are_measured_all_the_same():
-    """What is hidden is not evaluated, and a modifier of the source must count in what is measured again."""
+    """Blender does not evaluate hidden objects, and a modifier of the source must count in what is measured again."""
     source = torus()
     source.modifiers.new("Wave", "DISPLACE").strength = 0.1
     compute(form="CLEAN", side="INNER")

@@ -45,11 +45,10 @@ SKELETON, THICKNESS, SETTINGS = (150, 231), (150, 257), (150, 309)
     (150, 387),
 )
 AUTO_UPDATE = (62, 231)  # in the header of the panel Result
-SAMPLING = (150, 439)  # in Settings of a result
-REPORT = (102, 442)
+SAMPLING = (150, 440)  # in Settings of a result
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 357), (102, 383)
 MEASURE_THICKNESS, THICKEN = (102, 405), (102, 521)
-REBUILD_SOLID = (102, 339)
+REBUILD_SOLID, OTHERS = (102, 339), (49, 339)
 FORM, SKELETON_END = (200, 95), (30, 345)
 
 
@@ -364,6 +363,7 @@ def scene_steady_panels():
     yield patience(1.0)
     look("menu")
     yield from key("Escape")
+    yield from key("Home")  # Blender's own exit code is 1 after Escape was the last key
 
 
 def assert_same_below(start, end, *names):
@@ -504,7 +504,7 @@ def files_keep_it():
 
 
 def disabled_while_it_waits():
-    """What waits is dropped with the add-on, and found again when that comes back."""
+    """An edit that waits is dropped with the add-on, and found again when that comes back."""
     first, module = followed(), os.environ["MEDIAL_AXIS_MODULE"]
     before = bpy.app.handlers.depsgraph_update_post[:]
     bpy.context.object.scale.x = 1.0
@@ -782,9 +782,13 @@ def scene_sampling():
     assert "samples of the surface: the vertices" in result["ma_sampled"]
     assert abs(attribute(result.data, "ma_radius").max() - 1.0) < 0.02
     select(cube)
-    yield from fold(SAMPLING)
+    for header in (RESULT, SETTINGS_OF_RESULT, SAMPLING):
+        yield from fold(header)
     look("opened")
-    yield from click(*at(REPORT))
+    yield from key("F3")
+    xdotool("type", "report samp")
+    yield patience(1.0)
+    xdotool("key", "Return")
     yield report_exists
     yield 2.0
     look("reported")
@@ -851,7 +855,12 @@ def scene_what_comes_after():
     yield from click(*at(REBUILD_SOLID))
     yield from until(lambda: "Branches Medial Axis Rebuilt" in bpy.data.objects)
     look("8-rebuilt")
-    bpy.data.objects.remove(bpy.data.objects["Branches Medial Axis Rebuilt"])
+    solid, axis = bpy.context.object, bpy.data.objects["Branches Medial Axis"]
+    assert solid.name == "Branches Medial Axis Rebuilt" and not source.visible_get()
+    yield from click(*at(OTHERS))
+    assert source.visible_get() and axis.visible_get(), "one click brings them again"
+    bpy.data.objects.remove(solid)
+    select(source)
     with bpy.context.temp_override(window=window(), area=viewport(), object=source):
         assert bpy.ops.object.medial_axis_nodes("INVOKE_DEFAULT", group="BALLS") == {"FINISHED"}
     yield patience(1.5)
