@@ -153,9 +153,9 @@ def _draw_pieces(layout, result):
 def why_outdated(context, result):
     """Why the shown result no longer belongs to its source and settings, or an empty string."""
     if has_changed(result, context.view_layer.depsgraph):
-        return "The source has changed since"
+        return "The source has changed"
     if needs_analysis(result, context.scene.medial_axis):
-        return "The settings have changed since"
+        return "Settings have changed"
     return ""
 
 

@@ -428,6 +428,7 @@ def edit_mode_waits():
     yield from key("Tab")
     yield lambda: followed() > 1.5 * first
     yield no_job
+    yield patience(0.7)
     look("edited")
     assert not changed_since()
     for stroke in ("ctrl+z", "ctrl+z", "ctrl+z"):  # out of edit mode, the scale, into edit mode
