@@ -30,9 +30,9 @@ def draw_result(context, layout, result):
         _draw_verdict(layout, result)
         _draw_pieces(layout, result)
     if hidden := result.get(axis_object.HIDDEN, 0):
-        draw_wrapped(context, layout, f"{hidden:,} facets are not shown", "INFO")
+        draw_wrapped(context, layout, f"{hidden:,} facets hidden", "INFO")
     if crumbs := result.get(axis_object.CRUMBS, 0):
-        text = "1 crumb is not shown" if crumbs == 1 else f"{crumbs:,} crumbs are not shown"
+        text = "1 crumb hidden" if crumbs == 1 else f"{crumbs:,} crumbs hidden"
         draw_wrapped(context, layout, text, "INFO")
     _draw_figures(layout, {"Radius": _range_text(context, *axis_object.radius_range(result))}, 0.3)
 

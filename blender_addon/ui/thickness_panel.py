@@ -55,9 +55,7 @@ def _draw_options(layout, settings):
 
 def _draw_found(context, layout, carrier):
     if has_changed(carrier, context.view_layer.depsgraph):
-        draw_wrapped(
-            context, layout, "The source has changed", icon_value=light(Light.LOOK.name)
-        )
+        draw_wrapped(context, layout, "The source has changed", icon_value=light(Light.LOOK.name))
     column = layout.column(align=True)
     least = carrier[of.MINIMUM]
     if of.LEAST in carrier and least < float("inf"):

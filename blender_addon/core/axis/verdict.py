@@ -45,7 +45,7 @@ _IN_SHORT = {
     "found and left as it is": "There is noise",
     "the points lie in layers": "Points lie in layers",
 }
-_COUNTED = re.compile(r"(Sampled|Used the) [\d,]+ (points|vertices)")
+_COUNTED = re.compile(r"(?:Sampled|Used the) ([\d,]+) (points|vertices)")
 
 
 class Light(Enum):
@@ -83,8 +83,10 @@ def in_short(sentence: str) -> str:
     for part, words in _IN_SHORT.items():
         if part.lower() in sentence.lower():
             return words
-    counted = _COUNTED.match(sentence)
-    return counted.group() if counted else re.split(r"[;:(] ?", sentence)[0].strip().rstrip(".")
+    if counted := _COUNTED.match(sentence):
+        count, kind = counted.groups()
+        return f"{count} vertices" if kind == "vertices" else f"{count} samples"
+    return re.split(r"[;:(] ?", sentence)[0].strip().rstrip(".")
 
 
 def plainly(chosen: ChosenSamples) -> str:
