@@ -81,6 +81,7 @@ def write_result(
     frame: np.ndarray,
     look: Look = ALL,
     product: Product = RESULT,
+    between_steps: bool = False,
 ) -> bpy.types.Object:
     """Make the result of a source, or update the existing one; all or nothing.
 
@@ -94,6 +95,8 @@ def write_result(
     look : Look
     product : Product
         Of the whole source, or of one of its parts.
+    between_steps : bool
+        As in `replace_mesh`.
 
     Raises
     ------
@@ -102,7 +105,7 @@ def write_result(
     """
     box = _box(computation.chosen.samples.points)
     axis, settings = _shown(computation.axis, box, look), computation.settings
-    result, is_new = product.write_mesh(source, partial(_axis_mesh, axis, look))
+    result, is_new = product.write_mesh(source, partial(_axis_mesh, axis, look), between_steps)
     if is_new:
         result.data.materials.append(radius_material())
         result.color = FLAT
@@ -123,10 +126,14 @@ def update_result(
     settings: Settings,
     topology: str,
     look: Look = ALL,
+    between_steps: bool = False,
 ) -> None:
-    """Give a result another axis of the same analysis, and a sentence about it; it stays where it is."""
+    """Give a result another axis of the same analysis, and a sentence about it; it stays where it is.
+
+    `between_steps` is as in `replace_mesh`.
+    """
     shown = _shown(axis, result.get(BOX), look)
-    replace_mesh(result, partial(_axis_mesh, shown, look))
+    replace_mesh(result, partial(_axis_mesh, shown, look), between_steps)
     show_wires(result, shown)
     result[TOPOLOGY] = topology
     _remember_shown(result, axis, shown, settings, look)
@@ -165,7 +172,7 @@ def look_of(result: bpy.types.Object) -> Look:
     return Look(**{name: result.get(f"ma_{name}", getattr(ALL, name)) for name in LOOKS})
 
 
-def _axis_mesh(axis: MedialAxis, look: Look, name: str) -> bpy.types.Mesh:
+def _axis_mesh(axis: MedialAxis, look: Look, name: str | bpy.types.Mesh) -> bpy.types.Mesh:
     mesh = new_axis_mesh(axis, name)
     if look.colours and _shows_parts(axis, look):
         colour_parts(mesh, axis.structure.part, np.diff(axis.face_offsets))

@@ -7,6 +7,7 @@ changed.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -26,9 +27,13 @@ SAMPLED = "ma_sampled"  # what was analysed, and why: a sentence
 DENSITY = "ma_density"  # how densely that lies: a sentence
 SECONDS = "ma_seconds"
 
+_WRITTEN = "ma_written"  # when an object and its mesh were written between two steps of undo
+
 OF_PART = "ma_of_part"  # the connected part of the source, as in the name of the object
 
 KEPT_SCALE = "Medial Axis Scale"  # the constraint that keeps the scale of an output at 1
+
+Build = Callable[[str | bpy.types.Mesh], bpy.types.Mesh]
 
 
 def source_of(output: bpy.types.Object) -> bpy.types.Object | None:
@@ -93,16 +98,16 @@ class Product:
         check_mode(self.of(source))
 
     def write_mesh(
-        self, source: bpy.types.Object, build: Callable[[str], bpy.types.Mesh]
+        self, source: bpy.types.Object, build: Build, between_steps: bool = False
     ) -> tuple[bpy.types.Object, bool]:
         """Make the object of a source or give it another mesh, all or nothing; and whether it is new.
 
-        `build` makes the mesh from its name.
+        `build` and `between_steps` are as in `replace_mesh`.
         """
         thing = self.of(source)
         if thing is None:
             return new_object(source, self.suffix, build(source.name + self.suffix)), True
-        replace_mesh(thing, build)
+        replace_mesh(thing, build, between_steps)
         return thing, False
 
 
@@ -124,10 +129,26 @@ def new_object(source: bpy.types.Object, suffix: str, mesh: bpy.types.Mesh) -> b
     return output
 
 
-def replace_mesh(output: bpy.types.Object, build: Callable[[str], bpy.types.Mesh]) -> None:
-    """Swap in a new mesh, also for linked duplicates; materials and the name stay."""
+def replace_mesh(output: bpy.types.Object, build: Build, between_steps: bool = False) -> None:
+    """Swap in a new mesh, also for linked duplicates; materials and the name stay.
+
+    Parameters
+    ----------
+    output : Object
+    build : function
+        Makes a mesh from its name, or fills the mesh that it is given.
+    between_steps : bool
+        No step of undo follows, so the mesh that there is is filled again: Blender keeps an object that two steps have
+        alike as it is now, and from 5.0 on it ends where such an object has a mesh that neither step has. What was
+        written so is marked on both, for undo may bring back one of the two (`is_torn`).
+    """
     check_mode(output)
     old = output.data
+    output.pop(_WRITTEN, None)
+    if between_steps and old.shape_keys is None:  # keys of an artist fit one number of vertices
+        build(old)
+        output[_WRITTEN] = old[_WRITTEN] = str(time.time_ns())
+        return
     mesh = build(old.name)
     for material in old.materials:
         mesh.materials.append(material)
@@ -135,6 +156,11 @@ def replace_mesh(output: bpy.types.Object, build: Callable[[str], bpy.types.Mesh
     name = old.name
     bpy.data.meshes.remove(old)
     mesh.name = name
+
+
+def is_torn(output: bpy.types.Object) -> bool:
+    """Whether an object and its mesh were not written together: undo has brought back one of them."""
+    return output.get(_WRITTEN) != output.data.get(_WRITTEN)
 
 
 def place(output: bpy.types.Object, frame: np.ndarray) -> None:

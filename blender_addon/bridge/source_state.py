@@ -16,7 +16,7 @@ import numpy as np
 
 from ..core.errors import InvalidInputError
 from .mesh_arrays import read_corners, read_positions
-from .output_object import is_gone, source_of
+from .output_object import is_gone, is_torn, source_of
 from .read_object import split_transform
 
 if TYPE_CHECKING:
@@ -75,6 +75,11 @@ def remember_state(output: bpy.types.Object, state: tuple[str, list[float]] | No
         output[STATE], output[SCALE] = state
     else:
         output.pop(STATE, None)
+    forget_answer(output)
+
+
+def forget_answer(output: bpy.types.Object) -> None:
+    """Have the next `has_changed` look again."""
     _checked.pop(output.name, None)
 
 
@@ -85,7 +90,7 @@ def same_state(source: bpy.types.Object) -> Iterator[None]:
     fresh = [
         thing
         for thing in bpy.data.objects
-        if STATE in thing and source_of(thing) == source and not _differs(thing, depsgraph)
+        if STATE in thing and source_of(thing) == source and not differs(thing, depsgraph)
     ]
     yield
     state = state_of(source, bpy.context.evaluated_depsgraph_get())
@@ -101,15 +106,18 @@ def has_changed(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph | None)
     now = time.monotonic()
     after, answer = _checked.get(output.name, (0.0, False))
     if now >= after:
-        answer = depsgraph is not None and _differs(output, depsgraph)
+        answer = depsgraph is not None and differs(output, depsgraph)
         _checked[output.name] = now + _SELDOM * (time.monotonic() - now), answer
     return answer
 
 
-def _differs(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bool:
+def differs(output: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> bool:
+    """The same as `has_changed`, never from memory."""
     source = source_of(output) or output  # thickness may be written on the source itself
     if is_gone(source) or STATE not in output:
         return False
+    if is_torn(output):
+        return True
     state = state_of(source, depsgraph)
     if state is None:
         return False

@@ -43,7 +43,7 @@ def show_wires(thing: bpy.types.Object, axis: MedialAxis) -> None:
     modifier = thing.modifiers.get(NAME)
     if count and not before and modifier is None:
         modifier = thing.modifiers.new(NAME, "NODES")
-        modifier.node_group = _group()
+        modifier.node_group = wires_group()
         modifier.show_in_editmode = False
         modifier.show_expanded = False
         set_inputs(modifier, {_WIDTH: _THIN * _size(axis)})
@@ -106,7 +106,7 @@ def _size(axis: MedialAxis) -> float:
     return length_of(np.ptp(axis.vertices, axis=0)) + 2.0 * float(axis.radius.max())
 
 
-def _group() -> bpy.types.NodeTree:
+def wires_group() -> bpy.types.NodeTree:
     """The node group, made where the file has none with these inputs; other changes that an artist made in it stay."""
     inputs = (_WIDTH, _SIDES, _SUBDIVISIONS)
     for found in bpy.data.node_groups:

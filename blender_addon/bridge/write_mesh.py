@@ -34,8 +34,14 @@ class Polygons(Protocol):
     face_vertices: NDArray[np.int32]
 
 
-def new_axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
+def new_axis_mesh(axis: MedialAxis, name: str | bpy.types.Mesh) -> bpy.types.Mesh:
     """A medial axis as a mesh with all attributes, or no mesh at all.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+    name : str or Mesh
+        As in `new_mesh`.
 
     Raises
     ------
@@ -45,7 +51,7 @@ def new_axis_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
     structure = axis.structure
     shown = axis if structure is None else with_facets_turned(axis, structure.turned)
     mesh = new_mesh(shown, name, attributes(), axis.edges)
-    with _removed_on_error(mesh):
+    with _removed_on_error(mesh, name):
         _add_directions(mesh, shown)
         if axis.level is None:
             return mesh
@@ -97,7 +103,7 @@ def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:
 
 def new_mesh(
     polygons: Polygons,
-    name: str,
+    name: str | bpy.types.Mesh,
     table: Iterable[Attribute] = (),
     edges: NDArray[np.int32] | None = None,
 ) -> bpy.types.Mesh:
@@ -106,7 +112,8 @@ def new_mesh(
     Parameters
     ----------
     polygons : Polygons
-    name : str
+    name : str or Mesh
+        A mesh is emptied and filled again; it stays as it is where the coordinates are refused.
     table : iterable of Attribute
     edges : (w, 2) int32, optional
         Edges besides those of the polygons; they come after these.
@@ -118,19 +125,24 @@ def new_mesh(
     """
     positions = _positions(polygons)
     _check_faces(polygons)
-    mesh = bpy.data.meshes.new(name)
-    with _removed_on_error(mesh):
+    mesh = bpy.data.meshes.new(name) if isinstance(name, str) else name
+    mesh.clear_geometry()
+    with _removed_on_error(mesh, name):
         _set_faces(mesh, polygons, positions, no_edges() if edges is None else edges)
         _add_attributes(mesh, polygons, table)
     return mesh
 
 
 @contextmanager
-def _removed_on_error(mesh: bpy.types.Mesh) -> Iterator[None]:
+def _removed_on_error(mesh: bpy.types.Mesh, name: str | bpy.types.Mesh) -> Iterator[None]:
+    """Remove a mesh that is new; empty one that was there before."""
     try:
         yield
     except BaseException:
-        bpy.data.meshes.remove(mesh)
+        if isinstance(name, str):
+            bpy.data.meshes.remove(mesh)
+        else:
+            mesh.clear_geometry()
         raise
 
 

@@ -106,6 +106,7 @@ MEGABYTE = 1 << 20  # bytes
 
 # These options need another analysis; the others only select facets of the analysis that exists.
 ANALYSED = ("side", "sides", "sampling")
+COARSE = 4_000  # samples of a quick answer
 # These options determine how faces are sampled; the choice of Sampling determines which of them matter.
 SAMPLING_OPTIONS = (
     "prepare",
@@ -435,6 +436,18 @@ class Settings(Options):
         if self.crisp and self.crisp_is_possible:
             return ("sharp_angle", "smooth")
         return ("sharp_angle",) if self.form_of_side is Form.CLEAN else ()
+
+    @property
+    def coarse(self) -> Settings:
+        """The same with few samples of the faces, for a quick answer."""
+        return replace(
+            self,
+            sampling=SamplingMode.SURFACE,
+            samples=min(self.samples, COARSE),
+            spacing=0.0,
+            crisp=False,
+            pairs=False,
+        )
 
     def with_side(self) -> Settings:
         """The same with a side that is not AUTOMATIC."""

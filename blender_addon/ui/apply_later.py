@@ -17,8 +17,7 @@ from ..core.axis.compute import refilter
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task
 from . import current_job
-from .translation import say
-from .watched_job import WatchedJob
+from .watched_job import CANCELLED, WatchedJob
 
 SAMPLES = 60_000  # results of more samples are updated in the thread
 THRESHOLD_SAMPLES = 30_000  # the same where another hierarchy is needed
@@ -133,8 +132,8 @@ class OBJECT_OT_medial_axis_apply(WatchedJob, bpy.types.Operator):
                 return ""
             _applied.add((self._name, self._settings))
             return _write(result, self._settings, outcome.value)
-        except Cancelled as error:
-            return "" if waits() else say(str(error))
+        except Cancelled:
+            return "" if waits() else CANCELLED
         except MedialAxisError as error:
             return str(error)
 

@@ -18,7 +18,6 @@ from ..bridge.output_object import is_gone, source_of
 from ..bridge.read_axis import find_axis
 from ..core.settings import BALL_OPTIONS, LOOKS, OPTIONS, BallSettings
 from ..core.solid.ball_cover import cover_by_balls
-from . import current_job
 from .compute_operator import ComputeOperator
 from .figures import length_text
 from .preferences import memory_limit
@@ -30,6 +29,7 @@ from .properties import (
     settings_from,
     with_options,
 )
+from .tab import Closed, draws_buttons, settings_column
 from .translation import say
 
 
@@ -80,16 +80,11 @@ class MedialAxisBallSettings(BallProperties, bpy.types.PropertyGroup):
     """The settings of the panel of balls."""
 
 
-class VIEW3D_PT_medial_axis_balls(bpy.types.Panel):
+class VIEW3D_PT_medial_axis_balls(Closed, bpy.types.Panel):
     """Few balls that stand for the object"""
 
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Medial Axis"
     bl_label = "Balls"
     bl_idname = "VIEW3D_PT_medial_axis_balls"
-    bl_parent_id = "VIEW3D_PT_medial_axis"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context):
@@ -98,12 +93,10 @@ class VIEW3D_PT_medial_axis_balls(bpy.types.Panel):
 
     def draw(self, context):
         settings = context.scene.medial_axis_balls
-        column = self.layout.column()
-        column.use_property_split = True
-        column.use_property_decorate = False
+        column = settings_column(self.layout)
         for name in BALL_OPTIONS:
             column.prop(settings, name)
-        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
+        if draws_buttons(self.layout):
             button = self.layout.operator("object.medial_axis_balls", icon="META_BALL")
             copy_settings(context.scene.medial_axis, button)
             copy_settings(settings, button, BALL_OPTIONS)

@@ -15,7 +15,7 @@ from ..core.machine.job import Task, run_task
 from . import current_job
 from .selected_sources import Source, obstacle, sources
 from .translation import say
-from .watched_job import WatchedJob
+from .watched_job import CANCELLED, WatchedJob
 
 
 class FromSelection:
@@ -79,8 +79,8 @@ class ComputeOperator(FromSelection, WatchedJob):
     def ended(self, context):
         try:
             return self._write(context, self._sources, self._job.outcomes())
-        except Cancelled as error:
-            self._tell(context, "WARNING", self._gone or str(error))
+        except Cancelled:
+            self._tell(context, "WARNING", self._gone or CANCELLED)
             return {"CANCELLED"}
 
     def sources(self, context):

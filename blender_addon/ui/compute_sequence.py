@@ -41,7 +41,7 @@ def _of():
             (
                 "SKELETONS",
                 "Skeletons",
-                "Those of the panel Skeleton, as .json; bones are not tracked",
+                "Those of the panel Rig, as .json; bones are not tracked",
             ),
         ),
         default="AXES",
@@ -273,6 +273,12 @@ class IMPORT_SCENE_OT_medial_axis_sequence(bpy.types.Operator, ImportHelper):
         return {"FINISHED"}
 
 
+def copy_sequence(scene, button):
+    """Set the properties of an operator button to those of the panel."""
+    button.directory, button.fast = scene.medial_axis_folder, scene.medial_axis_fast
+    button.of = scene.medial_axis_sequence_of
+
+
 class VIEW3D_PT_medial_axis_sequence(Closed, bpy.types.Panel):
     """Frames of an animation"""
 
@@ -288,9 +294,9 @@ class VIEW3D_PT_medial_axis_sequence(Closed, bpy.types.Panel):
         for name in ("frame_start", "frame_end", "frame_step"):
             row.prop(scene, name, text=name.partition("_")[2].title())
         column.prop(scene, "medial_axis_fast")
-        button = column.operator("object.medial_axis_sequence", icon="RENDER_ANIMATION")
-        button.directory, button.fast = scene.medial_axis_folder, scene.medial_axis_fast
-        button.of = scene.medial_axis_sequence_of
+        copy_sequence(
+            scene, column.operator("object.medial_axis_sequence", icon="RENDER_ANIMATION")
+        )
         column.operator("import_scene.medial_axis_sequence", text="Load Files", icon="IMPORT")
 
 

@@ -7,7 +7,6 @@ from ..bridge.curve_object import write_curve
 from ..bridge.read_axis import find_axis
 from ..bridge.wires import WIRES
 from ..core.errors import MedialAxisError
-from .object_menus import register_with_entry, unregister_with_entry
 from .translation import say
 
 
@@ -42,16 +41,6 @@ class OBJECT_OT_medial_axis_to_curve(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _menu(self, _context):
-    self.layout.operator("object.medial_axis_to_curve", icon="OUTLINER_OB_CURVE")
-
-
 CLASSES = (OBJECT_OT_medial_axis_to_curve,)
 
-
-def register():
-    register_with_entry(CLASSES, _menu)
-
-
-def unregister():
-    unregister_with_entry(CLASSES, _menu)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The figures of a result in the panel: the important ones in a few rows, and all of them."""
 
-import re
-
 import bpy
 
 from ..bridge import axis_object, output_object, report_object, surface_object
 from ..bridge.colours import colour_range
 from ..bridge.material import LIMIT, RADIUS_MAX, RADIUS_MIN
 from ..bridge.source_state import has_changed
-from ..core.axis.verdict import Light
+from ..core.axis.topology import betti_in_short
+from ..core.axis.verdict import Light, in_short
 from . import manual
 from .guide import WHY
 from .inward_faces import draw_inward_faces
@@ -19,28 +18,23 @@ from .show import shows_colours
 from .translation import say
 from .wrapped_text import draw_wrapped
 
-_BUTTON = 30  # pixels of a button with an icon
-
 
 def draw_result(context, layout, result):
-    """Its colours, its verdict, its topology, its radii and how long it took."""
+    """Its colours, its verdict, its pieces and its radii, a row each."""
     _draw_legend(context, layout, result)
-    _draw_verdict(context, layout, result)
-    if topology := result.get(axis_object.TOPOLOGY, ""):
-        draw_wrapped(context, layout, topology, "MESH_DATA")
+    if reason := why_outdated(context, result):
+        layout.label(text=reason, icon_value=light(Light.LOOK.name))
+        again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
+        copy_settings(context.scene.medial_axis, again)
     else:
-        count = result.get(axis_object.PIECES, 0)
-        text = "1 piece" if count == 1 else f"{count:,} pieces"
-        draw_wrapped(context, layout, text, "MESH_DATA")
+        _draw_verdict(layout, result)
+        _draw_pieces(layout, result)
     if hidden := result.get(axis_object.HIDDEN, 0):
-        draw_wrapped(context, layout, f"{hidden:,} facets are not shown", "INFO")
+        draw_wrapped(context, layout, f"{hidden:,} facets hidden", "INFO")
     if crumbs := result.get(axis_object.CRUMBS, 0):
-        text = "1 crumb is not shown" if crumbs == 1 else f"{crumbs:,} crumbs are not shown"
+        text = "1 crumb hidden" if crumbs == 1 else f"{crumbs:,} crumbs hidden"
         draw_wrapped(context, layout, text, "INFO")
-    figures = {"Radius": _range_text(context, *axis_object.radius_range(result))}
-    if seconds := result.get(output_object.SECONDS):
-        figures["Time"] = f"{seconds:.2f} s"
-    _draw_figures(layout, figures, 0.3)
+    _draw_figures(layout, {"Radius": _range_text(context, *axis_object.radius_range(result))}, 0.3)
 
 
 def draw_sequence(context, layout, frame):
@@ -80,9 +74,15 @@ def draw_details(context, layout, result):
             "Unbounded": f"{result.get(axis_object.UNBOUNDED, 0):,}",
             "Without Area": f"{result.get(axis_object.ZERO_AREA, 0):,}",
             "Not Crisp": f"{result.get(axis_object.REFUSED, 0):,}",
+            "Time": f"{result.get(output_object.SECONDS, 0.0):.2f} s",
         },
     )
-    sentences = (output_object.SAMPLED, output_object.DENSITY, axis_object.INSIDE)
+    sentences = (
+        axis_object.TOPOLOGY,
+        output_object.SAMPLED,
+        output_object.DENSITY,
+        axis_object.INSIDE,
+    )
     for name in (*sentences, axis_object.MESH, axis_object.PLACES):
         if sentence := result.get(name):
             draw_wrapped(context, layout, sentence, "INFO")
@@ -126,38 +126,37 @@ def draw_surface(context, layout, surface):
         draw_wrapped(context, layout, warning, "ERROR")
 
 
-def _draw_verdict(context, layout, result):
-    """Draws the traffic light with its sentence, and the link to the page of the manual that explains it."""
+def _draw_verdict(layout, result):
+    """Draws the traffic light with a few words, and the link to the page of the manual that explains them."""
     name = result.get(axis_object.LIGHT)
+    row = layout.row()
     if name not in WHY:  # of an older version
         return
-    if reason := why_outdated(context, result):
-        draw_wrapped(context, layout, reason, icon_value=light(Light.LOOK.name))
-        again = layout.operator("object.medial_axis", text="Compute Again", icon="FILE_REFRESH")
-        copy_settings(context.scene.medial_axis, again)
-        return
-    row = layout.row()
-    sentence = _short(say(result[axis_object.VERDICT]))
-    draw_wrapped(context, row, sentence, icon_value=light(name), beside=_BUTTON)
+    row.label(
+        text=say(in_short(result[axis_object.VERDICT])), icon_value=light(name), translate=False
+    )
     if manual.has(WHY[name].partition("#")[0]):
         why = row.row()
         why.alignment = "RIGHT"
         why.operator("wm.medial_axis_why", text="", icon="QUESTION", emboss=False).light = name
 
 
+def _draw_pieces(layout, result):
+    """Draws how many pieces, loops and cavities there are, with a tick where the faces have as many."""
+    betti = result.get(axis_object.BETTI, (result.get(axis_object.PIECES, 0), 0, 0))
+    agrees = result.get(axis_object.TOPOLOGY, "").endswith(", as the solid")
+    icon = "CHECKMARK" if agrees else "MESH_DATA"
+    words = ", ".join(map(say, betti_in_short(betti)))
+    layout.label(text=words, icon=icon, translate=False)
+
+
 def why_outdated(context, result):
     """Why the shown result no longer belongs to its source and settings, or an empty string."""
     if has_changed(result, context.view_layer.depsgraph):
-        return "The source has changed since"
+        return "The source has changed"
     if needs_analysis(result, context.scene.medial_axis):
-        return "The settings have changed since"
+        return "Settings have changed"
     return ""
-
-
-def _short(sentence):
-    """The first part of a sentence, without what is in brackets; Details have it whole."""
-    text = re.sub(r" \([^)]*\)", "", sentence)
-    return re.split(r"[;:] ", text)[0].rstrip(".") + "."
 
 
 def _draw_legend(context, layout, thing):

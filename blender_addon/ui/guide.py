@@ -17,12 +17,13 @@ WHY = {
 
 
 def draw_guide(layout):
-    """The line for those who are new here."""
+    """The line for those who are new here; returns whether there is one."""
     if not _wanted():
-        return
+        return False
     row = layout.row(align=True)
     row.operator("wm.medial_axis_tutorial", text="New here? Ten pictures", icon="HELP")
     row.operator("wm.medial_axis_tutorial", text="", icon="X").dismiss = True
+    return True
 
 
 def _wanted():

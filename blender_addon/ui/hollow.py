@@ -10,7 +10,6 @@ from ..core.samples.density import share_text
 from ..core.settings import DRAIN_OPTIONS, HOLLOW_OPTIONS, LOOKS, DrainAt, HollowSettings
 from ..core.solid.hollow import hollow
 from .compute_operator import ComputeOperator
-from .object_menus import register_with_entry, unregister_with_entry
 from .properties import prop, settings_from, with_options
 
 
@@ -29,9 +28,7 @@ class OBJECT_OT_medial_axis_hollow(
 ):
     bl_idname = "object.medial_axis_hollow"
     bl_label = "Hollow"
-    bl_description = (
-        "Make a hollow copy of a solid with a wall of one thickness, and with a drain hole whose cylinder can be moved"
-    )
+    bl_description = "Make a hollow copy of a solid with a wall of one thickness, and with a drain hole whose cylinder can be moved"
     bl_options = {"REGISTER", "UNDO"}
 
     product = "hollow solid"
@@ -62,16 +59,6 @@ class OBJECT_OT_medial_axis_hollow(
         )
 
 
-def _menu(self, _context):
-    self.layout.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE")
-
-
 CLASSES = (OBJECT_OT_medial_axis_hollow,)
 
-
-def register():
-    register_with_entry(CLASSES, _menu)
-
-
-def unregister():
-    unregister_with_entry(CLASSES, _menu)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -9,7 +9,6 @@ from ..bridge.mid_surface_object import check_mid_surface_writable, write_mid_su
 from ..core.samples.density import share_text
 from ..core.settings import MID_SURFACE_OPTIONS, MidSurfaceSettings
 from ..core.solid.mid_surface import mid_surface
-from .object_menus import register_with_entry, unregister_with_entry
 from .preferences import memory_limit
 from .properties import settings_from, with_options
 from .wall_operator import WallOperator
@@ -48,16 +47,6 @@ class OBJECT_OT_medial_axis_unsolidify(WallOperator, MidSurfaceProperties, bpy.t
         return f"{sheets}, {thick} thick, with {share_text(found.share)} of the volume"
 
 
-def _menu(self, _context):
-    self.layout.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
-
-
 CLASSES = (OBJECT_OT_medial_axis_unsolidify,)
 
-
-def register():
-    register_with_entry(CLASSES, _menu)
-
-
-def unregister():
-    unregister_with_entry(CLASSES, _menu)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

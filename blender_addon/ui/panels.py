@@ -3,11 +3,11 @@
 
 import bpy
 
-from ..bridge import axis_object, output_object, sequence_objects
-from ..bridge.wires import width_of, wires_of
+from ..bridge import axis_object
 from ..core.machine import native
-from ..core.settings import Form, Side, SidesFrom
+from ..core.settings import Side
 from . import current_job
+from .auto_update import draw_auto_update
 from .figures import (
     draw_details,
     draw_report,
@@ -16,20 +16,14 @@ from .figures import (
     draw_sequence,
     draw_surface,
 )
-from .form_panel import draw_form, draw_more_of_form
+from .form_panel import draw_form
 from .guide import draw_guide
 from .presets import VIEW3D_PT_medial_axis_presets
-from .properties import (
-    copy_settings,
-    draw_sampling,
-    settings_from,
-    shown_report,
-    shown_result,
-    shown_surface,
-)
+from .properties import copy_settings, shown_report, shown_result, shown_surface
 from .selected_sources import has_faces, obstacle, sources
-from .show import shows_colours
-from .tab import MAIN, Closed, Inside, Tab, settings_column
+from .show import draw_colours, draw_source, shows_colours
+from .shown import shown_frame, shown_thing
+from .tab import MAIN, RESULT, InResult, Inside, Tab, draws_buttons, settings_column
 from .translation import say
 from .wrapped_text import draw_wrapped
 
@@ -52,93 +46,30 @@ class VIEW3D_PT_medial_axis(Tab, bpy.types.Panel):
         if problem := native.problem():
             draw_wrapped(context, layout.box(), problem, "ERROR")
         _draw_compute(context, layout)
-        for note in context.scene.medial_axis.note.splitlines():
-            draw_wrapped(context, layout, note, "INFO")
-        draw_guide(layout)
+        _draw_status(context, layout)
         _draw_settings(context, layout)
-
-
-class VIEW3D_PT_medial_axis_sampling(Closed, bpy.types.Panel):
-    """How faces are sampled, and the report"""
-
-    bl_label = (
-        ""  # the header shows it before the choice, which is visible also while the panel is closed
-    )
-    bl_idname = "VIEW3D_PT_medial_axis_sampling"
-
-    def draw_header(self, context):
-        self.layout.label(text="Sampling")
-        choice = self.layout.row()
-        choice.ui_units_x = 4.5
-        choice.prop(context.scene.medial_axis, "sampling", text="")
-
-    def draw(self, context):
-        settings = context.scene.medial_axis
-        of_faces = settings_from(settings).options_of_faces
-        draw_sampling(settings_column(self.layout), settings, of_faces)
-        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
-            button = self.layout.operator("object.medial_axis_sampling_report", icon="VIEWZOOM")
-            copy_settings(settings, button)
-
-
-class VIEW3D_PT_medial_axis_method(Closed, bpy.types.Panel):
-    """Choices that the published method leaves open"""
-
-    bl_label = "Method"
-    bl_idname = "VIEW3D_PT_medial_axis_method"
-
-    def draw(self, context):
-        settings, column = context.scene.medial_axis, settings_column(self.layout)
-        draw_more_of_form(context, column, settings)
-        for name in ("rule", "criteria", "limit_set", "sides"):
-            column.prop(settings, name)
-        if settings.sides == SidesFrom.WRAP.name:
-            column.prop(settings, "wrap_opening")
-        column.prop(settings, "each_part")
-
-
-class VIEW3D_PT_medial_axis_show(Closed, bpy.types.Panel):
-    """How the result is seen"""
-
-    bl_label = "Show"
-    bl_idname = "VIEW3D_PT_medial_axis_show"
-
-    @classmethod
-    def poll(cls, context):
-        return _shown(context) is not None
-
-    def draw(self, context):
-        thing, settings = _shown(context), context.scene.medial_axis
-        _draw_colours(context, self.layout)
-        column = settings_column(self.layout)
-        column.prop(thing, "show_in_front", text="In Front")
-        if output_object.source_of(thing) is not None:
-            _draw_source(column, thing)
-        column.prop(settings, "parent")
-        if Form[settings.form] is Form.PUBLISHED:
-            column.prop(settings, "smallest_island", slider=True)
-        else:
-            column.prop(settings, "crumbs", slider=True)
-        modifier = wires_of(thing)
-        if modifier is not None and (width := width_of(modifier)):
-            column.prop(*width, text="Wire Width")
 
 
 class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
     """The most important figures of the result, and files"""
 
     bl_label = "Result"
-    bl_idname = "VIEW3D_PT_medial_axis_result"
+    bl_idname = RESULT
 
     @classmethod
     def poll(cls, context):
-        return _shown(context) is not None
+        return shown_thing(context) is not None
+
+    def draw_header_preset(self, context):
+        if result := shown_result(context):
+            draw_auto_update(self.layout, result)
 
     def draw(self, context):
         layout = self.layout
-        result, report, frame = shown_result(context), shown_report(context), _frame(context)
-        if not shows_colours(context.space_data):
-            _draw_colours(context, layout)
+        result, report, frame = shown_result(context), shown_report(context), shown_frame(context)
+        row = layout.row(align=True)
+        draw_colours(context, row)
+        draw_source(row, shown_thing(context))
         if frame is not None:
             draw_sequence(context, layout, frame)
         if result is not None:
@@ -149,7 +80,7 @@ class VIEW3D_PT_medial_axis_result(Inside, bpy.types.Panel):
             layout.operator("export_scene.medial_axis", icon="EXPORT")
 
 
-class VIEW3D_PT_medial_axis_details(Closed, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_details(InResult, bpy.types.Panel):
     """All other figures, and every sentence"""
 
     bl_label = "Details"
@@ -197,36 +128,26 @@ def _settle_when_changed(context):
         current_job.settle()
 
 
-def _frame(context):
-    """The active object, where it is one of a sequence."""
-    active = context.object
-    return active if active is not None and sequence_objects.FRAME in active else None
-
-
-def _shown(context):
-    """The object that the panel describes: a frame of a sequence, a medial axis, or a report."""
-    return _frame(context) or shown_result(context) or shown_report(context)
-
-
 def _draw_settings(context, layout):
     settings, column = context.scene.medial_axis, settings_column(layout)
     draw_form(context, column, settings)
-    for name in ("theta", "rho"):
-        column.prop(settings, name, slider=True)
-    if result := shown_result(context):
-        _draw_what_binds(context, column, result)
+    for name, does_little in _thresholds(shown_result(context)).items():
+        row = column.row()
+        row.active = not does_little
+        row.prop(settings, name, slider=True)
     column.prop(settings, "side")
     if Side[settings.side] in (Side.OUTER, Side.BOTH):
         column.prop(settings, "within")
 
 
-def _draw_what_binds(context, layout, result):
-    """Why a slider that is dragged does little: the other condition keeps what its own drops."""
-    ratio, angle = result.get(axis_object.ONLY_RATIO, 0.0), result.get(axis_object.ONLY_ANGLE, 0.0)
-    if ratio > _BINDS:
-        draw_wrapped(context, layout, "Rho binds, not Theta", "INFO")
-    elif angle > _BINDS:
-        draw_wrapped(context, layout, "Theta binds, not Rho", "INFO")
+def _thresholds(result):
+    """The two thresholds, and whether each does little for a result: the other one keeps what it drops."""
+    if result is None:
+        return {"theta": False, "rho": False}
+    return {
+        "theta": result.get(axis_object.ONLY_RATIO, 0.0) > _BINDS,
+        "rho": result.get(axis_object.ONLY_ANGLE, 0.0) > _BINDS,
+    }
 
 
 def _draw_compute(context, layout):
@@ -240,14 +161,24 @@ def _draw_compute(context, layout):
         context.scene.medial_axis,
         row.operator("object.medial_axis", icon="OUTLINER_DATA_MESH"),
     )
-    if not all(map(has_faces, sources(context))):
+
+
+def _draw_status(context, layout):
+    """A row that is always there, so that nothing below it moves: an obstacle, a note, or whose axis is computed."""
+    job = current_job.job()
+    if not all(map(has_faces, sources(context))) and draws_buttons(layout):
         button = layout.operator(
             "object.tight_cocone_surface", text="Reconstruct Surface", icon="MESH_ICOSPHERE"
         )
         copy_settings(context.scene.medial_axis, button)
-    reason = obstacle(context)
-    if reason and reason != native.problem():
-        draw_wrapped(context, layout, reason, "INFO")
+    reason = "" if job is not None else obstacle(context)
+    told = [reason] if reason and reason != native.problem() else []
+    told += context.scene.medial_axis.note.splitlines()
+    for sentence in told:
+        draw_wrapped(context, layout, sentence, "INFO")
+    if not told and (job is not None or not draw_guide(layout)):
+        names = job.name if job is not None else ", ".join(thing.name for thing in sources(context))
+        layout.label(text=names, icon="OBJECT_DATA", translate=False)
 
 
 def _draw_progress(context, layout, job):
@@ -263,31 +194,11 @@ def _draw_progress(context, layout, job):
     whole.operator("object.medial_axis_cancel", text="", icon="CANCEL")
 
 
-def _draw_colours(context, layout):
-    layout.operator(
-        "view3d.medial_axis_show_colours",
-        icon="COLOR",
-        depress=shows_colours(context.space_data),
-    )
-
-
-def _draw_source(layout, thing):
-    source = output_object.source_of(thing)
-    layout.operator(
-        "object.medial_axis_source_as_wire",
-        icon="SHADING_WIRE",
-        depress=source.display_type == "WIRE",
-    ).name = thing.name
-
-
 CLASSES = (
     VIEW3D_PT_medial_axis,
-    VIEW3D_PT_medial_axis_sampling,
-    VIEW3D_PT_medial_axis_method,
-    VIEW3D_PT_medial_axis_show,
     VIEW3D_PT_medial_axis_result,
-    VIEW3D_PT_medial_axis_surface,
     VIEW3D_PT_medial_axis_details,
+    VIEW3D_PT_medial_axis_surface,
 )
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -9,8 +9,7 @@ from ..bridge.output_object import is_gone
 from ..bridge.parts_objects import part_of_active_face, select_part, separate_parts
 from ..bridge.structure_object import counts_on
 from ..core.errors import MedialAxisError
-from .object_menus import register_with_entry, unregister_with_entry
-from .tab import Closed, settings_column
+from .tab import InResult, settings_column
 from .translation import say
 from .view_place import edit_faces
 
@@ -93,7 +92,7 @@ class OBJECT_OT_medial_axis_separate_parts(_OfParts, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class VIEW3D_PT_medial_axis_parts(Closed, bpy.types.Panel):
+class VIEW3D_PT_medial_axis_parts(InResult, bpy.types.Panel):
     """Sheets and seams: how many there are, their colours, and what can be done with them"""
 
     bl_label = "Parts"
@@ -121,15 +120,4 @@ CLASSES = (
     VIEW3D_PT_medial_axis_parts,
 )
 
-
-def _menu(self, _context):
-    self.layout.operator("object.medial_axis_select_part", icon="RESTRICT_SELECT_OFF")
-    self.layout.operator("object.medial_axis_separate_parts", icon="OUTLINER_COLLECTION")
-
-
-def register():
-    register_with_entry(CLASSES, _menu)
-
-
-def unregister():
-    unregister_with_entry(CLASSES, _menu)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

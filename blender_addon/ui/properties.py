@@ -17,10 +17,11 @@ from ..bridge.axis_object import (
     settings_of,
     update_result,
 )
-from ..bridge.output_object import is_gone, source_of
+from ..bridge.output_object import is_gone, is_torn, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import has_report, report_of
 from ..bridge.surface_object import is_surface, surface_of
+from ..bridge.wires import wires_group
 from ..core.axis.compute import refilter, refiltered_topology
 from ..core.errors import MedialAxisError
 from ..core.options import Choice, Integer, Number, Switch, options_of
@@ -199,15 +200,15 @@ def _wanted(kept, panel):
 
 
 def _after_undo(_scene, _depsgraph=None):
-    """The mesh that the thread has made is in no undo step: a step that has its settings gets it again."""
+    """The update of the thread is in no undo step, so the object, or its mesh, may not be that of this step."""
     panel, result = bpy.context.scene.medial_axis, shown_result(bpy.context)
     if result is None or is_gone(result):
         return
     kept = settings_of(result)
     wanted = _wanted(kept, panel)
-    if kept != replace(wanted, form=wanted.form_of_side) and apply_later.was_applied(
-        result, wanted
-    ):
+    agrees = kept == replace(wanted, form=wanted.form_of_side)
+    by_thread = any(apply_later.was_applied(result, settings) for settings in (kept, wanted))
+    if is_torn(result) or (by_thread and not agrees):
         _refilter(panel, bpy.context)
 
 
@@ -224,19 +225,20 @@ def _refilter_result(result, panel) -> str:
     show = partial(_show_refiltered, settings_from(panel, Look))
     if apply_later.needs_thread(result, _levels_stay(kept, wanted)):
         _watch_undo()
-        apply_later.request(result, wanted, show)
+        wires_group()  # the thread's update is no step of undo, and may only use what a step has
+        apply_later.request(result, wanted, partial(show, between_steps=True))
         return ""
     return show(result, wanted, refilter(result[ANALYSIS], wanted))
 
 
-def _show_refiltered(look, result, wanted, axis) -> str:
+def _show_refiltered(look, result, wanted, axis, between_steps=False) -> str:
     if axis is None:
         return "Press Compute Medial Axis to apply this: the analysis is no longer in memory"
     if axis.is_empty:
         return "No facet passes these conditions; the medial axis was left as it was"
     topology = refiltered_topology(result[ANALYSIS], axis, wanted.form)
     settings = replace(wanted, form=wanted.form_of_side)
-    update_result(result, axis, settings, topology, look)
+    update_result(result, axis, settings, topology, look, between_steps)
     return ""
 
 

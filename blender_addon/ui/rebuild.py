@@ -15,6 +15,7 @@ from ..bridge.rebuilt_object import (
     rebuilt_of,
     unrebuilt,
 )
+from ..bridge.step_back import are_back, step_back
 from ..core.errors import MedialAxisError
 from .tab import Closed, settings_column
 from .translation import say
@@ -36,6 +37,13 @@ class OBJECT_OT_medial_axis_rebuild(bpy.types.Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
+    alone: bpy.props.BoolProperty(
+        name="Alone",
+        description="Hide the object and its medial axis, which fill the same place, and select the solid",
+        default=False,
+        options={"SKIP_SAVE"},
+    )
+
     @classmethod
     def poll(cls, context):
         if _axis(context) is None:
@@ -45,16 +53,43 @@ class OBJECT_OT_medial_axis_rebuild(bpy.types.Operator):
             return False
         return True
 
+    def invoke(self, context, _event):
+        if not self.properties.is_property_set("alone"):
+            self.alone = rebuilt_of(_axis(context)) is None
+        return self.execute(context)
+
     def execute(self, context):
         try:
             made = rebuild(_axis(context))
+            back = self.alone or are_back(made)
+            step_back(made, False)  # what is hidden is not evaluated
             context.view_layer.update()
             found = measure(made, context.evaluated_depsgraph_get())
+            step_back(made, back)
+            if self.alone and context.mode == "OBJECT":
+                made.select_set(True)
+                context.view_layer.objects.active = made
         except MedialAxisError as error:
             self.report({"ERROR"}, say(error))
             return {"CANCELLED"}
         if found is not None:
             self.report({"INFO"}, say(_sentence(made.name, found)))
+        return {"FINISHED"}
+
+
+class OBJECT_OT_medial_axis_others(bpy.types.Operator):
+    bl_idname = "object.medial_axis_others"
+    bl_label = "Show Others"
+    bl_description = "Show or hide the object and its medial axis, which fill the same place"
+    bl_options = {"INTERNAL", "UNDO"}
+
+    name: bpy.props.StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    def execute(self, _context):
+        made = bpy.data.objects.get(self.name)
+        if made is None:
+            return {"CANCELLED"}
+        step_back(made, not are_back(made))
         return {"FINISHED"}
 
 
@@ -79,8 +114,11 @@ class VIEW3D_PT_medial_axis_rebuild(Closed, bpy.types.Panel):
         layout = self.layout
         made = rebuilt_of(_axis(context))
         label = "Rebuild Solid" if made is None else "Measure Again"
-        layout.operator("object.medial_axis_rebuild", text=label, icon="MESH_ICOSPHERE")
+        row = layout.row(align=True)
+        row.operator("object.medial_axis_rebuild", text=label, icon="MESH_ICOSPHERE")
         if made is not None:
+            icon = "HIDE_ON" if are_back(made) else "HIDE_OFF"
+            row.operator("object.medial_axis_others", text="", icon=icon).name = made.name
             _draw_inputs(layout, made)
             _draw_difference(layout, made)
 
@@ -110,6 +148,10 @@ def _draw_difference(layout, made):
         row.label(text=text, translate=False)
 
 
-CLASSES = (OBJECT_OT_medial_axis_rebuild, VIEW3D_PT_medial_axis_rebuild)
+CLASSES = (
+    OBJECT_OT_medial_axis_rebuild,
+    OBJECT_OT_medial_axis_others,
+    VIEW3D_PT_medial_axis_rebuild,
+)
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -17,7 +17,6 @@ from ..core.solid.reduce import reduce_axis, reduced_difference
 from ..core.solid.solid_difference import PointDifference
 from . import current_job
 from .compute_operator import ComputeOperator
-from .object_menus import register_with_entry, unregister_with_entry
 from .translation import say
 
 
@@ -117,16 +116,6 @@ def _reduced(whole, vertices, progress):
     return _Reduced(axis, away, time.perf_counter() - start)
 
 
-def _menu(self, _context):
-    self.layout.operator("object.medial_axis_reduce", icon="MOD_DECIM")
-
-
 CLASSES = (OBJECT_OT_medial_axis_reduce,)
 
-
-def register():
-    register_with_entry(CLASSES, _menu)
-
-
-def unregister():
-    unregister_with_entry(CLASSES, _menu)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

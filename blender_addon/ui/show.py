@@ -21,6 +21,25 @@ def show_colours(space):
     shading.color_type = "VERTEX"
 
 
+def draw_colours(context, layout):
+    """The button that shows colours, pressed while they are shown."""
+    shown = shows_colours(context.space_data)
+    layout.operator("view3d.medial_axis_show_colours", icon="COLOR", depress=shown)
+
+
+def draw_source(layout, thing):
+    """A button without words that draws the source of an object as wires, if it has one."""
+    source = source_of(thing)
+    if source is None:
+        return
+    layout.operator(
+        "object.medial_axis_source_as_wire",
+        text="",
+        icon="SHADING_WIRE",
+        depress=source.display_type == "WIRE",
+    ).name = thing.name
+
+
 class VIEW3D_OT_medial_axis_show_colours(bpy.types.Operator):
     bl_idname = "view3d.medial_axis_show_colours"
     bl_label = "Show Colours"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel of skeletons and armatures, closed by default."""
+"""The panel of skeletons and armatures."""
 
 import bpy
 
@@ -7,25 +7,24 @@ from ..bridge import output_object, skeleton_object
 from ..bridge.armature_object import BONES, armature_of, is_armature
 from ..bridge.skeleton_object import is_skeleton, skeleton_of
 from ..core.settings import SKELETON_OPTIONS
-from . import current_job
 from .skeleton_operators import SKELETON_OPERATORS, copy_all
-from .tab import Closed, settings_column
+from .tab import Closed, draws_buttons, settings_column
 from .translation import say
 from .wrapped_text import draw_wrapped
 
 
 class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
-    bl_label = "Skeleton"
+    bl_label = "Rig"
 
     def draw(self, context):
         column = settings_column(self.layout)
-        column.enabled = current_job.job() is None
         for name in (*SKELETON_OPTIONS, "bind"):
             column.prop(context.scene.medial_axis_skeleton, name)
-        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
+        converts = bpy.ops.object.medial_axis_to_curve.poll()
+        if draws_buttons(self.layout, len(SKELETON_OPERATORS) + converts):
             for operator, icon in SKELETON_OPERATORS.items():
                 copy_all(context, self.layout.operator(operator, icon=icon))
-            if bpy.ops.object.medial_axis_to_curve.poll():
+            if converts:
                 self.layout.operator("object.medial_axis_to_curve", icon="OUTLINER_OB_CURVE")
         for thing in _shown(context):
             _draw_figures(context, self.layout.column(), thing)

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The place of the panels of this add-on, and the column of their settings."""
 
+from . import current_job
+
 MAIN = "VIEW3D_PT_medial_axis"  # the panel that holds the others
+RESULT = "VIEW3D_PT_medial_axis_result"
+SETTINGS = "VIEW3D_PT_medial_axis_settings"
 
 
 class Tab:
@@ -22,6 +26,30 @@ class Closed(Inside):
     """A panel that is closed until someone opens it."""
 
     bl_options = {"DEFAULT_CLOSED"}
+
+
+class InResult(Closed):
+    """A panel inside that of the result."""
+
+    bl_parent_id = RESULT
+
+
+class InSettings(Closed):
+    """A panel inside that of the settings."""
+
+    bl_parent_id = SETTINGS
+
+
+def draws_buttons(layout, count=1):
+    """Whether to draw buttons that begin a computation; while there is one, their places are left empty.
+
+    Blender keeps a button grey that was so below the mouse, and panels must not move when a computation begins or ends.
+    """
+    if current_job.job() is None:
+        return True
+    for _ in range(count):
+        layout.label(text="")
+    return False
 
 
 def settings_column(layout):

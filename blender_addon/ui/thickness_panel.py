@@ -10,12 +10,11 @@ from ..bridge.thin_selection import patch_at, patches_of
 from ..core.axis.verdict import Light
 from ..core.samples.density import share_text
 from ..core.settings import THICKNESS_OPTIONS, Noise
-from . import current_job
 from .figures import length_text
 from .legend import draw_thickness_legend, light
 from .properties import copy_settings
-from .show import shows_colours
-from .tab import Closed, settings_column
+from .show import draw_colours, shows_colours
+from .tab import Closed, draws_buttons, settings_column
 from .thickness_limits import unit_note
 from .thickness_properties import shown_thickness
 from .translation import say
@@ -33,7 +32,7 @@ class VIEW3D_PT_medial_axis_thickness(Closed, bpy.types.Panel):
         _draw_options(layout, settings)
         if context.object is not None and (note := unit_note(context, context.object)):
             draw_wrapped(context, layout, note, "INFO")
-        if current_job.job() is None:  # Blender keeps a button grey that was so below the mouse
+        if draws_buttons(layout):
             button = layout.operator("object.medial_axis_thickness", icon="DRIVER_DISTANCE")
             copy_settings(context.scene.medial_axis, button)
             copy_settings(settings, button, THICKNESS_OPTIONS)
@@ -56,9 +55,7 @@ def _draw_options(layout, settings):
 
 def _draw_found(context, layout, carrier):
     if has_changed(carrier, context.view_layer.depsgraph):
-        draw_wrapped(
-            context, layout, "The source has changed since", icon_value=light(Light.LOOK.name)
-        )
+        draw_wrapped(context, layout, "The source has changed", icon_value=light(Light.LOOK.name))
     column = layout.column(align=True)
     least = carrier[of.MINIMUM]
     if of.LEAST in carrier and least < float("inf"):
@@ -70,14 +67,13 @@ def _draw_found(context, layout, carrier):
         _draw_patches(context, column, carrier)
         if carrier[of.AREA] > 0.0 and not carrier[of.GAP]:
             _draw_thicken(context, layout)
-    if not carrier[of.GAP] and current_job.job() is None:
+    if not carrier[of.GAP] and draws_buttons(layout):
         button = layout.operator("object.medial_axis_unsolidify", icon="MOD_SOLIDIFY")
         copy_settings(context.scene.medial_axis, button)
         button = layout.operator("object.medial_axis_hollow", icon="MESH_UVSPHERE")
         button.wall = context.scene.medial_axis_thickness.limit
-    shown = shows_colours(context.space_data)
-    layout.operator("view3d.medial_axis_show_colours", icon="COLOR", depress=shown)
-    if shown:
+    draw_colours(context, layout)
+    if shows_colours(context.space_data):
         _draw_legend(context, layout, carrier)
     layout.operator("export_scene.medial_axis_thickness", icon="EXPORT")
     for warning in carrier.get(WARNINGS, "").splitlines():
@@ -85,7 +81,7 @@ def _draw_found(context, layout, carrier):
 
 
 def _draw_thicken(context, layout):
-    if current_job.job() is not None:
+    if not draws_buttons(layout):
         return
     button = layout.operator("object.medial_axis_thicken", icon="MOD_SOLIDIFY")
     copy_settings(context.scene.medial_axis, button)

@@ -3,6 +3,8 @@
 
 from . import current_job
 
+CANCELLED = "It was cancelled"  # in the panel: one row, so that nothing moves
+
 
 class WatchedJob:
     """An operator that watches a job until it is done, and then calls its own `ended(context)`.

@@ -15,8 +15,9 @@ def draw_wrapped(context, layout, text, icon="NONE", icon_value=0, beside=0):
     """
     width = context.region.width / context.preferences.system.ui_scale - 60 - beside
     column = layout.column(align=True)
-    column.scale_y = 0.8
-    for number, line in enumerate(textwrap.wrap(say(text), max(20, int(width / _CHARACTER)))):
+    lines = textwrap.wrap(say(text), max(20, int(width / _CHARACTER)))
+    column.scale_y = 0.8 if len(lines) > 1 else 1.0  # one line is as high as any other row
+    for number, line in enumerate(lines):
         if number or not icon_value:
             column.label(text=line, icon="BLANK1" if number else icon, translate=False)
         else:

@@ -147,3 +147,23 @@ def test_the_group_by_itself_takes_small_axes(size):
     assert np.ptp(positions(evaluated(axis)), axis=0) == pytest.approx(
         size * np.ptp(positions(source.data), axis=0), rel=0.05
     )
+
+
+def test_others_step_back_and_are_measured_all_the_same():
+    """Blender does not evaluate hidden objects, and a modifier of the source must count in what is measured again."""
+    source = torus()
+    source.modifiers.new("Wave", "DISPLACE").strength = 0.1
+    compute(form="CLEAN", side="INNER")
+    axis = result_of(source)
+    assert bpy.ops.object.medial_axis_rebuild(alone=True) == {"FINISHED"}
+    made = bpy.context.object
+    assert made.get("ma_rebuilt") and made.select_get() and made.visible_get()
+    assert source.hide_get() and axis.hide_get() and not source.hide_viewport
+    first = made["ma_rebuilt_mean"]
+    bpy.ops.object.medial_axis_rebuild()
+    assert made["ma_rebuilt_mean"] == pytest.approx(first, rel=1e-6)
+    assert source.hide_get(), "measuring again leaves them where they are"
+    bpy.ops.object.medial_axis_others(name=made.name)
+    assert source.visible_get() and axis.visible_get()
+    bpy.ops.object.medial_axis_others(name=made.name)
+    assert not source.visible_get() and made.visible_get()

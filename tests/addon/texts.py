@@ -48,6 +48,7 @@ DATA = {
     "Medial Axis Self-Test",
     "Medial Axis Armature",
     "the arrays of a mesh contradict each other",
+    "(?:Sampled|Used the) ([\\d,]+) (points|vertices)",
     "VERSION 1",
     "{}:Medial Axis:Medial Axis",
     "Voxel Size",

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The traffic light of a computation, and the sentence next to it."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
+from medial_axis.core.axis import topology
+from medial_axis.core.axis import verdict as verdicts
 from medial_axis.core.axis.compute import compute_axis
-from medial_axis.core.axis.verdict import Light, plainly, verdict
+from medial_axis.core.axis.verdict import Light, in_short, plainly, verdict
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import SamplingMode, Settings
 from medial_axis.core.severe import Severe
@@ -63,3 +68,28 @@ def test_severe_warnings_come_first(order):
     found = computed(CUBE, FACES)
     warnings = ["something was assumed", Severe("it is wrong")][::order]
     assert verdict(found.chosen, warnings).sentence == "It is wrong."
+
+
+def test_a_few_words_stand_for_sentences_that_exist():
+    """Each part that is looked for is in a sentence of the sources, and the words fit into a row of the panel."""
+    core = Path(verdicts.__file__).parents[1]
+    files = [*core.glob("samples/*.py"), core / "axis" / "axis_warnings.py"]
+    texts = " ".join(path.read_text(encoding="utf-8") for path in files)
+    texts = re.sub(r"[\"']\s*f?[\"']", "", texts).lower()  # sentences go over several lines
+    parts = verdicts._IN_SHORT
+    assert not [part for part in parts if part.lower() not in texts]
+    assert max(map(len, parts.values())) <= 22
+
+
+def test_a_few_words_of_good_open_and_unknown_results():
+    good = seen(computed(CUBE, FACES))
+    assert in_short(good.sentence) == f"{good.sentence.split()[1]} samples"
+    assert in_short(plainly(computed(*icosphere(4)[:2]).chosen)) == "2,562 vertices"
+    assert in_short(seen(computed(CUBE, FACES[:-1])).sentence) == "Openings were closed"
+    assert in_short("Something new (of 3); do this.") == "Something new"
+
+
+def test_betti_numbers_in_short_leave_out_what_there_is_none_of():
+    assert topology.betti_in_short((1, 0, 0)) == ["1 piece"]
+    assert topology.betti_in_short((2, 1, 0)) == ["2 pieces", "1 loop"]
+    assert topology.betti_in_short((1, 1234, 2)) == ["1 piece", "1,234 loops", "2 cavities"]

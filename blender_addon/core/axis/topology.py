@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from ..settings import OPTIONS, Form, SidesFrom
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..samples.analysed import AnalysedSamples
     from .medial_axis import MedialAxis
 
@@ -49,6 +51,17 @@ def betti_words(betti: tuple[int, int, int]) -> str:
     one = {0: f"no loop, {cavity}", 1: f"1 loop, {cavity}"}
     loop = one.get(loops, f"{loops:,} loops, {cavity}")
     return f"1 piece, {loop}" if pieces == 1 else f"{pieces:,} pieces, {loop}"
+
+
+def betti_in_short(betti: Sequence[int]) -> list[str]:
+    """Format those Betti numbers that are not 0 as '1 piece', '5 loops' and '1 cavity'."""
+    pieces, loops, cavities = betti
+    found = ["1 piece" if pieces == 1 else f"{pieces:,} pieces"]
+    if loops:
+        found.append("1 loop" if loops == 1 else f"{loops:,} loops")
+    if cavities:
+        found.append("1 cavity" if cavities == 1 else f"{cavities:,} cavities")
+    return found
 
 
 def _why(

@@ -26,6 +26,8 @@ SCENES = {  # name -> whether the compiled module is installed
     "first_glance_large": True,
     "compute_drag_undo": True,
     "sliders_with_escape": True,
+    "auto_update": True,
+    "steady_panels": True,
     "scan": True,
     "sampling": True,
     "what_comes_after": True,

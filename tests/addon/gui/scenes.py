@@ -30,19 +30,26 @@ TAB = (13, 177) if bpy.app.version < (5, 0) else (13, 254)  # below Blender's ow
 COMPUTE = (102, 50)
 CANCEL = (48, 50)
 RECONSTRUCT = (102, 81)  # where there are points without faces
-THETA_LEFT, THETA_RIGHT = (120, 127), (50, 127)
-SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 105), (50, 105)
+THETA_LEFT, THETA_RIGHT = (120, 153), (50, 153)
+SIMPLIFY_LEFT, SIMPLIFY_RIGHT = (120, 130), (50, 130)
 GERMAN_TAB = (13, 270)
 # Headers of closed panels, 26 pixels one below the other, and what is in them when they alone are open.
-SAMPLING, SKELETON, THICKNESS = (185, 206), (150, 258), (150, 284)
-RESULT, REBUILD = (
-    (150, 283),
-    (150, 413),
-)  # where there is a result; the second, when the first is closed
-REPORT = (102, 442)
-EXTRACT_SKELETON, MAKE_ARMATURE = (102, 384), (102, 410)
-MEASURE_THICKNESS, THICKEN = (102, 432), (102, 548)
-REBUILD_SOLID = (102, 443)
+SKELETON, THICKNESS, SETTINGS = (150, 231), (150, 257), (150, 309)
+(
+    RESULT,
+    REBUILD,
+    SETTINGS_OF_RESULT,
+) = (  # where there is a result; the others, when the first is closed
+    (150, 231),
+    (150, 309),
+    (150, 387),
+)
+AUTO_UPDATE = (62, 231)  # in the header of the panel Result
+SAMPLING = (150, 440)  # in Settings of a result
+EXTRACT_SKELETON, MAKE_ARMATURE = (102, 357), (102, 383)
+MEASURE_THICKNESS, THICKEN = (102, 405), (102, 521)
+REBUILD_SOLID, OTHERS = (102, 339), (49, 339)
+FORM, SKELETON_END = (200, 95), (30, 345)
 
 
 # --- hands and eyes
@@ -295,7 +302,8 @@ def scene_sliders_with_escape():
     dragged = facets()
     assert dragged < whole and bpy.data.objects[name]["ma_simplify"] == panel.simplify
     yield from key("ctrl+z")
-    assert facets() == whole
+    yield no_update
+    assert facets() == whole, "undo must bring back the mesh that the slider had"
     yield from key("ctrl+shift+z")
     yield no_update
     assert facets() == dragged, "redo must bring the mesh back with the slider"
@@ -316,6 +324,231 @@ def scene_sliders_with_escape():
     yield patience(1.0)
     look("curve")
     assert facets() == 0
+
+
+def scene_steady_panels():
+    """Nothing moves when a computation begins, and every verb is in one menu, where F3 finds it."""
+    select(bpy.data.objects["Cube"])
+    bpy.context.scene.medial_axis.sampling = "SURFACE"
+    bpy.context.scene.medial_axis.samples = 600
+    yield from open_tab()
+    yield from fold(SKELETON)
+    look("before")
+    with held(addon("core.axis.compute"), "extract"):
+        yield from click(*at(COMPUTE))
+        yield job_exists
+        yield patience(1.0)
+        look("computing")
+        yield from key("Escape")
+        yield no_job
+    yield patience(1.0)
+    look("cancelled")
+    assert_same_below(FORM, SKELETON_END, "before", "computing")
+    assert_same_below(FORM, SKELETON_END, "before", "cancelled")
+    yield from fold(SKELETON)
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield patience(1.0)
+    look("result")
+    yield from fold(RESULT)
+    yield from fold(SETTINGS_OF_RESULT)
+    look("settings")
+    yield from key("F3")
+    xdotool("type", "thick")
+    yield patience(1.0)
+    look("found")
+    yield from key("Escape")
+    with in_viewport():
+        bpy.ops.wm.call_menu(name="VIEW3D_MT_medial_axis")
+    yield patience(1.0)
+    look("menu")
+    yield from key("Escape")
+    yield from key("Home")  # Blender's own exit code is 1 after Escape was the last key
+
+
+def assert_same_below(start, end, *names):
+    """Two pictures show the same of the sidebar between two places."""
+    seen = []
+    for name in names:
+        image = bpy.data.images.load(str(Path(FOLDER) / f"{NAME}-{name}.png"))
+        pixels = np.array(image.pixels[:]).reshape(*reversed(image.size), 4)[::-1]
+        (left, top), (right, bottom) = at(start), at(end)
+        seen.append(pixels[top:bottom, left:right])
+        bpy.data.images.remove(image)
+    assert np.allclose(*seen, atol=0.02), (
+        f"{np.ptp(np.argwhere(np.abs(seen[0] - seen[1]) > 0.02), axis=0)}"
+    )
+
+
+def scene_auto_update():
+    """A result follows edits, undo, redo and another session; it waits where it should, and Escape stops it."""
+    monkey().modifiers.clear()
+    bpy.context.scene.medial_axis.sampling = "SURFACE"
+    bpy.context.scene.medial_axis.samples = 2_000
+    yield from open_tab()
+    yield from click(*at(COMPUTE))
+    yield result_exists
+    yield patience(1.0)
+    look("offered")  # the panel Result is open after the first computation
+    yield from click(*at(AUTO_UPDATE))
+    assert live_result().medial_axis_auto_update, "the switch was missed"
+    for part in (
+        moves_need_nothing,
+        edit_mode_waits,
+        undo_is_followed,
+        coarse_comes_first,
+        escape_stops_it,
+        files_keep_it,
+        disabled_while_it_waits,
+        deleted_source_ends_it,
+    ):
+        yield from part()
+
+
+def moves_need_nothing():
+    yield from key("g")
+    xdotool("key", "x", "1", "Return")
+    yield lambda: abs(live_result().matrix_world.translation.x - 1.0) < 1e-3
+    yield from stays_without_job(1.5)
+
+
+def stays_without_job(seconds):
+    for _ in range(int(10 * seconds)):
+        assert no_job(), "nothing should be computed now"
+        yield 0.1
+
+
+def edit_mode_waits():
+    first = followed()
+    yield from key("Tab")
+    yield from key("s")
+    xdotool("key", "x", "2", "Return")
+    yield from stays_without_job(1.5)
+    assert followed() == first
+    yield from key("Tab")
+    yield lambda: followed() > 1.5 * first
+    yield no_job
+    yield patience(0.7)
+    look("edited")
+    assert not changed_since()
+    for stroke in ("ctrl+z", "ctrl+z", "ctrl+z"):  # out of edit mode, the scale, into edit mode
+        yield from key(stroke)
+    yield lambda: abs(followed() - first) < 1e-3
+    yield no_job
+    assert bpy.context.object.mode == "OBJECT" and not changed_since()
+
+
+def undo_is_followed():
+    """One stroke takes back one step of the artist; redo still knows it after the result has followed."""
+    first, things = followed(), len(bpy.data.objects)
+    yield from key("s")
+    xdotool("key", "x", "2", "Return")
+    yield lambda: followed() > 1.5 * first
+    yield no_job
+    for _ in range(2):
+        yield from key("ctrl+z")
+        assert bpy.context.object.scale.x == 1.0, "one stroke takes back one step"
+        yield lambda: abs(followed() - first) < 1e-3
+        yield no_job
+        yield 1.0
+        look("undone")
+        yield from key("ctrl+shift+z")
+        assert bpy.context.object.scale.x == 2.0, "redo must know the step after an update"
+        yield lambda: followed() > 1.5 * first
+        yield no_job
+    assert len(bpy.data.objects) == things and not changed_since()
+    yield 1.0
+    look("redone")
+
+
+def coarse_comes_first():
+    live_result()["ma_seconds"] = 5.0  # as if it were slow
+    addon("core.settings").COARSE = 500
+    bpy.context.object.scale.z = 1.5
+    yield job_exists
+    seen = set()
+    while job() is not None:
+        seen.add((live_result()["ma_points"], changed_since()))
+        yield 0.05
+    seen.add((live_result()["ma_points"], changed_since()))
+    few, (full, outdated) = min(seen), max(seen)
+    assert few[0] < 1_000 < full and few[1] and not outdated, seen
+
+
+def escape_stops_it():
+    with held(addon("core.axis.compute"), "extract"):
+        bpy.context.object.scale.y = 3.0
+        yield job_exists
+        yield 0.5
+        look("in-the-thread")
+        yield from key("Escape")
+        yield no_job
+    yield from stays_without_job(2.0)
+    assert changed_since(), "what was cancelled is not begun again"
+    look("cancelled")
+    bpy.context.object.scale.y = 1.0
+    yield 2.0
+    yield no_job
+    assert not changed_since()
+
+
+def files_keep_it():
+    path, first = str(Path(FOLDER) / "live.blend"), followed()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path)
+    yield from stays_without_job(2.0)
+    assert live_result().medial_axis_auto_update and not changed_since()
+    bpy.context.object.scale.x = 3.0
+    yield lambda: followed() > 1.2 * first
+    yield no_job
+
+
+def disabled_while_it_waits():
+    """An edit that waits is dropped with the add-on, and found again when that comes back."""
+    first, module = followed(), os.environ["MEDIAL_AXIS_MODULE"]
+    before = bpy.app.handlers.depsgraph_update_post[:]
+    bpy.context.object.scale.x = 1.0
+    yield 0.2
+    bpy.ops.preferences.addon_disable(module=module)
+    yield 1.5
+    assert followed() == first and threads() == []
+    assert len(bpy.app.handlers.depsgraph_update_post) == len(before) - 1
+    bpy.ops.preferences.addon_enable(module=module)
+    yield lambda: followed() < 0.7 * first
+    yield no_job
+
+
+def deleted_source_ends_it():
+    bpy.context.object.scale.y = 2.0
+    yield job_exists
+    bpy.data.objects.remove(bpy.context.object)
+    yield no_job
+    yield 2.0
+    assert job() is None and not bpy.context.scene.medial_axis.note
+    assert addon("ui.auto_update")._after_update not in bpy.app.handlers.depsgraph_update_post
+    yield 0.5
+    look("deleted")
+    yield from key("Home")  # Blender's own exit code is 1 after Escape was the last key
+
+
+def live_result():
+    return bpy.data.objects["Suzanne Medial Axis"]
+
+
+def followed():
+    """How wide the result is in X."""
+    return float(np.ptp(positions_of(live_result())[:, 0]))
+
+
+def positions_of(thing):
+    found = np.empty(3 * len(thing.data.vertices), np.float32)
+    thing.data.vertices.foreach_get("co", found)
+    return found.reshape(-1, 3)
+
+
+def changed_since():
+    return addon("bridge.source_state").differs(live_result(), bpy.context.view_layer.depsgraph)
 
 
 def no_update():
@@ -551,9 +784,13 @@ def scene_sampling():
     assert "samples of the surface: the vertices" in result["ma_sampled"]
     assert abs(attribute(result.data, "ma_radius").max() - 1.0) < 0.02
     select(cube)
-    yield from fold(SAMPLING)
+    for header in (RESULT, SETTINGS_OF_RESULT, SAMPLING):
+        yield from fold(header)
     look("opened")
-    yield from click(*at(REPORT))
+    yield from key("F3")
+    xdotool("type", "report samp")
+    yield patience(1.0)
+    xdotool("key", "Return")
     yield report_exists
     yield 2.0
     look("reported")
@@ -620,7 +857,12 @@ def scene_what_comes_after():
     yield from click(*at(REBUILD_SOLID))
     yield from until(lambda: "Branches Medial Axis Rebuilt" in bpy.data.objects)
     look("8-rebuilt")
-    bpy.data.objects.remove(bpy.data.objects["Branches Medial Axis Rebuilt"])
+    solid, axis = bpy.context.object, bpy.data.objects["Branches Medial Axis"]
+    assert solid.name == "Branches Medial Axis Rebuilt" and not source.visible_get()
+    yield from click(*at(OTHERS))
+    assert source.visible_get() and axis.visible_get(), "one click brings them again"
+    bpy.data.objects.remove(solid)
+    select(source)
     with bpy.context.temp_override(window=window(), area=viewport(), object=source):
         assert bpy.ops.object.medial_axis_nodes("INVOKE_DEFAULT", group="BALLS") == {"FINISHED"}
     yield patience(1.5)

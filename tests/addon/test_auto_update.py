@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Auto Update: which result is computed next, and what its updates write; the window's part is a scene."""
+
+import dataclasses
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, compute, ellipsoid, positions, result_of, select
+
+auto, live = addon("ui.auto_update"), addon("bridge.live_result")
+
+
+@pytest.fixture
+def pair():
+    source = ellipsoid(segments=4)
+    bpy.context.scene.medial_axis.sampling = "VERTICES"
+    compute(sampling="VERTICES")
+    result = result_of(source)
+    result.medial_axis_auto_update = True
+    addon("bridge.wires").wires_group()  # as in a window, where the switch makes it
+    return source, result
+
+
+def wanted():
+    bpy.context.view_layer.update()
+    return auto.next_result(bpy.context)
+
+
+def edit(source, factor=1.3):
+    for vertex in source.data.vertices:
+        vertex.co.x *= factor
+    source.data.update()
+
+
+def update(result, coarse=False):
+    """Do what the operator does, without its thread."""
+    bpy.context.view_layer.update()
+    settings = auto.wish(bpy.context, result)[1]
+    read = live.read_live(result, bpy.context.view_layer.depsgraph)
+    computation = addon("core.axis.compute").compute_axis(
+        read.shape, settings.coarse if coarse else settings
+    )
+    live.write_live(read, computation, coarse)
+
+
+def test_it_is_off_at_first_and_watches_nothing_in_the_background():
+    source = ellipsoid()
+    compute()
+    assert not result_of(source).medial_axis_auto_update
+    result_of(source).medial_axis_auto_update = True
+    assert auto._after_update not in bpy.app.handlers.depsgraph_update_post
+    assert not bpy.app.timers.is_registered(auto._begin)
+
+
+def test_edits_modifiers_and_scale_are_seen_and_moves_are_not(pair):
+    source, result = pair
+    assert wanted() is None
+    source.location, source.rotation_euler = (1, 2, 3), (0.1, 0.2, 0.3)
+    assert wanted() is None
+    source.scale = (2, 1, 1)
+    assert wanted() == result
+    source.scale = (1, 1, 1)
+    assert wanted() is None
+    wave = source.modifiers.new("Wave", "DISPLACE")
+    wave.strength = 0.05
+    assert wanted() == result
+    result.medial_axis_auto_update = False
+    assert wanted() is None
+
+
+def test_an_update_is_what_a_computation_makes(pair):
+    source, result = pair
+    edit(source)
+    update(result)
+    assert wanted() is None
+    updated = positions(result.data)
+    select(source)
+    compute(sampling="VERTICES")
+    assert np.array_equal(updated, positions(result_of(source).data))
+
+
+def test_a_coarse_update_leaves_the_result_outdated(pair):
+    source, result = pair
+    crisp = auto.wish(bpy.context, result)[1].crisp
+    edit(source)
+    update(result, coarse=True)
+    assert result["ma_sampling"] == "SURFACE" and wanted() == result
+    assert auto.wish(bpy.context, result)[1].crisp == crisp, "what was coarse is not wished"
+    update(result)
+    assert result["ma_sampling"] != "SURFACE" and wanted() is None
+
+
+def test_filters_stay_those_of_the_result(pair):
+    _, result = pair
+    result["ma_simplify"] = 0.125
+    bpy.context.scene.medial_axis.samples = 900
+    _, settings = auto.wish(bpy.context, result)
+    assert (settings.simplify, settings.samples) == (0.125, 900)
+
+
+def test_what_was_refused_is_tried_again_after_another_edit(pair):
+    source, result = pair
+    edit(source)
+    bpy.context.view_layer.update()
+    auto._refused[result.name] = auto.wish(bpy.context, result)
+    assert wanted() is None
+    edit(source)
+    assert wanted() == result
+    auto._refused.clear()
+
+
+def test_sources_in_other_modes_wait_and_deleted_ones_end_it(pair):
+    source, result = pair
+    edit(source)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    assert wanted() is None
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert wanted() == result
+    bpy.data.objects.remove(source)
+    assert wanted() is None
+
+
+def test_a_result_that_went_away_is_not_written(pair):
+    source, result = pair
+    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
+    bpy.data.objects.remove(result)
+    live.write_live(read, None, False)
+    assert result_of(source) is None
+
+
+def test_an_axis_without_facets_is_told_and_not_written(pair):
+    _source, result = pair
+    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
+    settings = dataclasses.replace(auto.wish(bpy.context, result)[1], theta=np.pi / 2, rho=1e9)
+    settings = dataclasses.replace(settings, form=addon("core.settings").Form.PUBLISHED)
+    computation = addon("core.axis.compute").compute_axis(read.shape, settings)
+    facets = len(result.data.polygons)
+    with pytest.raises(addon("core.errors").MedialAxisError, match="no facet passes"):
+        live.write_live(read, computation, False)
+    assert len(result.data.polygons) == facets > 0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_undo_and_redo_step_over_updates(pair, seed):
+    """Each step of an artist is one step of undo, whatever updates came between, and nothing is left over."""
+    bpy.context.preferences.edit.use_global_undo = True
+    names = [thing.name for thing in pair]
+    bpy.ops.ed.undo_push(message="set")
+    rng, shapes, now = np.random.default_rng(seed), [positions(pair[0].data)], 0
+    kept = (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
+    for _ in range(14):
+        action = rng.integers(4)
+        if action == 0 and now > 0:
+            now -= bpy.ops.ed.undo() == {"FINISHED"}
+        elif action == 1 and now + 1 < len(shapes):
+            now += bpy.ops.ed.redo() == {"FINISHED"}
+        elif action == 2:
+            edit(bpy.data.objects[names[0]], rng.uniform(0.8, 1.25))
+            del shapes[now + 1 :]
+            shapes.append(positions(bpy.data.objects[names[0]].data))
+            now += 1
+            bpy.ops.ed.undo_push(message="edit")
+        source, result = (bpy.data.objects[name] for name in names)
+        assert np.array_equal(positions(source.data), shapes[now]), "a step was lost"
+        if wanted() is not None and rng.random() < 0.8:
+            update(result, coarse=rng.random() < 0.3)
+        assert kept == (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
+        if wanted() is None:
+            assert_belongs(source, result)
+    assert len(shapes) > 2, "nothing was edited"
+
+
+def assert_belongs(source, result):
+    """A result that the light calls up to date is the axis of the source."""
+    read = live.read_live(result, bpy.context.evaluated_depsgraph_get())
+    settings = auto.wish(bpy.context, result)[1]
+    axis = addon("core.axis.compute").compute_axis(read.shape, settings).axis
+    assert np.allclose(positions(result.data), axis.vertices, rtol=0, atol=1e-6)
