@@ -87,8 +87,8 @@ Vec3 least_spread(std::span<const Vec3> points) {
       for (int q = p + 1; q < 3; ++q) {
         if (m[p][q] == 0) continue;
         const double angle = (m[q][q] - m[p][p]) / (2 * m[p][q]),
-                     t = (angle >= 0 ? 1 : -1) / (std::abs(angle) + std::hypot(angle, 1)),
-                     c = 1 / std::hypot(t, 1), s = t * c;
+                     t = (angle >= 0 ? 1 : -1) / (std::abs(angle) + std::sqrt(angle * angle + 1)),
+                     c = 1 / std::sqrt(t * t + 1), s = t * c;
         const auto turn = [&](double& a, double& b) {
           const double old = a;
           a = c * old - s * b;
