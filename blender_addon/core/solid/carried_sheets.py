@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 _TOUCHES = 0.01  # a ball whose distance from an edge differs by less than this share of its radius touches it
 _REACH = 4.0  # so many radii away the wall at a rim is looked for
+_STEPS = 2.0  # so many times as far as that of an edge beside it the wall ahead of an edge is at most
 _ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
 _LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
 _LAST = 2  # so many vertices at the end of a bend may be in one of its sheets only
@@ -139,8 +140,11 @@ class _Planes:
         first = np.searchsorted(self.vertex[order], like[vertex])
         many = count[like[vertex]]
         within = np.arange(many.sum()) - np.repeat(np.cumsum(many) - many, many)
-        pair = order[np.repeat(first, many) + within]
-        return np.repeat(vertex, many), self.places[pair], self.normals[pair]
+        pair, vertex = order[np.repeat(first, many) + within], np.repeat(vertex, many)
+        away = sheets.vertices[vertex] - self.places[pair]
+        depth = np.abs(np.einsum("ij,ij->i", away, self.normals[pair]))
+        near = depth <= (1.0 + _TOUCHES) * self._radius[pair]  # on the wall, as at a bend
+        return vertex[near], self.places[pair[near]], self.normals[pair[near]]
 
     def _means(
         self, sheets: ThinSheets, bent: NDArray[np.bool_]
@@ -291,9 +295,18 @@ def _add_rims(rows: _Rows, rim: _Rim, bent: NDArray[np.bool_], walls: Walls) -> 
         places[again], normals[again] = _walls_ahead(rim.of(again), rim.out[like[again]], walls)
     alone = at_edge | ~normals.any(axis=1)
     places[alone], normals[alone] = feet[alone], rim.out[alone]
+    near = _are_nearest(rim, places)
     for end in range(2):
-        rows.add(rim.ends[:, end], places, normals)
+        rows.add(rim.ends[near, end], places[near], normals[near])
         rows.add(rim.ends[at_edge, end], feet[at_edge], rim.along[at_edge])
+
+
+def _are_nearest(rim: _Rim, places: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(k,) the edges whose walls are not much farther than those of edges beside them: others are steps of the rim."""
+    away = np.linalg.norm(places - rim.middles, axis=1)
+    least = np.full(int(rim.ends.max()) + 1, np.inf)
+    np.minimum.at(least, rim.ends, away[:, None])
+    return np.asarray(away <= _STEPS * least[rim.ends].min(axis=1))
 
 
 def _walls_ahead(
