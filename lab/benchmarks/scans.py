@@ -4,6 +4,7 @@
     python3 lab/benchmarks/scans.py [--output table.md] [--shapes torus ...] [--noise 0.5 ...] [--picture scans.png]
     python3 lab/benchmarks/scans.py --meshes
 
+With several seeds the numbers are means over them, and Betti numbers become how many seeds have the right ones.
 The second command takes the shared closed meshes instead, with 20,000 samples each, and leaves distances out.
 
 Each shape has some 8,000 even samples, moved by Gaussian errors in all coordinates; the noise is their standard
@@ -46,6 +47,7 @@ COUNT, COUNT_OF_MESHES = 8000, 20_000
 DRAWN, TILE = 4000, 260
 HEADER = ["shape", "seed", "noise", "measured", "Betti, off", "Betti, prepared", "kept"]
 HEADER += ["o->t mean %", "t->o mean %", "seconds", "named"]
+OVERALL = ["shape", "noise", "measured", "right, off", "right, prepared", "kept", *HEADER[7:]]
 NO_FACES = np.zeros((0, 3), np.int32)
 
 
@@ -107,6 +109,23 @@ def row(name: str, noise: float, seed: int) -> list[str]:
     ]
 
 
+def summary(rows: list[list[str]]) -> list[list[str]]:
+    """One row for all seeds of a shape and a noise."""
+    groups: dict[tuple[str, str], list[list[str]]] = {}
+    for cells in rows:
+        groups.setdefault((cells[0], cells[2]), []).append(cells)
+    found = []
+    for (name, noise), group in groups.items():
+        means = [
+            np.mean([float(c[k].replace(",", "") or "nan") for c in group]) for k in (3, 6, 7, 8, 9)
+        ]
+        right = [str(sum("**" not in c[k] for c in group)) for k in (4, 5)]
+        numbers = [f"{means[0]:.3f}", *right, f"{means[1]:,.0f}", *(f"{m:.2f}" for m in means[2:4])]
+        named = {c[10] for c in group if c[10]}
+        found.append([name, noise, *numbers, f"{means[4]:.1f}", ", ".join(sorted(named))])
+    return found
+
+
 def distances_of(vertices: np.ndarray, shape, points: np.ndarray) -> tuple[str, str]:
     """Mean distances to the exact axis, and back, in percent of the diagonal."""
     diagonal = np.linalg.norm(np.ptp(points, axis=0)) / 100
@@ -165,6 +184,8 @@ def main() -> None:
                 rows.append(row(name, noise, seed))
                 print(*rows[-1], file=sys.stderr, flush=True)
     table = _module.markdown(HEADER, rows)
+    if wanted.seeds > 1:
+        table = _module.markdown(OVERALL, summary(rows))
     print(table)
     if wanted.output:
         wanted.output.write_text(table, encoding="utf-8")
