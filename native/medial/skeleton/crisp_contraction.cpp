@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <numeric>
+#include <tuple>
 
 #include "skeleton/crisp_parts.h"
 
@@ -8,8 +9,7 @@ namespace {
 
 constexpr double kLongestStep = 0.5;  // holes between the samples from a vertex to where it may go
 constexpr int kContractionRounds = 8;
-constexpr size_t kMostTogether =
-    32;  // vertices that move at once: a whole line of a fillet does not
+constexpr size_t kMostTogether = 32;  // vertices that move at once; the line of a fillet has more
 
 class Contraction {
  public:
