@@ -5,11 +5,10 @@
 namespace medial {
 namespace {
 
-constexpr int kMostRounds = 400;  // of steps towards the middle of the neighbours along a rim
-constexpr int kFirstRounds = 4;   // of these, the rounds in which all vertices take steps
-constexpr int kEvenRounds = 4;    // of means along the rim of the ways to the end of the sheet
-constexpr int kSmoothRounds =
-    300;  // of means along the rim of where the sheet ends: waves of 43 edges
+constexpr int kMostRounds = 400;    // of steps towards the middle of the neighbours along a rim
+constexpr int kFirstRounds = 4;     // of these, the rounds in which all vertices take steps
+constexpr int kEvenRounds = 4;      // of means along the rim of the ways to the end of the sheet
+constexpr int kSmoothRounds = 300;  // of means of where the sheet ends: waves of 43 edges
 // Lengths are in holes between the samples.
 constexpr double kDeepest = 1;  // from a vertex to the end of the sheet that is found for it
 
