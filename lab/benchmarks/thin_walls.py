@@ -4,9 +4,9 @@
     python3 lab/benchmarks/thin_walls.py [--samples 4000] [--solids plate:0.001 ...] [--plain] [--automatic]
 
 Each solid is turned at random and rounded to float32. The levels are those of the form Clean with crisp places. The
-area is a share of the true one, with the sheets into the edges of flat walls; `middle` is the true share of the sheets in
-the middle of the walls alone, which is all that samples far sparser than the wall find. `--plain` adds the same samplings without pairs,
-`--automatic` the sampling of the product at its defaults.
+area is a share of the true one, with the sheets into the edges of flat walls; `middle` is the true share of the sheets
+in the middle of the walls alone, which is all that samples far sparser than the wall find. `--plain` adds the same
+samplings without pairs, `--automatic` the sampling of the product at its defaults.
 """
 
 import argparse

@@ -223,9 +223,10 @@ def torus_of_rows(around=60, across=24, jitter=0.25):
     """A tube of radius 0.2 with random rows, bent to a ring of radius 1."""
     random = np.random.default_rng(4)
     u, v = (
-        2 * np.pi * (np.arange(n) + random.uniform(-jitter, jitter, n)) / n for n in (around, across)
+        2 * np.pi * (np.arange(n) + random.uniform(-jitter, jitter, n)) / n
+        for n in (around, across)
     )
-    vertices, triangles = meshes.torus(1.0, 0.2, around, across)
+    triangles = meshes.torus(1.0, 0.2, around, across)[1]
     u, v = (x.ravel() for x in np.meshgrid(u, v, indexing="ij"))
     far = 1.0 + 0.2 * np.cos(v)
     return np.column_stack((far * np.cos(u), far * np.sin(u), 0.2 * np.sin(v))), triangles

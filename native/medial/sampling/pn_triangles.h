@@ -62,7 +62,8 @@ class Patch {
 
 class CurvedSurface {
  public:
-  // The mesh must outlive the surface. Normals are averages over smooth fans, weighted by angle.
+  // The mesh must outlive the surface. Normals are those of smooth_normal where a smooth fan leads
+  // round its vertex, elsewhere averages over the fan, weighted by angle.
   // Where a wall of several triangles in one plane is far larger than all others at a vertex, as
   // beside a bevel, the normal is that of the wall, which stays flat.
   CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth, const Run& run);

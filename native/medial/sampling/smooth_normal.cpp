@@ -7,8 +7,8 @@ namespace {
 // Slope, curvature as of a sphere, two terms more of a quadric, four of a cubic.
 constexpr int kSlopes = 2, kQuadric = 5, kTerms = 9;
 using Terms = std::array<double, kTerms>;
-// So little, relative to their sizes, is every curvature and cubic term held back, which decides
-// them where the points do not. That of a sphere is not held back less, as it costs nothing.
+// So little is every curvature and cubic term held back, which decides them where the points do
+// not.
 constexpr double kHeldBack = 1e-9;
 // A surface of more terms is taken if the mean square of what it leaves is at most this share of
 // what one of fewer terms leaves. With noise alone both are about the same.
