@@ -43,7 +43,7 @@ def rig_of(source: bpy.types.Object) -> bpy.types.Object | None:
 
 
 def mark_of(armature: bpy.types.Object, source: bpy.types.Object) -> str | None:
-    """What the keys end in under which an armature keeps what belongs to a source; None where it keeps nothing.
+    """The end of the keys under which an armature keeps what belongs to a source; None where it keeps nothing.
 
     In an armature that was made of the source they end in nothing; in others, in the number of the source there.
     """

@@ -35,7 +35,9 @@ def main():
     for bind in ("AXIS", "AUTOMATIC"):
         source, armature = rigged(body, bind)
         if not panes:
-            panes.append(render(Path(picture).with_suffix(".bones.png"), bones_of(armature), source))
+            panes.append(
+                render(Path(picture).with_suffix(".bones.png"), bones_of(armature), source)
+            )
         pose(armature)
         panes.append(render(Path(picture).with_suffix(f".{bind}.png"), None, source))
     subprocess.run(["montage", *panes, "-tile", "3x1", "-geometry", "+0+0", picture], check=True)
@@ -49,9 +51,12 @@ def set_scene():
     scene.render.resolution_x, scene.render.resolution_y = PIXELS
     scene.display.shading.color_type = "OBJECT"
     scene.display.shading.show_cavity = True
+    scene.world = bpy.data.worlds.new("White")
+    scene.world.color = (1.0, 1.0, 1.0)
+    scene.view_settings.view_transform = "Standard"
     scene.camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     scene.collection.objects.link(scene.camera)
-    scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 0.78
+    scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 0.76
     towards = Vector((0.45, -1.0, 0.1)).normalized()
     scene.camera.location = 3 * towards
     scene.camera.rotation_euler = towards.to_track_quat("Z", "Y").to_euler()
@@ -65,9 +70,11 @@ def rigged(body, bind):
     (source,) = bpy.context.selected_objects
     source.data.transform(source.matrix_world)
     source.matrix_world = Matrix.Identity(4)
-    corners = [Vector(corner) for corner in source.bound_box]
-    size, middle = (corners[6] - corners[0]).length, (corners[6] + corners[0]) / 2
-    source.data.transform(Matrix.Scale(1 / size, 4) @ Matrix.Translation(-middle))
+    places = [vertex.co for vertex in source.data.vertices]
+    low, high = (Vector(map(end, zip(*places, strict=True))) for end in (min, max))
+    to_middle = Matrix.Translation(-(low + high) / 2)
+    source.data.transform(Matrix.Scale(1 / (high - low).length, 4) @ to_middle)
+    source.data.polygons.foreach_set("use_smooth", [True] * len(source.data.polygons))
     bpy.context.view_layer.objects.active = source
     bpy.ops.object.medial_axis_armature(bind=bind, sampling="SURFACE")
     (armature,) = (thing for thing in bpy.data.objects if thing.type == "ARMATURE")
@@ -90,7 +97,10 @@ def bones_of(armature):
     for bone in armature.data.bones:
         place = armature.matrix_world @ bone.matrix_local
         first, length = len(corners), bone.length
-        ring = [(x * length, 0.12 * length, z * length) for x, z in ((0.1, 0.1), (0.1, -0.1), (-0.1, -0.1), (-0.1, 0.1))]
+        ring = [
+            (x * length, 0.12 * length, z * length)
+            for x, z in ((0.1, 0.1), (0.1, -0.1), (-0.1, -0.1), (-0.1, 0.1))
+        ]
         corners += [place @ Vector(corner) for corner in ((0, 0, 0), *ring, (0, length, 0))]
         for a, b in ((1, 2), (2, 3), (3, 4), (4, 1)):
             faces += [(first, first + a, first + b), (first + 5, first + b, first + a)]

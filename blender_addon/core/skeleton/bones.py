@@ -183,7 +183,7 @@ class _Maker:
         """Add the root bone, within its ball, and the bones that go on from it along the spine."""
         chain = body.tree[body.spine]
         away = np.linalg.norm(chain.points - chain.points[0], axis=1)
-        rim = np.interp(chain.radius[0], away, chain.marks)
+        rim = float(np.interp(chain.radius[0], away, chain.marks))
         tried = np.linspace(min(rim, chain.length), chain.length, _TRIED + 1)
         points, radius, _ = chain.at(tried)
         long = np.linalg.norm(points - chain.points[0], axis=1) >= np.maximum(radius, radius[0])
@@ -192,7 +192,7 @@ class _Maker:
         marks = np.array([0.0, chain.length])
         if len(fits):
             rest = joints_of(chain, float(tried[fits[0]]), self._count_of(chain))
-            marks = np.concatenate(([0.0], rest))
+            marks = np.append(0.0, rest)
         self._add_along(body, body.spine, marks, -1, False)
 
     def _count_of(self, chain: Chain) -> int:

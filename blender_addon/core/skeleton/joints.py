@@ -78,7 +78,9 @@ def _deviations(points: NDArray[np.float64], radius: NDArray[np.float64]) -> NDA
         share = np.clip(dot(to[:, None], inner) / square[:, None], 0.0, 1.0)
         away = np.linalg.norm(inner[None] - share[:, :, None] * to[:, None], axis=2)
         away /= ERROR * radius[start + 1 : -1]
-        found[start, start + 2 :] = np.where(np.tri(*away.shape, dtype=bool), away, 0.0).max(axis=1)
+        found[start, start + 2 :] = np.where(np.tril(np.ones(away.shape, bool)), away, 0.0).max(
+            axis=1
+        )
     return found
 
 

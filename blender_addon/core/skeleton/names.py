@@ -49,8 +49,8 @@ def _names_of_body(body: Body) -> dict[int, str]:
     rest = [n for n in _from_head_to_tail(body) if not any(n in m for m in middle.values())]
     for word, to_tip in (("trunk", False), ("limb", True)):
         alike = [n for n in rest if body.tree[n].to_tip == to_tip]
-        for number, chains in enumerate(_with_partners(body, alike)):
-            for side, chain in chains.items():
+        for number, pair in enumerate(_with_partners(body, alike)):
+            for side, chain in pair.items():
                 bones = [bone for bone in body.bones[chain] if bone != body.root]
                 names |= {
                     bone: f"{word}.{number + 1:02d}.{step + 1:02d}{side}"
