@@ -24,7 +24,9 @@ if TYPE_CHECKING:
 
 _TOUCHES = 0.01  # a ball whose distance from an edge differs by less than this share of its radius touches it
 _REACH = 4.0  # so many radii away the wall at a rim is looked for
-_STEPS = 2.0  # so many times as far as that of an edge beside it the wall ahead of an edge is at most
+_STEPS = (
+    2.0  # so many times as far as that of an edge beside it the wall ahead of an edge is at most
+)
 _ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
 _LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
 _LAST = 2  # so many vertices at the end of a bend may be in one of its sheets only
