@@ -29,9 +29,7 @@ class OBJECT_OT_medial_axis_hollow(
 ):
     bl_idname = "object.medial_axis_hollow"
     bl_label = "Hollow"
-    bl_description = (
-        "Make a hollow copy of a solid with a wall of one thickness, and with a drain hole whose cylinder can be moved"
-    )
+    bl_description = "Make a hollow copy of a solid, whose wall has one thickness, with a drain hole that can be moved"
     bl_options = {"REGISTER", "UNDO"}
 
     product = "hollow solid"

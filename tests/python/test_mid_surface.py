@@ -20,7 +20,7 @@ from support.thick_meshes import block
 from support.thin_solids import turned, union
 
 
-def sheets_of(mesh, settings=Settings(samples=4000), **wanted):  # noqa: B008 - it is frozen
+def sheets_of(mesh, settings=Settings(samples=4000), **wanted):
     points, triangles = mesh
     shape = Shape(np.ascontiguousarray(points, float), np.ascontiguousarray(triangles, np.int32))
     return mid_surface(shape, settings, MidSurfaceSettings(**wanted))

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 
 _TOUCHES = 0.01  # a ball whose distance from an edge differs by less than this share of its radius touches it
 _REACH = 4.0  # so many radii away the wall at a rim is looked for
-_STEPS = 2.0  # so many times as far as that of an edge beside it the wall ahead of an edge is at most
+_STEPS = (
+    2.0  # so many times as far as that of an edge beside it the wall ahead of an edge is at most
+)
 _ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
 _LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
 _LAST = 2  # so many vertices at the end of a bend may be in one of its sheets only
@@ -88,15 +90,23 @@ def _reflex_distances(points: NDArray[np.float64], walls: Walls) -> NDArray[np.f
 
 
 def _clear(sheets: ThinSheets, bent: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(t,) the triangles whose facets lie between faces as a whole, and are some rings away from others."""
+    """(t,) the triangles whose facets lie between faces as a whole, and are some rings away from others.
+
+    In a sheet that is not so wide they are as many rings away as there are.
+    """
     unclear = bent[sheets.triangles].any(axis=1) | ~sheets.facing
-    for _ in range(1 + _RINGS):
+    away = np.where(unclear, 0, _RINGS + 1)
+    for ring in range(1, _RINGS + 2):
         of_facets = np.zeros(int(sheets.facet.max()) + 1, bool)
         of_facets[sheets.facet[unclear]] = True
         at = np.zeros(len(bent), bool)
         at[sheets.triangles[of_facets[sheets.facet]]] = True
         unclear = at[sheets.triangles].any(axis=1)
-    return ~unclear & ~sheets.sliver
+        away[unclear] = np.minimum(away[unclear], ring - 1)
+    away[sheets.sliver] = 0
+    most = np.zeros(sheets.parts, np.int64)
+    np.maximum.at(most, sheets.part, away)
+    return np.asarray((away > 0) & (away == most[sheets.part]))
 
 
 class _Planes:
