@@ -308,7 +308,7 @@ def _add_rims(rows: _Rows, rim: _Rim, bent: NDArray[np.bool_], walls: Walls) -> 
         places[again], normals[again] = _walls_ahead(rim.of(again), rim.out[like[again]], walls)
     alone = at_edge | ~normals.any(axis=1)
     places[alone], normals[alone] = feet[alone], rim.out[alone]
-    near = _are_nearest(rim, places)
+    near = again | _are_nearest(rim, places)
     for end in range(2):
         rows.add(rim.ends[near, end], places[near], normals[near])
         rows.add(rim.ends[at_edge, end], feet[at_edge], rim.along[at_edge])
