@@ -91,15 +91,23 @@ def _reflex_distances(points: NDArray[np.float64], walls: Walls) -> NDArray[np.f
 
 
 def _clear(sheets: ThinSheets, bent: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(t,) the triangles whose facets lie between faces as a whole, and are some rings away from others."""
+    """(t,) the triangles whose facets lie between faces as a whole, and are some rings away from others.
+
+    In a sheet that is not so wide they are as many rings away as there are.
+    """
     unclear = bent[sheets.triangles].any(axis=1) | ~sheets.facing
-    for _ in range(1 + _RINGS):
+    away = np.where(unclear, 0, _RINGS + 1)
+    for ring in range(1, _RINGS + 2):
         of_facets = np.zeros(int(sheets.facet.max()) + 1, bool)
         of_facets[sheets.facet[unclear]] = True
         at = np.zeros(len(bent), bool)
         at[sheets.triangles[of_facets[sheets.facet]]] = True
         unclear = at[sheets.triangles].any(axis=1)
-    return ~unclear & ~sheets.sliver
+        away[unclear] = np.minimum(away[unclear], ring - 1)
+    away[sheets.sliver] = 0
+    most = np.zeros(sheets.parts, np.int64)
+    np.maximum.at(most, sheets.part, away)
+    return np.asarray((away > 0) & (away == most[sheets.part]))
 
 
 class _Planes:
@@ -144,7 +152,7 @@ class _Planes:
         within = np.arange(many.sum()) - np.repeat(np.cumsum(many) - many, many)
         pair, vertex = order[np.repeat(first, many) + within], np.repeat(vertex, many)
         away = sheets.vertices[vertex] - self.places[pair]
-        depth = np.abs(np.einsum("ij,ij->i", away, self.normals[pair]))
+        depth = np.abs(dot(away, self.normals[pair]))
         near = depth <= (1.0 + _TOUCHES) * self._radius[pair]  # on the wall, as at a bend
         return vertex[near], self.places[pair[near]], self.normals[pair[near]]
 
@@ -297,7 +305,7 @@ def _add_rims(rows: _Rows, rim: _Rim, bent: NDArray[np.bool_], walls: Walls) -> 
         places[again], normals[again] = _walls_ahead(rim.of(again), rim.out[like[again]], walls)
     alone = at_edge | ~normals.any(axis=1)
     places[alone], normals[alone] = feet[alone], rim.out[alone]
-    near = _are_nearest(rim, places)
+    near = again | _are_nearest(rim, places)
     for end in range(2):
         rows.add(rim.ends[near, end], places[near], normals[near])
         rows.add(rim.ends[at_edge, end], feet[at_edge], rim.along[at_edge])

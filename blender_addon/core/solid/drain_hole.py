@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import InvalidInputError
 from ..machine.native import own_errors
+from ..small_matrices import dot, length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -84,7 +85,7 @@ def drain_hole(
 
 def _lowest(found: Hollow, down: NDArray[np.float64]) -> int:
     """The vertex in the middle of the lowest ones."""
-    depth = found.cavity @ down
+    depth = dot(found.cavity, down)
     rows = np.flatnonzero(depth >= depth.max() - _LEVEL * found.wall)
     low = found.cavity[rows]
     away = np.linalg.norm(low - low.mean(axis=0), axis=1)
@@ -108,5 +109,5 @@ def _way_out(
             )
         )
     way = (distances[3:] - distances[:3]) / (2.0 * step)
-    length = float(np.linalg.norm(way))
+    length = length_of(way)
     return way / length if length > _CLEAR else down

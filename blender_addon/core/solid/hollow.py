@@ -16,6 +16,7 @@ from ..samples.buried_samples import bounding_share
 from ..samples.outward_faces import are_left_out, outward_shape, reading_warnings
 from ..samples.triangle_faces import TriangleFaces
 from ..settings import HollowSettings
+from ..small_matrices import dot
 from .offset_surface import COARSEST, OffsetSurface, offset_surface
 from .united import united
 
@@ -228,4 +229,4 @@ def least_distances(surface: OffsetSurface) -> NDArray[np.float64]:
 
 def _volume(surface: OffsetSurface) -> float:
     a, b, c = (surface.vertices[surface.triangles[:, i]] - surface.vertices[0] for i in range(3))
-    return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+    return float(dot(a, np.cross(b, c)).sum()) / 6

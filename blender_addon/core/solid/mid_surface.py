@@ -191,10 +191,11 @@ class _Faces:
 
 def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -> _Faces:
     """The sheets with the faces that show their shape, or with even triangles of a size."""
-    whole = len(sheets.vertices)
-    area = 0.5 * float(unit_normals(sheets.vertices[sheets.triangles])[1].sum())
+    whole = wanted = len(sheets.vertices)
+    normals, doubled = unit_normals(sheets.vertices[sheets.triangles])
     length = size if size > 0.0 else _CURVED * float(sheets.at_corners.max())
-    wanted = min(whole, int(_PER_AREA * area / length**2) + 1)
+    if size > 0.0 or _are_curved(sheets, normals * doubled[:, None]):
+        wanted = min(whole, int(_PER_AREA * 0.5 * float(doubled.sum()) / length**2) + 1)
     found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
     faces = cast("_Faces", found)
     if size <= 0.0:
@@ -204,6 +205,14 @@ def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -
     vertices, triangles, of = divided(faces.vertices, triangles, _SLACK * size)
     offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
     return _Faces(vertices, offsets, triangles.ravel(), faces.part[rows[of]])
+
+
+def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
+    """Whether a sheet is not flat, given (t, 3) normals that are as long as triangles are large."""
+    total = np.zeros((int(sheets.part.max()) + 1, 3))
+    np.add.at(total, sheets.part, vectors)
+    whole = np.bincount(sheets.part, np.linalg.norm(vectors, axis=1))
+    return bool((np.linalg.norm(total, axis=1) < (1.0 - _PLAIN) * whole).any())
 
 
 def _reduced(sheets: CarriedSheets, wanted: int, progress: Progress | None) -> _Faces | None:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import dot
 from .united import united
 
 if TYPE_CHECKING:
@@ -171,7 +172,7 @@ def _marched(
     middles = nodes[ends].sum(axis=1)
     x, y, z = (middles[triangles[:, corner]] for corner in range(3))
     inward = (nodes[ends[:, 1]] - nodes[ends[:, 0]])[triangles].sum(axis=1)
-    turned = np.einsum("ij,ij->i", np.cross(y - x, z - x), inward) > 0
+    turned = dot(np.cross(y - x, z - x), inward) > 0
     triangles[turned] = triangles[turned][:, ::-1]
     return triangles.astype(np.int32), ends
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -86,7 +86,7 @@ def thin_sheets(
         So many times as wide as its thickness a wall is at least.
     """
     structure = cast("Structure", axis.structure)
-    turned = _with_plain_rims(with_facets_turned(axis, structure.turned))
+    turned = with_facets_turned(axis, structure.turned)
     polygons = turned.face_offsets, turned.face_vertices
     areas = facet_areas(turned.vertices, *polygons)
     normals = facet_normals(turned.vertices, *polygons)
@@ -105,14 +105,15 @@ def thin_sheets(
         told = (pairs[:, 0] >= 0) & (pairs[:, 0] != pairs[:, 1])  # the patches tell rims from walls
         between, facing = np.where(told, own, facing & own), facing & own
     kept = _without_frayed(turned, chosen[part], between)
+    ends, level = _at_ends_of_junctions(turned, part, kept), cast("LevelValues", axis.level)
     facets = np.repeat(np.arange(len(areas)), np.diff(turned.face_offsets) - 2)
     rows = np.flatnonzero(kept[facets])
     facets = facets[rows]
     number = np.cumsum(chosen) - 1
     return ThinSheets(
-        vertices=turned.vertices,
-        radius=turned.radius,
-        at_edge=at_edge,
+        vertices=np.where(ends[:, None], level.exact, turned.vertices),
+        radius=np.where(ends, level.exact_radius, turned.radius),
+        at_edge=at_edge & ~ends,
         facet=facets,
         facing=(facing & _even(turned))[facets],
         sliver=slivers[facets],
@@ -124,19 +125,25 @@ def thin_sheets(
     )
 
 
-def _with_plain_rims(axis: MedialAxis) -> MedialAxis:
-    """The axis with vertices at smooth rims where the Voronoi diagram has them.
+def _at_ends_of_junctions(
+    axis: MedialAxis, part: NDArray[np.int32], kept: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(v,) the vertices at smooth rims whose facet reaches a line in which kept sheets meet.
 
-    Their crisp places are where the walls that a ball touches become one. Where a junction comes to the end of a part,
-    these are beyond the walls of the sheet, and their order along the rim may be another one.
+    Their crisp places are where the walls that a ball touches become one. There these are beyond the walls of the
+    sheet, and their order along the rim may be another one, so the Voronoi diagram tells better where they are.
     """
-    level = cast("LevelValues", axis.level)
-    at_rim = level.place == ON_RIM
-    return replace(
-        axis,
-        vertices=np.where(at_rim[:, None], level.exact, axis.vertices),
-        radius=np.where(at_rim, level.exact_radius, axis.radius),
-    )
+    sizes = np.diff(axis.face_offsets)
+    mine = np.repeat(kept, sizes)
+    corner_part = np.repeat(part, sizes)
+    low = np.full(len(axis.vertices), part.max() + 1)
+    high = np.full(len(axis.vertices), -1)
+    np.minimum.at(low, axis.face_vertices[mine], corner_part[mine])
+    np.maximum.at(high, axis.face_vertices[mine], corner_part[mine])
+    reaches = np.logical_or.reduceat((low < high)[axis.face_vertices], axis.face_offsets[:-1])
+    found = np.zeros(len(axis.vertices), bool)
+    found[axis.face_vertices[np.repeat(reaches & kept, sizes)]] = True
+    return np.asarray(found & (cast("LevelValues", axis.level).place == ON_RIM))
 
 
 def _slopes(
