@@ -43,7 +43,7 @@ def hull(points):
 
 
 def inner_volume(points, wall):
-    """Of the places of a convex solid that are at least so far from its faces, by Qhull."""
+    """The volume of all places of a convex solid that are at least so far from its faces, by Qhull."""
     planes = ConvexHull(points).equations
     planes[:, 3] += wall
     return ConvexHull(HalfspaceIntersection(planes, points.mean(axis=0)).intersections).volume

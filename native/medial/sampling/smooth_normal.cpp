@@ -76,7 +76,7 @@ struct Fit {
 
 }  // namespace
 
-// What a cubic surface leaves grows as the fourth power of the distance; weights that fall as its
+// The error of a cubic surface grows as the fourth power of the distance; weights that fall as its
 // third power leave enough to the far points, which determine the cubic terms.
 Vec3 smooth_normal(const Vec3& here, std::span<const Vec3> around, const TriangleNormals& of) {
   const auto count = static_cast<int>(around.size());

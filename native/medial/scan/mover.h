@@ -7,7 +7,7 @@
 
 namespace medial {
 
-// What surrounds a point and is fitted by one quadric.
+// The points round a place that one quadric fits.
 struct Neighbourhood {
   double first = 0;   // the radius of the smallest one at that place
   double radius = 0;  // 0: no quadric fits
