@@ -75,8 +75,8 @@ def test_plot_of_the_convergence_shows_its_rows(tmp_path):
     assert drawn == (PICTURES / "convergence.svg").read_text(encoding="utf-8")
 
 
-def test_every_drawing_has_a_script_or_is_drawn_by_hand():
-    """Race plots are made by the benchmark's page, and the rooms by hand."""
+def test_drawings_without_a_script_are_named():
+    """Race plots are made by the benchmark's page; the rooms and the middle surface have no script."""
     known = {name for names in NAMES.values() for name in names}
-    others = {"convergence", "race_mean", "race_missed_mean", "rooms"}
+    others = {"convergence", "race_mean", "race_missed_mean", "rooms", "mid_surface"}
     assert {path.stem for path in PICTURES.glob("*.svg")} == known | others

@@ -16,7 +16,7 @@ from .bent_sheets import bent_sheets
 from .check_faces import check_not_flat
 from .outward_faces import OF_SHEETS, TURNED, outward_shape
 from .sample_spacing import first_pass
-from .sides import resolve_sides_of_samples
+from .sides import open_sheet_error, resolve_sides_of_samples
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -184,7 +184,7 @@ def without_sheets(shape: Shape, settings: Settings) -> Shape:
 
 
 def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
-    if not _open_edges(shape, settings):
+    if not (gaps := _open_edges(shape, settings)):
         return shape
     with native.own_errors() as module:
         part, _, _ = module.mesh_parts(shape.points, shape.triangles)
@@ -196,10 +196,7 @@ def _without_bent_sheets(shape: Shape, settings: Settings) -> Shape:
     if settings.side is Side.BOTH:
         return shape
     check_not_flat(shape)
-    raise DegenerateInputError(
-        "Expected faces that bound a solid, found an open sheet or several; give it thickness (a "
-        "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
-    )
+    raise open_sheet_error(gaps)
 
 
 def _leave_out(shape: Shape, of_sheets: NDArray[np.bool_]) -> Shape:

@@ -108,10 +108,15 @@ def check_not_a_sheet(sides: Sides, side: Side, gaps: int) -> None:
         The number of edges at which the faces are open.
     """
     if side is not Side.BOTH and sides.source is SidesFrom.NORMALS and not sides.is_chosen:
-        raise DegenerateInputError(
-            f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
-            "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
-        )
+        raise open_sheet_error(gaps)
+
+
+def open_sheet_error(gaps: int) -> DegenerateInputError:
+    """Return the error for faces that are open at `gaps` edges and bound no solid."""
+    return DegenerateInputError(
+        f"Expected faces that bound a solid, found an open sheet ({gaps:,} open edges); give it thickness (a "
+        "Solidify modifier), or choose Side Both, or Inside From Normals for what lies behind it"
+    )
 
 
 def _turned(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> float:
