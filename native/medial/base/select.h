@@ -4,28 +4,46 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 #include "base/random.h"
 
 namespace medial {
 
+// Moves the median of the first item, the middle one and the last one to the front.
+template <typename Iterator, typename Before>
+void move_pivot_to_front(Iterator first, Iterator last, const Before& before) {
+  const Iterator a = first + 1, b = first + (last - first) / 2, c = last - 1;
+  const auto median = [&] {
+    if (before(*a, *b)) return before(*b, *c) ? b : before(*a, *c) ? c : a;
+    return before(*a, *c) ? a : before(*b, *c) ? c : b;
+  };
+  std::iter_swap(first, median());
+}
+
 // Reorders a range such that no item before `nth` is behind it by `before`, and none after it is
-// before it (Hoare's selection, with scrambled pivots).
+// before it: Hoare's selection by medians of three, in the order of GNU's C++ library.
 template <typename Iterator, typename Before>
 void select(Iterator first, Iterator nth, Iterator last, const Before& before) {
-  while (last - first > 1) {
-    // The last item is never the pivot, so that both parts have items.
-    const auto others = static_cast<uint64_t>(last - first - 1);
-    const auto pivot = *(first + static_cast<std::ptrdiff_t>(scrambled(others) % others));
-    Iterator low = first, high = last - 1;
-    for (;; ++low, --high) {
-      while (before(*low, pivot)) ++low;
-      while (before(pivot, *high)) --high;
+  auto rounds = 2 * std::bit_width(static_cast<size_t>(last - first));
+  while (last - first > 3) {
+    const auto count = static_cast<uint64_t>(last - first);
+    if (rounds == 0) std::iter_swap(first + 1, first + 1 + scrambled(count) % (count - 1));
+    if (rounds > 0) --rounds;
+    move_pivot_to_front(first, last, before);
+    Iterator low = first + 1, high = last;
+    for (;; ++low) {
+      while (before(*low, *first)) ++low;
+      --high;
+      while (before(*first, *high)) --high;
       if (low >= high) break;
       std::iter_swap(low, high);
     }
-    (nth <= high ? last : first) = high + 1;
+    (low <= nth ? first : last) = low;
+  }
+  for (Iterator end = first; end != last; ++end) {
+    for (Iterator at = end; at != first && before(*at, *(at - 1)); --at) std::iter_swap(at, at - 1);
   }
 }
 
