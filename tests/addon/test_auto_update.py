@@ -149,8 +149,7 @@ def test_undo_and_redo_step_over_updates(pair, seed):
     bpy.ops.ed.undo_push(message="set")
     rng, shapes, now = np.random.default_rng(seed), [positions(pair[0].data)], 0
     kept = (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
-    for _ in range(14):
-        action = rng.integers(4)
+    for step, action in enumerate([2, 0, 1, *rng.integers(4, size=11)]):
         if action == 0 and now > 0:
             now -= bpy.ops.ed.undo() == {"FINISHED"}
         elif action == 1 and now + 1 < len(shapes):
@@ -163,12 +162,24 @@ def test_undo_and_redo_step_over_updates(pair, seed):
             bpy.ops.ed.undo_push(message="edit")
         source, result = (bpy.data.objects[name] for name in names)
         assert np.array_equal(positions(source.data), shapes[now]), "a step was lost"
-        if wanted() is not None and rng.random() < 0.8:
-            update(result, coarse=rng.random() < 0.3)
+        if wanted() is not None and (step == 0 or rng.random() < 0.8):
+            update(result, coarse=step > 0 and rng.random() < 0.3)
         assert kept == (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.materials))
         if wanted() is None:
             assert_belongs(source, result)
-    assert len(shapes) > 2, "nothing was edited"
+
+
+def test_an_object_with_the_mesh_of_another_step_is_written_again(pair):
+    """Undo may bring back one of the two; which one depends on the Blender."""
+    source, result = pair
+    edit(source)
+    update(result)
+    assert wanted() is None
+    result.data["ma_written"] = "in another step"
+    assert wanted() == result
+    update(result)
+    assert wanted() is None
+    assert_belongs(source, result)
 
 
 def assert_belongs(source, result):
