@@ -321,4 +321,4 @@ def test_real_bodies_have_the_same_pelvis_at_every_density(data_file, name, stab
         left = [row for row, bone in enumerate(rig.names) if bone.endswith(".L")]
         assert left and (side[left, 0] > pelvis[0]).all()
         in_frame = (pelvis @ frame.T - rig.frame[:3, 3]) @ rig.frame[:3, :3]
-        assert abs(in_frame[0]) < 1e-9
+        assert abs(in_frame[0]) < 0.05 * rig.bones.head_radius[0]
