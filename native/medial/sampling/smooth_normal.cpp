@@ -10,9 +10,11 @@ using Terms = std::array<double, kTerms>;
 // So little is every curvature and cubic term held back, which decides them where the points do
 // not.
 constexpr double kHeldBack = 1e-9;
-// A surface of more terms is taken if the mean square of what it leaves is at most this share of
-// what one of fewer terms leaves. With noise alone both are about the same.
-constexpr double kBetter = 0.1;
+// A surface of more terms counts fully if the mean square of what it leaves is at most the first
+// share of what one of fewer terms leaves, and not at all from the second share on. With noise
+// alone both are about the same. Without a slope between them the two walls of a thin part would
+// differ where one is on this side of a limit and the other on that.
+constexpr double kMuchBetter = 0.03, kNoBetter = 0.3;
 
 // Returns the terms for a point at (u, v) along the plane, at a squared distance. On every sphere
 // the height is a slope and a multiple of the squared distance, which makes these exact.
@@ -74,6 +76,16 @@ struct Fit {
   }
 };
 
+// Returns how far a surface of more terms counts, between 0 and 1.
+double weight_of(double left, double by_fewer) {
+  if (!(by_fewer > 0)) return 0;
+  return std::clamp((kNoBetter - left / by_fewer) / (kNoBetter - kMuchBetter), 0.0, 1.0);
+}
+
+Vec3 between(const Vec3& from, const Vec3& to, double share) {
+  return normalized((1 - share) * from + share * to);
+}
+
 }  // namespace
 
 // The error of a cubic surface grows as the fourth power of the distance; weights that fall as its
@@ -94,12 +106,13 @@ Vec3 smooth_normal(const Vec3& here, std::span<const Vec3> around, const Triangl
   }
   fit.hold_back();
   if (!fit.factorise()) return of.by_angle;
-  const double by_plane = fit.left_by(kSlopes, count), by_quadric = fit.left_by(kQuadric, count);
-  if (count > kTerms && fit.left_by(kTerms, count) <= kBetter * by_quadric) {
-    const Terms found = fit.solved();
-    return normalized(of.of_sphere - found[0] * u - found[1] * v);
-  }
-  return by_quadric <= kBetter * by_plane ? of.of_sphere : of.by_angle;
+  const double by_quadric = fit.left_by(kQuadric, count),
+               bent = weight_of(by_quadric, fit.left_by(kSlopes, count));
+  const Vec3 mean = between(of.by_angle, of.of_sphere, bent);
+  if (count <= kTerms) return mean;
+  const Terms found = fit.solved();
+  const Vec3 of_cubic = normalized(of.of_sphere - found[0] * u - found[1] * v);
+  return between(mean, of_cubic, bent * weight_of(fit.left_by(kTerms, count), by_quadric));
 }
 
 }  // namespace medial
