@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,4 +19,4 @@ def cosine(angle: Angles) -> Angles:
     square, result = x * x, 1.0
     for k in range(_TERMS, 0, -1):
         result = 1.0 - square * result / (2 * k * (2 * k - 1))
-    return result
+    return cast("Angles", result)

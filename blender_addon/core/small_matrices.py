@@ -37,7 +37,7 @@ def length_of(vector: NDArray[np.float64]) -> float:
 def times(points: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return each of the points, (..., 3), moved by a matrix, (m, 3): `points @ matrix.T`."""
     x, y, z = (points[..., k, None] * matrix[:, k] for k in range(3))
-    return x + y + z
+    return np.asarray(x + y + z)
 
 
 def determinant(matrix: NDArray[np.float64]) -> float:

@@ -44,7 +44,7 @@ def off(known, places):
 @pytest.mark.parametrize("name", mid_surfaces.FLAT)
 def test_sheets_of_flat_walls(name):
     known = mid_surfaces.ALL[name]()
-    check_flat(known, sheets_of(known.mesh))
+    check_flat(known, sheets_of(known.mesh, Settings(samples=5000)))
 
 
 @pytest.mark.slow

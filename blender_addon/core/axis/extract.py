@@ -34,9 +34,14 @@ _SAME = (
 
 
 def extract(
-    samples: AnalysedSamples, settings: Settings, progress: Progress | None = None
+    samples: AnalysedSamples,
+    settings: Settings,
+    progress: Progress | None = None,
+    relaxed: bool = True,
 ) -> MedialAxis:
     """Extract the axis that the settings select, in the form that they have for their side.
+
+    Rims and curves of the forms CLEAN and CURVE are smoothed if it is relaxed.
 
     Raises
     ------
@@ -45,7 +50,7 @@ def extract(
     if settings.form_of_side is Form.PUBLISHED:
         axis = _published(samples.analysis, settings, progress and progress.part())
     else:
-        axis = extract_level(samples, settings, progress)
+        axis = extract_level(samples, settings, progress, relaxed)
     if samples.offset > 0.0:
         axis = _with_less_radius(axis, samples.offset)
     if samples.rows is None:

@@ -52,9 +52,9 @@ def hierarchy_of(samples: AnalysedSamples, settings: Settings, progress: Any | N
 
 
 def extract_level(
-    samples: AnalysedSamples, settings: Settings, progress: Progress | None
+    samples: AnalysedSamples, settings: Settings, progress: Progress | None, relaxed: bool = True
 ) -> MedialAxis:
-    """Extract the axis in the form CLEAN or CURVE.
+    """Extract the axis in the form CLEAN or CURVE, with smoothed rims and curves if it is relaxed.
 
     Raises
     ------
@@ -62,7 +62,9 @@ def extract_level(
     """
     hierarchy = hierarchy_of(samples, settings, progress and progress.part(0.9))
     with native.own_errors():
-        level = hierarchy.extract(**_wanted(settings), progress=progress and progress.part())
+        level = hierarchy.extract(
+            **_wanted(settings), relaxed=relaxed, progress=progress and progress.part()
+        )
     return MedialAxis(
         vertices=level.vertices,
         radius=level.radius,
@@ -110,7 +112,7 @@ def _wanted(settings: Settings) -> dict[str, Any]:
     """Return the arguments of `_medial.Hierarchy.extract`."""
     limb = settings.limb / 100
     if settings.form is Form.CURVE:
-        return {"sheet": math.inf, "limb": limb, "relaxed": True, "crisp": settings.crisp}
+        return {"sheet": math.inf, "limb": limb, "crisp": settings.crisp}
     return {
         "crisp": settings.crisp,
         "spacings": 1.0,
@@ -118,6 +120,5 @@ def _wanted(settings: Settings) -> dict[str, Any]:
         "erosion": settings.erode / 100,
         "spike": settings.spike / 100,
         "limb": limb,
-        "relaxed": True,
         "round_limbs": True,
     }

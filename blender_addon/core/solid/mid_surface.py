@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from ..axis.compute import Computation, compute_axis
+from ..axis.extract import extract
 from ..axis.polygon_triangles import polygon_triangles
 from ..errors import InvalidInputError
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
@@ -133,6 +134,8 @@ def mid_surface(
         settings, form=Form.CLEAN, crisp=True, side=Side.INNER, simplify=0.0, erode=0.0, spike=0.0
     )
     found = compute_axis(shape, settings, progress, limit)
+    # Its rims go out to the walls, so smoothing them first would only take them off their places.
+    found = replace(found, axis=extract(found.chosen.samples, found.settings, relaxed=False))
     if found.axis.structure is None or not found.axis.facets:
         raise _nothing_thin(wanted)
     thin = thin_sheets(found.axis, found.chosen.samples.patches, wanted.least_width)

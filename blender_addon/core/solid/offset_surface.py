@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -79,7 +79,7 @@ def offset_surface(
     origin = low - step * np.array(_SHIFT)
     half = 0.5 * step  # nodes have whole coordinates: corners of cubes even ones, centres odd ones
 
-    def at(nodes: NDArray[np.int64]) -> NDArray[np.float64]:
+    def at(nodes: NDArray[Any]) -> NDArray[np.float64]:
         return field(origin + half * nodes)
 
     count = int(np.ceil((high - origin).max() / step)) + 1
@@ -124,7 +124,7 @@ def _inside(cells: NDArray[np.int64], winding: Field) -> NDArray[np.int64]:
         pairs.append(np.column_stack((rows, order[at[rows]])))
     label = united(len(cells), np.concatenate(pairs))
     first, piece = np.unique(label, return_inverse=True)
-    return cells[(winding(cells[first]) > 0.5)[piece.reshape(-1)]]
+    return cells[(winding(cells[first].astype(np.float64)) > 0.5)[piece.reshape(-1)]]
 
 
 def _keys(nodes: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

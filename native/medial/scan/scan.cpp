@@ -14,7 +14,7 @@ namespace medial {
 namespace {
 
 constexpr double kWidest = 0.12;       // of the diagonal, the radius of neighbourhoods
-constexpr double kApart = 3;             // spacings between places at which neighbourhoods are chosen
+constexpr double kApart = 3;           // spacings between places at which neighbourhoods are chosen
 constexpr double kBorder = 6;          // spacings over which a border is looked for
 constexpr double kLeft = 0.05;         // of the new spacing, what may be left of the noise
 constexpr double kOfRadius = 1.0 / 3;  // of the neighbourhood, the largest new spacing
