@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 from scene import addon, compute, ellipsoid, positions, result_of, select
 
-auto, live = addon("ui.auto_update"), addon("bridge.live_result")
+
+@pytest.fixture(autouse=True)
+def modules():
+    """Those of the add-on that is enabled now: other tests enable it again."""
+    global auto, live
+    auto, live = addon("ui.auto_update"), addon("bridge.live_result")
 
 
 @pytest.fixture

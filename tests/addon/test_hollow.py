@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Vector
-from scene import refuse
+from scene import refuse, select
 
 WALL, VOXEL = 0.3, 0.15
 
@@ -17,7 +17,7 @@ def cube(**placed):
 
 
 def hollow(source, **options):
-    bpy.context.view_layer.objects.active = source
+    select(source)
     found = bpy.ops.object.medial_axis_hollow(wall=WALL, voxel_size=VOXEL, **options)
     assert found == {"FINISHED"}
     return bpy.data.objects["Cube Hollow"]

@@ -245,7 +245,7 @@ def test_noise_is_noticed(capfd):
     assert "too sparse" not in text  # more points of this noise would not help
     compute(form="CLEAN")
     (moved,) = warnings(capfd)
-    assert "the points were moved by 0.22 spacings in the median" in moved
+    assert "the points were moved by 0.23 spacings in the median" in moved
     assert result_of(source)["ma_topology"].startswith("1 piece, no loop, no cavity")
 
 

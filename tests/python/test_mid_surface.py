@@ -44,7 +44,8 @@ def off(known, places):
 @pytest.mark.parametrize("name", mid_surfaces.FLAT)
 def test_sheets_of_flat_walls(name):
     known = mid_surfaces.ALL[name]()
-    check_flat(known, sheets_of(known.mesh, Settings(samples=5000)))
+    count = 5000 if name == "stairs" else 4000  # with 4,000 a corner of the stairs is cut off
+    check_flat(known, sheets_of(known.mesh, Settings(samples=count)))
 
 
 # Corners at ends of rims are cut off there.
