@@ -11,7 +11,7 @@ from scene import addon, compute, ellipsoid, positions, result_of, select
 
 @pytest.fixture(autouse=True)
 def modules():
-    """Those of the add-on that is enabled now: other tests enable it again."""
+    """Take the modules of the add-on that is enabled now: other tests enable it again."""
     global auto, live
     auto, live = addon("ui.auto_update"), addon("bridge.live_result")
 
