@@ -14,7 +14,7 @@ constexpr double kHeldBack = 1e-9;
 // share of what one of fewer terms leaves, and not at all from the second share on. With noise
 // alone both are about the same. Without a slope between them the two walls of a thin part would
 // differ where one is on this side of a limit and the other on that.
-constexpr double kMuchBetter = 0.001, kNoBetter = 0.01;
+constexpr double kMuchBetter = 0.01, kNoBetter = 0.1;
 
 // Returns the terms for a point at (u, v) along the plane, at a squared distance. On every sphere
 // the height is a slope and a multiple of the squared distance, which makes these exact.
