@@ -40,6 +40,11 @@ def times(points: NDArray[np.float64], matrix: NDArray[np.float64]) -> NDArray[n
     return np.asarray(x + y + z)
 
 
+def placed(points: NDArray[np.float64], frame: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return points, (..., 3), in the space to which a transform, (3, 4) or (4, 4), takes them."""
+    return times(points, frame[:3, :3]) + frame[:3, 3]
+
+
 def determinant(matrix: NDArray[np.float64]) -> float:
     """Return the determinant of a (3, 3) matrix."""
     return float(dot(matrix[0], np.cross(matrix[1], matrix[2])))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
-from ..small_matrices import times
+from ..small_matrices import placed
 from ..solid.mid_surface import MidSurface
 from .extensions import extension_of
 from .whole_file import write_whole
@@ -50,9 +50,7 @@ def export_mid_surface(
         The extension is unknown, or the system refused to write; an old file is then unchanged.
     """
     write = MID_SURFACE_FORMATS[extension_of(path, MID_SURFACE_FORMATS)]
-    points = found.vertices
-    if frame is not None:
-        points = times(points, frame[:3, :3]) + frame[:3, 3]
+    points = found.vertices if frame is None else placed(found.vertices, frame)
     written = write_whole(path, lambda stream: write(found, points, stream))
     if written.suffix.lower() == ".stl":
         write_whole(written.with_suffix(".csv"), lambda stream: _write_csv(found, points, stream))

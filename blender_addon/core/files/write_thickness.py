@@ -19,7 +19,7 @@ import numpy as np
 
 from ..axis.colours import colours
 from ..samples.nearness import same_place
-from ..small_matrices import times
+from ..small_matrices import placed
 from ..solid.measurement import Measurement
 from ..solid.thickness_colours import scale_of
 from ..solid.thin_parts import ThinParts
@@ -113,7 +113,7 @@ def _mover(found: Measurement) -> Callable[[NDArray[np.float64]], NDArray[np.flo
     frame = found.shape.frame
     if np.array_equal(frame, np.identity(4)):
         return lambda points: points
-    return lambda points: times(points, frame[:3, :3]) + frame[:3, 3]
+    return lambda points: placed(points, frame)
 
 
 def _write_csv(found: Measurement, _parts: ThinParts, _labels: _Labels, stream: BinaryIO) -> None:

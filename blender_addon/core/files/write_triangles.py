@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 
 from ..samples.triangles import unit_normals
-from ..small_matrices import times
+from ..small_matrices import placed
 from .extensions import extension_of
 from .rows_of_text import write_rows
 from .whole_file import write_whole
@@ -47,8 +47,8 @@ def export_triangles(
         The extension is unknown, or the system refused to write; an old file is then unchanged.
     """
     write = TRIANGLE_FORMATS[extension_of(path, TRIANGLE_FORMATS)]
-    placed = times(points, frame[:3, :3]) + frame[:3, 3]
-    return write_whole(path, lambda stream: write(placed, triangles, stream))
+    world = placed(points, frame)
+    return write_whole(path, lambda stream: write(world, triangles, stream))
 
 
 def write_stl(points: NDArray[np.float64], triangles: NDArray[np.int32], stream: BinaryIO) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..small_matrices import times
+from ..small_matrices import placed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -91,7 +91,7 @@ class Skeleton:
 
     def placed(self, frame: NDArray[np.float64]) -> Skeleton:
         """Return the skeleton moved and turned by a (4, 4) matrix."""
-        return replace(self, points=times(self.points, frame[:3, :3]) + frame[:3, 3])
+        return replace(self, points=placed(self.points, frame))
 
 
 def skeleton_of(

@@ -2,7 +2,6 @@
 #include "scan/mover.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "base/parallel.h"
 #include "scan/local_quadric.h"
