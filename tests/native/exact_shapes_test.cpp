@@ -55,7 +55,7 @@ Vec3 on_unit_sphere(double u, double height) {
 // Semi-axes 1, 0.8 and 0.4: the axis is an elliptic disc in the plane z = 0, up to the centres of
 // curvature: semi-axes (1 - 0.16) and (0.8 - 0.16 / 0.8).
 Shape ellipsoid() {
-  Shape s{"ellipsoid", {}, true, {}, {}, 0.00121, 0.0125, 0.0302};
+  Shape s{"ellipsoid", {}, true, {}, {}, 0.00121, 0.00533, 0.0302};
   s.mesh = revolved(96, 48, [](double u, double h) {
     const Vec3 p = on_unit_sphere(u, h);
     return Vec3{p.x, 0.8 * p.y, 0.4 * p.z};
@@ -91,7 +91,7 @@ Shape torus() {
 
 // A cylinder of radius 0.3 from z = -1 to 1 with halves of spheres: the axis is that segment.
 Shape capsule() {
-  Shape s{"capsule", {}, true, {}, {}, 0.00103, 0.0235, 0.000193};
+  Shape s{"capsule", {}, true, {}, {}, 0.00103, 0.0193, 0.000193};
   s.mesh = revolved(48, 49, [](double u, double h) {
     Vec3 p = on_unit_sphere(u, h);
     p = 0.3 * p;

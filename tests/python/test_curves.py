@@ -348,7 +348,7 @@ def test_round_arms_stay(data_file):
     assert tips(hierarchy.extract(round_limbs=True, **CLEAN)) == 4
 
 
-@pytest.mark.parametrize("name, fewest, most", [("hand_closed.obj", 6, 7), ("dilo.off", 6, 8)])
+@pytest.mark.parametrize("name, fewest, most", [("hand_closed.obj", 6, 6), ("dilo.off", 6, 8)])
 def test_tips_of_curves(data_file, name, fewest, most):
     """From 2 to 8 % of the diagonal; none is lost where the curve is relaxed."""
     hierarchy = of_mesh(data_file, name)

@@ -295,10 +295,7 @@ def test_a_rod_and_a_ring_have_bones():
 @pytest.mark.parametrize(
     ("name", "stable", "turned"),
     [
-        # Its skeleton loses an end at one density, and with it the pair.
-        pytest.param(
-            *("spot_low.obj", {"pelvis", "IK.spine"}, False), marks=pytest.mark.xfail(strict=True)
-        ),
+        ("spot_low.obj", {"pelvis", "IK.spine"}, False),
         pytest.param(
             "human_woman.obj",
             {"pelvis", "IK.head", "IK.limb.01.L", "IK.limb.02.R"},

@@ -171,8 +171,7 @@ def ends_of(skeleton):
     ("name", "tips", "loops", "radii_off"),
     [
         ("hand_closed.obj", 6, 0, 1.0),
-        # It loses an end at one density.
-        pytest.param("spot_low.obj", 8, 0, 1.0, marks=pytest.mark.xfail(strict=True)),
+        ("spot_low.obj", 8, 0, 1.0),
         pytest.param(
             "dilo.off", 7, 0, 2.0, marks=pytest.mark.slow
         ),  # a leg ends in one or the other of its toes

@@ -20,13 +20,14 @@ float rounded_up(double value) { return std::nextafter(static_cast<float>(value)
 
 }  // namespace
 
-Faces::Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run)
+Faces::Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run,
+             VertexNormals normals)
     : mesh_(make_mesh(vertices, input.triangles, run)),
       creases_(find_creases(mesh_, input.sharp_angle,
                             marked_edges(vertices, input.sharp_edges, mesh_, input.triangles),
                             false, run)),
       triangle_of_(input.triangles.size(), -1) {
-  surface_.emplace(mesh_, creases_, input.smooth, run);
+  surface_.emplace(mesh_, creases_, input.smooth, run, normals);
   for (size_t t = 0; t < mesh_.source.size(); ++t) {
     triangle_of_[mesh_.source[t]] = static_cast<int32_t>(t);
   }

@@ -30,7 +30,8 @@ struct NearestLifted {
 class Faces {
  public:
   // Throws as make_mesh does. `vertices` may be given in another frame than those of the input.
-  Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run);
+  Faces(const FacesInput& input, std::span<const Vec3> vertices, const Run& run,
+        VertexNormals normals = VertexNormals::mean);
   Faces(const Faces&) = delete;
   Faces& operator=(const Faces&) = delete;
 

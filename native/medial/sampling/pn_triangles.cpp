@@ -70,17 +70,18 @@ double weight_on_spheres(const TriangleMesh& mesh, int32_t triangle, int corner)
 }
 
 // Finds the normals of smooth fans. Where a fan ends at creases, is flat, or holds a dominant wall,
-// they are means by angles.
+// they are means by angles, and so are all unless fitted ones are wanted.
 struct FanNormals {
   const TriangleMesh& mesh;
   const Creases& creases;
   const FlatParts& flat;
   std::span<const Triangle> fan_of, edge_of;
+  bool fitted;
 
   Vec3 of_fan_at(int32_t triangle, int corner, const Largest& largest) const {
     const int32_t vertex = mesh.triangles[triangle][corner], fan = fan_of[triangle][corner];
     Vec3 by_angle, of_sphere;
-    bool closed = true, bent = false;
+    bool closed = fitted, bent = false;
     std::vector<int32_t> round;
     for (const int32_t t : mesh.fans[vertex]) {
       const int i = corner_of(mesh.triangles[t], vertex);
@@ -89,6 +90,7 @@ struct FanNormals {
       if (!largest.counts(flat.part[t])) continue;
       bent |= flat.part[t] != flat.part[triangle];
       by_angle = by_angle + mesh.corner_angle(t, i) * mesh.normal[t];
+      if (!closed) continue;
       of_sphere = of_sphere + weight_on_spheres(mesh, t, i) * mesh.normal[t];
       add_beyond(t, (i + 1) % 3, round);
     }
@@ -218,7 +220,7 @@ Box Patch::box() const {
 }
 
 CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth,
-                             const Run& run)
+                             const Run& run, VertexNormals normals)
     : mesh_(mesh) {
   if (!smooth) return;
   const auto count = static_cast<int64_t>(mesh.triangles.size());
@@ -229,7 +231,7 @@ CurvedSurface::CurvedSurface(const TriangleMesh& mesh, const Creases& creases, b
       edge_of_[t][i] = creases.find(corners[i], corners[(i + 1) % 3]);
     }
   });
-  add_normals(creases, run);
+  add_normals(creases, normals, run);
   handles_.resize(creases.edges.size());
   parallel_for(static_cast<int64_t>(creases.edges.size()), run,
                [&](int64_t e) { handles_[e] = handles_of(creases.edges[e]); });
@@ -240,7 +242,7 @@ size_t CurvedSurface::bytes() const {
          (fan_of_.size() + edge_of_.size()) * sizeof(Triangle);
 }
 
-void CurvedSurface::add_normals(const Creases& creases, const Run& run) {
+void CurvedSurface::add_normals(const Creases& creases, VertexNormals normals, const Run& run) {
   UnionFind corners(3 * mesh_.triangles.size());
   for (const MeshEdge& edge : creases.edges) {
     if (edge.crease != Crease::none) continue;
@@ -267,9 +269,9 @@ void CurvedSurface::add_normals(const Creases& creases, const Run& run) {
   }
   add_beside(mesh_, creases, flat, fan_of_, largest);
   fan_normals_.resize(largest.size());
-  const FanNormals normals{mesh_, creases, flat, fan_of_, edge_of_};
+  const FanNormals found{mesh_, creases, flat, fan_of_, edge_of_, normals == VertexNormals::fitted};
   parallel_for(static_cast<int64_t>(first.size()), run, [&](int64_t f) {
-    fan_normals_[f] = normals.of_fan_at(first[f] / 3, first[f] % 3, largest[f]);
+    fan_normals_[f] = found.of_fan_at(first[f] / 3, first[f] % 3, largest[f]);
   });
   split_steep_fans(creases.sharp_angle);
 }

@@ -60,13 +60,18 @@ class Patch {
   bool flat_ = true;
 };
 
+// The normal at a vertex is a mean over the triangles of its fan, weighted by angle, which noise
+// and uneven walls disturb least; or that of smooth_normal where a smooth fan leads round the
+// vertex, which is closer to a smooth surface.
+enum class VertexNormals : uint8_t { mean, fitted };
+
 class CurvedSurface {
  public:
-  // The mesh must outlive the surface. Normals are those of smooth_normal where a smooth fan leads
-  // round its vertex, elsewhere averages over the fan, weighted by angle.
+  // The mesh must outlive the surface.
   // Where a wall of several triangles in one plane is far larger than all others at a vertex, as
   // beside a bevel, the normal is that of the wall, which stays flat.
-  CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth, const Run& run);
+  CurvedSurface(const TriangleMesh& mesh, const Creases& creases, bool smooth, const Run& run,
+                VertexNormals normals = VertexNormals::mean);
 
   bool smooth() const { return !handles_.empty(); }
   size_t bytes() const;
@@ -80,7 +85,7 @@ class CurvedSurface {
   // Holds the inner control points of an edge, next to p and next to q.
   using Handles = std::array<Vec3, 2>;
 
-  void add_normals(const Creases& creases, const Run& run);
+  void add_normals(const Creases& creases, VertexNormals normals, const Run& run);
   void split_steep_fans(double sharp_angle);
   Handles handles_of(const MeshEdge& edge) const;
   const Vec3& fan_normal(int32_t triangle, int32_t vertex) const;
