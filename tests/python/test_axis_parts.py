@@ -57,6 +57,12 @@ def test_counts_are_those_of_the_shape(name, count, seed):
     assert tuple(counts_of(axis_of(make(), count, seed).structure).values()) == expected
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_a_box_has_no_junction_too_many(seed):
+    counts = counts_of(axis_of(plates.box(), 5000, seed).structure)
+    assert tuple(counts.values()) == SHAPES["box"][1]
+
+
 @pytest.mark.parametrize(("name", "room"), [("box", 1e-9), ("holed plate", 2e-3)])
 def test_numbers_do_not_depend_on_the_samples(name, room):
     """The same number is the same sheet: its patches, its neighbours, its seams and its area, on flat faces exactly."""

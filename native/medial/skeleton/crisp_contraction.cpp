@@ -35,17 +35,23 @@ class Contraction {
     double length;
   };
 
+  // A facet that was contracted to a line has no fold. Only here may one become a line: elsewhere
+  // its corners would take the places of sheets beside it.
+  bool is_folded(int32_t facet) const {
+    return medial::is_folded(c_, facet, false) && has_area(c_, facet);
+  }
+
   std::vector<int32_t> folded(std::span<const int32_t> of) const {
     return parallel_append<int32_t>(static_cast<int64_t>(of.size()), c_.run,
                                     [&](int64_t i, auto& out, int) {
-                                      if (is_folded(c_, of[i], false)) out.push_back(of[i]);
+                                      if (is_folded(of[i])) out.push_back(of[i]);
                                     });
   }
 
   // Takes the shortest step of a corner to the next one that leaves fewer folds, or else moves all
   // corners to one.
   bool contract(int32_t facet) {
-    if (!is_folded(c_, facet, false)) return false;
+    if (!is_folded(facet)) return false;
     std::vector<Step> steps = steps_of(facet);
     std::sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) {
       return std::tuple(a.length, a.from, a.to) < std::tuple(b.length, b.from, b.to);

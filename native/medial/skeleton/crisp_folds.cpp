@@ -210,9 +210,8 @@ class Unfolder {
   CrispState& c_;
 };
 
-}  // namespace
-
-bool is_folded(const CrispState& state, int32_t facet, bool dented) {
+// Returns the corners of a facet as they are drawn: in the plane between its two generators.
+std::vector<FlatPoint> drawn(const CrispState& state, int32_t facet) {
   const auto ring = state.complex.ring(facet);
   const auto& [p, q] = state.complex.generators[facet];
   const auto [right, up] = across(normalized(state.samples.point(q) - state.samples.point(p)));
@@ -222,10 +221,18 @@ bool is_folded(const CrispState& state, int32_t facet, bool dented) {
     const Vec3 at = state.made.position[c.vertex] - origin;
     corners.push_back({dot(at, right), dot(at, up)});
   }
-  if (is_on_line(corners)) return false;
+  return corners;
+}
+
+}  // namespace
+
+bool is_folded(const CrispState& state, int32_t facet, bool dented) {
+  const std::vector<FlatPoint> corners = drawn(state, facet);
   return is_turned_over(corners) || turns_back(corners) || crosses_itself(corners) ||
          (dented && has_dent(corners, kDeepDent));
 }
+
+bool has_area(const CrispState& state, int32_t facet) { return !is_on_line(drawn(state, facet)); }
 
 void unfold(CrispState& state) { Unfolder(state).unfold(); }
 

@@ -206,6 +206,8 @@ void unfold(CrispState& state);
 // along the line between its samples; if `dented`, also whether it has a deep dent. A facet at the
 // rim of a hole has a slight one.
 bool is_folded(const CrispState& state, int32_t facet, bool dented);
+// Returns whether the corners of a facet are not all on one line, as seen in the same way.
+bool has_area(const CrispState& state, int32_t facet);
 
 // --- crisp_contraction.cpp
 
