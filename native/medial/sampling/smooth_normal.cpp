@@ -66,10 +66,11 @@ struct Fit {
     for (int i = 0; i < terms; ++i) left -= right[i] * right[i];
     return std::max(left, 0.0) / (points - terms);
   }
-  Terms solved() const {
+  // Returns the surface of the first terms.
+  Terms solved(int terms) const {
     Terms x = right;
-    for (int i = kTerms - 1; i >= 0; --i) {
-      for (int j = i + 1; j < kTerms; ++j) x[i] -= matrix[j][i] * x[j];
+    for (int i = terms - 1; i >= 0; --i) {
+      for (int j = i + 1; j < terms; ++j) x[i] -= matrix[j][i] * x[j];
       x[i] /= matrix[i][i];
     }
     return x;
@@ -108,11 +109,13 @@ Vec3 smooth_normal(const Vec3& here, std::span<const Vec3> around, const Triangl
   if (!fit.factorise()) return of.by_angle;
   const double by_quadric = fit.left_by(kQuadric, count),
                bent = weight_of(by_quadric, fit.left_by(kSlopes, count));
-  const Vec3 mean = between(of.by_angle, of.of_sphere, bent);
+  const auto normal_of = [&](int terms) {
+    const Terms found = fit.solved(terms);
+    return normalized(of.of_sphere - found[0] * u - found[1] * v);
+  };
+  const Vec3 mean = between(of.by_angle, normal_of(kQuadric), bent);
   if (count <= kTerms) return mean;
-  const Terms found = fit.solved();
-  const Vec3 of_cubic = normalized(of.of_sphere - found[0] * u - found[1] * v);
-  return between(mean, of_cubic, bent * weight_of(fit.left_by(kTerms, count), by_quadric));
+  return between(mean, normal_of(kTerms), bent * weight_of(fit.left_by(kTerms, count), by_quadric));
 }
 
 }  // namespace medial
