@@ -11,7 +11,15 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core.solid.drain_hole import drain_hole
-from .output_object import Product, new_object, place, remember, replace_mesh
+from .output_object import (
+    Product,
+    is_gone,
+    new_object,
+    place,
+    remember,
+    replace_mesh,
+    source_of,
+)
 from .write_mesh import new_mesh
 
 if TYPE_CHECKING:
@@ -26,6 +34,12 @@ _AROUND = 48  # corners of the cylinder
 
 HOLLOW = Product(" Hollow", (WALL,))
 is_hollow, hollow_of, check_hollow_writable = HOLLOW.has, HOLLOW.of, HOLLOW.check_writable
+
+
+def unhollowed(thing: bpy.types.Object) -> bpy.types.Object:
+    """The solid that was hollowed, as long as it is there; any other object is returned as it is."""
+    source = source_of(thing) if is_hollow(thing) else None
+    return thing if source is None or is_gone(source) else source
 
 
 def hole_of(found: Hollow, frame: NDArray[np.float64], width: float, at_cursor: bool) -> DrainHole:

@@ -5,7 +5,7 @@ from functools import partial
 
 import bpy
 
-from ..bridge.hollow_object import check_hollow_writable, hole_of, write_hollow
+from ..bridge.hollow_object import check_hollow_writable, hole_of, unhollowed, write_hollow
 from ..core.samples.density import share_text
 from ..core.settings import DRAIN_OPTIONS, HOLLOW_OPTIONS, LOOKS, DrainAt, HollowSettings
 from ..core.solid.hollow import hollow
@@ -43,6 +43,10 @@ class OBJECT_OT_medial_axis_hollow(
         if self.drain > 0.0:
             self.layout.prop(self, "drain_at")
         self.layout.prop(self, "parent")
+
+    def sources(self, context):
+        """A hollow solid leads back to what it was made of; for other operators it is a solid as any other."""
+        return list(dict.fromkeys(map(unhollowed, super().sources(context))))
 
     def work(self, shape):
         return partial(hollow, shape, settings_from(self, HollowSettings))

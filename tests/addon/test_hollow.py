@@ -70,6 +70,17 @@ def test_the_cursor_places_the_hole_and_without_a_hole_there_is_no_cylinder():
     assert not any("Drain" in thing.name for thing in bpy.data.objects)
 
 
+def test_a_second_click_on_the_result_hollows_its_source_again():
+    source = cube()
+    made = hollow(source)
+    before = set(bpy.data.objects)
+    select(source, made)
+    for _ in range(2):  # with both, and with the result alone, which is selected then
+        assert bpy.ops.object.medial_axis_hollow(wall=0.2, voxel_size=0.1) == {"FINISHED"}
+        assert bpy.context.selected_objects == [made] and set(bpy.data.objects) == before
+    assert shown(made)[0] == pytest.approx(8 - 1.6**3, rel=0.01)
+
+
 def test_what_cannot_be_hollow_changes_nothing():
     bpy.ops.mesh.primitive_plane_add(size=2)
     before = set(bpy.data.objects)

@@ -2,11 +2,17 @@
 """Hollow solids whose cavity is known in closed form, and what cannot be hollow."""
 
 import json
+import os
+import signal
+import time
+from functools import partial
 
 import numpy as np
 import pytest
 from medial_axis import cli
-from medial_axis.core.errors import InvalidInputError
+from medial_axis.core.batch import hollow_work
+from medial_axis.core.errors import Cancelled, InvalidInputError
+from medial_axis.core.machine.progress import Progress
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import HollowSettings
 from medial_axis.core.solid.drain_hole import drain_hole
@@ -93,6 +99,59 @@ def test_scale_changes_the_unit_alone():
     large = hollowed(block(1024.0, 0.9 * 1024, 0.8 * 1024), 0.2 * 1024, voxel_size=102.4)
     np.testing.assert_array_equal(plain.triangles, large.triangles)
     np.testing.assert_allclose(large.vertices, 1024 * plain.vertices, rtol=1e-9)
+
+
+def test_any_number_of_threads_gives_the_same_bytes(medial, monkeypatch):
+    """There are more triangles in the cavity than one thread gets at a time."""
+    found = []
+    distances = medial.surface_distances
+    for threads in (1, 2):
+        monkeypatch.setattr(medial, "surface_distances", partial(distances, threads=threads))
+        made = hollowed(block(1.0, 0.9, 0.8), 0.1, voxel_size=0.05)
+        found.append((made.vertices.tobytes(), made.triangles.tobytes(), made.least, made.deepest))
+    assert len(made.triangles) - made.outer > 2048 and found[0] == found[1]
+
+
+class Stops(Progress):
+    """A progress that is cancelled as a call of the compiled module begins, the first or a later one."""
+
+    def __init__(self, call):
+        super().__init__()
+        self.left = call
+
+    def part(self, share=1.0):
+        self.left -= 1
+        if self.left == 0:
+            self.cancel()
+        return super().part(share)
+
+
+def test_it_can_be_cancelled_at_every_call():
+    points, triangles = block(1.0, 0.9, 0.8)
+    shape, wanted = Shape(points, triangles), HollowSettings(wall=0.2, voxel_size=0.1)
+    whole = Stops(0)
+    hollow(shape, wanted, whole)
+    calls = -whole.left
+    assert calls > 3
+    for call in range(1, calls + 1):
+        with pytest.raises(Cancelled):
+            hollow(shape, wanted, Stops(call))
+
+
+def test_a_cancelled_command_leaves_no_file(tmp_path, monkeypatch):
+    source = write_off(tmp_path / "block.off", block(10.0, 9.0, 8.0))
+
+    def interrupted(shape, wanted, progress):
+        os.kill(os.getpid(), signal.SIGINT)
+        until = time.monotonic() + 60
+        while not progress.cancelled and time.monotonic() < until:
+            time.sleep(0.005)
+        return hollow(shape, wanted, progress)
+
+    monkeypatch.setattr(hollow_work, "hollow", interrupted)
+    words = ["hollow", source, str(tmp_path / "shell.stl"), "--wall", "2", "--quiet"]
+    assert cli.main(words) == cli.CANCELLED
+    assert [path.name for path in tmp_path.iterdir()] == ["block.off"]
 
 
 def test_two_rooms_are_told():

@@ -49,7 +49,7 @@ def test_sheets_of_flat_walls(name):
 
 
 # Corners at ends of rims are cut off there.
-CUT = {("profile_t", 0), ("profile_t", 1), ("cross", 1), ("cross", 2)}
+CUT = {("profile_t", 0), ("cross", 1), ("cross", 2)}
 CUT |= {("profile_l", 0), ("profile_l", 2), ("stairs", 0)}
 
 
@@ -121,6 +121,15 @@ def test_a_block_is_no_wall():
     mesh = block(1.0, 0.9, 0.8)
     with pytest.raises(InvalidInputError, match="found none"):
         sheets_of(mesh)
+
+
+def test_sheets_that_do_not_meet_are_told():
+    """Two fins on opposite sides of a block, which is no wall: there are two pieces of one solid."""
+    body = ((-0.2, 0, -0.2), (0.2, 0.4, 0.2))
+    mesh = union(body, ((-0.8, 0, -0.01), (0, 0.4, 0.01)), ((0, 0, -0.01), (0.8, 0.4, 0.01)))
+    found = sheets_of(mesh)
+    assert found.sheets == topology.components(found.triangles) == 2
+    assert any("2 pieces and the solid 1" in text for text in found.warnings)
 
 
 def test_divided_triangles_still_share_edges():

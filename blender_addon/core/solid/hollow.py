@@ -110,7 +110,7 @@ def hollow(shape: Shape, wanted: HollowSettings, progress: Progress | None = Non
             f"Expected a solid that is thicker than two walls of {wanted.wall:g} somewhere, found none; take a thinner "
             "wall, or keep it solid"
         )
-    return _shell(shape, faces, surface, wanted.wall, step, start)
+    return _shell(shape, faces, surface, wanted.wall, step, progress, start)
 
 
 def _check(shape: Shape, wanted: HollowSettings) -> None:
@@ -169,13 +169,14 @@ def _shell(
     surface: OffsetSurface,
     wall: float,
     step: float,
+    progress: Progress,
     start: float,
 ) -> Hollow:
     count = len(shape.points)
     inner = surface.triangles[:, ::-1] + np.int32(count)
     middles = surface.vertices[surface.triangles].mean(axis=1)
     with own_errors() as module:
-        deepest = float(np.max(module.surface_distances(middles, shape.points, faces)))
+        depths = module.surface_distances(middles, shape.points, faces, progress=progress.part())
     taken = _volume(surface)
     label = united(len(surface.vertices), surface.triangles[:, [0, 1, 1, 2]].reshape(-1, 2))
     cavities = len(np.unique(label))
@@ -185,7 +186,7 @@ def _shell(
         len(faces),
         wall,
         float(least_distances(surface).min()),
-        deepest,
+        float(np.max(depths)),
         shape.volume - taken,
         shape.volume,
         cavities,
