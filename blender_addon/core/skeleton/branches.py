@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""This module measures the branches of a skeleton: lengths, radii, bends and cross-sections."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..settings import SidesFrom
+from .bridges import on_loops
+from .sections import Faces, section
+from .smooth_line import at_marks, marks_of, mean_along, smooth_line
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from .compute import Skeletonization
+    from .skeleton import Skeleton
+    from .smooth_line import SmoothLine
+
+_APART = 4  # a cross-section at every so many places of the smooth line, which is half a radius
+_MOST_SECTIONS = 64  # of a branch
+_BENT = 0.02  # a line that bends less than so much within a radius has no torsion
+_ROOM = 4.0  # faces nearer to a branch than so many radii are cut first
+MEASURES = ("curvature", "torsion", "area", "perimeter")
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """A profile has the measures at places of one branch.
+
+    Parameters
+    ----------
+    share : (n,) float64
+        The share of the length before each place, ascending.
+    values : (n, 4) float64
+        MEASURES; nan where they are unknown.
+    """
+
+    share: NDArray[np.float64]
+    values: NDArray[np.float64]
+
+    def at(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the measures at other shares, (k, 4), in between; they are nan before the first place and after the last."""
+        if not len(self.share):
+            return np.full((len(share), len(MEASURES)), np.nan)
+        found = at_marks(share, self.share, self.values)
+        found[(share < self.share[0]) | (share > self.share[-1])] = np.nan
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class Branches:
+    """Branches have a row each, in the order of the skeleton; nan is an unknown number.
+
+    Bends and cross-sections are measured outside of the balls at both ends.
+
+    Parameters
+    ----------
+    start, end : (b,) int32
+        Rows of the points of the skeleton.
+    start_degree, end_degree : (b,) int32
+        So many branches end there: 1 at a tip, 3 or more at a fork, 2 where a loop without a fork closes.
+    on_loop : (b,) bool
+        A way leads from the start to the end without the branch.
+    length : (b,) float64
+        In the unit of the input, as all lengths.
+    distance : (b,) float64
+        The distance between both ends.
+    tortuosity : (b,) float64
+        The length over the distance; nan where a branch ends where it starts.
+    radius_mean, radius_least, radius_largest : (b,) float64
+        The mean is along the length.
+    curvature_mean, curvature_largest : (b,) float64
+        In the inverse of the unit.
+    torsion_mean : (b,) float64
+        The mean weighted by the square of the curvature, as torsion has no meaning where a line is straight; positive
+        where the line turns like the thread of a usual screw; nan if the line is straight everywhere.
+    sections : (b,) int32
+        The number of cross-sections that were measured.
+    area_mean, area_least, area_largest : (b,) float64
+    perimeter_mean, perimeter_least, perimeter_largest : (b,) float64
+    profiles : list of Profile
+        The measures along each branch.
+    """
+
+    start: NDArray[np.int32]
+    end: NDArray[np.int32]
+    start_degree: NDArray[np.int32]
+    end_degree: NDArray[np.int32]
+    on_loop: NDArray[np.bool_]
+    length: NDArray[np.float64]
+    distance: NDArray[np.float64]
+    tortuosity: NDArray[np.float64]
+    radius_mean: NDArray[np.float64]
+    radius_least: NDArray[np.float64]
+    radius_largest: NDArray[np.float64]
+    curvature_mean: NDArray[np.float64]
+    curvature_largest: NDArray[np.float64]
+    torsion_mean: NDArray[np.float64]
+    sections: NDArray[np.int32]
+    area_mean: NDArray[np.float64]
+    area_least: NDArray[np.float64]
+    area_largest: NDArray[np.float64]
+    perimeter_mean: NDArray[np.float64]
+    perimeter_least: NDArray[np.float64]
+    perimeter_largest: NDArray[np.float64]
+    profiles: list[Profile]
+
+    @property
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Return all but the profiles by name, in order."""
+        return {field.name: getattr(self, field.name) for field in fields(self)[:-1]}
+
+
+def measure_branches(found: Skeletonization) -> Branches:
+    """Measure the branches of a computed skeleton, by all points of its curve, and by its faces if these bound it."""
+    by_faces = found.chosen.sides.source is SidesFrom.SURFACE and len(found.shape.triangles)
+    faces = Faces(found.shape.points, found.shape.triangles) if by_faces else None
+    return branches_of(found.skeleton, found.curve, faces)
+
+
+def branches_of(
+    skeleton: Skeleton, curve: Skeleton | None = None, faces: Faces | None = None
+) -> Branches:
+    """Measure the branches of a skeleton.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        It names the ends of branches.
+    curve : Skeleton, optional
+        The same branches with more points, which are measured.
+    faces : Faces, optional
+        Without them cross-sections are unknown.
+    """
+    curve = curve or skeleton
+    degree = skeleton.degree
+    rows, profiles = [], []
+    for name, chain in enumerate(curve.branches):
+        ends = skeleton.branch_points[skeleton.branch_offsets[name : name + 2] - (0, 1)]
+        closed = bool(ends[0] == ends[1] and degree[ends[0]] == 2)
+        row, line = _measure_line(curve.points[chain], curve.radius[chain], closed)
+        bent, profile = _measure_bends(line, curve, name, closed, faces)
+        rows.append({"start": ends[0], "end": ends[1], **row, **bent})
+        profiles.append(profile)
+    return _table(rows, profiles, degree, skeleton)
+
+
+def _table(
+    rows: list[dict[str, Any]],
+    profiles: list[Profile],
+    degree: NDArray[np.int64],
+    skeleton: Skeleton,
+) -> Branches:
+    loops = set(_on_loops(skeleton))
+    types = {"sections": np.int32, "start": np.int32, "end": np.int32}
+    names = [field.name for field in fields(Branches)]
+    columns = {
+        name: np.array([row[name] for row in rows], types.get(name, np.float64))
+        for name in names
+        if not name.endswith(("_degree", "on_loop", "profiles"))
+    }
+    return Branches(
+        **columns,
+        start_degree=degree[columns["start"]].astype(np.int32),
+        end_degree=degree[columns["end"]].astype(np.int32),
+        on_loop=np.array([name in loops for name in range(skeleton.count)], bool),
+        profiles=profiles,
+    )
+
+
+def _on_loops(skeleton: Skeleton) -> list[int]:
+    at: dict[int, list[int]] = {}
+    ends = {}
+    for name, chain in enumerate(skeleton.branches):
+        ends[name] = int(chain[0]), int(chain[-1])
+        for node in ends[name]:
+            at.setdefault(node, []).append(name)
+    return on_loops(ends, at)
+
+
+def _measure_line(
+    points: NDArray[np.float64], radius: NDArray[np.float64], closed: bool
+) -> tuple[dict[str, float], SmoothLine | None]:
+    """Return what the points of a branch tell, and its smooth line."""
+    marks = marks_of(points)
+    length = float(marks[-1])
+    distance = float(np.linalg.norm(points[-1:] - points[:1], axis=1)[0])
+    return {
+        "length": length,
+        "distance": distance,
+        "tortuosity": length / distance if distance > 0.0 else np.nan,
+        "radius_mean": mean_along(marks, radius) if length > 0.0 else float(radius.mean()),
+        "radius_least": float(radius.min()),
+        "radius_largest": float(radius.max()),
+    }, smooth_line(points, radius, closed)
+
+
+def _measure_bends(
+    line: SmoothLine | None, curve: Skeleton, name: int, closed: bool, faces: Faces | None
+) -> tuple[dict[str, float], Profile]:
+    """Return what the smooth line of a branch and the faces tell, and the profile."""
+    free = _outside(line, curve, name, closed) if line else np.zeros(0, np.int64)
+    if line is None or not len(free):
+        blank = Profile(np.zeros(0), np.zeros((0, len(MEASURES))))
+        return {**_bend_figures(np.zeros((0, 3))), **_section_figures(np.zeros((0, 2)))}, blank
+    bent = np.where(line.curvature * line.radius >= _BENT, line.torsion, np.nan)
+    bends = np.column_stack((line.curvature, bent, line.curvature * line.curvature))
+    count = min(_MOST_SECTIONS, 1 + (len(free) - 1) // _APART)
+    rows = free[np.linspace(0, len(free) - 1, count).astype(np.int64)]
+    cuts = np.full((len(rows), 2), np.nan)
+    if faces is not None:
+        cuts = np.array(list(_sections(line, rows, curve, name, faces)))
+    profile = Profile(line.share[rows], np.column_stack((bends[rows, :2], cuts)))
+    return {**_bend_figures(bends[free]), **_section_figures(cuts)}, profile
+
+
+def _outside(line: SmoothLine, curve: Skeleton, name: int, closed: bool) -> NDArray[np.int64]:
+    """Return the places of a smooth line outside of the balls at both ends of its branch."""
+    row = np.arange(len(line.share) - closed)  # the last place of a closed line is its first
+    if closed:
+        return row
+    chain = curve.branches[name]
+    for end in (chain[0], chain[-1]):
+        away = np.linalg.norm(line.points[row] - curve.points[end], axis=1)
+        row = row[away > curve.radius[end]]
+    return row
+
+
+def _bend_figures(bends: NDArray[np.float64]) -> dict[str, float]:
+    """Return the figures of rows of curvature, torsion and weight."""
+    known = bends[~np.isnan(bends[:, 1])]
+    weight = known[:, 2].sum()
+    return {
+        "curvature_mean": float(bends[:, 0].mean()) if len(bends) else np.nan,
+        "curvature_largest": float(bends[:, 0].max()) if len(bends) else np.nan,
+        "torsion_mean": float((known[:, 1] * known[:, 2]).sum() / weight) if weight > 0 else np.nan,
+    }
+
+
+def _section_figures(cuts: NDArray[np.float64]) -> dict[str, float]:
+    """Return the figures of rows of area and perimeter."""
+    known = cuts[~np.isnan(cuts[:, 0])]
+    found: dict[str, float] = {"sections": len(known)}
+    for name, values in zip(("area", "perimeter"), known.T, strict=True):
+        found[f"{name}_mean"] = float(values.mean()) if len(known) else np.nan
+        found[f"{name}_least"] = float(values.min(initial=np.inf)) if len(known) else np.nan
+        found[f"{name}_largest"] = float(values.max(initial=0.0)) if len(known) else np.nan
+    return found
+
+
+def _sections(
+    line: SmoothLine, rows: NDArray[np.int64], curve: Skeleton, name: int, faces: Faces
+) -> Iterator[tuple[float, float]]:
+    """Yield the area and the perimeter of the cross-section at each of some places of a branch."""
+    room = _ROOM * float(line.radius.max())
+    places = line.points[rows]
+    near = faces.near(places.min(axis=0) - room, places.max(axis=0) + room)
+    others = curve.points[curve.edges[_edge_names(curve) != name]]
+    for place, normal in zip(places, line.tangent[rows], strict=True):
+        found = section(place, normal, faces.points, near, others)
+        if np.isnan(found[0]) and len(near) < len(faces.triangles):
+            found = section(place, normal, faces.points, faces.triangles, others)
+        yield found
+
+
+def _edge_names(skeleton: Skeleton) -> NDArray[np.int64]:
+    """Return the branch of each edge, (e,)."""
+    return np.repeat(np.arange(skeleton.count), np.diff(skeleton.branch_offsets) - 1)
