@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 _APART = 4  # a cross-section at every so many places of the smooth line, which is half a radius
 _MOST_SECTIONS = 64  # of a branch
-_BENT = 0.02  # a line that bends less than so much within a radius has no torsion
+_BENT = 0.05  # where a line bends by less than so many radians within a radius, torsion is noise
 _ROOM = 4.0  # faces nearer to a branch than so many radii are cut first
 MEASURES = ("curvature", "torsion", "area", "perimeter")
 
@@ -68,7 +68,7 @@ class Branches:
     on_loop : (b,) bool
         A way leads from the start to the end without the branch.
     length : (b,) float64
-        In the unit of the input, as all lengths.
+        The length of the smooth line, in the unit of the input, as all lengths.
     distance : (b,) float64
         The distance between both ends.
     tortuosity : (b,) float64
@@ -144,9 +144,10 @@ def branches_of(
     for name, chain in enumerate(curve.branches):
         ends = skeleton.branch_points[skeleton.branch_offsets[name : name + 2] - (0, 1)]
         closed = bool(ends[0] == ends[1] and degree[ends[0]] == 2)
-        row, line = _measure_line(curve.points[chain], curve.radius[chain], closed)
+        line = smooth_line(curve.points[chain], curve.radius[chain], closed)
         bent, profile = _measure_bends(line, curve, name, closed, faces)
-        rows.append({"start": ends[0], "end": ends[1], **row, **bent})
+        row = {"start": ends[0], "end": ends[1], **bent}
+        rows.append({**row, **_line_figures(curve.points[chain], curve.radius[chain], line)})
         profiles.append(profile)
     return _table(rows, profiles, degree, skeleton)
 
@@ -184,21 +185,20 @@ def _on_loops(skeleton: Skeleton) -> list[int]:
     return on_loops(ends, at)
 
 
-def _measure_line(
-    points: NDArray[np.float64], radius: NDArray[np.float64], closed: bool
-) -> tuple[dict[str, float], SmoothLine | None]:
-    """Return what the points of a branch tell, and its smooth line."""
-    marks = marks_of(points)
-    length = float(marks[-1])
+def _line_figures(
+    points: NDArray[np.float64], radius: NDArray[np.float64], line: SmoothLine | None
+) -> dict[str, float]:
+    """Return what the points of a branch and its smooth line tell."""
     distance = float(np.linalg.norm(points[-1:] - points[:1], axis=1)[0])
+    length = line.length if line else 0.0
     return {
         "length": length,
         "distance": distance,
         "tortuosity": length / distance if distance > 0.0 else np.nan,
-        "radius_mean": mean_along(marks, radius) if length > 0.0 else float(radius.mean()),
+        "radius_mean": mean_along(marks_of(points), radius) if line else float(radius.mean()),
         "radius_least": float(radius.min()),
         "radius_largest": float(radius.max()),
-    }, smooth_line(points, radius, closed)
+    }
 
 
 def _measure_bends(
@@ -216,7 +216,10 @@ def _measure_bends(
     cuts = np.full((len(rows), 2), np.nan)
     if faces is not None:
         cuts = np.array(list(_sections(line, rows, curve, name, faces)))
-    profile = Profile(line.share[rows], np.column_stack((bends[rows, :2], cuts)))
+    share, values = line.share[rows], np.column_stack((bends[rows, :2], cuts))
+    if closed:  # the first place is the last one, too
+        share, values = np.append(share, 1.0), np.concatenate((values, values[:1]))
+    profile = Profile(share, values)
     return {**_bend_figures(bends[free]), **_section_figures(cuts)}, profile
 
 
