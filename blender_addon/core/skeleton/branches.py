@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..settings import SidesFrom
+from ..small_matrices import length_of
 from .bridges import on_loops
 from .sections import Faces, section
-from .smooth_line import at_marks, marks_of, mean_along, smooth_line
+from .smooth_line import at_marks, even_places, marks_of, mean_along, smooth_line
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -68,7 +69,7 @@ class Branches:
     on_loop : (b,) bool
         A way leads from the start to the end without the branch.
     length : (b,) float64
-        The length of the smooth line, in the unit of the input, as all lengths.
+        The length of the smooth line and of the ways to its ends, in the unit of the input, as all lengths.
     distance : (b,) float64
         The distance between both ends.
     tortuosity : (b,) float64
@@ -144,7 +145,7 @@ def branches_of(
     for name, chain in enumerate(curve.branches):
         ends = skeleton.branch_points[skeleton.branch_offsets[name : name + 2] - (0, 1)]
         closed = bool(ends[0] == ends[1] and degree[ends[0]] == 2)
-        line = smooth_line(curve.points[chain], curve.radius[chain], closed)
+        line = _line_of(curve.points[chain], curve.radius[chain], closed)
         bent, profile = _measure_bends(line, curve, name, closed, faces)
         row = {"start": ends[0], "end": ends[1], **bent}
         rows.append({**row, **_line_figures(curve.points[chain], curve.radius[chain], line)})
@@ -185,17 +186,49 @@ def _on_loops(skeleton: Skeleton) -> list[int]:
     return on_loops(ends, at)
 
 
+def _line_of(
+    points: NDArray[np.float64], radius: NDArray[np.float64], closed: bool
+) -> SmoothLine | None:
+    """Return the smooth line of a branch outside of the balls at its ends; None if it is shorter than a mean radius.
+
+    The rules for ends and forks have moved the points inside of these balls. The shares are those of the whole branch.
+    """
+    if closed:
+        return smooth_line(points, radius, closed)
+    marks = marks_of(points)
+    length = float(marks[-1])
+    if not 0.0 < length < np.inf:
+        return None
+    share, places = even_places(marks, points, radius)
+    begin, end = (
+        np.linalg.norm(places[:, :3] - points[row], axis=1) > radius[row] for row in (0, -1)
+    )
+    first, last = int(np.argmax(begin)), len(end) - 1 - int(np.argmax(end[::-1]))
+    free = (share[last] - share[first]) * length
+    if not (begin.any() and end.any() and free >= mean_along(marks, radius)) or last <= first:
+        return None
+    rows = slice(first, last + 1)
+    line = smooth_line(places[rows, :3], places[rows, 3], closed)
+    if line is None:
+        return None
+    return replace(line, share=share[first] + (share[last] - share[first]) * line.share)
+
+
 def _line_figures(
     points: NDArray[np.float64], radius: NDArray[np.float64], line: SmoothLine | None
 ) -> dict[str, float]:
     """Return what the points of a branch and its smooth line tell."""
-    distance = float(np.linalg.norm(points[-1:] - points[:1], axis=1)[0])
-    length = line.length if line else 0.0
+    marks = marks_of(points)
+    distance = length_of(points[-1] - points[0])
+    length = float(marks[-1])
+    if line:
+        to_nodes = line.points[[0, -1]] - points[[0, -1]]
+        length = line.length + length_of(to_nodes[0]) + length_of(to_nodes[1])
     return {
         "length": length,
         "distance": distance,
         "tortuosity": length / distance if distance > 0.0 else np.nan,
-        "radius_mean": mean_along(marks_of(points), radius) if line else float(radius.mean()),
+        "radius_mean": mean_along(marks, radius) if length > 0.0 else float(radius.mean()),
         "radius_least": float(radius.min()),
         "radius_largest": float(radius.max()),
     }
@@ -205,34 +238,19 @@ def _measure_bends(
     line: SmoothLine | None, curve: Skeleton, name: int, closed: bool, faces: Faces | None
 ) -> tuple[dict[str, float], Profile]:
     """Return what the smooth line of a branch and the faces tell, and the profile."""
-    free = _outside(line, curve, name, closed) if line else np.zeros(0, np.int64)
-    if line is None or not len(free):
+    if line is None:
         blank = Profile(np.zeros(0), np.zeros((0, len(MEASURES))))
         return {**_bend_figures(np.zeros((0, 3))), **_section_figures(np.zeros((0, 2)))}, blank
     bent = np.where(line.curvature * line.radius >= _BENT, line.torsion, np.nan)
     bends = np.column_stack((line.curvature, bent, line.curvature * line.curvature))
-    count = min(_MOST_SECTIONS, 1 + (len(free) - 1) // _APART)
-    rows = free[np.linspace(0, len(free) - 1, count).astype(np.int64)]
+    count = min(_MOST_SECTIONS, 1 + (len(bends) - 1) // _APART)
+    rows = np.linspace(0, len(bends) - 1, count + closed).astype(np.int64)
     cuts = np.full((len(rows), 2), np.nan)
     if faces is not None:
         cuts = np.array(list(_sections(line, rows, curve, name, faces)))
-    share, values = line.share[rows], np.column_stack((bends[rows, :2], cuts))
-    if closed:  # the first place is the last one, too
-        share, values = np.append(share, 1.0), np.concatenate((values, values[:1]))
-    profile = Profile(share, values)
-    return {**_bend_figures(bends[free]), **_section_figures(cuts)}, profile
-
-
-def _outside(line: SmoothLine, curve: Skeleton, name: int, closed: bool) -> NDArray[np.int64]:
-    """Return the places of a smooth line outside of the balls at both ends of its branch."""
-    row = np.arange(len(line.share) - closed)  # the last place of a closed line is its first
-    if closed:
-        return row
-    chain = curve.branches[name]
-    for end in (chain[0], chain[-1]):
-        away = np.linalg.norm(line.points[row] - curve.points[end], axis=1)
-        row = row[away > curve.radius[end]]
-    return row
+    profile = Profile(line.share[rows], np.column_stack((bends[rows, :2], cuts)))
+    once = slice(0, -1) if closed else slice(None)  # the last place of a closed line is its first
+    return {**_bend_figures(bends[once]), **_section_figures(cuts[once])}, profile
 
 
 def _bend_figures(bends: NDArray[np.float64]) -> dict[str, float]:

@@ -62,7 +62,7 @@ class SmoothLine:
 def smooth_line(
     points: NDArray[np.float64], radius: NDArray[np.float64], closed: bool
 ) -> SmoothLine | None:
-    """Return a line without the noise of its points, or None if it has no length.
+    """Return a line without the noise of its points, or None if its length is 0 or no number.
 
     Parameters
     ----------
@@ -75,22 +75,29 @@ def smooth_line(
     """
     marks = marks_of(points)
     length = float(marks[-1])
-    if not length > 0.0:
+    if not 0.0 < length < np.inf:
         return None
-    mean = mean_along(marks, radius)
-    count = int(np.clip(_PER_RADIUS * length / max(mean, length / _MOST), _LEAST, _MOST))
-    share = np.linspace(0.0, 1.0, count + 1)
-    places = at_marks(share * length, marks, np.column_stack((points, radius)))
+    share, places = even_places(marks, points, radius)
+    count = len(share) - 1
     steps = np.clip(_HALVED * places[:, 3] * (count / length), *_CLIPPED)
     row = np.arange(count + 1)
     if closed:  # three turns: the ends of the first and of the last have no influence on the second
         row, kept = np.arange(3 * count) % count, np.arange(count, 2 * count + 1)
     else:
         kept = row
-    smooth = smoothed(places[row, :3], steps[row])
-    tangent, *bends = (values[kept] for values in _bends(smooth, length / count))
+    unit = (places[row, :3] - points[0]) / length  # neither large nor small lengths overflow
+    smooth = smoothed(unit, steps[row])
+    tangent, *bends = (values[kept] for values in _bends(smooth, 1.0 / count))
     line = smooth[kept]
-    return SmoothLine(share, line, places[:, 3], tangent, float(marks_of(line)[-1]), *bends)
+    return SmoothLine(
+        share=share,
+        points=line * length + points[0],
+        radius=places[:, 3],
+        tangent=tangent,
+        length=float(marks_of(line)[-1]) * length,
+        curvature=bends[0] / length,
+        torsion=bends[1] / length,
+    )
 
 
 def marks_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -103,6 +110,17 @@ def mean_along(marks: NDArray[np.float64], values: NDArray[np.float64]) -> float
     """Return the mean of values at the points of a line, with even weight for even lengths."""
     steps = np.diff(marks)
     return float((steps * (values[1:] + values[:-1])).sum() / (2.0 * marks[-1]))
+
+
+def even_places(
+    marks: NDArray[np.float64], points: NDArray[np.float64], radius: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return shares of the length of a line in even steps, (n,), and places and radii there, (n, 4)."""
+    length = float(marks[-1])
+    mean = max(mean_along(marks, radius), length / _MOST)
+    count = int(np.clip(_PER_RADIUS * length / mean, _LEAST, _MOST))
+    share = np.linspace(0.0, 1.0, count + 1)
+    return share, at_marks(share * length, marks, np.column_stack((points, radius)))
 
 
 def at_marks(
