@@ -9,9 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
 
-def on_loops(
-    ends: Mapping[int, tuple[int, int]], at: Mapping[int, Iterable[int]]
-) -> list[int]:
+def on_loops(ends: Mapping[int, tuple[int, int]], at: Mapping[int, Iterable[int]]) -> list[int]:
     """Return the branches on loops, in order: all but the bridges.
 
     Parameters

@@ -184,7 +184,7 @@ def _solved(bands: list[list[float]], wanted: NDArray[np.float64]) -> NDArray[np
 def _bends(
     points: NDArray[np.float64], step: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return unit tangents, curvatures and torsions by differences; the two places at an end have those of the third."""
+    """Return unit tangents, curvatures and torsions by differences; two places at each end have those of the third."""
     a, b, c, d, e = (points[i : len(points) - 4 + i] for i in range(5))
     first = (a - e + 8.0 * (d - b)) / (12.0 * step)
     second = (16.0 * (b + d) - a - e - 30.0 * c) / (12.0 * step * step)
