@@ -46,7 +46,7 @@ class Profile:
     values: NDArray[np.float64]
 
     def at(self, share: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the measures at other shares, (k, 4), in between; they are nan before the first place and after the last."""
+        """Return the measures at other shares, (k, 4); they are nan before the first place and after the last."""
         if not len(self.share):
             return np.full((len(share), len(MEASURES)), np.nan)
         found = at_marks(share, self.share, self.values)

@@ -152,7 +152,7 @@ def smoothed(places: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray
 
 
 def _solved(bands: list[list[float]], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the x that a symmetric band matrix turns into the wanted table, (n, 3), by Cholesky's method without roots.
+    """Return what a symmetric band matrix turns into the wanted table, (n, 3), by Cholesky's method without roots.
 
     Row j of `bands` has the entries (j, j), (j + 1, j), and so on; those beyond the matrix are 0. NumPy has no such
     method, and products of small lists are faster in plain Python.
