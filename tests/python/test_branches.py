@@ -179,6 +179,16 @@ def test_lines_without_length_and_without_balls_are_measured():
     assert found.curvature_largest[1] < 1e-6
 
 
+def test_a_ball_has_no_branch(tmp_path):
+    points = np.zeros((1, 3))
+    ball = skeleton_of(points, np.ones(1), [], np.array([0]))
+    assert len(branches_of(ball).length) == 0
+    nowhere = Parts(Places(np.zeros(0, np.int32), np.zeros(0)), np.zeros(0, np.int32))
+    assert len(export_skeleton(ball, nowhere, tmp_path / "a.csv").read_text().splitlines()) == 1
+    found = arrays_of(export_skeleton(ball, nowhere, tmp_path / "a.vtp"))
+    assert found["CellData", "branch"].tolist() == [-1]
+
+
 # --- cross-sections
 
 

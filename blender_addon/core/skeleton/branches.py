@@ -147,8 +147,8 @@ def branches_of(
         closed = bool(ends[0] == ends[1] and degree[ends[0]] == 2)
         line = _line_of(curve.points[chain], curve.radius[chain], closed)
         bent, profile = _measure_bends(line, curve, name, closed, faces)
-        row = {"start": ends[0], "end": ends[1], **bent}
-        rows.append({**row, **_line_figures(curve.points[chain], curve.radius[chain], line)})
+        simple = _line_figures(curve.points[chain], curve.radius[chain], line, closed)
+        rows.append({"start": ends[0], "end": ends[1], **simple, **bent})
         profiles.append(profile)
     return _table(rows, profiles, degree, skeleton)
 
@@ -215,15 +215,19 @@ def _line_of(
 
 
 def _line_figures(
-    points: NDArray[np.float64], radius: NDArray[np.float64], line: SmoothLine | None
+    points: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    line: SmoothLine | None,
+    closed: bool,
 ) -> dict[str, float]:
     """Return what the points of a branch and its smooth line tell."""
     marks = marks_of(points)
     distance = length_of(points[-1] - points[0])
     length = float(marks[-1])
     if line:
-        to_nodes = line.points[[0, -1]] - points[[0, -1]]
-        length = line.length + length_of(to_nodes[0]) + length_of(to_nodes[1])
+        length = line.length
+        if not closed:
+            length += sum(length_of(line.points[row] - points[row]) for row in (0, -1))
     return {
         "length": length,
         "distance": distance,
