@@ -111,12 +111,15 @@ exit codes:
 _EXAMPLES_OF_SKELETONS = """\
 INPUT     as of medial_axis --help.
 OUTPUT    a file, or a folder; {name}, {file} and #### as there.
-          .swc   points with radius and parent; trees only
+          .swc   points with type, radius and parent; trees only, comments name edges that close loops
           .obj   a line for each branch
-          .json  nodes with radii, edges, and the faces of each branch
+          .json  nodes with radii, edges, and the faces and measures of each branch
+          .csv   a row for each branch: length, radii, curvature, torsion, cross-sections, ends
+          .vtp   lines with the same measures, and those along each branch, for VTK and ParaView
 
 examples:
   medial_axis skeleton neuron.ply neuron.swc --detail 0.7
+  medial_axis skeleton vessel.stl vessel.csv
   medial_axis skeleton trees/*.obj lines/ --format obj
   medial_axis skeleton walk.blend lines/{name}_####.json --frames 1-250 --object Body
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Trials of what we write: axes, skeletons and balls, read again by us and by others; full disks."""
 
+import csv
 import json
 import re
 import resource
@@ -10,6 +11,7 @@ from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import replace
 from io import StringIO
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 from medial_axis import cli
@@ -216,7 +218,7 @@ def skeletons(random: Random, folder: Path) -> None:
         np.int32
     )
     nowhere = Places(np.full(3, -1, np.int32), np.zeros(3))
-    path = folder / str(random.choice(["a.json", "a.swc", "a.obj"]))
+    path = folder / str(random.choice(["a.json", "a.swc", "a.obj", "a.csv", "a.vtp"]))
     export_skeleton(skeleton, Parts(nowhere, faces), path)
     lines = [line.split() for line in path.read_text("ascii").splitlines()]
     if path.suffix == ".json":
@@ -231,6 +233,13 @@ def skeletons(random: Random, folder: Path) -> None:
         _same(_table([words[1:] for words in lines if words[0] == "v"], 3), skeleton.points)
         runs = [[int(word) - 1 for word in words[1:]] for words in lines if words[0] == "l"]
         assert runs == [branch.tolist() for branch in skeleton.branches]
+    elif path.suffix == ".csv":
+        rows = list(csv.DictReader(path.read_text("ascii").splitlines()))
+        assert [int(row["branch"]) for row in rows] == list(range(skeleton.count))
+        ends = [[int(row[name]) for name in ("start", "end")] for row in rows]
+        assert ends == [[int(branch[0]), int(branch[-1])] for branch in skeleton.branches]
+    elif path.suffix == ".vtp":
+        assert ElementTree.parse(path).getroot().get("type") == "PolyData"
     else:
         _is_swc(lines, skeleton)
 
@@ -296,7 +305,7 @@ def _lists(rows: list[list[float]], width: int) -> np.ndarray:
 
 WORKS = {
     "axis": ([], [*SUFFIXES]),
-    "skeleton": (["skeleton"], [".swc", ".obj", ".json"]),
+    "skeleton": (["skeleton"], [".swc", ".obj", ".json", ".csv", ".vtp"]),
     "balls": (["balls"], [".ma", ".json"]),
     "thickness": (["thickness"], [".csv", ".json", ".ply"]),
 }

@@ -21,7 +21,7 @@ COMMANDS = {"axis": [], "thickness": ["thickness"], "skeleton": ["skeleton"], "b
 KINDS = {
     "axis": ("ply", "obj", "off", "ma", "npz"),
     "thickness": ("ply", "csv", "json"),
-    "skeleton": ("obj", "json", "swc"),
+    "skeleton": ("obj", "json", "swc", "csv", "vtp"),
     "balls": ("ma", "json"),
 }
 FEW = ["--sampling", "surface", "--samples", "100", "--quiet"]

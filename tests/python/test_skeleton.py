@@ -525,7 +525,7 @@ def test_obj_has_a_line_for_each_branch(two_rings_and_a_y, tmp_path):
 
 
 def test_unknown_extension_leaves_nothing(two_rings_and_a_y, tmp_path):
-    with pytest.raises(ExportError, match=r"\.swc, \.obj or \.json, found 'a\.fbx'"):
+    with pytest.raises(ExportError, match=r"\.json, \.csv or \.vtp, found 'a\.fbx'"):
         export_skeleton(
             two_rings_and_a_y[0].skeleton, two_rings_and_a_y[0].parts, tmp_path / "a.fbx"
         )

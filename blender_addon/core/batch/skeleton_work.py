@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ..files.write_skeleton import export_skeleton
+from ..files.write_skeleton import export_skeleton, holds_branches
 from ..machine.memory_limit import MemoryLimit
 from ..machine.progress import Progress
 from ..samples.shape import Shape
 from ..settings import Settings, SkeletonSettings
+from ..skeleton.branches import measure_branches
 from ..skeleton.compute import Skeletonization, compute_skeleton
 from .option_words import as_words
 
@@ -34,7 +35,8 @@ class SkeletonWork:
         """Accept every result: a skeleton has at least one point."""
 
     def write(self, found: Skeletonization, path: Path, frame: np.ndarray) -> tuple[str, ...]:
-        export_skeleton(found.skeleton.placed(frame), found.parts, path)
+        branches = measure_branches(found) if holds_branches(path) else None
+        export_skeleton(found.skeleton.placed(frame), found.parts, path, branches)
         return ()
 
     def words(self) -> dict[str, Any]:

@@ -53,6 +53,8 @@ class Skeletonization(OfChosenSamples):
     shape : Shape
     skeleton : Skeleton
         It has as few points as the settings allow.
+    curve : Skeleton
+        The same branches with all points.
     parts : Parts
         They assign the surface to the branches.
     loops : Loops
@@ -70,6 +72,7 @@ class Skeletonization(OfChosenSamples):
 
     shape: Shape
     skeleton: Skeleton
+    curve: Skeleton
     parts: Parts
     loops: Loops
     mirrored: bool
@@ -118,9 +121,11 @@ def compute_skeleton(
     outside = keep_inside(net, depth)
     place = places(net, names).of(net.stands_for()[owner])
     sample = _samples_of_vertices(shape, chosen)
+    curve = _whole(net, names)
     return Skeletonization(
         shape=shape,
         skeleton=_thinned(net, names, wanted.simplify, depth),
+        curve=curve,
         parts=parts_of(place.of(sample), shape.triangles),
         loops=loops,
         mirrored=mirrored,

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .bridges import on_loops
 from .ends import reach_of
 
 if TYPE_CHECKING:
@@ -144,40 +145,8 @@ def _pinhole(net: Net, spacing: NDArray[np.float64]) -> tuple[list[int], int] | 
 
 
 def _on_loops(net: Net) -> list[int]:
-    """Return the branches on loops, that is all but the bridges of the net."""
-    depth: dict[int, int] = {}
-    lowest: dict[int, int] = {}
-    bridges: set[int] = set()
-    for root in net.at:
-        if root not in depth:
-            _search(net, root, depth, lowest, bridges)
-    return [name for name in net.branches if name not in bridges]
-
-
-def _search(
-    net: Net, root: int, depth: dict[int, int], lowest: dict[int, int], bridges: set[int]
-) -> None:
-    """Search depth-first for bridges: no branch beyond a bridge leads back to its start or above."""
-    depth[root] = lowest[root] = 0
-    stack = [(root, -1, iter(net.at[root]))]
-    while stack:
-        node, through, names = stack[-1]
-        name = next(names, None)
-        if name is None:
-            stack.pop()
-            if stack:
-                above = stack[-1][0]
-                lowest[above] = min(lowest[above], lowest[node])
-                if lowest[node] > depth[above]:
-                    bridges.add(through)
-        elif name != through:
-            chain = net.branches[name]
-            other = chain[-1] if chain[0] == node else chain[0]
-            if other in depth:
-                lowest[node] = min(lowest[node], depth[other])
-            else:
-                depth[other] = lowest[other] = depth[node] + 1
-                stack.append((other, name, iter(net.at[other])))
+    ends = {name: (chain[0], chain[-1]) for name, chain in net.branches.items()}
+    return on_loops(ends, net.at)
 
 
 def _shortest_loop(net: Net, name: int) -> list[int]:
