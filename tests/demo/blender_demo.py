@@ -6,10 +6,14 @@
 """
 
 import argparse
+import atexit
 import importlib
 import json
 import math
+import os
+import shutil
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -52,7 +56,8 @@ def parse():
 
 
 def install(archive):
-    """Install and enable the add-on as a person would; returns the name of its package."""
+    """Install and enable the add-on as a person would, for this run alone; returns the name of its package."""
+    leave_profile()
     if bpy.app.version < (4, 2, 0):
         bpy.ops.preferences.addon_install(filepath=archive, overwrite=True)
         bpy.ops.preferences.addon_enable(module="medial_axis")
@@ -61,6 +66,19 @@ def install(archive):
         filepath=archive, repo="user_default", enable_on_install=True
     )
     return "bl_ext.user_default.medial_axis"
+
+
+def leave_profile():
+    """From here on this Blender has a profile in a temporary folder, and the person's own keeps its add-ons.
+
+    Blender looks these variables up whenever it asks for a folder.
+    """
+    folder = Path(tempfile.mkdtemp(prefix="medial_axis_profile_"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES", "EXTENSIONS"):
+        path = folder / part.lower()
+        path.mkdir()
+        os.environ[f"BLENDER_USER_{part}"] = str(path)
 
 
 # --- models
