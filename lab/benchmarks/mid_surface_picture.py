@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws the section of a T with its medial axis and with its middle surface, from the formulas of both.
 
-    python3 lab/benchmarks/mid_surface_picture.py [--output docs/pictures]
+python3 lab/benchmarks/mid_surface_picture.py [--output docs/pictures]
 """
 
 import argparse
@@ -21,7 +21,16 @@ def outline():
     near, far = MIDDLE - WALL / 2, MIDDLE + WALL / 2
     top = HIGH - WALL
     return np.array(
-        [(0, HIGH), (LONG, HIGH), (LONG, top), (far, top), (far, 0), (near, 0), (near, top), (0, top)]
+        [
+            (0, HIGH),
+            (LONG, HIGH),
+            (LONG, top),
+            (far, top),
+            (far, 0),
+            (near, 0),
+            (near, top),
+            (0, top),
+        ]
     )
 
 
