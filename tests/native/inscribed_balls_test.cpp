@@ -145,6 +145,38 @@ TEST(InscribedBalls, OfASphereAreTheSphere) {
   }
 }
 
+// A torus of radii 1 and 0.4 whose rings are turned against each other by a share of a step, so
+// that triangles slant.
+test::Mesh tube(double turned) {
+  const int major = 300, minor = 150;
+  const double round = 2 * std::numbers::pi;
+  test::Mesh mesh = test::torus(major, minor);
+  for (int v = 0; v < major * minor; ++v) {
+    const double a = round * (v / minor + turned * (v % minor % 2)) / major,
+                 b = round * (v % minor) / minor, r = 1 + 0.4 * std::cos(b);
+    mesh.vertices[v] = {r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b)};
+  }
+  return mesh;
+}
+
+// A ball in a tube touches faces all round, many of which are beside it and not opposite.
+TEST(InscribedBalls, InATubeHaveAWallOppositeEverywhere) {
+  for (const double turned : {0.0, 0.5}) {
+    const test::Mesh mesh = tube(turned);
+    Places places;
+    for (size_t t = 0; t < mesh.triangles.size(); t += 37) {
+      places.points.push_back(mesh.vertices[mesh.triangles[t][0]]);
+      places.face.push_back(static_cast<int32_t>(t));
+      places.spacing.push_back(0.03);
+    }
+    const InscribedBalls found = measured(mesh, places, true, 2);
+    for (size_t i = 0; i < places.points.size(); ++i) {
+      ASSERT_NEAR(found.diameter[i], 0.8, 1e-3) << i;
+      ASSERT_NEAR(found.wall[i], 0.8, 1e-3) << i;
+    }
+  }
+}
+
 TEST(InscribedBalls, ThatHaveNothingOppositeAreInfinite) {
   const test::Mesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
   const auto found = measured(sheet, random_places(sheet, 3), true, 1);

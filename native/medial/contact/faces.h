@@ -5,6 +5,7 @@
 
 #include <medial/faces.h>
 
+#include <limits>
 #include <optional>
 
 #include "base/box_tree.h"
@@ -21,9 +22,16 @@ struct Foot {
   double distance = HUGE_VAL;
 };
 
-struct NearestLifted {
-  std::optional<Foot> foot;
-  bool gave_up = false;  // not all faces were searched
+// A search for the nearest face looks within two balls. Where very many faces are about as far
+// away, as those of a sphere are from its centre, it goes on after some leaves of the tree in vain
+// with those faces alone that are nearer than a smaller distance.
+struct FaceSearch {
+  Vec3 from;
+  double than = HUGE_VAL;
+  Vec3 second_centre = {};
+  double second_radius = HUGE_VAL;
+  int most_in_vain = std::numeric_limits<int>::max();
+  double smaller = 0;
 };
 
 // Its const members may be called from several threads.
@@ -76,37 +84,38 @@ class Faces {
   // Returns the nearest lifted foot on the triangles that meet where a foot is, in the same wall,
   // or the foot itself if it is nearer.
   Foot lifted_beside(const Foot& foot, const Vec3& from) const;
-  // Returns the nearest lifted foot of all faces that is nearer than a distance, without those that
-  // `ignored` is true of. Where very many faces are about as far away, as those of a sphere are
-  // from its centre, it gives up after some leaves of the tree in vain. Curved ones count twice, as
-  // many of them touch a ball and none of them is exact.
+  // Returns the nearest lifted foot of a search without those that `ignored` is true of. Leaves of
+  // curved faces count twice, as many of them touch a ball and none of them is exact.
   template <typename Ignored>
-  NearestLifted nearer_by_lift(const Vec3& from, double than, const Ignored& ignored,
-                               int most_in_vain) const {
+  std::optional<Foot> nearest_lifted(const FaceSearch& search, const Ignored& ignored) const {
+    if (nodes_.empty()) return {};
     std::optional<Foot> best;
-    double within = than;
+    double within = search.than;
     int in_vain = 0;
     const auto visit = [&](const Node& leaf) {
       in_vain += is_curved(order_[leaf.begin]) ? 2 : 1;
       for (int32_t i = leaf.begin; i < leaf.end; ++i) {
         const int32_t t = order_[i];
-        const Foot flat = flat_foot(t, from);
+        const Foot flat = flat_foot(t, search.from);
         if (flat.distance - bulge(t) > within) continue;
-        const Foot foot = is_curved(t) ? lifted(flat, from) : flat;
+        const Foot foot = is_curved(t) ? lifted(flat, search.from) : flat;
         const bool first = best && foot.distance == within && foot.triangle < best->triangle;
         if (!(foot.distance < within || first) || ignored(foot)) continue;
         best = foot;
         within = foot.distance;
         in_vain = 0;
       }
+      if (in_vain > search.most_in_vain) within = std::min(within, search.smaller);
     };
+    const double room = search.second_radius * search.second_radius;
     const auto bound = [&](const Node& node) {
-      return in_vain > most_in_vain ? HUGE_VAL : medial::squared_distance(node.box, from);
+      const bool outside =
+          room < HUGE_VAL && medial::squared_distance(node.box, search.second_centre) > room;
+      return outside ? HUGE_VAL : medial::squared_distance(node.box, search.from);
     };
-    if (nodes_.empty()) return {};
     visit_nearest(
         nodes_, 0, bound, [&] { return within * within; }, visit);
-    return {best, in_vain > most_in_vain};
+    return best;
   }
   // Returns where each triangle is in the search tree, where neighbours are close to each other.
   std::vector<int32_t> places_in_tree() const;

@@ -26,9 +26,9 @@ constexpr double kUnknown = 1.0 / 64, kUnknownBetween = 1.0 / 4;
 constexpr double kTouched = 0.03, kOpposite = -0.5;
 // It is looked for from half of the way to the place opposite, up to so far from there, in radii.
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
-constexpr int kMostInVain = 48, kMostBeside = 128;  // leaves of the tree of faces
-constexpr double kSmaller = 0.95;                   // a ball that is searched to the end
-constexpr double kNothing = 1e-3;                   // a ball of so many roundings is none
+constexpr int kMostInVain = 48;    // leaves of the tree of faces
+constexpr double kSmaller = 0.99;  // a ball that is searched to the end, which few faces touch
+constexpr double kNothing = 1e-3;  // a ball of so many roundings is none
 // In a run, each ball starts where the one before touched, on the wall opposite if there is one: in
 // a tube it then needs no search for this wall.
 constexpr int64_t kRunOfPlaces = 64;
@@ -88,9 +88,11 @@ class Shrinking {
     const auto beside = [&](const Foot& q) {
       return !is_opposite(faces_.lifted(q.triangle, centre));
     };
-    const auto [other, _] =
-        faces_.nearer_by_lift(centre - kHalfWay * ball.radius * x.normal,
-                              kReachOpposite * ball.radius, beside, kMostBeside);
+    const auto other = faces_.nearest_lifted({.from = centre - kHalfWay * ball.radius * x.normal,
+                                              .than = kReachOpposite * ball.radius,
+                                              .second_centre = centre,
+                                              .second_radius = (1 + kTouched) * ball.radius},
+                                             beside);
     if (!other) return {};
     InnerBall found = settled(x, faces_.lifted(other->triangle, centre));
     const auto is_beside = [&](const Foot& q) {
@@ -111,22 +113,18 @@ class Shrinking {
     }
   }
 
-  // Returns a place in a ball. Where very many faces touch the ball, the search gives up; then a
-  // smaller ball is searched to the end, which few of them touch.
+  // Returns a place in a ball.
   template <typename LeftOut>
   std::optional<Foot> inside_of(const Place& x, double radius, const LeftOut& left_out) const {
     const auto outside = [&](const Foot& q) {
       const double unknown = x.unknown + kUnknown * faces_.bulge(q.triangle);
       return q.distance + unknown > radius || left_out(q);
     };
-    const auto search = [&](int most_in_vain) {
-      return faces_.nearer_by_lift(centre_of(x, radius), (1 - kInside) * radius, outside,
-                                   most_in_vain);
-    };
-    const auto [foot, gave_up] = search(kMostInVain);
-    if (foot || !gave_up) return foot;
-    radius *= kSmaller;
-    return search(std::numeric_limits<int>::max()).foot;
+    return faces_.nearest_lifted({.from = centre_of(x, radius),
+                                  .than = (1 - kInside) * radius,
+                                  .most_in_vain = kMostInVain,
+                                  .smaller = kSmaller * radius},
+                                 outside);
   }
 
   // A ball that goes through a place of the faces is never smaller than the one that is wanted.

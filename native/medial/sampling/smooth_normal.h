@@ -18,9 +18,9 @@ struct TriangleNormals {
 };
 
 // Returns the unit normal at `here` of the cubic surface that is closest to points round it, as far
-// as it is much closer than a quadric; else that of the sphere, as far as a quadric is much closer
-// than a plane; else the mean by angles, as where the points have noise. The order of the points
-// changes last bits only.
+// as it is much closer than a quadric; else that of the quadric, as far as it is much closer than a
+// plane; else the mean by angles, as where the points have noise. The order of the points changes
+// last bits only.
 Vec3 smooth_normal(const Vec3& here, std::span<const Vec3> around, const TriangleNormals& of);
 
 }  // namespace medial
