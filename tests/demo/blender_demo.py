@@ -30,6 +30,8 @@ def main():
     arguments = parse()
     package = install(arguments.zip)
     source = load(arguments.model, arguments.subdivide, arguments.y_up)
+    if arguments.flat:
+        source.data.polygons.foreach_set("use_smooth", np.zeros(len(source.data.polygons), bool))
     result = compute(source)
     files = write(result, arguments.output, source.name)
     blender_scene.arrange(source, result)
@@ -50,6 +52,7 @@ def parse():
         "--subdivide", type=int, default=0, help="levels of a Subdivision Surface modifier"
     )
     parser.add_argument("--y-up", action="store_true", help="the file's Y axis points up")
+    parser.add_argument("--flat", action="store_true", help="shade it flat, as a part with edges")
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--report", type=Path, required=True)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
