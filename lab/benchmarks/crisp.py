@@ -2,7 +2,7 @@
 """Axes of solids whose faces are known exactly, measured to the last digit: a Markdown table.
 
     python3 lab/benchmarks/crisp.py [--output table.md] [--shapes box wedge] [--samples 4000 20000] [--seeds 0 1 2]
-        [--form clean] [--float32] [--as-is] [--no-crisp]
+        [--form clean] [--float32] [--as-is] [--no-crisp | --shown]
     python3 lab/benchmarks/crisp.py --meshes fandisk_large.off [--samples 8000 20000] [--no-crisp]
 
 Each mesh is turned at random by its seed, sampled as Sampling Surface does, and its axis computed with the default
@@ -136,6 +136,7 @@ def main() -> None:
     parser.add_argument("--float32", action="store_true", help="round the vertices to float32")
     parser.add_argument("--as-is", action="store_true", help="do not turn the meshes")
     parser.add_argument("--no-crisp", action="store_true", help="leave crisp places out")
+    parser.add_argument("--shown", action="store_true", help="only what is shown by default")
     options = parser.parse_args()
     if options.meshes:
         table = [
@@ -146,6 +147,7 @@ def main() -> None:
         _module.publish(_module.markdown(MESH_HEADER, table), options.output)
         return
     wanted = [False, True] if crisp_runs.knows_crisp() and not options.no_crisp else [False]
+    wanted = wanted[-1:] if options.shown else wanted
     table = [
         row
         for name in options.shapes

@@ -6,10 +6,14 @@
 """
 
 import argparse
+import atexit
 import importlib
 import json
 import math
+import os
+import shutil
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -26,6 +30,8 @@ def main():
     arguments = parse()
     package = install(arguments.zip)
     source = load(arguments.model, arguments.subdivide, arguments.y_up)
+    if arguments.flat:
+        source.data.polygons.foreach_set("use_smooth", np.zeros(len(source.data.polygons), bool))
     result = compute(source)
     files = write(result, arguments.output, source.name)
     blender_scene.arrange(source, result)
@@ -46,13 +52,15 @@ def parse():
         "--subdivide", type=int, default=0, help="levels of a Subdivision Surface modifier"
     )
     parser.add_argument("--y-up", action="store_true", help="the file's Y axis points up")
+    parser.add_argument("--flat", action="store_true", help="shade it flat, as a part with edges")
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--report", type=Path, required=True)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 
 def install(archive):
-    """Install and enable the add-on as a person would; returns the name of its package."""
+    """Install and enable the add-on as a person would, for this run alone; returns the name of its package."""
+    leave_profile()
     if bpy.app.version < (4, 2, 0):
         bpy.ops.preferences.addon_install(filepath=archive, overwrite=True)
         bpy.ops.preferences.addon_enable(module="medial_axis")
@@ -61,6 +69,19 @@ def install(archive):
         filepath=archive, repo="user_default", enable_on_install=True
     )
     return "bl_ext.user_default.medial_axis"
+
+
+def leave_profile():
+    """From here on this Blender has a profile in a temporary folder, and the person's own keeps its add-ons.
+
+    Blender looks these variables up whenever it asks for a folder.
+    """
+    folder = Path(tempfile.mkdtemp(prefix="medial_axis_profile_"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES", "EXTENSIONS"):
+        path = folder / part.lower()
+        path.mkdir()
+        os.environ[f"BLENDER_USER_{part}"] = str(path)
 
 
 # --- models
