@@ -81,7 +81,9 @@ def _part_of_vertices(
     several[vertex[own[vertex] != part]] = True
     there = np.flatnonzero(several[vertex])  # sorting all corners would take far longer
     parts = int(part.max(initial=0)) + 1
-    pairs, row = np.unique(vertex[there].astype(np.int64) * parts + part[there], return_inverse=True)
+    pairs, row = np.unique(
+        vertex[there].astype(np.int64) * parts + part[there], return_inverse=True
+    )
     areas = np.bincount(row, area[there], len(pairs))
     order = np.lexsort((-pairs, areas))
     own[pairs[order] // parts] = pairs[order] % parts  # the last one stays
@@ -145,9 +147,7 @@ def _scaled(vertices: NDArray[np.float64]) -> NDArray[np.float64]:
     return vertices / largest if largest > 0.0 else vertices
 
 
-def _sums(
-    rows: NDArray[np.int32], vectors: NDArray[np.float64], count: int
-) -> NDArray[np.float64]:
+def _sums(rows: NDArray[np.int32], vectors: NDArray[np.float64], count: int) -> NDArray[np.float64]:
     """(count, 3) the sum of the vectors with each row."""
     return np.column_stack([np.bincount(rows, vectors[:, k], count) for k in range(3)])
 
