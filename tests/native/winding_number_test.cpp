@@ -57,6 +57,32 @@ TEST(WindingNumber, OfAFlippedTriangleCountsTwice) {
   expect_equal(mesh, 3);
 }
 
+// Rounding leaves a Voronoi vertex that belongs on a face a little beyond it. What is told from
+// there is right all the same, however far away.
+TEST(WindingNumber, IsToldFromPlacesOnFacesUpToRounding) {
+  const test::Mesh box = test::box({0, 0, 0}, {3, 2, 1});
+  const WindingNumber winding(box.vertices, box.triangles, {}, nullptr);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.01, 0.99);
+  for (int i = 0; i < 300; ++i) {
+    Vec3 known{3 * unit(random), 2 * unit(random), unit(random)};
+    Vec3 query = known;
+    const double far = i % 2 ? 0.5 + unit(random) : 1e16 * unit(random);
+    const auto put = [&](double& on, double& beyond, double face) {
+      on = std::nextafter(face, face == 0 ? -1 : 4);
+      beyond = face == 0 ? -far : face + far;
+    };
+    if (i % 6 == 0) put(known.x, query.x, 0);
+    if (i % 6 == 1) put(known.x, query.x, 3);
+    if (i % 6 == 2) put(known.y, query.y, 0);
+    if (i % 6 == 3) put(known.y, query.y, 2);
+    if (i % 6 == 4) put(known.z, query.z, 0);
+    if (i % 6 == 5) put(known.z, query.z, 1);
+    EXPECT_EQ(winding.closed_from(known, winding.closed(known), query), 0) << i;
+    EXPECT_EQ(winding.closed(query), 0) << i;
+  }
+}
+
 TEST(RayCrossings, AreToldFromPointsOnTheSurface) {
   const auto mesh = test::torus(40, 20);
   std::vector<Corners> corners;

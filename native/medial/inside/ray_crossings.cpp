@@ -2,6 +2,7 @@
 #include "inside/ray_crossings.h"
 
 #include <cfloat>
+#include <numbers>
 
 #include "delaunay/circumcentre.h"
 
@@ -12,11 +13,20 @@ constexpr int32_t kTrianglesOfLeaf = 4;
 
 Vec3 inverse(const Vec3& v) { return {1 / v.x, 1 / v.y, 1 / v.z}; }
 
-// Returns whether a ray meets a box, by slabs. The far end is stretched by more than the rounding
-// of both ends (Ize 2013), so no hit is lost.
-bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, double reach) {
+// Returns whether a ray meets a box that is larger by some room on each side, by slabs. The far end
+// is stretched by more than the rounding of both ends (Ize 2013), so no hit is lost. Along an axis
+// that the ray does not move on, it is between the slabs or not; the product with an infinite
+// inverse would be no number on a slab.
+bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, double reach,
+           double room) {
   double near = 0, far = reach;
   const auto clip = [&](double low, double high, double o, double i) {
+    low -= room;
+    high += room;
+    if (std::isinf(i)) {
+      if (o < low || o > high) far = -1;
+      return;
+    }
     const double t0 = (low - o) * i, t1 = (high - o) * i;
     near = std::max(near, std::min(t0, t1));
     far = std::min(far, std::max(t0, t1));
@@ -25,6 +35,11 @@ bool meets(const Box& box, const Vec3& origin, const Vec3& inverse_direction, do
   clip(box.low.y, box.high.y, origin.y, inverse_direction.y);
   clip(box.low.z, box.high.z, origin.z, inverse_direction.z);
   return near <= far * (1 + 8 * DBL_EPSILON);
+}
+
+// Returns how far a place of a box is at most.
+double farthest(const Box& box, const Vec3& from) {
+  return std::max(max_abs(box.low - from), max_abs(box.high - from)) * std::numbers::sqrt3;
 }
 
 // Returns +1 if the ray leaves through the triangle, -1 if it enters, 0 if it misses, and nothing
@@ -94,14 +109,17 @@ RayCrossings::RayCrossings(std::vector<Corners> triangles, const Progress* progr
 template <typename Visit>
 void RayCrossings::visit(const Vec3& origin, const Vec3& direction, double reach,
                          const Visit& visit) const {
+  if (nodes_.empty()) return;
   const Vec3 inverse_direction = inverse(direction);
+  // So far from a triangle a ray may begin that is taken to begin on it.
+  const double room = kCoarsestError * farthest(nodes_[0].box, origin);
   std::array<int32_t, 64> stack;  // halved at every level, the tree is less than 32 deep
   int top = 0;
-  if (!nodes_.empty()) stack[top++] = 0;
+  stack[top++] = 0;
   while (top > 0) {
     const int32_t id = stack[--top];
     const Node& node = nodes_[id];
-    if (!meets(node.box, origin, inverse_direction, reach)) continue;
+    if (!meets(node.box, origin, inverse_direction, reach, room)) continue;
     if (!node.is_leaf()) {
       stack[top++] = node.right;
       stack[top++] = id + 1;
@@ -122,6 +140,13 @@ std::optional<int> RayCrossings::operator()(const Vec3& origin, const Vec3& dire
     return sum.has_value();
   });
   return sum;
+}
+
+bool RayCrossings::is_beyond(const Vec3& place) const {
+  if (nodes_.empty()) return true;
+  const Box& box = nodes_[0].box;
+  const double room = kCoarsestError * length(box.extent());
+  return squared_distance(box, place) > room * room;
 }
 
 void RayCrossings::hits(const Vec3& origin, const Vec3& direction, double reach,

@@ -42,6 +42,8 @@ class RayCrossings {
   // Returns how many triangles the ray meets farther away than `start`, but stops at `most`.
   int64_t met(const Vec3& origin, const Vec3& direction, double start, int64_t most) const;
   std::span<const Corners> triangles() const { return corners_; }
+  // Returns whether a place is outside of the box of the triangles by more than rounding.
+  bool is_beyond(const Vec3& place) const;
 
  private:
   struct Node : TreeNode {

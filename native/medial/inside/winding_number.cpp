@@ -66,6 +66,7 @@ WindingNumber::WindingNumber(std::vector<Corners> soup, std::vector<Corners> cap
     : crossings_(joined(std::move(soup), caps), progress), caps_(std::move(caps)) {}
 
 int WindingNumber::closed(const Vec3& query) const {
+  if (crossings_.is_beyond(query)) return 0;
   for (const Vec3& direction : kDirections) {
     if (const auto drop = crossings_(query, normalized(direction))) return *drop;
   }
@@ -76,7 +77,7 @@ int WindingNumber::closed_from(const Vec3& known, int closed_there, const Vec3& 
   const Vec3 way = query - known;
   const double reach = length(way);
   if (reach == 0) return closed_there;
-  if (!(reach < HUGE_VAL)) return closed(query);
+  if (crossings_.is_beyond(query)) return 0;
   const auto drop = crossings_(known, (1 / reach) * way, reach);
   return drop ? closed_there - *drop : closed(query);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sampling/smooth_normal.h"
 
+#include "base/normal_equations.h"
+
 namespace medial {
 namespace {
 
@@ -22,59 +24,34 @@ Terms terms(double u, double v, double squared) {
   return {u, v, squared, u * u - v * v, 2 * u * v, u * u * u, u * u * v, u * v * v, v * v * v};
 }
 
-// A weighted least-squares fit by Cholesky's method, in which later terms add to the earlier ones.
-struct Fit {
-  std::array<Terms, kTerms> matrix{};  // the lower half, then its factor
-  Terms right{};
-  double heights = 0;  // the weighted sum of squares
-
+// A fit of heights in which later terms add to the earlier ones.
+class Fit {
+ public:
   void add(const Terms& row, double height, double weight) {
-    for (int i = 0; i < kTerms; ++i) {
-      const double weighted = weight * row[i];
-      for (int j = 0; j <= i; ++j) matrix[i][j] += weighted * row[j];
-      right[i] += weighted * height;
-    }
-    heights += weight * height * height;
+    equations_.add(row, height, weight);
+    heights_ += weight * height * height;
   }
-  void hold_back() {
-    const double least = kHeldBack * matrix[kSlopes][kSlopes];
-    for (int i = kSlopes; i < kTerms; ++i) matrix[i][i] += least;
-  }
-  // Replaces the matrix by its factor and the right side by what each term takes of the heights;
-  // returns whether the points determine the slope.
-  bool factorise() {
-    for (int i = 0; i < kTerms; ++i) {
-      for (int j = 0; j <= i; ++j) {
-        double rest = matrix[i][j];
-        for (int k = 0; k < j; ++k) rest -= matrix[i][k] * matrix[j][k];
-        if (j < i) {
-          matrix[i][j] = rest / matrix[j][j];
-        } else if (rest > 0) {
-          matrix[i][i] = std::sqrt(rest);
-        } else {
-          return false;
-        }
-      }
-      for (int k = 0; k < i; ++k) right[i] -= matrix[i][k] * right[k];
-      right[i] /= matrix[i][i];
-    }
+  // Returns whether the points determine the slope.
+  bool solve() {
+    const double least = kHeldBack * equations_.square(kSlopes);
+    for (int i = kSlopes; i < kTerms; ++i) equations_.hold_back(i, least);
+    if (!equations_.factorise(0)) return false;
+    added_ = equations_.added(equations_.right());
     return true;
   }
   // Returns the weighted mean square that the first terms leave of the heights of some points.
   double left_by(int terms, int points) const {
-    double left = heights;
-    for (int i = 0; i < terms; ++i) left -= right[i] * right[i];
+    double left = heights_;
+    for (int i = 0; i < terms; ++i) left -= added_[i] * added_[i];
     return std::max(left, 0.0) / (points - terms);
   }
   // Returns the surface of the first terms.
-  Terms solved(int terms) const {
-    Terms x = right;
-    for (int i = terms - 1; i >= 0; --i) {
-      for (int j = i + 1; j < terms; ++j) x[i] -= matrix[j][i] * x[j];
-      x[i] /= matrix[i][i];
-    }
-    return x;
-  }
+  Terms surface(int terms) const { return equations_.coefficients(added_, terms); }
+
+ private:
+  NormalEquations<kTerms> equations_;
+  Terms added_{};
+  double heights_ = 0;  // the weighted sum of squares
 };
 
 // Returns how far a surface of more terms counts, between 0 and 1.
@@ -105,12 +82,11 @@ Vec3 smooth_normal(const Vec3& here, std::span<const Vec3> around, const Triangl
     fit.add(terms(dot(away, u), dot(away, v), squared), dot(away, of.of_sphere),
             1 / (squared * squared * squared));
   }
-  fit.hold_back();
-  if (!fit.factorise()) return of.by_angle;
+  if (!fit.solve()) return of.by_angle;
   const double by_quadric = fit.left_by(kQuadric, count),
                bent = weight_of(by_quadric, fit.left_by(kSlopes, count));
   const auto normal_of = [&](int terms) {
-    const Terms found = fit.solved(terms);
+    const Terms found = fit.surface(terms);
     return normalized(of.of_sphere - found[0] * u - found[1] * v);
   };
   const Vec3 mean = between(of.by_angle, normal_of(kQuadric), bent);

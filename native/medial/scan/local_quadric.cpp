@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scan/local_quadric.h"
 
+#include "base/normal_equations.h"
+
 namespace medial {
 namespace {
 
 constexpr int kTerms = 6;
 constexpr double kSmallestPivot = 1e-9;  // of a diagonal element: beyond it columns depend
-using Terms = std::array<double, kTerms>;
+using Equations = NormalEquations<kTerms>;
+using Terms = Equations::Terms;
 
 Terms monomials(double u, double v) { return {1, u, v, u * u, u * v, v * v}; }
 
@@ -14,49 +17,6 @@ double smooth_weight(double squared) {
   const double inner = 1 - squared;
   return inner > 0 ? inner * inner : 0;
 }
-
-// The normal equations of a fit.
-struct NormalEquations {
-  std::array<Terms, kTerms> matrix{};  // the lower half
-  Terms right{};
-
-  void add(const Terms& row, double height, double weight) {
-    for (int i = 0; i < kTerms; ++i) {
-      const double weighted = weight * row[i];
-      for (int j = 0; j <= i; ++j) matrix[i][j] += weighted * row[j];
-      right[i] += weighted * height;
-    }
-  }
-  // Replaces the matrix by its Cholesky factor; returns whether its columns are independent.
-  bool factorise() {
-    for (int i = 0; i < kTerms; ++i) {
-      const double diagonal = matrix[i][i];
-      for (int j = 0; j <= i; ++j) {
-        double rest = matrix[i][j];
-        for (int k = 0; k < j; ++k) rest -= matrix[i][k] * matrix[j][k];
-        if (j < i) {
-          matrix[i][j] = rest / matrix[j][j];
-        } else if (rest > kSmallestPivot * diagonal) {
-          matrix[i][i] = std::sqrt(rest);
-        } else {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-  Terms solved(Terms x) const {
-    for (int i = 0; i < kTerms; ++i) {
-      for (int j = 0; j < i; ++j) x[i] -= matrix[i][j] * x[j];
-      x[i] /= matrix[i][i];
-    }
-    for (int i = kTerms - 1; i >= 0; --i) {
-      for (int j = i + 1; j < kTerms; ++j) x[i] -= matrix[j][i] * x[j];
-      x[i] /= matrix[i][i];
-    }
-    return x;
-  }
-};
 
 }  // namespace
 
@@ -112,15 +72,15 @@ std::optional<LocalQuadric> fit_quadric(std::span<const Vec3> points, const Vec3
   if (points.size() <= kTerms) return {};
   const auto [u, v] = across(normal);
   LocalQuadric found{origin, u, v, normal, radius};
-  NormalEquations equations;
+  Equations equations;
   for (const Vec3& p : points) {
     const Vec3 away = (1 / radius) * (p - origin);
     const double weight = weights == Weights::equal ? 1.0 : smooth_weight(squared_length(away));
     equations.add(monomials(dot(away, u), dot(away, v)), dot(away, normal), weight);
   }
-  if (!equations.factorise()) return {};
-  found.terms = equations.solved(equations.right);
-  found.variance = equations.solved({1})[0];
+  if (!equations.factorise(kSmallestPivot)) return {};
+  found.terms = equations.coefficients(equations.added(equations.right()));
+  found.variance = equations.coefficients(equations.added({1}))[0];
   return found;
 }
 

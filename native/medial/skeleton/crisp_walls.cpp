@@ -182,13 +182,24 @@ class BallFinder {
   }
 
   // There are samples near all feet: a ball may have rolled to a face inside the solid, which
-  // bounds nothing.
+  // bounds nothing. And it is inside: where samples are far apart, it may have gone past an edge.
   Touch found(const Trial& trial) const {
     const TouchingBall& ball = trial.ball;
+    if (!is_inside(trial)) return {};
     for (size_t i = 0; i < trial.walls.count; ++i) {
       if (!samples_.are_near(ball.centre - ball.radius * ball.away[i])) return {};
     }
     return {ball.centre, ball.radius, trial.walls, ball.away};
+  }
+
+  // Returns whether a wall is seen from its inner side. All of them are, except the walls of a sharp
+  // reflex edge, which a ball rolls round.
+  bool is_inside(const Trial& trial) const {
+    for (size_t i = 0; i < trial.walls.count; ++i) {
+      const Vec3& outward = samples_.faces().mesh().normal[trial.walls.triangle[i]];
+      if (dot(trial.ball.away[i], outward) < 0) return true;
+    }
+    return false;
   }
 
   // Returns whether the feet are not all in one place, as they are beyond the rim of a sheet.
