@@ -90,14 +90,15 @@ _LEVEL = (
 
 # Only clean forms have these; the edges are those of the facets, which come first.
 PART = Attribute("ma_part", "part", "FACE", "INT", np.int32)
+_KIND = Attribute("ma_kind", "kind", "POINT", "INT", np.int32)
 _STRUCTURE = (
     PART,
     Attribute("ma_seam", "seam", "EDGE", "INT", np.int32),
     Attribute("ma_curve", "curve", "EDGE", "INT", np.int32),
-    Attribute("ma_kind", "kind", "POINT", "INT", np.int32),
+    _KIND,
 )
 
-# Directions of facets and of edges without one; no field of an axis, for they follow from it.
+# Directions at vertices, of sheets and of curves; no fields of an axis, for they follow from it.
 NORMAL, TANGENT = "ma_normal", "ma_tangent"
 
 EPSILON = Attribute("ma_epsilon", "epsilon", "POINT", "FLOAT", np.float32)
@@ -175,8 +176,13 @@ def add_normals(attributes: bpy.types.AttributeGroup, normals: NDArray) -> None:
 
 
 def read_normals(attributes: bpy.types.AttributeGroup) -> NDArray[np.float64] | None:
-    """(n, 3) the normals of the points of a mesh or point cloud; None when it has none."""
+    """(n, 3) the normals of the points of a mesh or point cloud; None when it has none.
+
+    Those of the sheets of a medial axis are none: neither side of a sheet is outside.
+    """
     for name in NORMAL_NAMES:
+        if name == NORMAL and _KIND.name in attributes:
+            continue
         found = attributes.get(name)
         if found is not None and (found.domain, found.data_type) == ("POINT", "FLOAT_VECTOR"):
             return read_vectors(found.data, "vector")

@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ..core.axis.colours import radius_range
 from ..core.errors import InvalidInputError
 from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
 from ..core.solid.ball_cover import Balls
 from .attributes import RADIUS, read_vectors
-from .nodes.groups import add_modifier
+from .colours import colour_mesh, remember_colours
+from .material import FLAT, radius_material
+from .nodes.groups import add_coloured_balls
 from .output_object import Product, check_mode, place, remember
 from .write_mesh import new_mesh
 
@@ -62,15 +65,27 @@ def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -
     balls = found.balls
     none = np.zeros(1, np.int32)
     rows = _Vertices(balls.centres, balls.radii, none, none[:0])
-    thing, is_new = BALLS.write_mesh(source, partial(new_mesh, rows, table=(RADIUS,)))
+    span = radius_range(balls.radii)
+    thing, is_new = BALLS.write_mesh(source, partial(_balls_mesh, rows, span))
     if is_new:
-        add_modifier(thing, "BALLS")
+        add_coloured_balls(thing)
+        thing.data.materials.append(radius_material())
+        thing.color = FLAT
+    remember_colours(thing, RADIUS.name, *span)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[MODE], thing[COVERED] = balls.mode.name, balls.covered
     thing[OUTSIDE], thing[FARTHEST] = balls.outside, balls.farthest
     thing[_WRITTEN] = _name_of(*_rows(thing))
     return thing
+
+
+def _balls_mesh(
+    rows: _Vertices, span: tuple[float, float], name: str | bpy.types.Mesh
+) -> bpy.types.Mesh:
+    mesh = new_mesh(rows, name, (RADIUS,))
+    colour_mesh(mesh, rows.radius, *span)
+    return mesh
 
 
 def read_balls(thing: bpy.types.Object) -> Balls:

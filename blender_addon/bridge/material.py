@@ -16,7 +16,9 @@ from .colours import END, START
 NAME = "Medial Axis Radius"
 RADIUS_MIN = "ma_radius_min"
 RADIUS_MAX = "ma_radius_max"
+THICKNESS = "ma_thickness"
 EPSILON_NAME = "Medial Axis Epsilon"
+THICKNESS_NAME = "Medial Axis Thickness"
 LIMIT = "ma_epsilon_limit"
 FLAT = (0.08, 0.42, 0.5, 1.0)  # of results without colours; orange is what Blender selects with
 
@@ -31,6 +33,12 @@ def epsilon_material() -> bpy.types.Material:
     """As `radius_material`, for reports."""
     found = bpy.data.materials.get((EPSILON_NAME, None))
     return found or _new_material(EPSILON_NAME, EPSILON.name)
+
+
+def thickness_material() -> bpy.types.Material:
+    """As `radius_material`, for sheets with the thickness of walls."""
+    found = bpy.data.materials.get((THICKNESS_NAME, None))
+    return found or _new_material(THICKNESS_NAME, THICKNESS)
 
 
 def _new_material(name: str, value: str) -> bpy.types.Material:

@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ..core.axis.colours import radius_range
 from .attributes import Attribute
+from .colours import colour_mesh, remember_colours
+from .material import FLAT, THICKNESS, thickness_material
 from .output_object import Product, place, remember
 from .step_weights import write_steps
 from .write_mesh import new_mesh
@@ -23,7 +26,7 @@ SHEETS, SHARE = "ma_mid_sheets", "ma_mid_share"
 _NAME = "Medial Axis Thickness"  # of the modifier and of the vertex group
 _ALIKE = 1e-3  # thicknesses that differ by less than this share need no vertex group
 _TABLE = (
-    Attribute("ma_thickness", "of_vertices", "POINT", "FLOAT", np.float32),
+    Attribute(THICKNESS, "of_vertices", "POINT", "FLOAT", np.float32),
     Attribute("ma_face_thickness", "thickness", "FACE", "FLOAT", np.float32),
     Attribute("ma_part", "part", "FACE", "INT", np.int32),
 )
@@ -51,12 +54,25 @@ def write_mid_surface(
     InvalidInputError
         It cannot be changed now, or Blender cannot hold it.
     """
-    thing, _ = MID_SURFACE.write_mesh(source, partial(new_mesh, found, table=_TABLE))
+    span = radius_range(found.of_vertices)
+    thing, is_new = MID_SURFACE.write_mesh(source, partial(_sheets_mesh, found, span))
+    if is_new:
+        thing.data.materials.append(thickness_material())
+        thing.color = FLAT
+    remember_colours(thing, THICKNESS, *span)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[SHEETS], thing[SHARE] = found.sheets, found.share
     _solidify(thing, found.of_vertices)
     return thing
+
+
+def _sheets_mesh(
+    found: MidSurface, span: tuple[float, float], name: str | bpy.types.Mesh
+) -> bpy.types.Mesh:
+    mesh = new_mesh(found, name, _TABLE)
+    colour_mesh(mesh, found.of_vertices, *span)
+    return mesh
 
 
 def _solidify(thing: bpy.types.Object, lengths: NDArray[np.float64]) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 from ..core.small_matrices import length_of
 from .attributes import RADIUS
 from .material import radius_material
-from .nodes.inputs import input_of, row_of, set_inputs
+from .nodes.inputs import has_inputs, input_of, row_of, set_inputs
 from .nodes.tree import Tree
 
 if TYPE_CHECKING:
@@ -70,14 +70,7 @@ def wires_of(thing: bpy.types.Object) -> bpy.types.Modifier | None:
 
 def width_of(modifier: bpy.types.Modifier) -> tuple[Any, str] | None:
     """(owner, path) of the width of the tubes, as `layout.prop` wants them; None where the input is gone."""
-    return row_of(modifier, _WIDTH) if _has_inputs(modifier.node_group, _WIDTH) else None
-
-
-def _has_inputs(tree: bpy.types.NodeTree | None, *names: str) -> bool:
-    if tree is None:
-        return False
-    sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs  # from 4.0
-    return set(names) <= {socket.name for socket in sockets}
+    return row_of(modifier, _WIDTH) if has_inputs(modifier.node_group, _WIDTH) else None
 
 
 def _set_detail(
@@ -85,7 +78,7 @@ def _set_detail(
 ) -> None:
     """Set the numbers of faces that fit the number of wires, unless an artist has chosen others."""
     names = (_SIDES, _SUBDIVISIONS)
-    if not _has_inputs(modifier.node_group, *names):  # of an older version
+    if not has_inputs(modifier.node_group, *names):  # of an older version
         return
     kept = thing.get(DETAIL)
     if kept is None or [input_of(modifier, name) for name in names] == list(kept):
@@ -110,7 +103,7 @@ def wires_group() -> bpy.types.NodeTree:
     """The node group, made where the file has none with these inputs; other changes that an artist made in it stay."""
     inputs = (_WIDTH, _SIDES, _SUBDIVISIONS)
     for found in bpy.data.node_groups:
-        if found.library is None and found.name.startswith(NAME) and _has_inputs(found, *inputs):
+        if found.library is None and found.name.startswith(NAME) and has_inputs(found, *inputs):
             return found
     return _new_group()
 

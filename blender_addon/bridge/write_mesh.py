@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import bpy
 import numpy as np
 
-from ..core.axis.directions import facet_normals, wire_tangents
+from ..core.axis.directions import curve_tangents, sheet_normals
 from ..core.axis.medial_axis import no_edges
 from ..core.axis.structure import SEAM
 from ..core.axis.turning import with_facets_turned
@@ -62,19 +62,22 @@ def new_axis_mesh(axis: MedialAxis, name: str | bpy.types.Mesh) -> bpy.types.Mes
 
 
 def _add_directions(mesh: bpy.types.Mesh, axis: MedialAxis) -> None:
-    """Add normals of facets and tangents of edges without a facet, along which instances can be turned."""
-    # Blender's own normals are not finite where coordinates are huge, and Blender 5.2 refuses such values.
-    normals = facet_normals(axis.vertices, axis.face_offsets, axis.face_vertices)
-    _add_vectors(mesh, NORMAL, "FACE", normals.astype(np.float32).ravel())
+    """Add the normal of the sheet and the tangent of the curve at each vertex, along which instances are turned."""
+    if axis.structure is not None:
+        part = axis.structure.part
+        _add_vectors(
+            mesh,
+            NORMAL,
+            sheet_normals(axis.vertices, axis.face_offsets, axis.face_vertices, part),
+        )
     if len(axis.edges):
-        along = np.zeros((len(mesh.edges), 3), np.float32)
-        along[len(along) - len(axis.edges) :] = wire_tangents(axis.vertices, axis.edges)
-        _add_vectors(mesh, TANGENT, "EDGE", along.ravel())
+        _add_vectors(mesh, TANGENT, curve_tangents(axis.vertices, axis.edges))
 
 
-def _add_vectors(mesh: bpy.types.Mesh, name: str, domain: str, vectors: np.ndarray) -> None:
-    data = mesh.attributes.new(name, "FLOAT_VECTOR", domain).data
-    data.foreach_set("vector", vectors)
+def _add_vectors(mesh: bpy.types.Mesh, name: str, vectors: NDArray[np.float64]) -> None:
+    """Add (v, 3) vectors at the vertices."""
+    data = mesh.attributes.new(name, "FLOAT_VECTOR", "POINT").data
+    data.foreach_set("vector", vectors.astype(np.float32).ravel())
 
 
 def _add_structure(mesh: bpy.types.Mesh, structure: Structure) -> None:

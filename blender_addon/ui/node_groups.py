@@ -4,6 +4,7 @@
 import bpy
 
 from ..bridge.nodes.groups import GROUPS, add_few_balls, add_modifier
+from ..bridge.nodes.inputs import input_of
 from ..bridge.read_axis import find_axis
 from .translation import say
 
@@ -33,7 +34,10 @@ class OBJECT_OT_medial_axis_nodes(bpy.types.Operator):
     def execute(self, context):
         axis = find_axis(context.active_object)
         if self.group == "BALLS":
-            add_few_balls(axis)
+            modifier = add_few_balls(axis)
+            if input_of(modifier, "Merge") > 0.0:
+                count = len(axis.data.vertices)
+                self.report({"INFO"}, say(f"Some 4,000 balls of {count:,}; Merge 0 shows all"))
         else:
             add_modifier(axis, self.group)
         return {"FINISHED"}

@@ -35,11 +35,9 @@ def cover(**options):
 
 
 def spheres(thing):
-    """How many instances the modifier makes."""
+    """How many spheres of 42 vertices the modifier makes."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    return sum(
-        1 for i in depsgraph.object_instances if i.is_instance and i.parent.original == thing
-    )
+    return len(thing.evaluated_get(depsgraph).data.vertices) / 42
 
 
 def test_balls_of_an_ellipsoid(capfd):
@@ -56,6 +54,20 @@ def test_balls_of_an_ellipsoid(capfd):
     radii = attribute(made.data, "ma_radius")
     assert 0.9 < radii[0] < 1.01  # the middle of the ellipsoid, twice 0.5
     assert np.allclose(made.matrix_world @ made.data.vertices[0].co, source.location, atol=0.25)
+
+
+def test_spheres_have_the_colours_of_their_radii():
+    torus()
+    made = cover(count=6)
+    core = addon("core.axis.colours")
+    radius = attribute(made.data, "ma_radius").astype(float)
+    expected = core.colours(radius, *core.radius_range(radius))
+    shown = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    places, colours = positions(shown), np.empty(4 * len(shown.vertices), np.float32)
+    shown.attributes["ma_color"].data.foreach_get("color", colours)
+    away = np.linalg.norm(places[:, None] - positions(made.data)[None], axis=2)
+    own = np.argmin(np.abs(away - radius), axis=1)  # on whose sphere a vertex lies
+    np.testing.assert_allclose(colours.reshape(-1, 4), expected[own], atol=1e-5)
 
 
 def test_around_holds_every_vertex():
@@ -140,7 +152,7 @@ def test_the_spheres_are_the_balls():
     source = ellipsoid()
     made = cover(count=1)
     modifier = made.modifiers[0]
-    addon("bridge.nodes.inputs").set_inputs(modifier, {"Subdivisions": 5})
+    addon("bridge.nodes.inputs").set_inputs(modifier, {"Subdivisions": 5, "Coloured": False})
     depsgraph = bpy.context.evaluated_depsgraph_get()
     scales = [
         list(one.matrix_world.to_scale())

@@ -41,19 +41,38 @@ def vectors(mesh, name):
     return values.reshape(-1, 3)
 
 
-def test_normals_are_those_of_the_facets_and_of_length_one():
-    source = ellipsoid(segments=4)
-    compute(form="CLEAN", sampling="SURFACE", samples=3_000)
+def box():
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    thing = bpy.context.object
+    thing.data.transform(Matrix.Diagonal((1.5, 1.0, 0.7, 1.0)))
+    return thing
+
+
+def test_normals_of_a_box_are_those_of_its_bisectors():
+    source = box()
+    compute(form="CLEAN", sampling="SURFACE", samples=4_000)
     mesh = result_of(source).data
     found = vectors(mesh, "ma_normal")
-    assert mesh.attributes["ma_normal"].domain == "FACE"
-    blender = np.array([face.normal for face in mesh.polygons])
-    area = np.array([face.area for face in mesh.polygons])
-    large = area > 0.01 * area.max()  # crisp places may leave a facet no area, and no normal
-    np.testing.assert_allclose(np.linalg.norm(found[large], axis=1), 1.0, atol=1e-5)
-    assert (np.sum(found * blender, axis=1)[large] > 0.999).all()
-    up = np.mean(found[large, 2] > 0)  # the sheet lies in the plane of the two longer axes
-    assert max(up, 1 - up) > 0.98, "a sheet has one upper side"
+    assert mesh.attributes["ma_normal"].domain == "POINT"
+    on_sheet = attribute(mesh, "ma_kind") != 5
+    np.testing.assert_allclose(np.linalg.norm(found[on_sheet], axis=1), 1.0, atol=1e-5)
+    flat = np.sort(np.abs(found), axis=1)  # a bisector of two sides, or the plane between two
+    off = np.minimum(np.abs(flat - [0, 0.5**0.5, 0.5**0.5]), np.abs(flat - [0, 0, 1.0]))
+    assert np.mean(off.max(axis=1)[on_sheet] < 0.02) > 0.98
+    part, owners = attribute(mesh, "ma_part"), [set() for _ in mesh.vertices]
+    for face in mesh.polygons:
+        for vertex in face.vertices:
+            owners[vertex].add(part[face.index])
+    for each in set(part):  # away from seams every vertex of a part looks the same way
+        inside = [row for row, some in enumerate(owners) if some == {each}]
+        assert not inside or np.min(found[inside] @ found[inside[0]]) > 0.9
+
+
+def test_the_normals_of_sheets_do_not_say_what_is_inside():
+    source = ellipsoid()
+    compute(form="CLEAN", sampling="SURFACE", samples=1_500)
+    read_normals = addon("bridge.attributes").read_normals
+    assert read_normals(result_of(source).data.attributes) is None
 
 
 def test_huge_axes_have_normals():
@@ -66,15 +85,32 @@ def test_huge_axes_have_normals():
     assert mesh.validate() is False
 
 
-def test_tangents_go_on_along_a_chain():
+def arrows_along(thing, name):
+    """(n, 3) where the Z of instances points that Geometry Nodes turn along an attribute, and (n, 3) where they are."""
+    tree = addon("bridge.nodes.tree").Tree("Arrows")
+    along = tree.node("GeometryNodeInputNamedAttribute", name, data_type="FLOAT_VECTOR")
+    turn = tree.node("FunctionNodeAlignEulerToVector", named={"Vector": along}, axis="Z")
+    points = tree.node("GeometryNodeMeshToPoints", named={"Mesh": tree.geometry})
+    cone = tree.node("GeometryNodeMeshCone")
+    wanted = {"Points": points, "Instance": cone, "Rotation": turn}
+    arrows = tree.node("GeometryNodeInstanceOnPoints", named=wanted)
+    thing.modifiers.clear()
+    thing.modifiers.new("Arrows", "NODES").node_group = tree.output(arrows)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    turned = [one.matrix_world.copy() for one in depsgraph.object_instances if one.is_instance]
+    return np.array([m.col[2][:3] for m in turned]), np.array([m.translation for m in turned])
+
+
+def test_instances_follow_the_curve():
     source = torus()
     compute(**CURVE)
-    mesh = result_of(source).data
-    found = vectors(mesh, "ma_tangent")
-    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0, atol=1e-5)
-    middle = np.array([[mesh.vertices[v].co for v in edge.vertices] for edge in mesh.edges])
-    turning = np.cross(middle.mean(axis=1), found)[:, 2]
-    assert (turning > 0).all() or (turning < 0).all()
+    axis = result_of(source)
+    assert axis.data.attributes["ma_tangent"].domain == "POINT"
+    arrows, places = arrows_along(axis, "ma_tangent")
+    assert len(arrows) == len(axis.data.vertices) > 50
+    circle = np.cross((0.0, 0.0, 1.0), places / np.linalg.norm(places, axis=1)[:, None])
+    along = np.sum(arrows * circle, axis=1)
+    assert np.abs(along).min() > 0.95 and (np.all(along > 0) or np.all(along < 0))
 
 
 def test_the_group_of_balls_shows_thousands():
@@ -85,7 +121,7 @@ def test_the_group_of_balls_shows_thousands():
     groups = addon("bridge.nodes.groups")
     modifier = groups.add_few_balls(thing)
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    shown = sum(1 for one in depsgraph.object_instances if one.is_instance)
+    shown = len(thing.evaluated_get(depsgraph).data.vertices) / 42
     assert 1_000 < shown < 8_000
     assert addon("bridge.nodes.inputs").input_of(modifier, "Merge") > 0
     few = link("Few", np.random.default_rng(2).random((100, 3)))

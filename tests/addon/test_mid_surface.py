@@ -34,6 +34,18 @@ def test_a_plate_is_one_sheet_with_its_thickness():
         np.testing.assert_allclose(values, T, rtol=5e-3)
 
 
+def test_a_sheet_is_coloured_by_thickness():
+    plate()
+    made = unsolidify()
+
+    assert made["ma_color_of"] == "ma_thickness" and made["ma_color_end"] == pytest.approx(
+        T, rel=5e-3
+    )
+    red = [each.color[0] for each in made.data.attributes["ma_color"].data]
+    np.testing.assert_allclose(red, 1.0, atol=0.1)  # one thickness has one colour
+    assert made.data.materials[0].name == "Medial Axis Thickness"
+
+
 def test_solidify_gives_the_solid_back():
     plate()
     made = unsolidify()

@@ -196,13 +196,23 @@ def test_rebuild_of_a_ball_has_its_volume(factor, offset):
     assert found == pytest.approx(ball_volume(factor + offset), rel=0.02)
 
 
+def test_rebuilt_balls_have_the_colours_of_their_radii():
+    thing = two_balls()
+    addon("bridge.nodes.inputs").set_inputs(groups().add_modifier(thing, "REBUILD"), {"Voxel": 0.2})
+    mesh, scale = evaluated(thing), addon("core.axis.colours").SCALE
+    large = np.array([vertex.co.x < 5 for vertex in mesh.vertices])
+    np.testing.assert_allclose(colours(mesh)[large], [scale[-1][1]] * large.sum(), atol=0.01)
+    np.testing.assert_allclose(colours(mesh)[~large], [scale[0][1]] * (~large).sum(), atol=0.01)
+    assert 0 < large.sum() < len(large)
+
+
 # --- Thickness Colour
 
 
 def test_colour_goes_from_the_first_to_the_last_colour():
     thing = two_balls()
     modifier = with_group(thing, "COLOUR")
-    scale = addon("bridge.nodes.thickness_colour").SCALE
+    scale = addon("core.axis.colours").SCALE
     found = colours(evaluated(thing))
     assert found[1] == pytest.approx(scale[0][1], abs=0.01)
     assert found[0] == pytest.approx(scale[-1][1], abs=0.01)

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Medial Axis Balls: instances of the balls whose union is the solid."""
+"""Medial Axis Balls: the balls whose union is the solid, as instances or as one mesh with colours."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..material import radius_material
 from .radii import points_with_radii
 from .tree import Tree
 
 if TYPE_CHECKING:
     import bpy
+
+COLOURED = "Coloured"
 
 
 def build(name: str) -> bpy.types.GeometryNodeTree:
@@ -28,4 +31,17 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
         "GeometryNodeInstanceOnPoints",
         named={"Points": points, "Instance": round_one, "Scale": radius},
     )
-    return tree.output(balls)
+    coloured = tree.input(
+        "NodeSocketBool",
+        COLOURED,
+        False,
+        "One mesh with the colours of the vertices, which instances cannot show in Solid view",
+    )
+    mesh = tree.node(
+        "GeometryNodeSetMaterial",
+        tree.node("GeometryNodeRealizeInstances", balls),
+        named={"Material": radius_material()},
+    )
+    return tree.output(
+        tree.node("GeometryNodeSwitch", coloured, balls, mesh, input_type="GEOMETRY")
+    )

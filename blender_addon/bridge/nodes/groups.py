@@ -12,7 +12,7 @@ import bpy
 from ..mesh_arrays import read_positions
 from ..wires import wires_of
 from . import balls, filter, rebuild, thicken, thickness_colour
-from .inputs import set_inputs
+from .inputs import has_inputs, set_inputs
 from .merging import merging_distance
 
 FILE = "medial_axis_nodes.blend"
@@ -84,9 +84,17 @@ def add_modifier(thing: bpy.types.Object, key: str) -> bpy.types.NodesModifier:
     return thing.modifiers[name]
 
 
+def add_coloured_balls(thing: bpy.types.Object) -> bpy.types.NodesModifier:
+    """The modifier with the group of balls, coloured where the file has no older group."""
+    modifier = add_modifier(thing, "BALLS")
+    if has_inputs(modifier.node_group, balls.COLOURED):
+        set_inputs(modifier, {balls.COLOURED: True})
+    return modifier
+
+
 def add_few_balls(thing: bpy.types.Object) -> bpy.types.NodesModifier:
     """The modifier with the group of balls, merged so that a few thousand are left, which Blender draws fast."""
-    modifier = add_modifier(thing, "BALLS")
+    modifier = add_coloured_balls(thing)
     distance = merging_distance(read_positions(thing.data), _MOST_BALLS)
     set_inputs(modifier, {"Merge": distance})
     return modifier

@@ -15,6 +15,14 @@ def set_inputs(modifier: bpy.types.NodesModifier, values: dict[str, Any]) -> Non
     modifier.id_data.update_tag()
 
 
+def has_inputs(tree: bpy.types.NodeTree | None, *names: str) -> bool:
+    """Whether a group has these inputs; one that an older version made may lack some."""
+    if tree is None:
+        return False
+    sockets = tree.interface.items_tree if hasattr(tree, "interface") else tree.inputs  # from 4.0
+    return set(names) <= {socket.name for socket in sockets}
+
+
 def input_of(modifier: bpy.types.NodesModifier, name: str) -> Any:
     """The value of an input."""
     identifier = _identifier(modifier.node_group, name)

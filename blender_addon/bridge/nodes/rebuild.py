@@ -9,6 +9,7 @@ import bpy
 
 from ..attributes import RADIUS
 from .radii import points_with_radii
+from .ramp import stored_colour
 from .tree import Tree
 
 if TYPE_CHECKING:
@@ -34,7 +35,43 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
         tree, _scaled(tree, points, growth), tree.math("MULTIPLY", radius, growth), _VOXEL
     )
     mesh = _scaled(tree, mesh, tree.math("DIVIDE", voxel, _VOXEL))
+    mesh = _coloured(tree, mesh, points)
     return tree.output(tree.node("GeometryNodeSetShadeSmooth", mesh))
+
+
+def _coloured(tree: Tree, mesh: NodeSocket, points: NodeSocket) -> NodeSocket:
+    """The solid with the radius of the nearest ball at each vertex, and with the colours of the axis for it.
+
+    It has no material: an artist's own stays.
+    """
+    row = tree.node("GeometryNodeSampleNearest", points, domain="POINT")
+    radius = tree.node(
+        "GeometryNodeSampleIndex",
+        named={"Geometry": points, "Value": tree.attribute(RADIUS.name), "Index": row},
+        data_type="FLOAT",
+        domain="POINT",
+    )
+    mesh = tree.node(
+        "GeometryNodeStoreNamedAttribute",
+        named={"Geometry": mesh, "Name": RADIUS.name, "Value": radius},
+        data_type="FLOAT",
+        domain="POINT",
+    )
+    least, most = _range_of_radii(tree)
+    start = tree.math("MINIMUM", least, tree.math("MULTIPLY", most, 0.5))  # as in `radius_range`
+    above = tree.math("SUBTRACT", tree.attribute(RADIUS.name), start)
+    return stored_colour(tree, mesh, tree.math("DIVIDE", above, tree.math("SUBTRACT", most, start)))
+
+
+def _range_of_radii(tree: Tree) -> list[NodeSocket]:
+    """The smallest and the largest radius of the axis."""
+    found = tree.node(
+        "GeometryNodeAttributeStatistic",
+        named={"Geometry": tree.geometry, "Attribute": tree.attribute(RADIUS.name)},
+        data_type="FLOAT",
+        domain="POINT",
+    ).node
+    return [next(s for s in found.outputs if s.enabled and s.name == n) for n in ("Min", "Max")]
 
 
 def _scaled(tree: Tree, geometry: NodeSocket, factor: NodeSocket) -> NodeSocket:
@@ -60,13 +97,7 @@ def _voxel(tree: Tree) -> NodeSocket:
         "ShaderNodeVectorMath", box.outputs["Max"], box.outputs["Min"], operation="SUBTRACT"
     )
     length = tree.node("ShaderNodeVectorMath", across, operation="LENGTH")
-    found = tree.node(
-        "GeometryNodeAttributeStatistic",
-        named={"Geometry": tree.geometry, "Attribute": tree.attribute(RADIUS.name)},
-        data_type="FLOAT",
-        domain="POINT",
-    ).node
-    largest = next(s for s in found.outputs if s.enabled and s.name == "Max")
+    _, largest = _range_of_radii(tree)
     whole = tree.math("MULTIPLY_ADD", largest, 2.0, length)
     return tree.choose(
         tree.compare("GREATER_THAN", asked, 0.0), tree.math("DIVIDE", whole, 128.0), asked

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ...core.axis.colours import SCALE
 from ..attributes import RADIUS
-from ..colours import COLOUR
+from .ramp import stored_colour
 from .tree import Tree
 
 if TYPE_CHECKING:
@@ -40,21 +39,4 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     share = tree.math(
         "DIVIDE", tree.math("SUBTRACT", attribute, low), tree.math("SUBTRACT", high, low)
     )
-    ramp = tree.node("ShaderNodeValToRGB", share)
-    _fill(ramp.node.color_ramp.elements)
-    return tree.output(
-        tree.node(
-            "GeometryNodeStoreNamedAttribute",
-            named={"Geometry": tree.geometry, "Name": COLOUR, "Value": ramp},
-            data_type="FLOAT_COLOR",
-            domain="POINT",
-        )
-    )
-
-
-def _fill(elements: bpy.types.ColorRampElements) -> None:
-    """The colours of all that is coloured here."""
-    elements.remove(elements[1])
-    for number, (position, colour) in enumerate(SCALE):
-        element = elements[0] if number == 0 else elements.new(position)
-        element.position, element.color = position, (*colour, 1.0)
+    return tree.output(stored_colour(tree, tree.geometry, share))

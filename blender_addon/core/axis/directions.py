@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Areas and normals of facets, and directions of wires."""
+"""Areas of facets, and at each vertex the normal of its sheet and the direction of its curve."""
 
 from __future__ import annotations
 
@@ -34,9 +34,60 @@ def facet_normals(
     vertices: NDArray[np.float64], offsets: NDArray[np.int32], corners: NDArray[np.int32]
 ) -> NDArray[np.float64]:
     """(f, 3) the unit normals of facets, which are given as for `facet_areas`; 0 where a facet has no area."""
-    largest = float(np.abs(vertices).max(initial=0.0))
-    scaled = vertices / largest if largest > 0.0 else vertices  # no square of a huge number
-    return _unit(_doubled_areas(scaled, offsets, corners))
+    return _unit(_doubled_areas(_scaled(vertices), offsets, corners))
+
+
+def sheet_normals(
+    vertices: NDArray[np.float64],
+    offsets: NDArray[np.int32],
+    corners: NDArray[np.int32],
+    part: NDArray[np.int32],
+) -> NDArray[np.float64]:
+    """(v, 3) the unit normal of the sheet at each vertex, the mean over the facets of one part, by area.
+
+    A vertex on a seam has that of the part with the largest area round it, of equal ones the lowest. Where facets of a
+    part look opposite ways, as where a part with one side only must turn over, it is that of the largest facet.
+    A vertex on no facet that has an area has the vector 0.
+
+    Parameters
+    ----------
+    vertices, offsets, corners
+        As for `facet_areas`; facets of a part turn the same way.
+    part : (f,) int32
+        The part of each facet, from 0.
+    """
+    doubled = _doubled_areas(_scaled(vertices), offsets, corners)
+    area = np.linalg.norm(doubled, axis=1)
+    facet = np.repeat(np.arange(len(part)), np.diff(offsets))
+    own = _part_of_vertices(len(vertices), corners, part[facet], area[facet])
+    kept = own[corners] == part[facet]
+    facet, vertex = facet[kept], corners[kept]
+    total = _sums(vertex, doubled[facet], len(vertices))
+    whole = np.bincount(vertex, area[facet], len(vertices))
+    opposed = np.linalg.norm(total, axis=1) < 0.5 * whole
+    there = np.flatnonzero(opposed[vertex])
+    by_area = there[np.argsort(area[facet[there]], kind="stable")]
+    total[vertex[by_area]] = doubled[facet[by_area]]  # the last one stays
+    return _unit(total)
+
+
+def _part_of_vertices(
+    count: int, vertex: NDArray[np.int32], part: NDArray[np.int32], area: NDArray[np.float64]
+) -> NDArray[np.int32]:
+    """(count,) the part with the largest area at each vertex, of corners with a vertex, a part and an area."""
+    own = np.full(count, -1, np.int32)
+    own[vertex] = part
+    several = np.zeros(count, np.bool_)
+    several[vertex[own[vertex] != part]] = True
+    there = np.flatnonzero(several[vertex])  # sorting all corners would take far longer
+    parts = int(part.max(initial=0)) + 1
+    pairs, row = np.unique(
+        vertex[there].astype(np.int64) * parts + part[there], return_inverse=True
+    )
+    areas = np.bincount(row, area[there], len(pairs))
+    order = np.lexsort((-pairs, areas))
+    own[pairs[order] // parts] = pairs[order] % parts  # the last one stays
+    return own
 
 
 def _doubled_areas(
@@ -61,13 +112,44 @@ def _sums_of_triangles(
     return np.add.reduceat(np.cross(away, away[towards]), starts, axis=0)
 
 
-def wire_tangents(vertices: NDArray[np.float64], wires: NDArray[np.int32]) -> NDArray[np.float64]:
-    """(w, 3) the unit vector along each wire; along a chain of a relaxed level all point the same way.
+def curve_tangents(vertices: NDArray[np.float64], wires: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(v, 3) the unit direction of the curve at each vertex, the same way along a chain of a relaxed level.
 
-    A wire without a length has the vector 0.
+    At a fork it is that of the two wires that go straightest through it. A vertex without a wire has the vector 0.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    wires : (w, 2) int32
     """
-    along = vertices[wires[:, 1]] - vertices[wires[:, 0]]
-    return _unit(along)
+    along = _unit(vertices[wires[:, 1]] - vertices[wires[:, 0]])
+    ends = wires.T.ravel()
+    total = _sums(ends, np.concatenate([along, along]), len(vertices))
+    degree = np.bincount(ends, minlength=len(vertices))
+    order, starts = np.argsort(ends, kind="stable"), np.cumsum(degree) - degree
+    for row in np.flatnonzero(degree > 2).tolist():
+        at = order[starts[row] : starts[row] + degree[row]]
+        total[row] = _straightest(along[at % len(wires)], at < len(wires))
+    return _unit(total)
+
+
+def _straightest(along: NDArray[np.float64], leaves: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """The direction through a fork, of the (n, 3) directions of its wires, which leave it or end there."""
+    away = np.where(leaves[:, None], along, -along)
+    first, last = divmod(int(np.argmin(np.einsum("ik,jk->ij", away, away))), len(away))
+    through = away[last] - away[first]
+    return through if leaves[last] else -through
+
+
+def _scaled(vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The vertices with coordinates up to 1, so that no square of them overflows."""
+    largest = float(np.abs(vertices).max(initial=0.0))
+    return vertices / largest if largest > 0.0 else vertices
+
+
+def _sums(rows: NDArray[np.int32], vectors: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """(count, 3) the sum of the vectors with each row."""
+    return np.column_stack([np.bincount(rows, vectors[:, k], count) for k in range(3)])
 
 
 def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
