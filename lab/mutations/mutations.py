@@ -239,8 +239,8 @@ MUTATIONS = (
     ),
     Mutation(
         "axis/selection.cpp",
-        "std::pow(epsilon, 0.25)",
-        "std::pow(epsilon, 0.5)",
+        "std::sqrt(std::sqrt(epsilon))",
+        "std::sqrt(epsilon)",
         "the exponent of Definition 4",
     ),
     Mutation(
