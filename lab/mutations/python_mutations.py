@@ -234,13 +234,6 @@ MUTATIONS = (
         "a parent gets weight that its child keeps",
         "test_skeleton.py",
     ),
-    _bug(
-        "skeleton/tree.py",
-        "half = (away[other] + chain.length - away[node]) / 2",
-        "half = chain.length / 2",
-        "loops are closed in the middle of their last branch",
-        "test_skeleton.py",
-    ),
     # ---- files
     _bug(
         "files/placing.py",
