@@ -192,8 +192,8 @@ class BallFinder {
     return {ball.centre, ball.radius, trial.walls, ball.away};
   }
 
-  // Returns whether a wall is seen from its inner side. All of them are, except the walls of a sharp
-  // reflex edge, which a ball rolls round.
+  // Returns whether a wall is seen from its inner side. All of them are, except the walls of a
+  // sharp reflex edge, which a ball rolls round.
   bool is_inside(const Trial& trial) const {
     for (size_t i = 0; i < trial.walls.count; ++i) {
       const Vec3& outward = samples_.faces().mesh().normal[trial.walls.triangle[i]];
