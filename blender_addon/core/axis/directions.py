@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..small_matrices import times
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -136,7 +138,7 @@ def curve_tangents(vertices: NDArray[np.float64], wires: NDArray[np.int32]) -> N
 def _straightest(along: NDArray[np.float64], leaves: NDArray[np.bool_]) -> NDArray[np.float64]:
     """The direction through a fork, of the (n, 3) directions of its wires, which leave it or end there."""
     away = np.where(leaves[:, None], along, -along)
-    first, last = divmod(int(np.argmin(np.einsum("ik,jk->ij", away, away))), len(away))
+    first, last = divmod(int(np.argmin(times(away, away))), len(away))
     through = away[last] - away[first]
     return through if leaves[last] else -through
 
