@@ -8,6 +8,7 @@ to the points.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -25,6 +26,8 @@ from .mesh_arrays import read_edges, read_polygons, read_positions
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+_ALIKE = 1e-5  # stretches that differ by less are equal but for the rounding of float32
 
 SAMPLED_TYPES = ("MESH", "POINTCLOUD")
 SOURCE_TYPES = (*SAMPLED_TYPES, "CURVE", "SURFACE", "FONT", "META")
@@ -74,14 +77,28 @@ def split_transform(
         raise InvalidInputError(
             "Expected a finite transform, found NaN or infinity; clear the transform"
         )
-    size, right, image = stretches(world[:3, :3])
+    linear = world[:3, :3]
+    mirror = _mirror_of(linear) if determinant(linear) < 0.0 else np.identity(3)
+    size, right, image = stretches(times(linear, mirror))
     left = _turn_of(image, size, determinant(right))
-    if dot(left[2], image[2]) < 0.0:
-        size[2] = -size[2]
     frame = np.identity(4)
     frame[:3, :3] = times(left.T, right.T)
     frame[:3, 3] = world[:3, 3]
-    return frame, _without_rounding(times(right.T * size, right.T))
+    return frame, times(_without_rounding(times(right.T * size, right.T)), mirror)
+
+
+def _mirror_of(linear: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(3, 3) a mirror along the direction that a matrix stretches least.
+
+    Of several such directions it is the one closest to an axis, the first of these. Otherwise the rounding of float32
+    would choose, and two readings of one transform would differ.
+    """
+    size, right, _ = stretches(linear)
+    least = right[size <= (1.0 + _ALIKE) * size[2]]
+    reach = (least * least).sum(axis=0)
+    axis = int(np.argmax(reach >= (1.0 - _ALIKE) * reach.max()))
+    along = (least * least[:, axis, None]).sum(axis=0) / math.sqrt(reach[axis])
+    return np.identity(3) - 2.0 * along[:, None] * along
 
 
 def _turn_of(

@@ -142,6 +142,20 @@ def test_split_transform_gives_a_rotation_and_a_symmetric_rest(name):
     np.testing.assert_allclose(rest, rest.T, atol=1e-6)
 
 
+@pytest.mark.parametrize("scale", [(-1, 1, 1), (-2, -2, -2), (1, 1, -3), (0.5, -2, 0.5)], ids=str)
+def test_rounding_does_not_turn_the_mirror(scale):
+    """One transform read twice, with another last bit of float32, is split in one way."""
+    split = addon("bridge.read_object").split_transform
+    turn = np.array(Euler((0.4, -0.8, 1.3)).to_matrix(), np.float64)
+    world = np.eye(4)
+    world[:3, :3] = turn * scale
+    random = np.random.default_rng(2)
+    for _ in range(20):
+        other = world * (1.0 + 1e-7 * random.uniform(-1.0, 1.0, (4, 4)))
+        for one, two in zip(split(world), split(other), strict=True):
+            np.testing.assert_allclose(one, two, atol=1e-5)
+
+
 def test_rotation_alone_leaves_the_points_exactly_as_they_are():
     split = addon("bridge.read_object").split_transform
     random = np.random.default_rng(5)
