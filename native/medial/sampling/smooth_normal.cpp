@@ -74,7 +74,8 @@ Vec3 smooth_normal(const Vec3& here, std::span<const Vec3> around, const Triangl
   double squares = 0;
   for (const Vec3& p : around) squares += squared_length(p - here);
   const double scale = std::sqrt(count / squares);
-  const auto [u, v] = across(of.of_sphere);
+  const auto plane = across(of.of_sphere);
+  const Vec3 &u = plane[0], &v = plane[1];
   Fit fit;
   for (const Vec3& p : around) {
     const Vec3 away = scale * (p - here);
