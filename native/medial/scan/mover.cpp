@@ -94,7 +94,7 @@ class Climb {
   }
 
   bool agrees(const LocalQuadric& larger) const {
-    return std::ranges::all_of(smaller_, [&](const LocalQuadric& one) {
+    return std::all_of(smaller_.begin(), smaller_.end(), [&](const LocalQuadric& one) {
       const double apart = dot(larger.place() - one.place(), larger.normal);
       return !(std::abs(apart) > kAgree * noise_ * std::sqrt(one.variance));
     });
