@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..small_matrices import dot, stretches
+from .smooth_line import marks_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -66,7 +67,7 @@ def flats_of(
     found = np.zeros((skeleton.count, 3))
     for branch, rows in enumerate(skeleton.branches):
         points = skeleton.points[rows]
-        marks = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))))
+        marks = marks_of(points)
         here = places.branch == branch
         at = places.along[here] * marks[-1]
         step = np.clip(np.searchsorted(marks, at, side="right") - 1, 0, len(points) - 2)
