@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every source file names its licence in its first line, or in the second after #! ."""
+"""What git holds is ours: every source file names its licence in its first line, or in the second after #! ."""
 
 import shutil
 import subprocess
@@ -24,15 +24,29 @@ SUFFIXES = {
     ".css",
 }
 NAMES = {"CMakeLists.txt", ".clang-format", ".clang-tidy", "run"}
+#: Files of these kinds hold no comment. Archives, wheels and compiled files are not among them.
+OTHERS = {".md", ".png", ".svg", ".txt", ".csv", ".json", ".typed", ".po"}
+OTHER_NAMES = {".gitignore", "LICENSE"}
 
 
-def sources():
-    """All that git knows and that can hold a comment."""
+def tracked():
+    """All the files that git knows, as paths."""
     if shutil.which("git") is None or not (ROOT / ".git").exists():
         pytest.skip("this is no git checkout")
     listed = subprocess.check_output(["git", "ls-files"], cwd=ROOT, text=True).splitlines()
-    paths = [ROOT / name for name in listed]
-    return [p for p in paths if p.is_file() and (p.suffix in SUFFIXES or p.name in NAMES)]
+    return [ROOT / name for name in listed if (ROOT / name).is_file()]
+
+
+def sources():
+    """The tracked files that can hold a comment."""
+    return [p for p in tracked() if p.suffix in SUFFIXES or p.name in NAMES]
+
+
+def test_nothing_built_or_fetched_is_in_the_tree():
+    """Wheels that a download had left at the top level were once committed with everything else."""
+    names = NAMES | OTHER_NAMES
+    others = [p for p in tracked() if p.suffix not in SUFFIXES | OTHERS and p.name not in names]
+    assert not others, f"take these out of git: {', '.join(str(p) for p in others)}"
 
 
 def test_every_source_names_its_licence():
