@@ -124,6 +124,7 @@ def test_partners_are_counted_among_the_samples_that_are_kept():
 def test_pairs_miss_walls_only_where_these_bend_away():
     walls = Walls(
         points=np.zeros((4, 3)),
+        normals=np.zeros((4, 3)),
         distance=np.full(4, 0.1),
         spacing=np.ones(4),
         area=np.ones(4),

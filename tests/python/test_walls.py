@@ -269,9 +269,8 @@ def test_distances_check_their_input(medial, change, word):
 
 
 def test_wanted_spacings_show_what_is_missed():
-    walls = Walls(
-        np.eye(3), np.array([0.1, 1.5, 9.0]), np.ones(3), np.array([1.0, 2.0, 1.0]), np.arange(3)
-    )
+    areas, distances = np.array([1.0, 2.0, 1.0]), np.array([0.1, 1.5, 9.0])
+    walls = Walls(np.eye(3), np.eye(3), np.ones(3), areas, np.arange(3), distance=distances)
     assert walls.missed == 0.25 and walls.thickness == 0.1
     points, spacings = walls.wanted(0.01)
     assert points.tolist() == np.eye(3)[:2].tolist() and spacings.tolist() == [0.05, 0.75]
@@ -289,7 +288,10 @@ def test_no_spacing_is_wanted_above_that_of_the_first_pass():
         analysis=None,
         density=Density(places, np.ones(3), far, places[:0], finest=0.5, limit=0.25),
         spacing=0.5,
-        walls=Walls(places, np.array([0.1, 0.6, 1.5]), np.ones(3), np.ones(3), np.arange(3)),
+        walls=Walls(
+            *(places, places, np.ones(3), np.ones(3), np.arange(3)),
+            distance=np.array([0.1, 0.6, 1.5]),
+        ),
     )
     amount = next_amount(samples, 0.0625, 0.0625, 200)
     sites, spacings = amount["sizing"]

@@ -73,38 +73,19 @@ class Places:
     bulge: NDArray[np.float64] | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Walls:
-    """The distance to the opposite wall at places on the faces.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Walls(Places):
+    """Places on the faces with the distance to the opposite wall.
+
+    Between walls whose samples are `paired` the axis is missing only where the walls bend away between the samples.
 
     Parameters
     ----------
-    points : (n, 3) float64
     distance : (n,) float64
         Infinite where there is no wall within two spacings.
-    spacing : (n,) float64
-        The distance of neighbouring samples there.
-    area : (n,) float64
-        The area that each place represents; only ratios matter.
-    faces : (n,) int32
-        The triangle of the shape on which each place lies.
-    bend : (n,) float64, optional
-        The curvature of the surface there.
-    paired : (n,) bool, optional
-        Whether the sample there has a partner on the opposite wall. Then the axis is missing only where the walls
-        bend away between the samples.
-    bulge : (n,) float64, optional
-        The distance of the sample from the flat face.
     """
 
-    points: NDArray[np.float64]
     distance: NDArray[np.float64]
-    spacing: NDArray[np.float64]
-    area: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    bend: NDArray[np.float64] | None = None
-    paired: NDArray[np.bool_] | None = None
-    bulge: NDArray[np.float64] | None = None
 
     @cached_property
     def missed(self) -> float:
@@ -202,13 +183,4 @@ def find_walls(shape: Shape, places: Places, progress: Any) -> Walls:
             shape.triangles,
             progress=progress,
         )
-    return Walls(
-        places.points,
-        distance,
-        places.spacing,
-        places.area,
-        places.faces,
-        places.bend,
-        places.paired,
-        places.bulge,
-    )
+    return Walls(**vars(places), distance=distance)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "axis/poles.h"
+#include "base/sort_unique.h"
 
 namespace medial {
 namespace {
@@ -20,8 +21,7 @@ Vec3 mean_direction(std::span<const int32_t> infinite_cells, const Voronoi& voro
                     std::vector<int32_t>& rays) {
   rays.clear();
   for (const int32_t cell : infinite_cells) rays.push_back(voronoi.vertex[cell]);
-  std::sort(rays.begin(), rays.end());
-  rays.erase(std::unique(rays.begin(), rays.end()), rays.end());
+  sort_unique(rays);
   Vec3 sum;
   for (const int32_t ray : rays) sum = sum + voronoi.centre[ray];
   return (1 / static_cast<double>(rays.size())) * sum;

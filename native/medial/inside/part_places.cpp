@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/rows.h"
+#include "base/sort_unique.h"
 #include "inside/meeting.h"
 #include "inside/surface.h"
 #include "inside/winding_number.h"
@@ -197,8 +198,7 @@ class PlacesOfParts {
     for (size_t p = 0; p < places_.size(); ++p) {
       if (crossed[p]) places_[p] = PartPlace::overlapping;
     }
-    std::sort(touching.begin(), touching.end());
-    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+    sort_unique(touching);
     std::erase_if(touching, [&](const Pair& pair) { return are_known(pair.first, pair.second); });
     return touching;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/rows.h"
+#include "base/sort_unique.h"
 #include "base/text.h"
 #include "base/vec3.h"
 
@@ -20,12 +21,6 @@ void require_ids(const Rows& rows, size_t vertices, const char* what) {
                               std::to_string(i) + "; number them from 0.");
     }
   }
-}
-
-template <typename Rows>
-void sort_unique(Rows& rows) {
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
 }
 
 Triangle sorted(Triangle t) {

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/portable_math.h"
 #include "base/rows.h"
+#include "base/sort_unique.h"
 #include "base/text.h"
 #include "reduce/checked_mesh.h"
 #include "reduce/envelope.h"
@@ -117,8 +118,7 @@ std::vector<Edge> edges_of(const SphereMesh& mesh) {
       edges.push_back({std::min(side[0], side[1]), std::max(side[0], side[1])});
     }
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_unique(edges);
   return edges;
 }
 

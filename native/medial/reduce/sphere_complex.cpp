@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reduce/sphere_complex.h"
+#include "base/sort_unique.h"
 
 #include <algorithm>
 
@@ -49,8 +50,7 @@ SphereComplex::SphereComplex(const SphereMesh& mesh)
   }
   for (const auto& [a, b] : mesh.wires) join(a, b);
   for (auto& ids : neighbours_) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    sort_unique(ids);
   }
 }
 

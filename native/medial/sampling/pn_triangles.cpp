@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/portable_math.h"
+#include "base/sort_unique.h"
 #include "base/union_find.h"
 #include "sampling/flat_parts.h"
 #include "sampling/smooth_normal.h"
@@ -115,8 +116,7 @@ struct FanNormals {
   }
   // Returns each vertex once, in ascending order, without one.
   std::vector<Vec3> places(std::vector<int32_t>& ids, int32_t without) const {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    sort_unique(ids);
     std::vector<Vec3> found;
     for (const int32_t id : ids) {
       if (id != without) found.push_back(mesh.points[id]);

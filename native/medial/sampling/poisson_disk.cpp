@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/random.h"
+#include "base/sort_unique.h"
 
 namespace medial {
 namespace {
@@ -104,12 +105,6 @@ struct Blocks {
     return at != keys.end() && *at == key ? static_cast<int32_t>(at - keys.begin()) : -1;
   }
 };
-
-template <typename T>
-void sort_unique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 std::vector<BlockKey> dart_keys(const Darts& darts, const Grid& grid, const Run& run) {
   std::vector<BlockKey> keys(static_cast<size_t>(darts.count()));

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "skeleton/crisp_parts.h"
+#include "base/sort_unique.h"
 
 namespace medial {
 namespace {
@@ -159,7 +160,7 @@ class Contraction {
   std::vector<int32_t> groups_of(std::span<const int32_t> vertices) const {
     std::vector<int32_t> all;
     for (const int32_t of : vertices) for_group(of, [&](int32_t v) { all.push_back(v); });
-    sort_out(all);
+    sort_unique(all);
     return all;
   }
 
@@ -168,13 +169,8 @@ class Contraction {
     for (const int32_t v : vertices) {
       all.insert(all.end(), c_.facets_at[v].begin(), c_.facets_at[v].end());
     }
-    sort_out(all);
+    sort_unique(all);
     return all;
-  }
-
-  static void sort_out(std::vector<int32_t>& ids) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
 
   CrispState& c_;

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "skeleton/crisp_parts.h"
+#include "base/sort_unique.h"
 #include "skeleton/focal_line.h"
 
 namespace medial {
@@ -309,8 +310,7 @@ class FocalRims {
     for (const int32_t v : web_) {
       facets_.insert(facets_.end(), c_.facets_at[v].begin(), c_.facets_at[v].end());
     }
-    std::sort(facets_.begin(), facets_.end());
-    facets_.erase(std::unique(facets_.begin(), facets_.end()), facets_.end());
+    sort_unique(facets_);
   }
 
   bool is_in_web(int32_t v) const { return on_line_[v].knots[0] >= 0; }

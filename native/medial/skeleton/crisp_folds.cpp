@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "base/flat_polygon.h"
+#include "base/sort_unique.h"
 #include "skeleton/crisp_parts.h"
 
 namespace medial {
@@ -84,7 +85,7 @@ class Unfolder {
                                                for (const Corner& c : c_.complex.ring(suspects[i]))
                                                  out.push_back(c.vertex);
                                              });
-    sort_out(vertices);
+    sort_unique(vertices);
     return vertices;
   }
 
@@ -95,7 +96,7 @@ class Unfolder {
         for (const Corner& c : c_.complex.ring(f)) all.push_back(c.vertex);
       }
     }
-    sort_out(all);
+    sort_unique(all);
     return all;
   }
 
@@ -108,13 +109,8 @@ class Unfolder {
       if (!std::binary_search(vertices.begin(), vertices.end(), c_.follows[v])) continue;
       all.insert(all.end(), c_.facets_at[v].begin(), c_.facets_at[v].end());
     }
-    sort_out(all);
+    sort_unique(all);
     return all;
-  }
-
-  static void sort_out(std::vector<int32_t>& ids) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
 
   bool moves(int32_t v) const {

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/point_tree.h"
+#include "base/sort_unique.h"
 
 namespace medial {
 namespace {
@@ -94,8 +95,7 @@ class KnotChains {
     for (const int32_t v : web) {
       if (!at[v].is_at_knot()) segments_.push_back(at[v].knots);
     }
-    std::sort(segments_.begin(), segments_.end());
-    segments_.erase(std::unique(segments_.begin(), segments_.end()), segments_.end());
+    sort_unique(segments_);
     for (const auto& [a, b] : segments_) {
       next_[a].push_back(b);
       next_[b].push_back(a);

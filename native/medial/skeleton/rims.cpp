@@ -2,6 +2,7 @@
 #include "skeleton/rims.h"
 
 #include "base/csr.h"
+#include "base/sort_unique.h"
 #include "skeleton/rim_waves.h"
 
 namespace medial {
@@ -142,7 +143,7 @@ class Relaxer {
         if (row_[v] >= 0 && halvings[row_[v]] <= kHalvings) rows.push_back(row_[v]);
       }
     }
-    sort_out(rows);
+    sort_unique(rows);
     for (const int32_t i : rows) ++halvings[i];
     return rows;
   }
@@ -153,13 +154,8 @@ class Relaxer {
       const auto own = touched_at_[i];
       facets.insert(facets.end(), own.begin(), own.end());
     }
-    sort_out(facets);
+    sort_unique(facets);
     return facets;
-  }
-
-  static void sort_out(std::vector<int32_t>& ids) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   }
 
   Polygons polygons_;

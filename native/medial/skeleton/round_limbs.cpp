@@ -2,6 +2,7 @@
 #include "skeleton/round_limbs.h"
 
 #include "base/sort.h"
+#include "base/sort_unique.h"
 #include "skeleton/curves.h"
 
 namespace medial {
@@ -36,9 +37,7 @@ Forest dangling(const Hierarchy::Parts& h, const LevelOptions& options, const Al
     const auto& [a, b] = h.complex.ends[e];
     forest.vertices.insert(forest.vertices.end(), {a, b});
   }
-  std::sort(forest.vertices.begin(), forest.vertices.end());
-  forest.vertices.erase(std::unique(forest.vertices.begin(), forest.vertices.end()),
-                        forest.vertices.end());
+  sort_unique(forest.vertices);
   forest.is_root.assign(forest.vertices.size(), 1);
   for (const int32_t e : forest.edges) {
     const int32_t v = with_vertex(h.partner[e]), next = other_end(h.complex, e, v);

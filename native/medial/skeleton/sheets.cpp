@@ -5,6 +5,7 @@
 #include <queue>
 
 #include "base/raise.h"
+#include "base/sort_unique.h"
 #include "base/union_find.h"
 
 namespace medial {
@@ -45,8 +46,7 @@ class Dropper {
       meetings_.back().push_back(number_.at(sheets.of_facet[facet]));
     }
     for (auto& meeting : meetings_) std::sort(meeting.begin(), meeting.end());
-    std::sort(meetings_.begin(), meetings_.end());
-    meetings_.erase(std::unique(meetings_.begin(), meetings_.end()), meetings_.end());
+    sort_unique(meetings_);
     for (size_t m = 0; m < meetings_.size(); ++m) {
       for (const int32_t sheet : meetings_[m]) {
         auto& own = groups_[sheet].meetings;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/wall_partners.h"
+#include "base/sort_unique.h"
 
 namespace medial {
 namespace {
@@ -20,8 +21,7 @@ WallPartners::WallPartners(std::span<const int32_t> partner, const Samples& samp
     pairs.push_back({p, q});
     pairs.push_back({q, p});
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_unique(pairs);
   partners_ = csr_of_pairs(pairs, samples.row.size(), run);
 }
 

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "base/sort_unique.h"
 #include "base/union_find.h"
 
 namespace medial {
@@ -15,8 +16,7 @@ constexpr double kAtCrease = 2;  // the largest radius at a crease, in spacings
 std::vector<int32_t> parts_at(const Facets& facets, const AxisParts& parts, int32_t edge) {
   std::vector<int32_t> found;
   for (const int32_t f : facets.at_edge[edge]) found.push_back(parts.of_facet[f]);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   return found;
 }
 
