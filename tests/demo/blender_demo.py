@@ -33,8 +33,9 @@ def main():
     if arguments.flat:
         source.data.polygons.foreach_set("use_smooth", np.zeros(len(source.data.polygons), bool))
     result = compute(source)
+    arguments.output.mkdir(parents=True, exist_ok=True)
     files = write(result, arguments.output, source.name)
-    blender_scene.arrange(source, result)
+    blender_scene.arrange(source, result, shine=not arguments.flat)
     files += [save(arguments.output, source.name), render(arguments.output, source.name)]
     report = {**figures(package, result), "files": ", ".join(path.name for path in files)}
     arguments.report.write_text(json.dumps(report), encoding="utf-8")

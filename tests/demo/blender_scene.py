@@ -13,11 +13,12 @@ PIXELS = (800, 600)
 SAMPLES = 24
 
 
-def arrange(source, result):
-    """Set up everything that `bpy.ops.render.render` needs."""
+def arrange(source, result, shine=True):
+    """Set up everything that `bpy.ops.render.render` needs. Without `shine` the surface has no highlight, which would
+    show each triangle of a mesh of many flat ones."""
     center, radius = bounding_ball(source)
     source.data.materials.clear()
-    source.data.materials.append(glass())
+    source.data.materials.append(glass(shine))
     source.visible_shadow = source.visible_diffuse = source.visible_glossy = False
     result.show_in_front = False
     look_at(center, radius, world_points(source))
@@ -85,8 +86,8 @@ def light():
     links.new(switch.outputs[0], nodes.new("ShaderNodeOutputWorld").inputs[0])
 
 
-def glass():
-    """Clear where the surface faces the camera, tinted where it turns away, with a highlight; no back side.
+def glass(shine=True):
+    """Clear where the surface faces the camera, tinted where it turns away, with a highlight if wanted; no back side.
 
     Made of transparency and emission alone, which Cycles draws without noise. Sockets are linked by index:
     their names differ between versions.
@@ -104,10 +105,11 @@ def glass():
     turned.inputs[0].default_value = 0.2
     rim = map_range(new, link, turned.outputs[1], 0.06, 0.75)
     body = mix(new, link, rim, clear.outputs[0], tint.outputs[0])
-    shine = new("ShaderNodeEmission")
-    lit = mix(new, link, highlight(new, link), body, shine.outputs[0])
+    if shine:
+        white = new("ShaderNodeEmission")
+        body = mix(new, link, highlight(new, link), body, white.outputs[0])
     front = mix(
-        new, link, new("ShaderNodeNewGeometry").outputs["Backfacing"], lit, clear.outputs[0]
+        new, link, new("ShaderNodeNewGeometry").outputs["Backfacing"], body, clear.outputs[0]
     )
     link(front, new("ShaderNodeOutputMaterial").inputs[0])
     return material
