@@ -30,14 +30,13 @@ HEADER += ["spike", "s", "what was said"]
 
 def row(name: str, sampling: str, worst: bool) -> list[str]:
     from medial_axis.core.errors import DegenerateInputError, InvalidInputError
-    from medial_axis.core.settings import Form, SamplingMode
+    from medial_axis.core.settings import SamplingMode
 
     vertices, triangles = messy.load(name, lambda file: _module.DATA / file)
     gaps = medial.open_edges(vertices, triangles) if len(triangles) else 0
     start = time.process_time()
     try:
-        asked = {"sampling": SamplingMode[sampling], "form": Form.CLEAN}
-        result = resampled.by_the_addon((vertices, triangles), **asked)
+        result = resampled.by_the_addon((vertices, triangles), sampling=SamplingMode[sampling])
     except (DegenerateInputError, InvalidInputError) as refusal:
         return [name, str(len(triangles)), str(gaps), *[""] * 7, f"refused: {refusal}"]
     seconds = time.process_time() - start
