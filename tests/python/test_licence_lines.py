@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What git holds is ours: every source file names its licence in its first line, or in the second after #! ."""
+"""Git holds our own files alone: every source file names its licence in its first line, or in the second after #! ."""
 
 import shutil
 import subprocess

@@ -212,14 +212,30 @@ def test_workflows_name_the_systems_that_they_run_on():
     assert all(f"'{system}'" in named for system in systems.split())
 
 
-def test_commands_of_workflows_exist():
-    steps = [
+def steps_of_workflows():
+    return [
         step
         for jobs in workflows().values()
         for job in jobs.values()
         for step in job.get("steps", ())
     ]
-    commands = [line for step in steps for line in step.get("run", "").splitlines()]
+
+
+def test_what_a_job_downloads_another_has_uploaded():
+    """A name that nobody uploads would stop a release at its end."""
+    names = {"upload": [], "download": []}
+    for step in steps_of_workflows():
+        if kind := re.match(r"actions/(upload|download)-artifact@", step.get("uses", "")):
+            given = step["with"]
+            names[kind[1]].append(given.get("name") or given["pattern"])
+    made = [re.sub(r"\$\{\{.*?\}\}", ".+", name) for name in names["upload"]]
+    assert len(names["download"]) > 8
+    for name in names["download"]:
+        assert any(re.fullmatch(some, name.replace("*", "x")) for some in made), name
+
+
+def test_commands_of_workflows_exist():
+    commands = [line for step in steps_of_workflows() for line in step.get("run", "").splitlines()]
     words = [re.split(r"[\s;\"()]+", command) for command in commands]
     scripts = {word for row in words for word in row if word.endswith(".py")}
     assert scripts > {"build_addon.py", "tests/addon/run.py", "tests/matrix/updates.py"}

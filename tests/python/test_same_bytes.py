@@ -68,6 +68,41 @@ def test_orders_that_the_standard_leaves_open_are_not_used_for_items():
     assert set(found) == medians
 
 
+HASHED = re.compile(r"std::unordered_\w+<")
+
+
+def visited_in_the_order_of_hashes(code):
+    """The names of hash tables that a loop, or an iterator, visits: each C++ library has its own order."""
+    tables = "|".join(
+        ["std::unordered_\\w+<.*>", *re.findall(r"using (\w+) = std::unordered_", code)]
+    )
+    names = set(re.findall(rf"(?:{tables})[>,\s&\d]*\s(\w+)[;,)({{]", code))
+    return sorted(name for name in names if re.search(rf": {name}\)|\b{name}\.c?begin\(", code))
+
+
+def test_no_result_has_the_order_of_hashes():
+    tables = {path: code_of(path) for path in SOURCES if HASHED.search(code_of(path))}
+    assert {path.name for path in tables} == {
+        "winding_number.cpp",
+        "pockets.cpp",
+        "level_set.cpp",
+        "paired_samples.h",
+    }
+    for path, code in tables.items():
+        unit = path.with_suffix(".cpp")
+        assert visited_in_the_order_of_hashes(code + code_of(unit)) == [], path.name
+
+
+def test_a_loop_over_hashes_is_found():
+    one = "std::unordered_map<int, std::vector<int>> cells;\nfor (auto& [id, cell] : cells) {"
+    two = "using Parts = std::unordered_set<int>;\nvoid f(const Parts& parts) { parts.begin(); }"
+    row = "std::array<std::unordered_set<uint64_t>, 3> had_;\nfor (auto& set : had_) set.clear();"
+    assert visited_in_the_order_of_hashes(one) == ["cells"]
+    assert visited_in_the_order_of_hashes(two) == ["parts"]
+    assert visited_in_the_order_of_hashes(row) == ["had_"]
+    assert visited_in_the_order_of_hashes(one.replace(": cells", ": rows")) == []
+
+
 def test_compiled_modules_import_no_inexact_function():
     compiled = sorted(paths.LIBRARY.glob("_medial.*-linux-gnu.so"))
     if not compiled:
