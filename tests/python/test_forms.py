@@ -370,6 +370,21 @@ def test_an_axis_of_as_many_pieces_as_the_faces_is_not_torn():
 
     from medial_axis.core.axis.topology import _why
 
-    samples = SimpleNamespace(buried=0)
+    samples = SimpleNamespace(buried=0, solid=None)
     assert _why((1, 0, 0), (1, 1, 0), samples).startswith("walls or gaps are thinner")
     assert _why((2, 0, 0), (1, 0, 0), samples).startswith("some parts are thinner")
+
+
+def test_a_single_body_is_not_said_to_overlap():
+    from types import SimpleNamespace
+
+    from medial_axis.core.axis.topology import _why
+
+    samples = SimpleNamespace(
+        buried=3, solid=SimpleNamespace(shape=SimpleNamespace(is_folded=True))
+    )
+    assert _why((1, 3, 0), (1, 0, 0), samples).startswith("faces fold back on each other")
+    samples.solid.shape.is_folded = False
+    assert _why((1, 3, 0), (1, 0, 0), samples).startswith("walls or gaps are thinner")
+    assert _why((1, 3, 0), (2, 0, 0), samples) == "its parts overlap"
+    assert _why((3, 0, 0), (2, 0, 0), samples).startswith("its parts overlap, and some")

@@ -19,6 +19,7 @@ from ..settings import Form, SamplingMode, Side, SidesFrom
 from .effort import EFFORT
 from .nearness import nearest
 from .sample_spacing import next_amount
+from .worst_doubt import WorstDoubt, worst_doubt
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -84,12 +85,15 @@ class Closed:
         Why pairs were taken: what was wrong with the samples before.
     differs : bool
         The numbers of the samples still differ from those of the faces.
+    worst : WorstDoubt or None
+        Where the samples are most in doubt, if the numbers differ.
     """
 
     samples: AnalysedSamples
     passes: int
     why: str
     differs: bool
+    worst: WorstDoubt | None = None
 
     def __str__(self) -> str:
         end = "; the numbers of the faces are not reached within the budget" if self.differs else ""
@@ -150,7 +154,10 @@ def closed(
     if not passes:
         return None
     why = "the walls are thin" if close else "the topology was not that of the faces"
-    return Closed(best.samples, passes, why, best.differences > 0)
+    if not best.differences:
+        return Closed(best.samples, passes, why, differs=False)
+    worst = worst_doubt(request.shape, best.samples, best.places)
+    return Closed(best.samples, passes, why, differs=True, worst=worst)
 
 
 def _best(
@@ -248,7 +255,7 @@ def _doubts(
     with native.own_errors():
         found: tuple[NDArray[np.float64], NDArray[np.float64]] = samples.analysis.doubts(
             shape.points,
-            shape.triangles,
+            shape.triangles[shape.unfolded],
             samples.normals,
             _REACH * samples.apart,
             progress=request.progress.part(0.05),
