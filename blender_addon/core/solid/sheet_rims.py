@@ -32,12 +32,8 @@ _ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
 _LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
 _SMOOTH = 0.8  # cosine between the walls of edges beside each other that are one wall, at least
 _SHORT = 1e-6  # in radii: a shorter edge has no direction
-_NOTHING, _AT_WALL, _CORNER, _OWN = range(
-    4
-)  # what an edge ends at: unknown; a wall ahead; a reflex edge; its own ball
-_LONG = np.array(
-    (_REACH, 1.5, 0.5, _REACH)
-)  # in radii: shorter stretches of each kind tell nothing
+_NOTHING, _AT_WALL, _CORNER = range(3)  # what an edge ends at: no wall, a wall ahead, a reflex edge
+_LONG = np.array((8.0, 1.5, 0.5))  # in radii: shorter stretches of each kind tell nothing
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,8 +177,8 @@ def _ends_of(
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
     """What each edge ends at, and the place and normal of the plane there.
 
-    That is the wall that a ray out of the sheet meets, or else the ball. At the inner corner of a rim all balls touch
-    the same reflex edge. Edges without a length or a ball, at a wall, and steps of the rim end at nothing.
+    That is the wall that a ray out of the sheet meets. At the inner corner of a rim all balls touch the same reflex
+    edge. Edges without a length or a ball, steps of the rim, and what a ray leaves without a wall end at nothing.
     """
     kind = np.full(len(edges.ends), _NOTHING)
     places, normals = np.zeros((2, len(kind), 3))
@@ -190,16 +186,20 @@ def _ends_of(
         return kind, places, normals
     with own_errors() as module:
         away = np.asarray(module.surface_distances(edges.middles, walls.points, walls.triangles))
-    has = edges.out.any(axis=1) & (away > TOUCHES * edges.radius) & (edges.radius > 0.0)
+    has = edges.out.any(axis=1) & (edges.radius > 0.0)
+    there = has & (away <= TOUCHES * edges.radius)
+    # A ray from within finds the wall at which an edge is already.
+    places[there], normals[there] = _walls_ahead(edges.of(there), walls, back=1.0)
+    kind[normals.any(axis=1)] = _AT_WALL
+    has &= ~there
     rim = edges.of(has)
     feet = rim.middles + rim.radius[:, None] * rim.out
     at_edge = reflex_distances(feet, walls) <= 2.0 * TOUCHES * rim.radius
     at, ahead = _walls_ahead(rim, walls)
     met = ahead.any(axis=1) & ~at_edge
     at[~met], ahead[~met] = feet[~met], rim.out[~met]
-    step = ~_are_nearest(rim, at)
-    ahead[step] = 0.0
-    kind[has] = np.where(at_edge, _CORNER, np.where(step, _NOTHING, np.where(met, _AT_WALL, _OWN)))
+    ahead[~_are_nearest(rim, at) | ~(met | at_edge)] = 0.0
+    kind[has] = np.where(at_edge, _CORNER, np.where(ahead.any(axis=1), _AT_WALL, _NOTHING))
     places[has], normals[has] = at, ahead
     return kind, places, normals
 
@@ -213,22 +213,23 @@ def _are_nearest(rim: RimEdges, places: NDArray[np.float64]) -> NDArray[np.bool_
 
 
 def _walls_ahead(
-    rim: RimEdges, walls: Walls
+    rim: RimEdges, walls: Walls, back: float = 0.0
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(k, 3) where rays out of the sheets meet a wall, and (k, 3) its unit normal; 0 where there is none.
 
-    Two more rays beside each tell the direction of the wall.
+    Rays start so many radii back within the sheet. Two more rays beside each tell the direction of the wall.
     """
+    if not len(rim.ends):
+        return np.zeros((0, 3)), np.zeros((0, 3))
     aside = np.cross(rim.along, rim.out)
     step = _ASIDE * rim.radius[:, None]
-    starts = np.concatenate(
-        (rim.middles, rim.middles + step * rim.along, rim.middles + step * aside)
-    )
+    start = rim.middles - back * rim.radius[:, None] * rim.out
+    starts = np.concatenate((start, start + step * rim.along, start + step * aside))
     with own_errors() as module:
         way = module.wall_distances(
             np.ascontiguousarray(starts),
             np.ascontiguousarray(np.tile(-rim.out, (3, 1))),
-            np.tile(_REACH * rim.radius, 3),
+            np.tile((_REACH + back) * rim.radius, 3),
             walls.points,
             walls.triangles,
         )
@@ -274,7 +275,8 @@ def _like(
     lengths = np.linalg.norm(straight[edges.ends[rows, 1]] - straight[edges.ends[rows, 0]], axis=1)
     nearest = rows[nearest_along(lengths, sites, closed)]
     away = np.linalg.norm(edges.middles[nearest] - edges.middles[rows], axis=1)
-    return np.where(away <= _REACH * edges.radius[rows], nearest, np.where(counts, rows, -1))
+    near = away <= _REACH * edges.radius[rows] + lengths
+    return np.where(near, nearest, np.where(counts, rows, -1))
 
 
 def _long(
