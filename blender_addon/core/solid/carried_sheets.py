@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from .thin_sheets import ThinSheets
 
 _LAST = 2  # so many vertices at the end of a bend may be in one of its sheets only
+_BENDS = 1e-3  # one less the length of the mean normal of a sheet that is curved, at least
+_EQUAL = 5e-4  # radii whose quotient differs by less from 1 are equal
 _FLAT = 2e-8  # one less the cosine between planes that are one
 _RINGS = 3  # so many rings of facets round a bent one tell nothing either
 _PLANE = 0.02  # planes whose directions differ by less do not determine where they meet
@@ -67,28 +69,28 @@ def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
     )
 
 
-def _clear(sheets: ThinSheets, bent: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _clear(sheets: ThinSheets, unclear: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(t,) the triangles whose facets lie between faces as a whole, and are some rings away from others.
 
     In a sheet that is not so wide they are as many rings away as there are.
     """
-    unclear = bent[sheets.triangles].any(axis=1) | ~sheets.facing
-    tilted = _tilted(sheets, unclear)
     away = np.where(unclear, 0, _RINGS + 1)
     for ring in range(1, _RINGS + 2):
         of_facets = np.zeros(int(sheets.facet.max()) + 1, bool)
         of_facets[sheets.facet[unclear]] = True
-        at = np.zeros(len(bent), bool)
+        at = np.zeros(len(sheets.vertices), bool)
         at[sheets.triangles[of_facets[sheets.facet]]] = True
         unclear = at[sheets.triangles].any(axis=1)
         away[unclear] = np.minimum(away[unclear], ring - 1)
     away[sheets.sliver] = 0
     most = np.zeros(sheets.parts, np.int64)
     np.maximum.at(most, sheets.part, away)
-    return np.asarray((away > 0) & (away == most[sheets.part])) & ~tilted
+    return np.asarray((away > 0) & (away == most[sheets.part]))
 
 
-def _tilted(sheets: ThinSheets, unclear: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _tilted(
+    sheets: ThinSheets, unclear: NDArray[np.bool_], area: NDArray[np.float64]
+) -> NDArray[np.bool_]:
     """(t,) the triangles of facets at rims that leave the plane of the facets around.
 
     A corner of theirs has gone a little way towards the edges of the solid, where the axis forks.
@@ -99,8 +101,7 @@ def _tilted(sheets: ThinSheets, unclear: NDArray[np.bool_]) -> NDArray[np.bool_]
     facets = np.zeros(int(sheets.facet.max()) + 1, bool)
     facets[sheets.facet[at_rim[sheets.triangles].any(axis=1)]] = True
     rim = facets[sheets.facet]
-    a, b, c = (sheets.vertices[sheets.triangles[:, i]] for i in range(3))
-    area = np.where(rim | unclear, 0.0, np.linalg.norm(np.cross(b - a, c - a), axis=1))
+    area = np.where(rim | unclear, 0.0, area)
     total, sums = np.zeros(count), np.zeros((count, 3))
     np.add.at(total, sheets.triangles, area[:, None])
     np.add.at(sums, sheets.triangles, (area[:, None] * sheets.normals)[:, None, :])
@@ -111,6 +112,23 @@ def _tilted(sheets: ThinSheets, unclear: NDArray[np.bool_]) -> NDArray[np.bool_]
     facets[:] = False
     facets[sheets.facet[rim & flat & tilted]] = True
     return facets[sheets.facet]
+
+
+def _doubled_areas(sheets: ThinSheets) -> NDArray[np.float64]:
+    """(t,)"""
+    a, b, c = (sheets.vertices[sheets.triangles[:, i]] for i in range(3))
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1))
+
+
+def _are_curved(
+    sheets: ThinSheets, clear: NDArray[np.bool_], area: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(parts,) the sheets whose clear triangles do not have one normal."""
+    weight = np.where(clear, area, 0.0)
+    total = np.zeros((sheets.parts, 3))
+    np.add.at(total, sheets.part, weight[:, None] * sheets.normals)
+    whole = np.bincount(sheets.part, weight, sheets.parts)
+    return np.asarray(np.linalg.norm(total, axis=1) < (1.0 - _BENDS) * whole)
 
 
 class _Planes:
@@ -126,10 +144,38 @@ class _Planes:
         pairs, of_corner = np.unique(key, return_inverse=True)
         self._of_corner = of_corner.reshape(key.shape)
         part, self.vertex = np.divmod(pairs, count)
-        known, normals, slopes = self._means(sheets, bent)
+        area = _doubled_areas(sheets)
+        unclear = bent[sheets.triangles].any(axis=1) | ~sheets.facing
+        tilted = _tilted(sheets, unclear, area)
+        clear = _clear(sheets, unclear) & ~tilted
+        self._take(sheets, part, clear, area)
+        curved = _are_curved(sheets, clear, area)
+        if curved.any():
+            # Far from its facets the plane of a curved sheet is another one.
+            more = curved[sheets.part] & ~unclear & ~tilted & ~sheets.sliver & self._fits(sheets)
+            self._take(sheets, part, clear | more, area)
+
+    def _take(
+        self,
+        sheets: ThinSheets,
+        part: NDArray[np.int64],
+        clear: NDArray[np.bool_],
+        area: NDArray[np.float64],
+    ) -> None:
+        known, normals, slopes = self._means(sheets, np.where(clear, area, 0.0))
         site = self._sites(sheets.vertices, part, known)
         self.places, self.normals = sheets.vertices[self.vertex[site]], normals[site]
         self._radius, self._slopes = sheets.radius[self.vertex[site]], slopes[site]
+
+    def _fits(self, sheets: ThinSheets) -> NDArray[np.bool_]:
+        """(t,) the triangles whose balls are as large as the planes tell: they are between the same walls.
+
+        A ball that touches an edge is smaller at a rim, and larger where walls meet.
+        """
+        radii = sheets.radius[sheets.triangles]
+        told = self.radii_at_corners(sheets.vertices)
+        fits = (np.abs(radii - told) <= _EQUAL * told).all(axis=1)
+        return np.asarray(fits)
 
     def at_ends_of_bends(
         self, sheets: ThinSheets
@@ -160,13 +206,9 @@ class _Planes:
         return vertex[near], self.places[pair[near]], self.normals[pair[near]]
 
     def _means(
-        self, sheets: ThinSheets, bent: NDArray[np.bool_]
+        self, sheets: ThinSheets, weight: NDArray[np.float64]
     ) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.float64]]:
         """Whether each pair of sheet and vertex has facets between faces, and their mean normal and slope."""
-        a, b, c = (sheets.vertices[sheets.triangles[:, i]] for i in range(3))
-        area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        clear = _clear(sheets, bent)
-        weight = np.where(clear, area, 0.0)
         total = np.zeros(len(self.vertex))
         sums = np.zeros((2, len(self.vertex), 3))
         for corner in range(3):
