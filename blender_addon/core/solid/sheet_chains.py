@@ -55,9 +55,7 @@ def chains_of(ends: NDArray[np.int64], part: NDArray[np.int32]) -> list[Chain]:
     return found
 
 
-def _followed(
-    row: int, after: NDArray[np.int64], seen: NDArray[np.bool_]
-) -> NDArray[np.int64]:
+def _followed(row: int, after: NDArray[np.int64], seen: NDArray[np.bool_]) -> NDArray[np.int64]:
     rows = []
     while row >= 0 and not seen[row]:
         seen[row] = True
