@@ -115,7 +115,7 @@ def _tilted(
 
 
 def _doubled_areas(sheets: ThinSheets) -> NDArray[np.float64]:
-    """(t,)"""
+    """(t,) twice the area of each triangle."""
     a, b, c = (sheets.vertices[sheets.triangles[:, i]] for i in range(3))
     return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1))
 

@@ -207,7 +207,7 @@ def _ends_of(
 def _are_nearest(rim: RimEdges, places: NDArray[np.float64]) -> NDArray[np.bool_]:
     """(k,) the edges whose walls are not much farther than those of edges beside them: others are steps of the rim."""
     away = np.linalg.norm(places - rim.middles, axis=1)
-    least = np.full(int(rim.ends.max()) + 1, np.inf)
+    least = np.full(int(rim.ends.max(initial=-1)) + 1, np.inf)
     np.minimum.at(least, rim.ends, away[:, None])
     return np.asarray(away <= _STEPS * least[rim.ends].min(axis=1))
 
