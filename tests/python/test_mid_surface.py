@@ -73,14 +73,13 @@ def test_sheets_of_flat_walls_at_the_defaults(name, seed):
 def check_flat(known, found):
     assert found.sheets == known.sheets
     assert off(known, found.vertices).max() < 0.005 * known.t
-    corners = known.rectangles[:, :1] + np.stack(
-        [0 * known.rectangles[:, 1], *known.rectangles[:, 1:].transpose(1, 0, 2)], axis=1
-    )
+    _, u, v = known.rectangles.transpose(1, 0, 2)
+    corners = known.rectangles[:, :1] + np.stack((0 * u, u, v, u + v), axis=1)
     away = np.linalg.norm(corners.reshape(-1, 1, 3) - found.vertices, axis=2).min(axis=1)
     assert away.max() < 0.005 * known.t, "corners of walls and ends of junctions are vertices"
     np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
     exact = np.linalg.norm(np.cross(*known.rectangles[:, 1:].transpose(1, 0, 2)), axis=1).sum()
-    assert areas(found).sum() == pytest.approx(exact, rel=0.005)
+    assert areas(found).sum() == pytest.approx(exact, rel=0.001)
     triangles = found.triangles
     assert topology.euler(triangles) == known.betti[0] - known.betti[1] + known.betti[2]
     assert topology.components(triangles) == known.betti[0]
@@ -140,6 +139,7 @@ def test_a_bent_sheet_is_in_the_middle_and_has_its_area():
     np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
 
 
+@pytest.mark.slow
 def test_a_shell_with_two_holes_has_its_area():
     """A zone of a sphere: what lies between 25 and 155 degrees of the pole."""
     known = mid_surfaces.holed_shell()

@@ -197,19 +197,21 @@ def _ends_of(
     at_edge = reflex_distances(feet, walls) <= 2.0 * TOUCHES * rim.radius
     at, ahead = _walls_ahead(rim, walls)
     met = ahead.any(axis=1) & ~at_edge
-    at[~met], ahead[~met] = feet[~met], rim.out[~met]
-    ahead[~_are_nearest(rim, at) | ~(met | at_edge)] = 0.0
+    at[at_edge], ahead[at_edge] = feet[at_edge], rim.out[at_edge]
+    ahead[~_are_nearest(rim, at, met | at_edge)] = 0.0
     kind[has] = np.where(at_edge, _CORNER, np.where(ahead.any(axis=1), _AT_WALL, _NOTHING))
     places[has], normals[has] = at, ahead
     return kind, places, normals
 
 
-def _are_nearest(rim: RimEdges, places: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """(k,) the edges whose walls are not much farther than those of edges beside them: others are steps of the rim."""
-    away = np.linalg.norm(places - rim.middles, axis=1)
+def _are_nearest(
+    rim: RimEdges, places: NDArray[np.float64], met: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(k,) the edges that met walls not much farther than those of edges beside them: others are steps of the rim."""
+    away = np.where(met, np.linalg.norm(places - rim.middles, axis=1), np.inf)
     least = np.full(int(rim.ends.max(initial=-1)) + 1, np.inf)
     np.minimum.at(least, rim.ends, away[:, None])
-    return np.asarray(away <= _STEPS * least[rim.ends].min(axis=1))
+    return np.asarray(met & (away <= _STEPS * least[rim.ends].min(axis=1)))
 
 
 def _walls_ahead(
