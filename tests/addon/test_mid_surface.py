@@ -34,6 +34,24 @@ def test_a_plate_is_one_sheet_with_its_thickness():
         np.testing.assert_allclose(values, T, rtol=5e-3)
 
 
+def test_a_bracket_is_two_rectangles():
+    """Two legs of 1 and 0.5, 1 deep: the middle of each ends where the other one begins."""
+    half, corners = T / 2, [(0, 0), (1, 0), (1, T), (T, T), (T, 0.5), (0, 0.5)]
+    mesh = bpy.data.meshes.new("Bracket")
+    points = [(x, y, z) for y in (0.0, 1.0) for x, z in corners]
+    sides = [(i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6)]
+    mesh.from_pydata(points, [], [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *sides])
+    bracket = bpy.data.objects.new("Bracket", mesh)
+    bpy.context.collection.objects.link(bracket)
+    bpy.context.view_layer.objects.active = bracket
+    bracket.select_set(True)
+    made = unsolidify()
+    found = {tuple(np.round(vertex.co, 4) + 0.0) for vertex in made.data.vertices}
+    wanted = {(x, y, z) for x, z in ((half, half), (1.0, half), (half, 0.5)) for y in (0.0, 1.0)}
+    assert found == wanted and len(made.data.polygons) == 2
+    assert sorted(each.value for each in made.data.attributes["ma_part"].data) == [0, 1]
+
+
 def test_a_sheet_is_coloured_by_thickness():
     plate()
     made = unsolidify()

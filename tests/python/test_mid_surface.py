@@ -44,13 +44,11 @@ def off(known, places):
 @pytest.mark.parametrize("name", mid_surfaces.FLAT)
 def test_sheets_of_flat_walls(name):
     known = mid_surfaces.ALL[name]()
-    count = 5000 if name == "stairs" else 4000  # with 4,000 a corner of the stairs is cut off
-    check_flat(known, sheets_of(known.mesh, Settings(samples=count)))
+    check_flat(known, sheets_of(known.mesh))
 
 
-# Corners at ends of rims are cut off there.
-CUT = {("profile_t", 0), ("cross", 1), ("cross", 2)}
-CUT |= {("profile_l", 0), ("profile_l", 2), ("stairs", 0)}
+# The axis joins the sheets in pairs by a strip that is no wall.
+CUT = {("cross", 2)}
 
 
 @pytest.mark.slow
@@ -58,7 +56,7 @@ CUT |= {("profile_l", 0), ("profile_l", 2), ("stairs", 0)}
     ("name", "seed"),
     [
         pytest.param(name, seed, marks=[pytest.mark.xfail(strict=True)] * ((name, seed) in CUT))
-        for name in mid_surfaces.FLAT
+        for name in mid_surfaces.FLAT[:7]
         for seed in range(3)
     ],
 )
@@ -75,18 +73,46 @@ def test_sheets_of_flat_walls_at_the_defaults(name, seed):
 def check_flat(known, found):
     assert found.sheets == known.sheets
     assert off(known, found.vertices).max() < 0.005 * known.t
-    corners = known.rectangles[:, :1] + np.stack(
-        [0 * known.rectangles[:, 1], *known.rectangles[:, 1:].transpose(1, 0, 2)], axis=1
-    )
+    _, u, v = known.rectangles.transpose(1, 0, 2)
+    corners = known.rectangles[:, :1] + np.stack((0 * u, u, v, u + v), axis=1)
     away = np.linalg.norm(corners.reshape(-1, 1, 3) - found.vertices, axis=2).min(axis=1)
     assert away.max() < 0.005 * known.t, "corners of walls and ends of junctions are vertices"
     np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
     exact = np.linalg.norm(np.cross(*known.rectangles[:, 1:].transpose(1, 0, 2)), axis=1).sum()
-    assert areas(found).sum() == pytest.approx(exact, rel=0.005)
+    assert areas(found).sum() == pytest.approx(exact, rel=0.001)
     triangles = found.triangles
     assert topology.euler(triangles) == known.betti[0] - known.betti[1] + known.betti[2]
     assert topology.components(triangles) == known.betti[0]
     assert found.share == pytest.approx(1.0, abs=0.03)
+
+
+def test_ribs_and_their_plate_thickened_are_the_solid():
+    """Of the places in the box of the solid less than 1 % of its volume are in one of the two only."""
+    known = mid_surfaces.ribbed_plate()
+    found = sheets_of(known.mesh)
+    half = known.t / 2
+    places = np.random.default_rng(5).uniform((0, 0, 0), (1, 1, 0.2), (20000, 3))
+    fins = np.abs(places[:, :1] - (0.25, 0.5, 0.75)).min(axis=1) < half
+    solid = (places[:, 2] < known.t) | fins
+    thick = np.zeros(len(places), bool)
+    thickness = found.thickness[found.face_of_triangles]
+    for triangle, wall in zip(found.vertices[found.triangles], thickness, strict=True):
+        thick |= in_prism(places, triangle, wall)
+    assert (thick != solid).sum() < 0.01 * solid.sum()
+
+
+def in_prism(places, triangle, height):
+    """(n,) which places are at most half of a height beside a triangle, in the direction of its normal."""
+    a, b, c = triangle
+    normal = np.cross(b - a, c - a)
+    size = np.linalg.norm(normal)
+    if not size:
+        return np.zeros(len(places), bool)
+    normal = normal / size
+    beside = np.abs((places - a) @ normal) <= height / 2
+    for start, end in ((a, b), (b, c), (c, a)):
+        beside &= (places - start) @ np.cross(normal, end - start) >= 0.0
+    return beside
 
 
 def test_a_web_reaches_its_flange_between_reflex_edges():
@@ -97,13 +123,33 @@ def test_a_web_reaches_its_flange_between_reflex_edges():
     assert areas(found).sum() == pytest.approx(0.2 * 0.2 + 0.16 * 0.2, rel=0.005)
 
 
-def test_a_bent_sheet_has_its_area():
+def test_a_bent_sheet_is_in_the_middle_and_has_its_area():
     """Two flat sides of 0.5 and a quarter of a cylinder of radius 0.1, 1 wide."""
     known = mid_surfaces.bent_sheet()
     found = sheets_of(known.mesh)
+    x, y, z = found.vertices.T
+    away = np.where(
+        x < 0, np.abs(z + 0.1), np.where(z > 0, np.abs(x - 0.1), np.abs(np.hypot(x, z) - 0.1))
+    )
+    assert away.max() < 0.1 * known.t and np.quantile(away, 0.99) < 0.03 * known.t
+    assert y.min() > -0.05 * known.t and y.max() < 1.0 + 0.05 * known.t
     assert found.sheets == 1 and topology.euler(found.triangles) == 1
-    assert areas(found).sum() == pytest.approx(1.0 + 0.05 * np.pi, rel=0.005)
+    assert areas(found).sum() == pytest.approx(1.0 + 0.05 * np.pi, rel=0.001)
+    assert found.share == pytest.approx(1.0, abs=0.01)
     np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
+
+
+@pytest.mark.slow
+def test_a_shell_with_two_holes_has_its_area():
+    """A zone of a sphere: what lies between 25 and 155 degrees of the pole."""
+    known = mid_surfaces.holed_shell()
+    found = sheets_of(known.mesh)
+    triangles = found.triangles
+    assert found.sheets == topology.components(triangles) == 1 and topology.euler(triangles) == 0
+    exact = 4 * np.pi * np.cos(np.radians(25))
+    assert areas(found).sum() == pytest.approx(exact, rel=0.01)
+    np.testing.assert_allclose(found.thickness, known.t, rtol=0.005)
+    assert found.share == pytest.approx(1.0, abs=0.01)
 
 
 def test_a_leaf_tapers_to_its_edge():

@@ -34,7 +34,6 @@ ALLOWED = {
     "few_addresses.py": 1,  # makes BLAS start
     # Whole numbers.
     "nearness.py": 3,
-    "carried_sheets.py": 1,
     "fans.py": 1,
     "offset_surface.py": 7,
     "picture.py": 3,  # pictures in reports

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Thin solids whose middle surfaces are known: rectangles, a bent sheet, a shell with two holes, a leaf."""
+"""Thin solids whose middle surfaces are known: rectangles, bent sheet metal, a shell with two holes, a leaf."""
 
 from dataclasses import dataclass
 
@@ -109,6 +109,16 @@ def stairs(t=0.02):
     return _known(thin_solids.stairs(t).mesh, t, (1, 0, 0), *rectangles)
 
 
+def ribbed_plate(t=0.02, ribs=3):
+    """A plate of 1 by 1 with ribs of 0.2 on it."""
+    at = np.arange(1, ribs + 1) / (ribs + 1)
+    boxes = [((x - t / 2, 0, 0), (x + t / 2, 1, 0.2)) for x in at]
+    low, wide = t / 2, 1 / (ribs + 1)
+    fields = [((x, 0, low), (wide, 0, 0), (0, 1, 0)) for x in (0.0, *at)]
+    fins = [((x, 0, low), (0, 0, 0.2 - low), (0, 1, 0)) for x in at]
+    return _known(union(((0, 0, 0), (1, 1, t)), *boxes), t, (1, 0, 0), *fields, *fins)
+
+
 def bent_sheet(t=0.02, radius=0.1, around=48):
     """An L of sheet metal: two flat sides of 0.5, and a quarter of a cylinder whose middle has a radius."""
     turn = np.linspace(0.0, np.pi / 2, around + 1)
@@ -179,9 +189,10 @@ ALL = {
         profile_l,
         box_section,
         stairs,
+        ribbed_plate,
         bent_sheet,
         holed_shell,
         leaf,
     )
 }
-FLAT = list(ALL)[:7]
+FLAT = list(ALL)[:8]

@@ -104,6 +104,7 @@ def compute_axis(
     settings: Settings,
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
+    relaxed: bool = True,
 ) -> Computation:
     """Compute the medial axis of a shape from its vertices or from samples of its faces.
 
@@ -114,6 +115,8 @@ def compute_axis(
     progress : Progress, optional
     limit : MemoryLimit
         The memory that the analysis may need, and the reaction when it needs more.
+    relaxed : bool
+        Whether rims and curves of the forms CLEAN and CURVE are smoothed.
 
     Raises
     ------
@@ -137,7 +140,7 @@ def compute_axis(
     settings = replace(
         settings, sides=sides, sampling=chosen.sampling, form=form, **chosen.of_pairs
     )
-    axis = extract(chosen.samples, settings, begun.progress)
+    axis = extract(chosen.samples, settings, begun.progress, relaxed)
     return Computation(
         axis=axis,
         settings=settings,

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from ..axis.compute import Computation, compute_axis
-from ..axis.extract import extract
 from ..axis.polygon_triangles import polygon_triangles
 from ..errors import InvalidInputError
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
@@ -28,8 +27,9 @@ from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
 from ..settings import Form, MidSurfaceSettings, Settings, Side
 from ..small_matrices import length_of
-from .carried_sheets import CarriedSheets, Walls, carried
+from .carried_sheets import CarriedSheets, carried
 from .even_triangles import divided
+from .sheet_walls import Walls
 from .thin_sheets import thin_sheets
 from .united import united
 
@@ -133,9 +133,8 @@ def mid_surface(
     settings = replace(
         settings, form=Form.CLEAN, crisp=True, side=Side.INNER, simplify=0.0, erode=0.0, spike=0.0
     )
-    found = compute_axis(shape, settings, progress, limit)
     # Its rims go out to the walls, so smoothing them first would only take them off their places.
-    found = replace(found, axis=extract(found.chosen.samples, found.settings, relaxed=False))
+    found = compute_axis(shape, settings, progress, limit, relaxed=False)
     if found.axis.structure is None or not found.axis.facets:
         raise _nothing_thin(wanted)
     thin = thin_sheets(found.axis, found.chosen.samples.patches, wanted.least_width)

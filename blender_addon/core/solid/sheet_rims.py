@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rims of straight sheets, carried on to the walls at which the solid ends.
+
+A ray out of the sheet finds the wall of each edge of a rim. At corners of the solid the axis has short edges in any
+direction, and edges to vertices on the surface, whose rays find a wrong wall or none. So a wall counts where a stretch
+of edges finds it, and the edges between two such stretches take the wall of the nearer one: then their common vertex
+is in both walls, which is the corner.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine.native import own_errors
+from ..small_matrices import dot
+from .sheet_chains import Chain, chains_of, nearest_along, runs_of, without_ways_back
+from .sheet_walls import TOUCHES, Walls, reflex_distances
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .thin_sheets import ThinSheets
+
+_REACH = 4.0  # so many radii away the wall at a rim is looked for
+_STEPS = (
+    2.0  # so many times as far as that of an edge beside it the wall ahead of an edge is at most
+)
+_ASIDE = 0.05  # in radii: rays beside each other tell the direction of a wall
+_LIKE = 0.6  # cosine between the border and the wall that ends a sheet, at least
+_SMOOTH = 0.8  # cosine between the walls of edges beside each other that are one wall, at least
+_SHORT = 1e-6  # in radii: a shorter edge has no direction
+_NOTHING, _AT_WALL, _CORNER = range(3)  # what an edge ends at: no wall, a wall ahead, a reflex edge
+_LONG = np.array((8.0, 1.5, 0.5))  # in radii: shorter stretches of each kind tell nothing
+
+
+@dataclass(frozen=True, eq=False)
+class RimEdges:
+    """The edges at which sheets end.
+
+    Parameters
+    ----------
+    ends : (k, 2) int64
+        Rows of vertices, as the triangle of the edge turns.
+    part : (k,) int32
+    middles : (k, 3) float64
+    radius : (k,) float64
+    along, out : (k, 3) float64
+        Unit vectors along each edge and out of its sheet.
+    """
+
+    ends: NDArray[np.int64]
+    part: NDArray[np.int32]
+    middles: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    along: NDArray[np.float64]
+    out: NDArray[np.float64]
+
+    def of(self, rows: NDArray[np.bool_]) -> RimEdges:
+        return RimEdges(*(getattr(self, field.name)[rows] for field in fields(self)))
+
+
+@dataclass(frozen=True, eq=False)
+class Rims:
+    """The edges at which sheets end, and the planes in which they end.
+
+    Parameters
+    ----------
+    edges : RimEdges
+    chains : list of Chain
+    kind : (k,) int64
+    places, normals : (k, 3) float64
+        Of the wall at each edge; zero normals where there is none.
+    """
+
+    edges: RimEdges
+    chains: list[Chain]
+    kind: NDArray[np.int64]
+    places: NDArray[np.float64]
+    normals: NDArray[np.float64]
+
+    def planes(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+        """Vertices, and places and normals of planes through them."""
+        has = self.normals.any(axis=1)
+        corner = self.kind == _CORNER
+        ends = self.edges.ends
+        vertex = np.concatenate((ends[has].T.ravel(), ends[corner].T.ravel()))
+        places = (self.places[has],) * 2 + (self.places[corner],) * 2
+        normals = (self.normals[has],) * 2 + (self.edges.along[corner],) * 2
+        return vertex, np.concatenate(places), np.concatenate(normals)
+
+    def without_ways_back(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The vertices, of which none goes back along a wall."""
+        found = vertices.copy()
+        for chain in self.chains:
+            apart = _apart(chain.rows, chain.closed, self.kind, self.normals)
+            if not apart.any():
+                continue
+            for run in runs_of(apart):
+                rows = chain.rows[run]
+                around = np.append(self.edges.ends[rows, 0], self.edges.ends[rows[-1], 1])
+                found[around] = without_ways_back(found, around)
+        return found
+
+
+def rims(
+    sheets: ThinSheets,
+    straight: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    walls: Walls,
+) -> Rims:
+    """Find the rims of straight sheets and where they end.
+
+    Parameters
+    ----------
+    sheets : ThinSheets
+    straight : (v, 3) float64
+        Where its vertices are in the straight sheets.
+    normals : (t, 3, 3) float64
+        The normals of the sheets at the corners of its triangles.
+    radii : (t, 3) float64
+        Half of their thickness there.
+    walls : Walls
+    """
+    edges = _edges(sheets, straight, normals, radii)
+    kind, places, ahead = _ends_of(edges, walls)
+    chains = chains_of(edges.ends, edges.part)
+    for chain in chains:
+        rows, like = chain.rows, _like(chain, edges, kind, ahead, straight)
+        for values in (kind, places, ahead, edges.along):
+            values[rows] = values[np.maximum(like, 0)]
+        kind[rows[like < 0]], ahead[rows[like < 0]] = _NOTHING, 0.0
+    return Rims(edges, chains, kind, places, ahead)
+
+
+def single_edges(
+    triangles: NDArray[np.int32], count: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """(k, 2) the edges of one triangle, (k,) that triangle and (k,) its side, given the number of vertices."""
+    edges = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).astype(np.int64)
+    sides = np.sort(edges.reshape(-1, 2), axis=1)
+    _, edge, uses = np.unique(
+        sides[:, 0] * count + sides[:, 1], return_inverse=True, return_counts=True
+    )
+    triangle, side = np.divmod(np.flatnonzero(uses[edge.reshape(-1)] == 1), 3)
+    return edges[triangle, side], triangle, side
+
+
+def _edges(
+    sheets: ThinSheets,
+    straight: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    radii: NDArray[np.float64],
+) -> RimEdges:
+    ends, triangle, side = single_edges(sheets.triangles, len(straight))
+    way = straight[ends[:, 1]] - straight[ends[:, 0]]
+    length = np.linalg.norm(way, axis=1)
+    out = np.cross(way, normals[triangle, side] + normals[triangle, (side + 1) % 3])
+    size = np.linalg.norm(out, axis=1)
+    radius = 0.5 * (radii[triangle, side] + radii[triangle, (side + 1) % 3])
+    has = size > _SHORT * radius
+    return RimEdges(
+        ends,
+        sheets.part[triangle],
+        straight[ends].mean(axis=1),
+        radius,
+        np.where(has[:, None], way / np.where(has, length, 1.0)[:, None], 0.0),
+        np.where(has[:, None], out / np.where(has, size, 1.0)[:, None], 0.0),
+    )
+
+
+def _ends_of(
+    edges: RimEdges, walls: Walls
+) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    """What each edge ends at, and the place and normal of the plane there.
+
+    That is the wall that a ray out of the sheet meets. At the inner corner of a rim all balls touch the same reflex
+    edge. Edges without a length or a ball, steps of the rim, and what a ray leaves without a wall end at nothing.
+    """
+    kind = np.full(len(edges.ends), _NOTHING)
+    places, normals = np.zeros((2, len(kind), 3))
+    if not len(kind):
+        return kind, places, normals
+    with own_errors() as module:
+        away = np.asarray(module.surface_distances(edges.middles, walls.points, walls.triangles))
+    has = edges.out.any(axis=1) & (edges.radius > 0.0)
+    there = has & (away <= TOUCHES * edges.radius)
+    # A ray from within finds the wall at which an edge is already.
+    places[there], normals[there] = _walls_ahead(edges.of(there), walls, back=1.0)
+    kind[normals.any(axis=1)] = _AT_WALL
+    has &= ~there
+    rim = edges.of(has)
+    feet = rim.middles + rim.radius[:, None] * rim.out
+    at_edge = reflex_distances(feet, walls) <= 2.0 * TOUCHES * rim.radius
+    at, ahead = _walls_ahead(rim, walls)
+    met = ahead.any(axis=1) & ~at_edge
+    at[at_edge], ahead[at_edge] = feet[at_edge], rim.out[at_edge]
+    ahead[~_are_nearest(rim, at, met | at_edge)] = 0.0
+    kind[has] = np.where(at_edge, _CORNER, np.where(ahead.any(axis=1), _AT_WALL, _NOTHING))
+    places[has], normals[has] = at, ahead
+    return kind, places, normals
+
+
+def _are_nearest(
+    rim: RimEdges, places: NDArray[np.float64], met: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(k,) the edges that met walls not much farther than those of edges beside them: others are steps of the rim."""
+    away = np.where(met, np.linalg.norm(places - rim.middles, axis=1), np.inf)
+    least = np.full(int(rim.ends.max(initial=-1)) + 1, np.inf)
+    np.minimum.at(least, rim.ends, away[:, None])
+    return np.asarray(met & (away <= _STEPS * least[rim.ends].min(axis=1)))
+
+
+def _walls_ahead(
+    rim: RimEdges, walls: Walls, back: float = 0.0
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(k, 3) where rays out of the sheets meet a wall, and (k, 3) its unit normal; 0 where there is none.
+
+    Rays start so many radii back within the sheet. Two more rays beside each tell the direction of the wall.
+    """
+    if not len(rim.ends):
+        return np.zeros((0, 3)), np.zeros((0, 3))
+    aside = np.cross(rim.along, rim.out)
+    step = _ASIDE * rim.radius[:, None]
+    start = rim.middles - back * rim.radius[:, None] * rim.out
+    starts = np.concatenate((start, start + step * rim.along, start + step * aside))
+    with own_errors() as module:
+        way = module.wall_distances(
+            np.ascontiguousarray(starts),
+            np.ascontiguousarray(np.tile(-rim.out, (3, 1))),
+            np.tile((_REACH + back) * rim.radius, 3),
+            walls.points,
+            walls.triangles,
+        )
+    met = np.isfinite(way).reshape(3, -1).all(axis=0)
+    way = np.where(np.isfinite(way), way, 0.0)
+    hits = (starts + way[:, None] * np.tile(rim.out, (3, 1))).reshape(3, -1, 3)
+    normals = np.cross(hits[1] - hits[0], hits[2] - hits[0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), np.finfo(float).tiny)[:, None]
+    normals[~met | (np.abs(dot(normals, rim.out)) < _LIKE)] = 0.0
+    return hits[0], normals
+
+
+def _apart(
+    rows: NDArray[np.int64], closed: bool, kind: NDArray[np.int64], normals: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(k,) the edges whose wall is not that of the edge before; the first of an open chain is one."""
+    one, two = np.roll(rows, 1), rows
+    turns = dot(normals[one], normals[two]) < _SMOOTH
+    apart = (kind[one] != kind[two]) | ((kind[two] == _AT_WALL) & turns)
+    apart[:1] |= not closed
+    return np.asarray(apart)
+
+
+def _like(
+    chain: Chain,
+    edges: RimEdges,
+    kind: NDArray[np.int64],
+    normals: NDArray[np.float64],
+    straight: NDArray[np.float64],
+) -> NDArray[np.int64]:
+    """(k,) the edge whose wall each edge of a chain takes: its own in long stretches, else that of the nearest.
+
+    -1 where that is too far away.
+    """
+    rows, closed = chain.rows, chain.closed
+    # Edges without a wall count in long stretches only, and a stretch of a wall goes on beyond short ones.
+    counts = _long(rows, closed, edges, kind, normals, straight)
+    counts |= (kind[rows] == _AT_WALL) | (kind[rows] == _CORNER)
+    sites = np.flatnonzero(counts)
+    sites = sites[_long(rows[sites], closed, edges, kind, normals, straight)]
+    if not len(sites):
+        return np.where(counts, rows, -1)
+    lengths = np.linalg.norm(straight[edges.ends[rows, 1]] - straight[edges.ends[rows, 0]], axis=1)
+    nearest = rows[nearest_along(lengths, sites, closed)]
+    away = np.linalg.norm(edges.middles[nearest] - edges.middles[rows], axis=1)
+    near = away <= _REACH * edges.radius[rows] + lengths
+    return np.where(near, nearest, np.where(counts, rows, -1))
+
+
+def _long(
+    rows: NDArray[np.int64],
+    closed: bool,
+    edges: RimEdges,
+    kind: NDArray[np.int64],
+    normals: NDArray[np.float64],
+    straight: NDArray[np.float64],
+) -> NDArray[np.bool_]:
+    """(k,) the edges of stretches that are long enough to tell where their sheet ends."""
+    long = np.zeros(len(rows), bool)
+    for run in runs_of(_apart(rows, closed, kind, normals)):
+        of = rows[run]
+        away = straight[edges.ends[of]].reshape(-1, 3) - straight[edges.ends[of[0], 0]]
+        if kind[of[0]] == _AT_WALL:
+            away -= dot(away, normals[of[0]])[:, None] * normals[of[0]]
+        extent = np.linalg.norm(away, axis=1).max()
+        long[run] = extent >= _LONG[kind[of[0]]] * edges.radius[of].mean()
+    return long

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The faces of a solid as the walls at which its sheets end, and its reflex edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..machine.native import own_errors
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+TOUCHES = 0.01  # a ball whose distance from an edge differs by less than this share of its radius touches it
+
+
+@dataclass(frozen=True, eq=False)
+class Walls:
+    """The faces of a solid, outward, and the rows of the ends of its reflex edges, (e, 2)."""
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    reflex: NDArray[np.int32]
+
+
+def reflex_distances(points: NDArray[np.float64], walls: Walls) -> NDArray[np.float64]:
+    """(n,) how far points are from the nearest reflex edge; infinite where the solid has none."""
+    if not len(walls.reflex) or not len(points):
+        return np.full(len(points), np.inf)
+    edges = np.ascontiguousarray(walls.reflex[:, [0, 1, 1]].astype(np.int32))
+    with own_errors() as module:
+        return np.asarray(
+            module.surface_distances(np.ascontiguousarray(points), walls.points, edges)
+        )
