@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A contact sheet of ten virtual scans: the axis of the points as they are above, of the prepared points below.
+"""A contact sheet of virtual scans: the axis of the points as they are above, of the prepared points below.
 
     python3 lab/pictures/scan_sheet.py OUTPUT.png [--only hand ...]
 
@@ -40,7 +40,7 @@ SCANS = {
     "knot": ("knot1.off", 0, 0.012, NOISY),
     "dinosaur": ("dilo.off", -90, 0.006, NOISY),
 }
-TILE, EYE = (230, 230), np.array([0.45, -1.0, 0.35])
+TILE, IN_LINE, EYE = (230, 230), 5, np.array([0.45, -1.0, 0.35])
 GREY, DOT, RIBBON = 0.6, 0.0035, 0.004  # of points; the sizes in shares of the diagonal
 LADDER = np.array([(0.01, 0.01, 0.12), (0.02, 0.16, 0.35), (0.1, 0.4, 0.25), (0.9, 0.75, 0.05)])
 
@@ -137,10 +137,10 @@ def main() -> None:
         if points is not None:
             pair = [drawn(points, prepare, name) for prepare in (Prepare.OFF, Prepare.AUTOMATIC)]
             columns.append(np.concatenate(pair))
-    half = -(-len(columns) // 2)
+    lines = [columns[k : k + IN_LINE] for k in range(0, len(columns), IN_LINE)]
     blank = np.full_like(columns[0], 255)
-    columns += [blank] * (2 * half - len(columns))
-    page = np.concatenate([np.concatenate(columns[k : k + half], axis=1) for k in (0, half)])
+    lines[-1] += [blank] * (len(lines[0]) - len(lines[-1]))
+    page = np.concatenate([np.concatenate(line, axis=1) for line in lines])
     wanted.output.write_bytes(png(page))
 
 
