@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CGAL's smoothing of points by fitted jets: jet_smooth FILE NEIGHBOURS OUTPUT, files of doubles x y
-// z x y z ...
+// CGAL smooths points by fitted jets: jet_smooth FILE NEIGHBOURS OUTPUT. Both files are doubles.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/jet_smooth_point_set.h>
 

@@ -113,7 +113,7 @@ def power_crust(points: np.ndarray) -> Found:
 
 
 def ways(program: Path) -> dict[str, Callable[[np.ndarray], Found]]:
-    """Those whose programs and modules are there."""
+    """The ways whose programs and modules are there."""
     found = {
         "raw": lambda points: axis_of(points, scans.NO_FACES, Prepare.OFF),
         "prepared": lambda points: axis_of(points, scans.NO_FACES, Prepare.AUTOMATIC),
@@ -134,7 +134,7 @@ def ways(program: Path) -> dict[str, Callable[[np.ndarray], Found]]:
 
 
 def seconds() -> float:
-    """Of the processor, by this process and those that it waited for."""
+    """Seconds of the processor, by this process and those that it waited for."""
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return sum(one.ru_utime + one.ru_stime for one in used)
 
