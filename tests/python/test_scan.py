@@ -167,6 +167,7 @@ CLEAN = Scan(1000, 1000, 0.1, 0.0, 3.0, 0, 0, 0.0)
         ({"noise": 3.0}, "POLES", "too much for so many points"),
         ({"noise": 0.5}, "POLES", "left as it is"),
         ({"noise": 0.5, "moved": np.ones(9)}, "TIGHT_COCONE", "the points were moved by 10 sp"),
+        ({"noise": 0.5, "moved": np.ones(9)}, "POLES", "inside is a guess of the poles"),
         ({"noise": 0.5, "kurtosis": 1.2}, "TIGHT_COCONE", "the points lie in layers"),
         ({"noise": 1.5, "kurtosis": 1.2}, "POLES", "walls of a thin part"),
         ({"outliers": 20, "kept": 980}, "TIGHT_COCONE", "stood alone and were left out"),

@@ -163,7 +163,8 @@ def scan_warnings(scan: Scan | None, sides: SidesFrom) -> Iterator[str]:
             f"the surface ends at {percent(scan.border)} of the points: openings, or a sheet as of a facade, "
             "a terrain or a single view, which bounds no solid; inside is a guess there, and side Both needs none"
         )
-    if sides is SidesFrom.POLES and scan.noise <= SOME and scan.border <= _ENDS:
+    guessed = scan.noise <= SOME or scan.moved is not None  # otherwise the noise is the cause
+    if sides is SidesFrom.POLES and guessed and scan.border <= _ENDS:
         yield (
             "the points do not tell one solid, so inside is a guess of the poles: walls or gaps of a few spacings, "
             "parts that were never seen, or noise between close walls"

@@ -19,6 +19,9 @@ class NormalEquations {
       right_[i] += weighted * value;
     }
   }
+  // The sums of products of terms, for j <= i, and of a term with the values, where they are known.
+  void set(int i, int j, double sum) { matrix_[i][j] = sum; }
+  void set_right(int i, double sum) { right_[i] = sum; }
   // Adds to the square of a term, which holds its coefficient back.
   void hold_back(int term, double by) { matrix_[term][term] += by; }
   double square(int term) const { return matrix_[term][term]; }

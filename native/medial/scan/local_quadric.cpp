@@ -11,11 +11,58 @@ constexpr double kSmallestPivot = 1e-9;  // of a diagonal element: beyond it col
 using Equations = NormalEquations<kTerms>;
 using Terms = Equations::Terms;
 
+// The exponents of u and v in each term.
+constexpr std::array<std::array<int, 2>, kTerms> kPowers{
+    {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+
 Terms monomials(double u, double v) { return {1, u, v, u * u, u * v, v * v}; }
 
+// The weighted sums of a fit. Each has a lane for every fourth point, so that compilers use vectors
+// without changing the order in which a lane adds.
+class Sums {
+ public:
+  static constexpr size_t kLanes = 4;
+  using Lanes = std::array<double, kLanes>;
+
+  // Adds four points: their weights, coordinates in the plane, and heights.
+  void add(const Lanes& weight, const Lanes& u, const Lanes& v, const Lanes& height) {
+    for (size_t k = 0; k < kLanes; ++k) {
+      const double w = weight[k], x = u[k], y = v[k], wx = w * x, wy = w * y, wxx = wx * x,
+                   wxy = wx * y, wyy = wy * y, wxxx = wxx * x, wxxy = wxx * y, wxyy = wxy * y,
+                   wyyy = wyy * y;
+      const std::array<double, kMoments> all{w,        wx,       wy,       wxx,      wxy,
+                                             wyy,      wxxx,     wxxy,     wxyy,     wyyy,
+                                             wxxx * x, wxxx * y, wxxy * y, wxyy * y, wyyy * y};
+      for (size_t i = 0; i < kMoments; ++i) moments_[i][k] += all[i];
+      for (size_t i = 0; i < kTerms; ++i) heights_[i][k] += all[i] * height[k];
+    }
+  }
+
+  Equations equations() const {
+    Equations all;
+    for (int i = 0; i < kTerms; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        const int power = kPowers[i][1] + kPowers[j][1],
+                  degree = kPowers[i][0] + kPowers[j][0] + power;
+        all.set(i, j, sum(moments_[static_cast<size_t>(degree * (degree + 1) / 2 + power)]));
+      }
+      all.set_right(i, sum(heights_[static_cast<size_t>(i)]));
+    }
+    return all;
+  }
+
+ private:
+  static constexpr size_t kMoments = 15;  // of u and v up to the fourth degree, by degree
+
+  static double sum(const Lanes& lanes) { return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); }
+
+  std::array<Lanes, kMoments> moments_{};
+  std::array<Lanes, kTerms> heights_{};
+};
+
 double smooth_weight(double squared) {
-  const double inner = 1 - squared;
-  return inner > 0 ? inner * inner : 0;
+  const double inner = std::max(1 - squared, 0.0);
+  return inner * inner;
 }
 
 }  // namespace
@@ -70,14 +117,21 @@ Vec3 least_spread(std::span<const Vec3> points) {
 std::optional<LocalQuadric> fit_quadric(std::span<const Vec3> points, const Vec3& origin,
                                         const Vec3& normal, double radius, Weights weights) {
   if (points.size() <= kTerms) return {};
-  const auto [u, v] = across(normal);
+  const auto [u, v] = medial::across(normal);
   LocalQuadric found{origin, u, v, normal, radius};
-  Equations equations;
-  for (const Vec3& p : points) {
-    const Vec3 away = (1 / radius) * (p - origin);
-    const double weight = weights == Weights::equal ? 1.0 : smooth_weight(squared_length(away));
-    equations.add(monomials(dot(away, u), dot(away, v)), dot(away, normal), weight);
+  Sums sums;
+  for (size_t first = 0; first < points.size(); first += Sums::kLanes) {
+    Sums::Lanes weight{}, along{}, across{}, height{};
+    for (size_t k = 0; k < std::min(Sums::kLanes, points.size() - first); ++k) {
+      const Vec3 away = (1 / radius) * (points[first + k] - origin);
+      weight[k] = weights == Weights::equal ? 1.0 : smooth_weight(squared_length(away));
+      along[k] = dot(away, u);
+      across[k] = dot(away, v);
+      height[k] = dot(away, normal);
+    }
+    sums.add(weight, along, across, height);
   }
+  Equations equations = sums.equations();
   if (!equations.factorise(kSmallestPivot)) return {};
   found.terms = equations.coefficients(equations.added(equations.right()));
   found.variance = equations.coefficients(equations.added({1}))[0];

@@ -24,6 +24,20 @@ struct Near {
   Vec3 point;
 };
 
+// A radius, and how many points lie within it.
+struct Ring {
+  double radius;
+  size_t end;
+};
+
+// Lists that a climb fills; those of one thread serve all its climbs.
+struct Lists {
+  std::vector<Near> near;
+  std::vector<Ring> rings;
+  std::vector<Vec3> accepted;
+  std::vector<LocalQuadric> smaller;
+};
+
 // Gathers the points within a radius.
 void gather(const PointTree& tree, const Vec3& centre, double radius, std::vector<Near>& near) {
   const double squared = radius * radius;
@@ -39,9 +53,17 @@ void gather(const PointTree& tree, const Vec3& centre, double radius, std::vecto
 // one before, so that the other wall of a thin part stays out.
 class Climb {
  public:
-  // Reorders the points near the centre.
-  Climb(const Vec3& centre, std::span<Near> near, double noise)
-      : centre_(centre), near_(near), noise_(noise) {}
+  // Reorders the points near the centre, which are in the list of that name.
+  Climb(const Vec3& centre, Lists& lists, double noise)
+      : centre_(centre),
+        near_(lists.near),
+        noise_(noise),
+        rings_(lists.rings),
+        accepted_(lists.accepted),
+        smaller_(lists.smaller) {
+    accepted_.clear();
+    smaller_.clear();
+  }
 
   // Returns the last quadric up to a radius with which all smaller ones agree.
   std::optional<LocalQuadric> while_they_agree(double first, double last) {
@@ -55,30 +77,42 @@ class Climb {
  private:
   template <typename Taken>
   std::optional<LocalQuadric> climb(double first, double last, double step, const Taken& taken) {
+    order(first, last, step);
     std::optional<LocalQuadric> best;
-    for (double radius = first;; radius = std::min(radius * step, last)) {
-      accept(radius, best);
-      const auto next = fitted(radius, best);
-      if (next) {
-        if (!taken(*next)) return best;
-        smaller_.push_back(*next);
-        best = next;
+    size_t from = 0;
+    for (const Ring& ring : rings_) {
+      accept(near_.subspan(from, ring.end - from), best);
+      from = ring.end;
+      const auto next = fitted(ring.radius, best);
+      if (!next) continue;
+      if (!taken(*next)) return best;
+      smaller_.push_back(*next);
+      best = next;
+    }
+    return best;
+  }
+
+  // Brings the points of each ring before those of the next. The widest ring comes first, as those
+  // within it have few points.
+  void order(double first, double last, double step) {
+    rings_.clear();
+    for (double radius = first; radius < last; radius *= step) rings_.push_back({radius, 0});
+    rings_.push_back({last, near_.size()});
+    for (size_t i = rings_.size() - 1; i-- > 0;) {
+      const double squared = rings_[i].radius * rings_[i].radius;
+      size_t& end = rings_[i].end;
+      for (Near& one : near_.first(rings_[i + 1].end)) {
+        if (one.squared <= squared) std::swap(one, near_[end++]);
       }
-      if (radius >= last) return best;
     }
   }
 
-  void accept(double radius, const std::optional<LocalQuadric>& sheet) {
-    const auto rest = near_.subspan(near_.size() - left_);
-    size_t taken = 0;
-    for (Near& one : rest) {
-      if (one.squared > radius * radius) continue;
+  void accept(std::span<const Near> ring, const std::optional<LocalQuadric>& sheet) {
+    for (const Near& one : ring) {
       if (!sheet || std::abs(sheet->above(one.point)) <= kSheet * noise_) {
         accepted_.push_back(one.point);
       }
-      std::swap(one, rest[taken++]);
     }
-    left_ -= taken;
   }
 
   std::optional<LocalQuadric> fitted(double radius, const std::optional<LocalQuadric>& sheet) {
@@ -103,22 +137,32 @@ class Climb {
   Vec3 centre_;
   std::span<Near> near_;
   double noise_;
-  size_t left_ = near_.size();  // points at the end of the list that no radius has reached yet
-  std::vector<Vec3> accepted_;
-  std::vector<LocalQuadric> smaller_;
+  std::vector<Ring>& rings_;
+  std::vector<Vec3>& accepted_;
+  std::vector<LocalQuadric>& smaller_;
 };
 
 // Chooses the widest neighbourhood of a place with which all smaller ones agree.
-Neighbourhood chosen_at(const PointTree& tree, const Vec3& centre, double noise, double largest) {
+Neighbourhood chosen_at(const PointTree& tree, const Vec3& centre, double noise, double largest,
+                        Lists& lists) {
   const double few = tree.reach(centre, kFirst + 1),
                first = std::min(largest, std::max(1.5 * few, kFirstNoise * noise)),
                many = few * std::sqrt(static_cast<double>(kMost) / kFirst),
                last = std::clamp(many, first, largest);
-  std::vector<Near> near;
-  gather(tree, centre, last, near);
-  const auto best = Climb(centre, near, noise).while_they_agree(first, last);
+  gather(tree, centre, last, lists.near);
+  const auto best = Climb(centre, lists, noise).while_they_agree(first, last);
   if (!best) return {first};
   return {first, best->radius, noise * std::sqrt(best->variance)};
+}
+
+// Moves a point onto the quadric of its neighbourhood; leaves the result empty where it is far off.
+Moved moved_at(const PointTree& tree, const Vec3& centre, const Neighbourhood& known, double noise,
+               Lists& lists) {
+  if (!(known.radius > 0)) return {};
+  gather(tree, centre, known.radius, lists.near);
+  const auto best = Climb(centre, lists, noise).to(known.first, known.radius);
+  if (!best || std::abs(best->terms[0]) * best->radius > kStray * noise) return {};
+  return {best->place(), {known.first, best->radius, noise * std::sqrt(best->variance)}};
 }
 
 // Returns for each place the neighbourhood with the median radius of those beside it, so that
@@ -151,9 +195,15 @@ std::vector<Neighbourhood> evened(const PointTree& places, std::span<const Neigh
 std::vector<Neighbourhood> neighbourhoods(const PointTree& tree, std::span<const int32_t> centres,
                                           double noise, double largest, const Run& run) {
   std::vector<Neighbourhood> chosen(centres.size());
-  parallel_for(
+  parallel_chunks(
       static_cast<int64_t>(centres.size()), run,
-      [&](int64_t i) { chosen[i] = chosen_at(tree, tree[centres[i]], noise, largest); }, 32);
+      [&](int64_t begin, int64_t end, int) {
+        Lists lists;
+        for (int64_t i = begin; i < end; ++i) {
+          chosen[i] = chosen_at(tree, tree[centres[i]], noise, largest, lists);
+        }
+      },
+      32);
   std::vector<Vec3> places;
   for (const int32_t id : centres) places.push_back(tree[id]);
   const PointTree beside(places);
@@ -169,17 +219,13 @@ std::vector<Moved> moved_points(const PointTree& tree, std::span<const int32_t> 
                                 std::span<const Neighbourhood> neighbourhoods, double noise,
                                 const Run& run) {
   std::vector<Moved> moved(centres.size());
-  parallel_for(
+  parallel_chunks(
       static_cast<int64_t>(centres.size()), run,
-      [&](int64_t i) {
-        const Vec3& centre = tree[centres[i]];
-        const auto& [first, last, left] = neighbourhoods[centres[i]];
-        if (!(last > 0)) return;
-        std::vector<Near> near;
-        gather(tree, centre, last, near);
-        const auto best = Climb(centre, near, noise).to(first, last);
-        if (!best || std::abs(best->terms[0]) * best->radius > kStray * noise) return;
-        moved[i] = {best->place(), {first, best->radius, noise * std::sqrt(best->variance)}};
+      [&](int64_t begin, int64_t end, int) {
+        Lists lists;
+        for (int64_t i = begin; i < end; ++i) {
+          moved[i] = moved_at(tree, tree[centres[i]], neighbourhoods[centres[i]], noise, lists);
+        }
       },
       128);
   return moved;
