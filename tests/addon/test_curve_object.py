@@ -5,7 +5,18 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from scene import addon, attribute, compute, ellipsoid, link, positions, result_of, select, torus
+from scene import (
+    addon,
+    attribute,
+    compute,
+    ellipsoid,
+    exclude,
+    link,
+    positions,
+    result_of,
+    select,
+    torus,
+)
 
 CURVE = {"form": "CURVE", "sampling": "SURFACE", "samples": 1_500}
 
@@ -100,22 +111,12 @@ def test_vertices_of_sheets_are_no_points_of_the_curve():
     assert length_of(curve) == pytest.approx(length_of_wires(axis.data), rel=1e-5)
 
 
-def excluded(thing):
-    """Put an object into a collection that the view layer leaves out."""
-    other = bpy.data.collections.new("Out")
-    bpy.context.scene.collection.children.link(other)
-    for collection in thing.users_collection:
-        collection.objects.unlink(thing)
-    other.objects.link(thing)
-    bpy.context.view_layer.layer_collection.children["Out"].exclude = True
-
-
 @pytest.mark.parametrize(
     "hide",
     [
         lambda thing: thing.hide_set(True),
         lambda thing: setattr(thing, "hide_viewport", True),
-        excluded,
+        exclude,
     ],
     ids=["eye", "viewport", "collection"],
 )
