@@ -76,16 +76,17 @@ def colour_parts(mesh: bpy.types.Mesh, part: NDArray, sizes: NDArray) -> None:
 
 def remember_colours(thing: bpy.types.Object, of: str, start: float, end: float) -> None:
     """Keep on an object which attribute `ma_color` shows, "" where there is none, and its range, for the legend and the
-    materials; also on the other objects with its mesh: duplicates, and the solid that is rebuilt of it."""
-    for other in _with_mesh_of(thing):
+    materials; also on what shares its mesh and its colours: duplicates, and the solid that is rebuilt of it."""
+    thing[OF] = of
+    for other in _coloured_like(thing):
         other[OF], other[START], other[END] = of, float(start), float(end)
         other.update_tag()
 
 
-def _with_mesh_of(thing: bpy.types.Object) -> list[bpy.types.Object]:
+def _coloured_like(thing: bpy.types.Object) -> list[bpy.types.Object]:
     if thing.data.users == 1:
         return [thing]
-    return [other for other in bpy.data.objects if other.data == thing.data]
+    return [other for other in bpy.data.objects if other.data == thing.data and OF in other]
 
 
 def colour_range(thing: bpy.types.Object) -> tuple[str, float, float] | None:

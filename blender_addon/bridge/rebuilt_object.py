@@ -74,7 +74,7 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
     made[REBUILT], made[SOURCE] = True, result
     made.color = FLAT
     start, end = colours_of_radii(radius_range(result))
-    remember_colours(result, result.get(OF, ""), start, end)  # on both: they share the mesh
+    remember_colours(made, result.get(OF, ""), start, end)
     voxel = _diagonal(result) / _PARTS
     if is_reduced(result):
         _divide(made, voxel)

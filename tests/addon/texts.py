@@ -66,9 +66,8 @@ PARTS = {"Preparing", "unknown", "arrays that contradict each other"}
 FRAMES = {"'{}': {}"}
 # Properties that Blender's own helpers declare on our operators.
 HELPERS = {"filepath", "axis_forward", "axis_up"}
-MATCHED = (
-    "_IN_SHORT"  # the variable whose keys are parts of sentences, by which a short one is found
-)
+# The variable whose keys are parts of sentences, by which short ones are found.
+MATCHED = "_IN_SHORT"
 PRODUCTS = {"product", "_PRODUCT"}  # what is computed, by the name of the variable
 
 
