@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is made of a source has a material that renders its colours, and their range."""
+"""Objects that are made of a source have a material that renders their colours, and the range of these."""
 
 import bpy
 import numpy as np
