@@ -26,7 +26,7 @@ from ..core.settings import (
 )
 from .attributes import RADIUS
 from .colours import colour_mesh, colour_parts, remember_colours
-from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
+from .material import RADIUS_MAX, RADIUS_MIN, radius_material
 from .output_object import (
     DENSITY,
     SAMPLED,
@@ -71,7 +71,7 @@ ALL = Look(within=0.0, crumbs=0.0)
 _EARLIER = {"form": Form.PUBLISHED, "crisp": False}
 
 
-RESULT = Product(SUFFIX, (ANALYSIS,))
+RESULT = Product(SUFFIX, (ANALYSIS,), material=radius_material)
 is_result, result_of, check_writable = RESULT.has, RESULT.of, RESULT.check_writable
 
 
@@ -105,10 +105,7 @@ def write_result(
     """
     box = _box(computation.chosen.samples.points)
     axis, settings = _shown(computation.axis, box, look), computation.settings
-    result, is_new = product.write_mesh(source, partial(_axis_mesh, axis, look), between_steps)
-    if is_new:
-        result.data.materials.append(radius_material())
-        result.color = FLAT
+    result, _ = product.write_mesh(source, partial(_axis_mesh, axis, look), between_steps)
     place(result, frame)
     if result.get("ma_side") != settings.side.name:
         result.show_in_front = settings.side is Side.INNER  # it lies inside the surface

@@ -16,8 +16,7 @@ from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
 from ..core.solid.ball_cover import Balls
 from .attributes import RADIUS, read_vectors
-from .colours import colour_mesh, remember_colours
-from .material import FLAT, radius_material
+from .material import radius_material
 from .nodes.groups import add_coloured_balls
 from .output_object import Product, check_mode, place, remember
 from .write_mesh import new_mesh
@@ -42,7 +41,7 @@ class _Vertices:
     face_vertices: NDArray[np.int32]
 
 
-BALLS = Product(" Balls", (MODE,))
+BALLS = Product(" Balls", (MODE,), material=radius_material)
 is_balls, balls_of, check_balls_writable = BALLS.has, BALLS.of, BALLS.check_writable
 
 
@@ -65,27 +64,17 @@ def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -
     balls = found.balls
     none = np.zeros(1, np.int32)
     rows = _Vertices(balls.centres, balls.radii, none, none[:0])
+    build = partial(new_mesh, rows, table=(RADIUS,))
     span = radius_range(balls.radii)
-    thing, is_new = BALLS.write_mesh(source, partial(_balls_mesh, rows, span))
+    thing, is_new = BALLS.write_coloured(source, build, RADIUS.name, balls.radii, *span)
     if is_new:
         add_coloured_balls(thing)
-        thing.data.materials.append(radius_material())
-        thing.color = FLAT
-    remember_colours(thing, RADIUS.name, *span)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[MODE], thing[COVERED] = balls.mode.name, balls.covered
     thing[OUTSIDE], thing[FARTHEST] = balls.outside, balls.farthest
     thing[_WRITTEN] = _name_of(*_rows(thing))
     return thing
-
-
-def _balls_mesh(
-    rows: _Vertices, span: tuple[float, float], name: str | bpy.types.Mesh
-) -> bpy.types.Mesh:
-    mesh = new_mesh(rows, name, (RADIUS,))
-    colour_mesh(mesh, rows.radius, *span)
-    return mesh
 
 
 def read_balls(thing: bpy.types.Object) -> Balls:

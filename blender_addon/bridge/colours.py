@@ -6,10 +6,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import bpy
+
 from ..core.axis.colours import colours, part_colours
 
 if TYPE_CHECKING:
-    import bpy
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
 COLOUR = "ma_color"
@@ -41,6 +44,19 @@ def colour_mesh(
         mesh.color_attributes.render_color_index = mesh.color_attributes.find(COLOUR)
 
 
+def coloured_mesh(
+    build: Callable[[str | bpy.types.Mesh], bpy.types.Mesh],
+    values: NDArray,
+    start: float,
+    end: float,
+    name: str | bpy.types.Mesh,
+) -> bpy.types.Mesh:
+    """A mesh that `build` makes from its name, with colours as `colour_mesh` gives them."""
+    mesh = build(name)
+    colour_mesh(mesh, values, start, end)
+    return mesh
+
+
 def colour_parts(mesh: bpy.types.Mesh, part: NDArray, sizes: NDArray) -> None:
     """Give a new mesh `ma_color` by the parts of its polygons, active in the viewport and in renders.
 
@@ -60,8 +76,17 @@ def colour_parts(mesh: bpy.types.Mesh, part: NDArray, sizes: NDArray) -> None:
 
 def remember_colours(thing: bpy.types.Object, of: str, start: float, end: float) -> None:
     """Keep on an object which attribute `ma_color` shows, "" where there is none, and its range, for the legend and the
-    materials."""
-    thing[OF], thing[START], thing[END] = of, float(start), float(end)
+    materials; also on what shares its mesh and its colours: duplicates, and the solid that is rebuilt of it."""
+    thing[OF] = of
+    for other in _coloured_like(thing):
+        other[OF], other[START], other[END] = of, float(start), float(end)
+        other.update_tag()
+
+
+def _coloured_like(thing: bpy.types.Object) -> list[bpy.types.Object]:
+    if thing.data.users == 1:
+        return [thing]
+    return [other for other in bpy.data.objects if other.data == thing.data and OF in other]
 
 
 def colour_range(thing: bpy.types.Object) -> tuple[str, float, float] | None:

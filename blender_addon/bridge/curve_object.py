@@ -48,11 +48,14 @@ def write_curve(result: bpy.types.Object) -> bpy.types.Object:
 def _wires_as_skeleton(axis: MedialAxis) -> Skeleton:
     found = chains(axis.edges, len(axis.vertices))
     offsets = np.cumsum([0, *map(len, found)]).astype(np.int32)
-    ends = {row for chain in found for row in (chain[0], chain[-1])}
+    rows = np.array([row for chain in found for row in chain], np.int32)
+    used, points = np.unique(rows, return_inverse=True)  # vertices of sheets are no points of it
+    points = points.ravel().astype(np.int32)
+    ends = points[np.concatenate([offsets[:-1], offsets[1:] - 1])]
     return Skeleton(
-        points=axis.vertices,
-        radius=axis.radius,
+        points=axis.vertices[used],
+        radius=axis.radius[used],
         branch_offsets=offsets,
-        branch_points=np.array([row for chain in found for row in chain], np.int32),
-        nodes=np.array(sorted(ends), np.int32),
+        branch_points=points,
+        nodes=np.unique(ends),
     )

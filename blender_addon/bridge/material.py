@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One material for all medial axes, colour by radius, and one for all reports, colour by epsilon.
+"""One material for each number that is shown: the radius of axes, the epsilon of reports, the thickness of sheets.
 
 The colours are those of `ma_color`, but made in the material: so an artist can change them. Their range comes from
 properties of the object, so that every axis shows its whole range with the same material.
@@ -11,7 +11,7 @@ import bpy
 
 from ..core.axis.colours import SCALE
 from .attributes import EPSILON, RADIUS
-from .colours import END, START
+from .colours import COLOUR, END, START
 
 NAME = "Medial Axis Radius"
 RADIUS_MIN = "ma_radius_min"
@@ -20,6 +20,7 @@ THICKNESS = "ma_thickness"
 EPSILON_NAME = "Medial Axis Epsilon"
 THICKNESS_NAME = "Medial Axis Thickness"
 LIMIT = "ma_epsilon_limit"
+COLOUR_NAME = "Medial Axis Colour"
 FLAT = (0.08, 0.42, 0.5, 1.0)  # of results without colours; orange is what Blender selects with
 
 
@@ -41,14 +42,26 @@ def thickness_material() -> bpy.types.Material:
     return found or _new_material(THICKNESS_NAME, THICKNESS)
 
 
+def colour_material() -> bpy.types.Material:
+    """The material of what has a scale of its own: it shows `ma_color` itself."""
+    found = bpy.data.materials.get((COLOUR_NAME, None))
+    if found is None:
+        found, shader = _empty_material(COLOUR_NAME)
+        colour = _attribute(found.node_tree.nodes, "GEOMETRY", COLOUR, (-300, 200))
+        found.node_tree.links.new(colour.outputs[0], shader.inputs["Base Color"])
+    return found
+
+
+def dress(thing: bpy.types.Object, material: bpy.types.Material) -> None:
+    """Give a new object the material that renders its colours, and the flat colour that views show without them."""
+    thing.data.materials.append(material)
+    thing.color = FLAT
+
+
 def _new_material(name: str, value: str) -> bpy.types.Material:
     """Colour by an attribute, from the one property of the object to the other."""
-    material = bpy.data.materials.new(name)
-    material.diffuse_color = FLAT
-    if not material.node_tree:
-        material.use_nodes = True  # already on, and going away, in later versions
+    material, shader = _empty_material(name)
     nodes, links = material.node_tree.nodes, material.node_tree.links
-    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
     spread = nodes.new("ShaderNodeMapRange")
     spread.location = (-650, 200)
     spread.clamp = False  # the ramp does that
@@ -62,6 +75,16 @@ def _new_material(name: str, value: str) -> bpy.types.Material:
     links.new(spread.outputs[0], ramp.inputs[0])
     links.new(ramp.outputs[0], shader.inputs["Base Color"])
     return material
+
+
+def _empty_material(name: str) -> tuple[bpy.types.Material, bpy.types.Node]:
+    """A new material and its shader."""
+    material = bpy.data.materials.new(name)
+    material.diffuse_color = FLAT
+    if not material.node_tree:
+        material.use_nodes = True  # already on, and going away, in later versions
+    nodes = material.node_tree.nodes
+    return material, next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
 
 
 def _attribute(

@@ -11,8 +11,7 @@ import numpy as np
 
 from ..core.axis.colours import radius_range
 from .attributes import Attribute
-from .colours import colour_mesh, remember_colours
-from .material import FLAT, THICKNESS, thickness_material
+from .material import THICKNESS, thickness_material
 from .output_object import Product, place, remember
 from .step_weights import write_steps
 from .write_mesh import new_mesh
@@ -31,7 +30,7 @@ _TABLE = (
     Attribute("ma_part", "part", "FACE", "INT", np.int32),
 )
 
-MID_SURFACE = Product(" Mid-Surface", (SHEETS,))
+MID_SURFACE = Product(" Mid-Surface", (SHEETS,), material=thickness_material)
 is_mid_surface, mid_surface_of = MID_SURFACE.has, MID_SURFACE.of
 check_mid_surface_writable = MID_SURFACE.check_writable
 
@@ -54,25 +53,14 @@ def write_mid_surface(
     InvalidInputError
         It cannot be changed now, or Blender cannot hold it.
     """
+    build = partial(new_mesh, found, table=_TABLE)
     span = radius_range(found.of_vertices)
-    thing, is_new = MID_SURFACE.write_mesh(source, partial(_sheets_mesh, found, span))
-    if is_new:
-        thing.data.materials.append(thickness_material())
-        thing.color = FLAT
-    remember_colours(thing, THICKNESS, *span)
+    thing, _ = MID_SURFACE.write_coloured(source, build, THICKNESS, found.of_vertices, *span)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[SHEETS], thing[SHARE] = found.sheets, found.share
     _solidify(thing, found.of_vertices)
     return thing
-
-
-def _sheets_mesh(
-    found: MidSurface, span: tuple[float, float], name: str | bpy.types.Mesh
-) -> bpy.types.Mesh:
-    mesh = new_mesh(found, name, _TABLE)
-    colour_mesh(mesh, found.of_vertices, *span)
-    return mesh
 
 
 def _solidify(thing: bpy.types.Object, lengths: NDArray[np.float64]) -> None:

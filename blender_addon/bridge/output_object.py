@@ -10,6 +10,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
@@ -17,6 +19,11 @@ from mathutils import Matrix
 
 from .. import __version__
 from ..core.errors import InvalidInputError
+from .colours import coloured_mesh, remember_colours
+from .material import dress
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 SOURCE = "ma_source"  # a pointer: it follows when either of the two is renamed
 VERSION = "ma_version"
@@ -76,12 +83,15 @@ class Product:
         Blender's type of these objects.
     part : str
         Of which connected part of a source objects are made; empty for those that are made of the whole.
+    material : function, optional
+        Returns the material that new objects get, with the flat colour of all products.
     """
 
     suffix: str
     marks: tuple[str, ...]
     type: str = "MESH"
     part: str = ""
+    material: Callable[[], bpy.types.Material] | None = None
 
     def has(self, thing: bpy.types.Object) -> bool:
         """Whether an object is of this kind."""
@@ -105,10 +115,39 @@ class Product:
         `build` and `between_steps` are as in `replace_mesh`.
         """
         thing = self.of(source)
-        if thing is None:
-            return new_object(source, self.suffix, build(source.name + self.suffix)), True
-        replace_mesh(thing, build, between_steps)
-        return thing, False
+        if thing is not None:
+            replace_mesh(thing, build, between_steps)
+            return thing, False
+        thing = new_object(source, self.suffix, build(source.name + self.suffix))
+        if self.material is not None:
+            dress(thing, self.material())
+        return thing, True
+
+    def write_coloured(
+        self,
+        source: bpy.types.Object,
+        build: Build,
+        of: str,
+        values: NDArray,
+        start: float,
+        end: float,
+    ) -> tuple[bpy.types.Object, bool]:
+        """As `write_mesh`, with colours of the vertices, whose range is remembered for the material and the legend.
+
+        Parameters
+        ----------
+        source : Object
+        build : function
+        of : str
+            The name of the attribute that is shown, or "" for a mesh without colours.
+        values : (number of vertices,)
+        start, end : float
+            What is blue and what is yellow.
+        """
+        coloured = partial(coloured_mesh, build, values, start, end) if of else build
+        thing, is_new = self.write_mesh(source, coloured)
+        remember_colours(thing, of, start, end)
+        return thing, is_new
 
 
 def check_mode(output: bpy.types.Object | None) -> None:

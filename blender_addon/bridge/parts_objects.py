@@ -13,6 +13,7 @@ from .. import __version__
 from ..core.axis.turning import with_facets_turned
 from ..core.errors import InvalidInputError
 from .attributes import PART, RADIUS, Attribute
+from .colours import END, START, remember_colours
 from .mesh_arrays import select_faces
 from .output_object import SOURCE, VERSION, is_gone
 from .read_axis import read_axis
@@ -156,7 +157,8 @@ def _add_object(
     thing = bpy.data.objects.new(name, mesh)
     thing.matrix_world = result.matrix_world
     thing[SOURCE], thing[VERSION], thing[NUMBER] = result, __version__, number
-    thing.show_in_front = result.show_in_front
+    thing.show_in_front, thing.color = result.show_in_front, result.color
+    remember_colours(thing, "", result.get(START, 0.0), result.get(END, 0.0))
     collection.objects.link(thing)
 
 

@@ -14,11 +14,14 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.errors import InvalidInputError
 from ..core.settings import Side
 from ..core.small_matrices import inverse, times
 from ..core.solid.solid_difference import SolidDifference, solid_difference
 from .axis_object import radius_range, settings_of
+from .colours import OF, remember_colours
+from .material import FLAT
 from .nodes.groups import add_modifier, is_group
 from .nodes.inputs import set_inputs
 from .output_object import SOURCE, Product, follow_like, is_gone, new_object, source_of
@@ -69,6 +72,9 @@ def rebuild(result: bpy.types.Object) -> bpy.types.Object:
     made = new_object(result, SOLID.suffix, result.data)
     follow_like(made, result)
     made[REBUILT], made[SOURCE] = True, result
+    made.color = FLAT
+    start, end = colours_of_radii(radius_range(result))
+    remember_colours(made, result.get(OF, ""), start, end)
     voxel = _diagonal(result) / _PARTS
     if is_reduced(result):
         _divide(made, voxel)

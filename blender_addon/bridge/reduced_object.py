@@ -12,8 +12,7 @@ from .. import __version__
 from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.settings import Side
 from .attributes import RADIUS
-from .colours import colour_mesh, remember_colours
-from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
+from .material import RADIUS_MAX, RADIUS_MIN, radius_material
 from .output_object import SOURCE, VERSION, Product, follow_like, source_of
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 REDUCED = "ma_reduced"  # the wanted number of vertices; it marks the object
 
 
-REDUCED_MESH = Product(" Small Mesh", (REDUCED,))
+REDUCED_MESH = Product(" Small Mesh", (REDUCED,), material=radius_material)
 is_reduced, reduced_of = REDUCED_MESH.has, REDUCED_MESH.of
 
 
@@ -56,20 +55,16 @@ def write_reduced(result: bpy.types.Object, axis: MedialAxis, vertices: int) -> 
         The object cannot be changed now, or Blender cannot hold it.
     """
     source = source_of(result) or result
-    thing, is_new = REDUCED_MESH.write_mesh(source, partial(_coloured_mesh, axis))
+    span = colours_of_radii(axis.radius)
+    thing, is_new = REDUCED_MESH.write_coloured(
+        source, partial(new_axis_mesh, axis), RADIUS.name, axis.radius, *span
+    )
     if is_new:
-        thing.data.materials.append(radius_material())
-        thing.color, thing.show_in_front = FLAT, True  # it lies inside the surface
+        thing.show_in_front = True  # it lies inside the surface
     follow_like(thing, result)
     show_wires(thing, axis)
     _remember(thing, source, axis, vertices)
     return thing
-
-
-def _coloured_mesh(axis: MedialAxis, name: str) -> bpy.types.Mesh:
-    mesh = new_axis_mesh(axis, name)
-    colour_mesh(mesh, axis.radius, *colours_of_radii(axis.radius))
-    return mesh
 
 
 def _remember(
@@ -79,5 +74,4 @@ def _remember(
     thing[SOURCE], thing[VERSION] = source, __version__
     thing["ma_side"] = Side.INNER.name
     thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())
-    remember_colours(thing, RADIUS.name, *colours_of_radii(axis.radius))
     thing.update_tag()

@@ -15,7 +15,7 @@ from .attributes import EPSILON, SAMPLE_ATTRIBUTES, as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
 from .evaluated_rows import keeps_rows
 from .feature_size import write_feature_size
-from .material import FLAT, LIMIT, epsilon_material
+from .material import LIMIT, epsilon_material
 from .output_object import (
     DENSITY,
     DUPLICATES,
@@ -45,7 +45,7 @@ _ENOUGH = 0.25
 _SCALE = 2.0  # where the colours end, in limits
 
 
-REPORT = Product(" Sampling", (SHARE, SOURCE))
+REPORT = Product(" Sampling", (SHARE, SOURCE), material=epsilon_material)
 is_report, report_of, check_report_writable = REPORT.has, REPORT.of, REPORT.check_writable
 
 
@@ -74,28 +74,20 @@ def write_report(
     InvalidInputError
         The report cannot be changed now, or Blender cannot hold it.
     """
-    report, is_new = REPORT.write_mesh(source, partial(_report_mesh, found, colours))
+    build = partial(new_mesh, found, table=SAMPLE_ATTRIBUTES)
+    of, end = (EPSILON.name if colours else ""), _SCALE * found.density.limit
+    report, is_new = REPORT.write_coloured(source, build, of, found.epsilon, 0.0, end)
     if is_new:
-        report.data.materials.append(epsilon_material())
-        report.color = FLAT
         report.show_in_front = True  # it lies exactly on its source
     place(report, frame)
     analysis = found.chosen.samples.analysis
     remember(report, source, len(found.vertices), analysis.duplicates, found.warnings)
-    _remember_density(report, found, colours)
+    _remember_density(report, found)
     return report
 
 
-def _report_mesh(found: SamplingReport, colours: bool, name: str) -> bpy.types.Mesh:
-    mesh = new_mesh(found, name, SAMPLE_ATTRIBUTES)
-    if colours:
-        colour_mesh(mesh, found.epsilon, 0.0, _SCALE * found.density.limit)
-    return mesh
-
-
-def _remember_density(report: bpy.types.Object, found: SamplingReport, colours: bool) -> None:
+def _remember_density(report: bpy.types.Object, found: SamplingReport) -> None:
     density, worst = found.density, found.density.worst
-    remember_colours(report, EPSILON.name if colours else "", 0.0, _SCALE * density.limit)
     report[SAMPLED] = found.chosen.reason
     report[DENSITY] = str(density)
     report[LIMIT] = density.limit
@@ -170,7 +162,9 @@ def write_on_source(
     source[POINTS] = len(found.vertices)
     source[DUPLICATES] = found.chosen.samples.analysis.duplicates
     source[WARNINGS] = "\n".join(found.warnings)
-    _remember_density(source, found, colours)
+    of, end = (EPSILON.name if colours else ""), _SCALE * found.density.limit
+    remember_colours(source, of, 0.0, end)
+    _remember_density(source, found)
     return source
 
 

@@ -21,7 +21,7 @@ from ..core.files.load_axis import load_axis
 from ..core.files.load_skeleton import load_skeleton
 from .attributes import RADIUS
 from .colours import colour_mesh, remember_colours
-from .material import FLAT, RADIUS_MAX, RADIUS_MIN, radius_material
+from .material import RADIUS_MAX, RADIUS_MIN, dress, radius_material
 from .skeleton_object import BRANCHES, ENDS, LOOPS, check_size, fill_curve, new_curve
 from .wires import show_wires
 from .write_mesh import new_axis_mesh
@@ -116,10 +116,8 @@ def write_sequence(name: str, files: dict[int, Path]) -> bpy.types.Collection:
 
 def _new_axis(name: str, path: Path) -> bpy.types.Object:
     axis = load_axis(path)
-    mesh = new_axis_mesh(axis, name)
-    mesh.materials.append(radius_material())
-    thing = bpy.data.objects.new(name, mesh)
-    thing.color = FLAT
+    thing = bpy.data.objects.new(name, new_axis_mesh(axis, name))
+    dress(thing, radius_material())
     thing.show_in_front = True
     show_wires(thing, axis)
     thing[RADIUS_MIN], thing[RADIUS_MAX] = float(axis.radius.min()), float(axis.radius.max())

@@ -20,7 +20,7 @@ from ..core.solid.thin_parts import ThinParts
 from .attributes import as_float32, set_attribute
 from .colours import colour_mesh, remember_colours
 from .evaluated_rows import keeps_rows
-from .material import FLAT
+from .material import colour_material
 from .mesh_arrays import read_loop_triangles
 from .output_object import (
     SAMPLED,
@@ -72,7 +72,7 @@ def is_carrier(thing: bpy.types.Object) -> bool:
 
 
 # An object that was made to show thickness; a source that carries its thickness itself is none.
-COPY = Product(" Thickness", (KEY, SOURCE))
+COPY = Product(" Thickness", (KEY, SOURCE), material=colour_material)
 is_copy = COPY.has
 
 
@@ -176,7 +176,6 @@ def _write_copy(
 ) -> bpy.types.Object:
     copy, is_new = COPY.write_mesh(source, partial(_copy_mesh, found))
     if is_new:
-        copy.color = FLAT
         copy.show_in_front = True  # it lies on its source
     place(copy, frame)
     remember(copy, source, found.samples, found.duplicates, found.warnings)

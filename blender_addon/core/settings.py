@@ -840,7 +840,8 @@ class BallSettings(Options):
         items={
             CoverMode.INSIDE: (
                 "Inside",
-                "No ball reaches out of the solid; each holds as much as it can of what the others leave",
+                "No ball reaches out of the solid; each holds as much as it can of what the others leave, "
+                "so thin parts may have none; Around leaves no part out",
             ),
             CoverMode.AROUND: (
                 "Around",

@@ -13,6 +13,7 @@ from ..bridge.source_state import remember_state, state_of
 from ..core.errors import Cancelled, MedialAxisError
 from ..core.machine.job import Task, run_task
 from . import current_job
+from .select_made import select_made
 from .selected_sources import Source, obstacle, sources
 from .translation import say
 from .watched_job import CANCELLED, WatchedJob
@@ -140,7 +141,7 @@ class ComputeOperator(FromSelection, WatchedJob):
         made = [thing for thing in made if thing is not None]
         self.settle(made)
         if self.select_result:
-            _select(context, made)
+            select_made(context, made)
         current_job.settle()
         return {"FINISHED"} if made else {"CANCELLED"}
 
@@ -177,17 +178,3 @@ def _sentence(errors):
     """The error of a source, or of its parts together."""
     part, error = errors[0]
     return f"{len(errors):,} parts have no result: {error}" if part else str(error)
-
-
-def _select(context, made):
-    """Select what was made and nothing else, as Blender does with new objects; not in edit mode."""
-    if not made or context.mode != "OBJECT":
-        return
-    context.view_layer.update()
-    for thing in context.selected_objects:
-        thing.select_set(False)
-    shown = [thing for thing in made if thing.name in context.view_layer.objects]
-    for thing in shown:
-        thing.select_set(True)
-    if shown:
-        context.view_layer.objects.active = shown[0]

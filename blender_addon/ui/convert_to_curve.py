@@ -7,6 +7,7 @@ from ..bridge.curve_object import write_curve
 from ..bridge.read_axis import find_axis
 from ..bridge.wires import WIRES
 from ..core.errors import MedialAxisError
+from .select_made import bring_into_view_layer, select_made
 from .translation import say
 
 
@@ -33,11 +34,8 @@ class OBJECT_OT_medial_axis_to_curve(bpy.types.Operator):
         except MedialAxisError as error:
             self.report({"ERROR"}, say(str(error)))
             return {"CANCELLED"}
-        if context.mode == "OBJECT":
-            for thing in context.selected_objects:
-                thing.select_set(False)
-            made.select_set(True)
-            context.view_layer.objects.active = made
+        bring_into_view_layer(context, made)
+        select_made(context, [made])
         return {"FINISHED"}
 
 

@@ -4,14 +4,19 @@
 from ..core.settings import Form, applies_to_form
 from .properties import settings_from, shown_result
 from .ranged_sliders import row_of_slider
+from .skeleton_operators import copy_all
+from .tab import draws_buttons
 
 _SLIDERS = ("simplify", "erode", "spike", "limb")
 
 
 def draw_form(context, layout, panel):
-    """Form, and the slider that matters most for it."""
+    """Form, and the slider that matters most for it; under the curve also the way to one of few branches."""
     layout.prop(panel, "form")
     _draw_sliders(context, layout, panel, _that_apply(panel)[:1])
+    if panel.form == Form.CURVE.name and draws_buttons(layout):
+        button = layout.operator("object.medial_axis_skeleton", icon="OUTLINER_OB_CURVE")
+        copy_all(context, button)
 
 
 def draw_more_of_form(context, layout, panel):

@@ -17,6 +17,7 @@ from ..bridge.rebuilt_object import (
 )
 from ..bridge.step_back import are_back, step_back
 from ..core.errors import MedialAxisError
+from .select_made import bring_into_view_layer
 from .tab import Closed, settings_column
 from .translation import say
 
@@ -61,6 +62,7 @@ class OBJECT_OT_medial_axis_rebuild(bpy.types.Operator):
     def execute(self, context):
         try:
             made = rebuild(_axis(context))
+            bring_into_view_layer(context, made)
             back = self.alone or are_back(made)
             step_back(made, False)  # what is hidden is not evaluated
             context.view_layer.update()

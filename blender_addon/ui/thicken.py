@@ -86,9 +86,11 @@ class OBJECT_OT_medial_axis_thicken(WallOperator, ThickenProperties, bpy.types.O
     def summary(self, found):
         if not found.moves.any() and not found.left.patches:
             return f"Nothing had to move; minimum {found.after.minimum:.4g}"
-        text = f"Minimum {found.before.minimum:.4g} is {found.after.minimum:.4g} now"
+        text = (
+            f"The least thickness was {found.before.minimum:.4g} and is {found.after.minimum:.4g}"
+        )
         if found.left.patches:
-            text += f", {share_text(found.left.share)} of the area is still thinner than {self.limit:.4g}"
+            text += f"; {share_text(found.left.share)} of the area is still thinner than {self.limit:.4g}"
         return text
 
 

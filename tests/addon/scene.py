@@ -47,6 +47,16 @@ def select(*things):
     bpy.context.view_layer.objects.active = things[0] if things else None
 
 
+def exclude(thing):
+    """Put an object into a collection that the view layer leaves out."""
+    other = bpy.data.collections.new("Out")
+    bpy.context.scene.collection.children.link(other)
+    for collection in thing.users_collection:
+        collection.objects.unlink(thing)
+    other.objects.link(thing)
+    bpy.context.view_layer.layer_collection.children["Out"].exclude = True
+
+
 def suzanne(levels=1):
     """A monkey under a Subdivision Surface modifier: 507 points, 2,012 after one level."""
     bpy.ops.mesh.primitive_monkey_add()

@@ -5,7 +5,18 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from scene import addon, attribute, compute, ellipsoid, link, positions, result_of, select, torus
+from scene import (
+    addon,
+    attribute,
+    compute,
+    ellipsoid,
+    exclude,
+    link,
+    positions,
+    result_of,
+    select,
+    torus,
+)
 
 CURVE = {"form": "CURVE", "sampling": "SURFACE", "samples": 1_500}
 
@@ -33,6 +44,119 @@ def test_there_is_no_curve_of_sheets_alone():
     ellipsoid()
     compute(sampling="SURFACE", samples=1_500)
     assert not bpy.ops.object.medial_axis_to_curve.poll()
+
+
+def cells(*places):
+    """A mesh of unit cubes that are glued together."""
+    corners, faces = {}, []
+    for place in places:
+        for axis in range(3):
+            for side in (0, 1):
+                beside = np.array(place)
+                beside[axis] += 2 * side - 1
+                if tuple(beside.tolist()) in places:
+                    continue
+                u, v = np.roll(np.eye(3, dtype=int), 1 - axis, axis=0)[[2, 0]]
+                low = np.array(place) + side * np.eye(3, dtype=int)[axis]
+                ring = [low, low + u, low + u + v, low + v][:: 2 * side - 1]
+                faces.append([corners.setdefault(tuple(c.tolist()), len(corners)) for c in ring])
+    return link("Cells", list(corners), faces)
+
+
+def splines_of(curve):
+    return [np.array([point.co[:3] for point in one.points]) for one in curve.data.splines]
+
+
+def length_of(curve):
+    return sum(np.linalg.norm(np.diff(one, axis=0), axis=1).sum() for one in splines_of(curve))
+
+
+def wires_of(mesh):
+    """(w, 2) the vertices of the edges without a face."""
+    of_faces = {key for face in mesh.polygons for key in face.edge_keys}
+    return np.array([edge.key for edge in mesh.edges if edge.key not in of_faces])
+
+
+def length_of_wires(mesh):
+    ends = positions(mesh)[wires_of(mesh)]
+    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
+
+
+def test_branches_meet_at_a_fork():
+    source = cells(*((x, 0, 0) for x in range(9)), *((4, y, 0) for y in range(1, 5)))
+    compute(form="CURVE", sampling="SURFACE", samples=3_000, limb=10.0)
+    axis = result_of(source)
+    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
+    curve = bpy.context.object
+    splines = splines_of(curve)
+    assert len(splines) == 3 and not any(one.use_cyclic_u for one in curve.data.splines)
+    ends = [{tuple(one[0]), tuple(one[-1])} for one in splines]
+    (fork,) = set.intersection(*ends)
+    np.testing.assert_allclose(fork, (4.5, 0.5, 0.5), atol=0.4)
+    assert len(set.union(*ends)) == 4
+    assert length_of(curve) == pytest.approx(length_of_wires(axis.data), rel=1e-5)
+
+
+def test_vertices_of_sheets_are_no_points_of_the_curve():
+    block = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)]
+    bar, other = [(x, 1, 1) for x in range(3, 8)], [(x + 8, y, z) for x, y, z in block]
+    source = cells(*block, *bar, *other)
+    compute(form="CLEAN", sampling="SURFACE", samples=3_000, simplify=2.0)
+    axis = result_of(source)
+    wires = wires_of(axis.data)
+    assert len(axis.data.polygons) > 100 and len(wires) > 20, "sheets and wires"
+    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
+    curve = bpy.context.object
+    assert all(len(one) > 1 for one in splines_of(curve))
+    assert length_of(curve) == pytest.approx(length_of_wires(axis.data), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "hide",
+    [
+        lambda thing: thing.hide_set(True),
+        lambda thing: setattr(thing, "hide_viewport", True),
+        exclude,
+    ],
+    ids=["eye", "viewport", "collection"],
+)
+@pytest.mark.parametrize("which", ["source", "axis"])
+def test_what_is_hidden_is_converted_too(which, hide):
+    source = torus()
+    source.location = (1.0, 2.0, 3.0)
+    compute(**CURVE)
+    axis = result_of(source)
+    hidden, other = (source, axis) if which == "source" else (axis, source)
+    place, count = axis.matrix_world.copy(), len(axis.data.vertices)
+    select(other)
+    hide(hidden)
+    bpy.context.view_layer.update()
+    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
+    (curve,) = [thing for thing in bpy.data.objects if thing.type == "CURVE"]
+    assert len(splines_of(curve)[0]) == count
+    assert curve.visible_get() and curve == bpy.context.object and curve.select_get()
+    bpy.context.view_layer.update()
+    assert np.allclose(curve.matrix_world, place, atol=1e-6)
+    assert axis.users_collection and not hidden.visible_get()
+
+
+def test_a_curve_is_one_step_of_undo():
+    bpy.context.preferences.edit.use_global_undo = True
+    torus()
+    compute(**CURVE)
+    bpy.ops.ed.undo_push(message="axis")
+    bpy.ops.object.medial_axis_to_curve()
+    bpy.ops.ed.undo_push(message="Convert to Curve")
+    count = len(bpy.data.curves[0].splines[0].points)
+    for _ in range(2):
+        bpy.ops.ed.undo()
+        assert not bpy.data.curves and len(bpy.data.objects) == 2
+        bpy.ops.ed.redo()
+        (curve,) = bpy.data.curves
+        assert len(curve.splines[0].points) == count
+    bpy.ops.ed.undo()
+    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}, "after undo the axis is there"
+    assert len(bpy.context.object.data.splines[0].points) == count
 
 
 def vectors(mesh, name):

@@ -6,7 +6,18 @@ import re
 import bpy
 import numpy as np
 import pytest
-from scene import addon, compute, contents, ellipsoid, positions, reports, result_of, select, torus
+from scene import (
+    addon,
+    compute,
+    contents,
+    ellipsoid,
+    exclude,
+    positions,
+    reports,
+    result_of,
+    select,
+    torus,
+)
 from test_nodes import ball_volume, evaluated, volume
 
 
@@ -167,3 +178,15 @@ def test_others_step_back_and_are_measured_all_the_same():
     assert source.visible_get() and axis.visible_get()
     bpy.ops.object.medial_axis_others(name=made.name)
     assert not source.visible_get() and made.visible_get()
+
+
+def test_the_axis_may_be_where_the_view_layer_does_not_show_it():
+    source = torus()
+    compute(form="CLEAN", side="INNER")
+    axis = result_of(source)
+    exclude(axis)
+    select(source)
+    assert bpy.ops.object.medial_axis_rebuild(alone=True) == {"FINISHED"}
+    made = rebuilt(source)
+    assert made.visible_get() and made.select_get() and made["ma_rebuilt_mean"] < 0.01
+    assert not axis.visible_get()

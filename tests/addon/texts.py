@@ -18,6 +18,8 @@ HIDDEN = {
     "core/machine/free_memory.py",
     "core/batch/option_words.py",
     "core/files/thickness_page.py",
+    "core/files/vtp.py",
+    "core/files/write_mid_surface.py",
     "core/machine/cache.py",
     "ui/translation.py",
 }
@@ -40,6 +42,11 @@ DATA = {
     " Medial Axis",
     " Small Mesh",
     "Medial Axis Wires",
+    "Medial Axis Drain",
+    "Medial Axis IK",
+    "Medial Axis Thicken",
+    "Medial Axis Thickness",
+    "OFF\n{} {} 0\n",
     "Fill Caps",
     "Profile Curve",
     "step {}",
@@ -59,6 +66,8 @@ PARTS = {"Preparing", "unknown", "arrays that contradict each other"}
 FRAMES = {"'{}': {}"}
 # Properties that Blender's own helpers declare on our operators.
 HELPERS = {"filepath", "axis_forward", "axis_up"}
+# The variable whose keys are parts of sentences, by which short ones are found.
+MATCHED = "_IN_SHORT"
 PRODUCTS = {"product", "_PRODUCT"}  # what is computed, by the name of the variable
 
 
@@ -168,11 +177,15 @@ def template(node):
 
 
 def silent_nodes(tree):
-    """Docstrings, and the pieces of f-strings."""
+    """Docstrings, types for checkers, parts of sentences to look for, and the pieces of f-strings."""
     found = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.JoinedStr):
             found |= {id(inner) for inner in ast.walk(node)} - {id(node)}
+        elif isinstance(node, ast.Call) and ast.unparse(node.func) == "cast":
+            found.add(id(node.args[0]))
+        elif isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == MATCHED:
+            found |= set(map(id, node.value.keys))
         elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
             found.add(id(node.value))
     return found

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..attributes import RADIUS
+from ..material import radius_material
 from .radii import points_with_radii
 from .ramp import stored_colour
 from .tree import Tree
@@ -36,14 +37,14 @@ def build(name: str) -> bpy.types.GeometryNodeTree:
     )
     mesh = _scaled(tree, mesh, tree.math("DIVIDE", voxel, _VOXEL))
     mesh = _coloured(tree, mesh, points)
+    about = "Of the solid; the usual one has the colours of radii"
+    material = tree.input("NodeSocketMaterial", "Material", radius_material(), about)
+    mesh = tree.node("GeometryNodeSetMaterial", mesh, named={"Material": material})
     return tree.output(tree.node("GeometryNodeSetShadeSmooth", mesh))
 
 
 def _coloured(tree: Tree, mesh: NodeSocket, points: NodeSocket) -> NodeSocket:
-    """The solid with the radius of the nearest ball at each vertex, and with the colours of the axis for it.
-
-    It has no material: an artist's own stays.
-    """
+    """The solid with the radius of the nearest ball at each vertex, and with the colours of the axis for it."""
     row = tree.node("GeometryNodeSampleNearest", points, domain="POINT")
     radius = tree.node(
         "GeometryNodeSampleIndex",

@@ -97,8 +97,9 @@ class Closed:
 
     def __str__(self) -> str:
         end = "; the numbers of the faces are not reached within the budget" if self.differs else ""
-        ordinal = f" in {self.passes} passes" if self.passes > 1 else ""
-        return f"{self.why}: samples in pairs{ordinal}{end}"
+        if self.passes == 1:
+            return f"{self.why}: samples in pairs" + end
+        return f"{self.why}: samples in pairs in {self.passes} passes" + end
 
 
 def closes(request: Request, sides: Sides) -> bool:

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects that are made of a source have a material that renders their colours, and the range of these."""
+
+import bpy
+import numpy as np
+import pytest
+from scene import addon, compute, ellipsoid, positions, renders, result_of, select, torus
+
+EVEN = {"form": "CLEAN", "sampling": "SURFACE", "samples": 1_500}
+
+
+def rendered(thing, folder):
+    """(n, 3) sRGB of the pixels that an object fills in a small render of it alone, in white light from all sides."""
+    scene = bpy.context.scene
+    for other in bpy.context.view_layer.objects:
+        other.hide_render = other != thing
+    world = scene.world = bpy.data.worlds.new("White")
+    world.use_nodes = True
+    world.node_tree.nodes["Background"].inputs[0].default_value = (1.0, 1.0, 1.0, 1.0)
+    look = bpy.data.objects.new("Look", bpy.data.cameras.new("Look"))
+    scene.collection.objects.link(look)
+    look.data.type, look.data.ortho_scale = "ORTHO", 4.0
+    look.location = thing.matrix_world.translation + type(look.location)((0.0, 0.0, 10.0))
+    scene.camera = look
+    scene.render.engine, scene.cycles.samples, scene.cycles.device = "CYCLES", 4, "CPU"
+    scene.render.film_transparent, scene.cycles.use_denoising = True, False
+    scene.view_settings.view_transform = "Standard"
+    scene.render.resolution_x = scene.render.resolution_y = 24
+    scene.render.resolution_percentage = 100
+    scene.render.filepath = str(folder / "render.png")
+    bpy.ops.render.render(write_still=True)
+    picture = bpy.data.images.load(scene.render.filepath)
+    pixels = np.array(picture.pixels[:]).reshape(-1, 4)
+    return pixels[pixels[:, 3] > 0.9, :3]
+
+
+def assert_coloured(pixels):
+    """The pixels are no grey: the largest channel is far above the smallest."""
+    assert len(pixels) > 10
+    assert np.median(np.ptp(pixels, axis=1)) > 0.25, pixels.mean(axis=0)
+
+
+def rebuilt(source):
+    select(source)
+    assert bpy.ops.object.medial_axis_rebuild() == {"FINISHED"}
+    return addon("bridge.rebuilt_object").rebuilt_of(result_of(source))
+
+
+def axis(source):
+    return result_of(source)
+
+
+def balls(source):
+    select(source)
+    bpy.ops.object.medial_axis_balls(count=8)
+    return addon("bridge.balls_object").balls_of(source)
+
+
+def thickness(source):
+    select(source)
+    bpy.ops.object.medial_axis_thickness(limit=0.3)
+    return addon("bridge.thickness_object").carrier_of(source)
+
+
+@renders
+@pytest.mark.parametrize("make", [axis, rebuilt, balls])
+def test_colours_are_rendered(make, tmp_path):
+    source = ellipsoid()
+    compute(**EVEN)
+    assert_coloured(rendered(make(source), tmp_path))
+
+
+@renders
+def test_the_copy_with_the_thickness_renders_its_colours(tmp_path):
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    source = bpy.context.object
+    made = thickness(source)
+    assert made != source
+    assert_coloured(rendered(made, tmp_path))
+
+
+@renders
+def test_parts_as_objects_render_the_colours_of_their_axis(tmp_path):
+    bpy.ops.mesh.primitive_cube_add(size=2)
+    source = bpy.context.object
+    source.scale.z = 0.2
+    compute(**EVEN)
+    select(result_of(source))
+    assert bpy.ops.object.medial_axis_separate_parts() == {"FINISHED"}
+    parts = addon("bridge.parts_objects").parts_of(result_of(source))
+    flat = max(parts, key=lambda part: np.ptp(positions(part.data), axis=0)[:2].min())
+    assert_coloured(rendered(flat, tmp_path))
+
+
+def test_a_rebuilt_solid_keeps_the_range_of_its_axis():
+    source = torus()
+    compute(**EVEN)
+    made = rebuilt(source)
+    duplicate = result_of(source).copy()
+    bpy.context.scene.collection.objects.link(duplicate)
+    colour_range = addon("bridge.colours").colour_range
+    before = colour_range(made)
+    assert before == colour_range(result_of(source)) == colour_range(duplicate)
+    source.data.vertices.foreach_set("co", (2 * positions(source.data)).astype(np.float32).ravel())
+    source.data.update()
+    select(source)
+    compute(**EVEN)
+    after = colour_range(made)
+    assert after == colour_range(result_of(source)) == colour_range(duplicate)
+    assert after[1:] == pytest.approx([2 * end for end in before[1:]], rel=0.05)
+
+
+def test_the_material_of_a_rebuilt_solid_is_an_input():
+    source = ellipsoid()
+    compute(**EVEN)
+    made = rebuilt(source)
+    mine = bpy.data.materials.new("Mine")
+    modifier = addon("bridge.rebuilt_object").modifier_of(made)
+    inputs = addon("bridge.nodes.inputs")
+
+    def materials():
+        seen = made.evaluated_get(bpy.context.evaluated_depsgraph_get())
+        return [slot.material.name for slot in seen.material_slots]
+
+    assert materials() == ["Medial Axis Radius"]
+    inputs.set_inputs(modifier, {"Material": mine})
+    assert materials() == ["Mine"]
+    assert [m.name for m in result_of(source).data.materials] == ["Medial Axis Radius"]
