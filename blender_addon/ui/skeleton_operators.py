@@ -6,6 +6,7 @@ from functools import partial
 import bpy
 
 from ..bridge.armature_object import check_no_other, find_armature, in_rest, write_armature
+from ..bridge.follow_mesh import remember_rest
 from ..bridge.bind_armature import bind_by_axis, bind_by_heat, check_bindable, groups_of_others
 from ..bridge.read_object import read_object
 from ..bridge.skeleton_object import (
@@ -171,6 +172,7 @@ class OBJECT_OT_medial_axis_armature(
         made = write_armature(thing, rig, frame, taken, self.ik, into)
         with same_state(thing):
             self._bind(thing, made, rig)
+        remember_rest(made, thing)
         return made
 
     def _bind(self, thing, made, rig):
