@@ -144,6 +144,9 @@ class MeshFollower:
         self.was_bound = any(m.show_viewport or m.show_render for m in bound)
         for modifier in bound:
             modifier.show_viewport = modifier.show_render = False
+        for name in self._names:  # a solver of IK would bend limbs anew
+            for constraint in self.armature.pose.bones[name].constraints:
+                constraint.mute |= constraint.name == IK
         _start_action(self.armature, set(self._keys))
         for name, keys in self._keys.items():
             _key(self.armature.pose.bones[name], keys)

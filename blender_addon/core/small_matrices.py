@@ -166,7 +166,8 @@ def closest_turns(
     squares = (scaled[:, :, :, None] * scaled[:, :, None, :]).sum(axis=1)
     right = np.tile(np.identity(3), (len(matrices), 1, 1))
     for _ in range(_MOST_SWEEPS):
-        if not any([_turned_all(squares, right, p, q) for p, q in ((0, 1), (0, 2), (1, 2))]):
+        turned = [_turned_all(squares, right, p, q) for p, q in ((0, 1), (0, 2), (1, 2))]
+        if not any(turned):
             break
     order = np.argsort(-np.diagonal(squares, axis1=1, axis2=2), axis=1, kind="stable")
     first, second = (np.take_along_axis(right, order[:, k, None, None], 1)[:, 0] for k in (0, 1))

@@ -20,6 +20,8 @@ class VIEW3D_PT_medial_axis_skeleton(Closed, bpy.types.Panel):
     def draw(self, context):
         column = settings_column(self.layout)
         for name in (*SKELETON_OPTIONS, "bind"):
+            if name == "loops":  # it is in the panels of the operators
+                continue
             column.prop(context.scene.medial_axis_skeleton, name)
         converts = bpy.ops.object.medial_axis_to_curve.poll()
         follows = bpy.ops.object.medial_axis_follow.poll()

@@ -268,6 +268,7 @@ def test_targets_of_limbs_follow_too():
         for side in "LR":
             foot, target = pose[f"limb.02.02.{side}"], pose[f"IK.limb.02.{side}"]
             assert (foot.tail - target.head).length < 1e-3
+    assert all(c.mute for b in thing.pose.bones for c in b.constraints)
     mover, own = (m for m in source.modifiers if m.type == "ARMATURE")
     mover.show_viewport, own.show_viewport = False, True
     for frame in FRAMES:
@@ -277,9 +278,8 @@ def test_targets_of_limbs_follow_too():
 def test_a_limb_that_shrinks_into_the_body_is_told(capfd):
     """At frame 3 an arm is drawn into the shoulder."""
     source = figure()
-    thing = make(source)
     points = positions(source.data)
-    shoulder = np.array(thing.data.bones["limb.01.01.L"].head_local)
+    shoulder = np.array((0.3, 0.0, 1.5))
     arm = np.clip((points[:, 0] - shoulder[0]) / 0.1, 0.0, 1.0)[:, None]
     for name, share in (("Basis", 0.0), ("Gone", 0.95)):
         key = source.shape_key_add(name=name)
@@ -292,7 +292,10 @@ def test_a_limb_that_shrinks_into_the_body_is_told(capfd):
     reports(capfd)
     follow(source)
     said = [text for kind, text in reports(capfd)]
-    assert any("The surface leaves 'limb.01." in text and "from 3 to 3" in text for text in said)
+    assert any(
+        "The surface leaves" in text and "'limb.01.0" in text and "from 3 to 3" in text
+        for text in said
+    )
 
 
 def test_bones_turned_by_other_angles_keep_their_mode():

@@ -13,6 +13,7 @@ the same for every mesh.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -80,12 +81,13 @@ class Follower:
         self._held = np.flatnonzero(total > 0.0)
         self._centre = points[self._held].mean(axis=0)
         self._size = length_of(np.ptp(points[self._held], axis=0))
-        self._head = head - self._centre
+        self._unit = math.ldexp(1.0, math.frexp(self._size)[1])  # turns and shifts weigh the same
+        self._head = (head - self._centre) / self._unit
         order = np.lexsort((vertex, bone))
         self._vertex, self._bone = vertex[order], bone[order]
         self._weight = weight[order] / total[self._vertex]
         self._first = np.searchsorted(self._bone, np.arange(self._count + 1))
-        places = points - self._centre
+        places = (points - self._centre) / self._unit
         self._places = np.column_stack((places, np.ones(len(places))))
         self._at_rest = self._weight[:, None] * self._places[self._vertex]
         self._own = self._sums(self._at_rest, self._places[self._vertex])
@@ -98,7 +100,7 @@ class Follower:
 
     def pose(self, moved: NDArray[np.float64]) -> Pose:
         """Return the pose that fits the moved vertices, (v, 3), best."""
-        at = moved - self._centre
+        at = (moved - self._centre) / self._unit
         sums = self._sums(at[self._vertex], self._at_rest)
         pose = self._start(sums)
         error, damping = self._error(pose, sums), _DAMPING[0]
@@ -117,14 +119,15 @@ class Follower:
 
     def off(self, pose: Pose, moved: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return how far each vertex is from where the pose puts it, (v,); 0 for vertices without a weight."""
-        here = Pose(pose.turn, _shifted(pose, self._centre) - self._centre)
+        shift = (_shifted(pose, self._centre) - self._centre) / self._unit
+        here = Pose(pose.turn, shift)
         placed = _times_rows(here.matrices[self._bone], self._at_rest)
         off = np.zeros(len(self._places))
         found = np.column_stack(
             [np.bincount(self._vertex, placed[:, k], len(off)) for k in range(3)]
         )
-        apart = found - (moved - self._centre)
-        off[self._held] = np.sqrt((apart[self._held] ** 2).sum(axis=1))
+        apart = found - (moved - self._centre) / self._unit
+        off[self._held] = self._unit * np.sqrt((apart[self._held] ** 2).sum(axis=1))
         return off
 
     def share_beyond(
@@ -139,12 +142,12 @@ class Follower:
         self, head: NDArray[np.float64], tail: NDArray[np.float64]
     ) -> NDArray[np.float64]:
         """Return the mean distance of the vertices of each bone from it, (b,), by weight; 0 without vertices."""
-        along = tail - head
+        along = (tail - head) / self._unit
         square = dot(along, along)
-        from_head = self._places[self._vertex, :3] - (head - self._centre)[self._bone]
+        from_head = self._places[self._vertex, :3] - self._head[self._bone]
         share = dot(from_head, along[self._bone]) / np.where(square > 0.0, square, 1.0)[self._bone]
         apart = from_head - np.clip(share, 0.0, 1.0)[:, None] * along[self._bone]
-        away = np.sqrt(dot(apart, apart))
+        away = self._unit * np.sqrt(dot(apart, apart))
         return np.bincount(self._bone, self._weight * away, self._count) / self._whole
 
     @property
@@ -274,9 +277,7 @@ class Follower:
         turn = [rest[:, i, j] - rest[:, j, i] for i, j in ((1, 2), (2, 0), (0, 1))]
         return square, np.column_stack((*turn, rest[:, 3]))
 
-    def _turned(
-        self, pose: Pose, turn: NDArray[np.float64], shift: NDArray[np.float64]
-    ) -> Pose:
+    def _turned(self, pose: Pose, turn: NDArray[np.float64], shift: NDArray[np.float64]) -> Pose:
         """Return the pose after each joint has turned about its head, and each root has moved."""
         whole = turn.copy()
         for bone, parent in enumerate(self._parent.tolist()):
@@ -290,8 +291,9 @@ class Follower:
         return self._jointed(turned, np.where(roots[:, None], there, 0.0))
 
     def _in_space(self, pose: Pose) -> Pose:
-        """Return the same pose for places that are not counted from the centre of the mesh."""
-        return Pose(pose.turn, _shifted(pose, -self._centre) + self._centre)
+        """Return the same pose for places in the unit of the mesh, which are not counted from its centre."""
+        back = Pose(pose.turn, self._unit * pose.shift)
+        return Pose(pose.turn, _shifted(back, -self._centre) + self._centre)
 
 
 def _shifted(pose: Pose, by: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -303,9 +305,7 @@ def _times(matrix: NDArray[np.float64], vector: NDArray[np.float64]) -> NDArray[
     return np.asarray((matrix * vector).sum(axis=-1))
 
 
-def _times_rows(
-    matrices: NDArray[np.float64], rows: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _times_rows(matrices: NDArray[np.float64], rows: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return each matrix, (n, 3, 4), times its row, (n, 4)."""
     return np.asarray((matrices * rows[:, None, :]).sum(axis=2))
 

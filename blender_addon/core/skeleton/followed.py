@@ -38,9 +38,7 @@ class Followed:
         self.off: dict[int, float] = {}
         self._left: dict[int, list[tuple[float, int]]] = {}  # the share and the frame, of each bone
 
-    def add(
-        self, frame: int, follower: Follower, pose: Pose, places: NDArray[np.float64]
-    ) -> None:
+    def add(self, frame: int, follower: Follower, pose: Pose, places: NDArray[np.float64]) -> None:
         """Compare the vertices of a frame, (v, 3), with where the pose of the bones puts them."""
         off = follower.off(pose, places)
         self.off[frame] = float(np.sqrt((off**2).mean())) / follower.size
