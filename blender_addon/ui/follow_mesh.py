@@ -28,7 +28,9 @@ NOT_TWICE = (
 class OBJECT_OT_medial_axis_follow(bpy.types.Operator):
     bl_idname = "object.medial_axis_follow"
     bl_label = "Follow Mesh"
-    bl_description = "Key the bones of the selected objects so that they follow the mesh through the frames of the scene"
+    bl_description = (
+        "Key the bones of the selected objects so that they follow the mesh through the frames"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
     frames: StringProperty(
