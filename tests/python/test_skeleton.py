@@ -733,7 +733,7 @@ def test_thin_loops_are_cut_and_others_stay():
 
 
 def test_loops_open_at_their_thinnest_edge():
-    """Of two loops that share a rung both are opened, every point stays, and nothing comes apart."""
+    """Two loops that share a rung are both opened, every point stays, and nothing comes apart."""
     net = net_of(*ladder(), [0.5] * 6 + [0.01])
     rows = {row for chain in net.branches.values() for row in chain}
     loops, tips = net.loops(), len(net.tips())

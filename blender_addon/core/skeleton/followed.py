@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What bones that follow a mesh through frames could not follow, in sentences."""
+"""Sentences tell where bones could not follow a mesh through frames."""
 
 from __future__ import annotations
 
