@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import _thread
 import argparse
+import math
 import shlex
 import signal
 import sys
@@ -295,7 +296,17 @@ def _skeleton_parser() -> argparse.ArgumentParser:
         "The curve skeletons of meshes and point clouds, with radii.",
         _EXAMPLES_OF_SKELETONS,
     )
-    add_options(parser.add_argument_group("skeleton"), SkeletonSettings)
+    group = parser.add_argument_group("skeleton")
+    add_options(group, SkeletonSettings)
+    group.add_argument(
+        "--end",
+        action="append",
+        default=[],
+        type=_place,
+        metavar="X,Y,Z",
+        help="a place on the surface at the end of a limb; given two or more times, the skeleton keeps only what "
+        "joins these ends (--end=-1,2,3 where a minus comes first)",
+    )
     add_sampling(parser.add_argument_group("method"))
     _add_files(parser, [suffix[1:] for suffix in SKELETON_FORMATS], "json")
     parser.set_defaults(known=(*SKELETON_FORMATS,), work_from=_skeleton_work)
@@ -305,7 +316,20 @@ def _skeleton_parser() -> argparse.ArgumentParser:
 def _skeleton_work(wanted: argparse.Namespace) -> Work:
     from .core.batch.skeleton_work import SkeletonWork
 
-    return SkeletonWork(sampling_from(wanted), settings_from(wanted, SkeletonSettings))
+    return SkeletonWork(
+        sampling_from(wanted), settings_from(wanted, SkeletonSettings), tuple(wanted.end)
+    )
+
+
+def _place(text: str) -> tuple[float, ...]:
+    """Three finite numbers with commas between them."""
+    try:
+        numbers = tuple(float(word) for word in text.split(","))
+        if len(numbers) == 3 and all(map(math.isfinite, numbers)):
+            return numbers
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"Expected X,Y,Z, three finite numbers, found '{text}'")
 
 
 def _balls_parser() -> argparse.ArgumentParser:

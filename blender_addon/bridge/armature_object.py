@@ -26,7 +26,7 @@ _SHORTEST = 1e-6  # Blender deletes shorter bones
 BONES = "ma_bones"
 MADE = "ma_bone"  # on each bone that was made here: the name that it got then, which an artist may change
 _FRAME = "ma_frame"  # the frame of the rig that the armature has now
-_IK = "Medial Axis IK"  # the constraints that were made here
+IK = "Medial Axis IK"  # the constraints that were made here
 
 
 ARMATURE = Product(" Armature", (BONES,), type="ARMATURE")
@@ -297,13 +297,13 @@ def _constrain(armature: bpy.types.Object, rig: Rig, mark: str, ik: bool) -> Non
         bone[key]: armature.pose.bones[bone.name] for bone in armature.data.bones if key in bone
     }
     for bone in by_name.values():
-        for constraint in [c for c in bone.constraints if c.type == "IK" and c.name == _IK]:
+        for constraint in [c for c in bone.constraints if c.type == "IK" and c.name == IK]:
             bone.constraints.remove(constraint)
             bone.lock_ik_y = bone.lock_ik_z = False
     for limb in [limb for limb in rig.limbs if len(limb) > 1] if ik else []:
         last = by_name[rig.names[limb[-1]]]
         reach = last.constraints.new("IK")
-        reach.name, reach.target = _IK, armature
+        reach.name, reach.target = IK, armature
         reach.subtarget = by_name[target_of(rig.names[limb[0]])].name
         reach.chain_count = len(limb)
         for number in limb[1:]:

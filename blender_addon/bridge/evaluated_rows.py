@@ -65,8 +65,13 @@ def keeps_rows(source: bpy.types.Object) -> bool:
     return all(rows is not None and (np.diff(rows) == 1).all() for rows in found)
 
 
+def only_deforms(source: bpy.types.Object) -> bool:
+    """Whether no modifier that is shown changes the number or the order of vertices."""
+    return all(m.type in _DEFORMING or not m.show_viewport for m in source.modifiers)
+
+
 def _rows(source: bpy.types.Object, domain: str, count: int) -> NDArray[np.int32] | None:
-    if all(m.type in _DEFORMING or not m.show_viewport for m in source.modifiers):
+    if only_deforms(source):
         return np.arange(count, dtype=np.int32)
     origin = _origins(source, domain, count)
     if len(origin) != count or not np.array_equal(np.sort(origin), np.arange(count)):

@@ -12,7 +12,7 @@ from ..core.errors import InvalidInputError
 from ..core.samples.nearness import nearest
 from ..core.small_matrices import times
 from .attributes import set_attribute
-from .evaluated_rows import row_of_vertices
+from .evaluated_rows import only_deforms, row_of_vertices
 from .mesh_arrays import read_polygons, read_positions
 from .output_object import Product, check_mode, new_object, place, remember
 from .read_object import split_transform
@@ -115,7 +115,8 @@ def _add_spline(
 
 def rows_of_vertices(source: bpy.types.Object, shape: Shape) -> NDArray[np.int64]:
     """(v,) the point of the shape for each vertex of a mesh: its own, or the nearest where modifiers make others."""
-    if shape.has_vertices(len(source.data.vertices)):
+    readable = source.mode != "EDIT" or only_deforms(source)  # there attributes cannot be written
+    if readable and shape.has_vertices(len(source.data.vertices)):
         rows = row_of_vertices(source)
         if rows is not None:
             return rows

@@ -457,6 +457,14 @@ class Settings(Options):
 OPTIONS = options_of(Settings)
 
 
+class KeptLoops(Enum):
+    """The loops that a skeleton keeps."""
+
+    AUTOMATIC = "AUTOMATIC"
+    KEEP = "KEEP"
+    OPEN = "OPEN"
+
+
 @dataclass(frozen=True)
 class SkeletonSettings(Options):
     """The branches that a skeleton keeps, and how exactly it follows its curve."""
@@ -479,6 +487,22 @@ class SkeletonSettings(Options):
         "Mirror",
         "Where the skeleton is symmetric in X to 2 % of its size, both halves become their mean",
         default=True,
+    )
+    loops: KeptLoops = choice(
+        "Loops",
+        "The loops that the skeleton keeps",
+        default=KeptLoops.AUTOMATIC,
+        items={
+            KeptLoops.AUTOMATIC: (
+                "Automatic",
+                "All but those of limbs that touch, which are cut, and round pinholes, which are filled",
+            ),
+            KeptLoops.KEEP: ("Keep", "All loops of the curve"),
+            KeptLoops.OPEN: (
+                "Open",
+                "None: as Automatic, and then each loop is opened where it is thinnest",
+            ),
+        },
     )
 
     @property

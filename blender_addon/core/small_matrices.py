@@ -143,3 +143,48 @@ def _turned_all(
         table[:, q] = sine * row + cosine * table[:, q]
     matrices[:, p, q] = matrices[:, q, p] = 0.0
     return not small.all()
+
+
+def closest_turns(
+    matrices: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return the rotation that is closest to each of many matrices (Kabsch 1976).
+
+    Parameters
+    ----------
+    matrices : (n, 3, 3) float64
+
+    Returns
+    -------
+    turn : (n, 3, 3) float64
+        The identity where the matrix does not tell one.
+    known : (n,) bool
+        Whether it does: it has at least two directions that it does not flatten, up to rounding.
+    """
+    largest = np.abs(matrices).max(axis=(1, 2), initial=0.0)
+    scaled = matrices / np.where(largest > 0.0, largest, 1.0)[:, None, None]
+    squares = (scaled[:, :, :, None] * scaled[:, :, None, :]).sum(axis=1)
+    right = np.tile(np.identity(3), (len(matrices), 1, 1))
+    for _ in range(_MOST_SWEEPS):
+        turned = [_turned_all(squares, right, p, q) for p, q in ((0, 1), (0, 2), (1, 2))]
+        if not any(turned):
+            break
+    order = np.argsort(-np.diagonal(squares, axis1=1, axis2=2), axis=1, kind="stable")
+    first, second = (np.take_along_axis(right, order[:, k, None, None], 1)[:, 0] for k in (0, 1))
+    image = dot(scaled, first[:, None])
+    u, long = _unit(image)
+    other = dot(scaled, second[:, None])
+    v, wide = _unit(other - dot(u, other)[:, None] * u)
+    known = wide > 64 * sys.float_info.epsilon**0.5 * long
+    there = (u, v, np.cross(u, v))
+    here = (first, second, np.cross(first, second))
+    turn = sum(a[:, :, None] * b[:, None, :] for a, b in zip(there, here, strict=True))
+    return np.where(known[:, None, None], turn, np.identity(3)), known
+
+
+def _unit(
+    vectors: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return vectors of length 1 along vectors, (n, 3), zero where they are, and the lengths, (n,)."""
+    length = np.sqrt(dot(vectors, vectors))
+    return vectors / np.where(length > 0.0, length, 1.0)[:, None], length

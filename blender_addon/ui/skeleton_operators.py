@@ -7,7 +7,9 @@ import bpy
 
 from ..bridge.armature_object import check_no_other, find_armature, in_rest, write_armature
 from ..bridge.bind_armature import bind_by_axis, bind_by_heat, check_bindable, groups_of_others
+from ..bridge.follow_mesh import remember_rest
 from ..bridge.read_object import read_object
+from ..bridge.selected_ends import selected_ends
 from ..bridge.skeleton_object import (
     check_parts_writable,
     check_skeleton_writable,
@@ -49,6 +51,28 @@ class SkeletonProperties:
     """The options of a skeleton."""
 
 
+class WithEnds:
+    """An operator that can keep only what joins the ends that are selected on the object."""
+
+    selected_ends: bpy.props.BoolProperty(
+        name="Selected Ends",
+        description="Keep only what joins the vertices that are selected in Edit Mode, one or a few at each end",
+        default=False,
+    )
+
+    def settings(self, shape):
+        """The arguments of `compute_skeleton` after the shape, and the ends."""
+        ends = self._ends.pop(id(shape), None)
+        return (settings_from(self), settings_from(self, SkeletonSettings)), ends
+
+    def with_ends(self, thing, shape):
+        """The same shape; its ends are remembered for `settings`."""
+        self._ends = getattr(self, "_ends", {})
+        if self.selected_ends:
+            self._ends[id(shape)] = selected_ends(thing, shape)
+        return shape
+
+
 class ArmatureProperties:
     """The option of an armature."""
 
@@ -62,7 +86,7 @@ def copy_all(context, button) -> None:
 
 
 class OBJECT_OT_medial_axis_skeleton(
-    ComputeOperator, SamplingProperties, SkeletonProperties, bpy.types.Operator
+    ComputeOperator, WithEnds, SamplingProperties, SkeletonProperties, bpy.types.Operator
 ):
     bl_idname = "object.medial_axis_skeleton"
     bl_label = "Extract Skeleton"
@@ -84,7 +108,7 @@ class OBJECT_OT_medial_axis_skeleton(
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in (*SKELETON_OPTIONS, "parts", "parent", "sides", "sampling"):
+        for name in (*SKELETON_OPTIONS, "selected_ends", "parts", "parent", "sides", "sampling"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
@@ -93,9 +117,12 @@ class OBJECT_OT_medial_axis_skeleton(
         if self.parts:
             check_parts_writable(thing)
 
+    def read(self, thing, depsgraph):
+        return self.with_ends(thing, read_object(thing, depsgraph))
+
     def work(self, shape):
-        settings, wanted = settings_from(self), settings_from(self, SkeletonSettings)
-        return partial(compute_skeleton, shape, settings, wanted, limit=memory_limit())
+        settings, ends = self.settings(shape)
+        return partial(compute_skeleton, shape, *settings, limit=memory_limit(), ends=ends)
 
     def write(self, thing, found, frame):
         made = write_skeleton(thing, found, frame)
@@ -118,6 +145,7 @@ class RigProperties:
 
 class OBJECT_OT_medial_axis_armature(
     ComputeOperator,
+    WithEnds,
     SamplingProperties,
     SkeletonProperties,
     ArmatureProperties,
@@ -150,7 +178,7 @@ class OBJECT_OT_medial_axis_armature(
         for name in (*RIG_OPTIONS, "bind", "replace_weights"):
             self.layout.prop(self, name)
         self.layout.prop_search(self, "armature", bpy.data, "objects")
-        for name in (*SKELETON_OPTIONS, "sides", "sampling"):
+        for name in (*SKELETON_OPTIONS, "selected_ends", "sides", "sampling"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
@@ -160,17 +188,21 @@ class OBJECT_OT_medial_axis_armature(
 
     def read(self, thing, _depsgraph):
         with in_rest(thing):
-            return read_object(thing, bpy.context.evaluated_depsgraph_get())
+            shape = read_object(thing, bpy.context.evaluated_depsgraph_get())
+            return self.with_ends(thing, shape)
 
     def work(self, shape):
-        settings, wanted = settings_from(self), settings_from(self, SkeletonSettings)
-        return partial(compute_rig, shape, settings, wanted, self.per_limb, limit=memory_limit())
+        settings, ends = self.settings(shape)
+        return partial(
+            compute_rig, shape, *settings, self.per_limb, limit=memory_limit(), ends=ends
+        )
 
     def write(self, thing, rig, frame):
         taken, into = groups_of_others(thing), find_armature(self.armature)
         made = write_armature(thing, rig, frame, taken, self.ik, into)
         with same_state(thing):
             self._bind(thing, made, rig)
+        remember_rest(made, thing)
         return made
 
     def _bind(self, thing, made, rig):

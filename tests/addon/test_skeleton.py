@@ -144,6 +144,52 @@ def test_detail_says_how_many_ends():
     assert few <= skeleton_of(source)["ma_ends"]
 
 
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+@pytest.mark.parametrize("modifier", ["", "SUBSURF"])
+def test_selected_ends_and_no_others(mode, modifier):
+    """Two of the four arms of a cross, of which one has a few selected vertices: one branch joins them."""
+    source = cross()
+    if modifier:
+        source.modifiers.new("Finer", modifier)
+    points = positions(source.data)
+    chosen = np.zeros(len(points), bool)
+    chosen[np.argmax(points[:, 0])] = True
+    chosen |= points[:, 2] < points[:, 2].min() + 0.3
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="VERT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    refuse("found 0 connected groups", operator="medial_axis_skeleton", selected_ends=True)
+    source.data.vertices.foreach_set("select", chosen)
+    bpy.ops.object.mode_set(mode=mode)
+    assert bpy.ops.object.medial_axis_skeleton(selected_ends=True) == {"FINISHED"}
+    if mode == "EDIT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    made = skeleton_of(source)
+    assert (made["ma_branches"], made["ma_ends"], made["ma_loops"]) == (1, 2, 0)
+    places = np.array([p.co[:3] for p in made.data.splines[0].points])
+    ends = places[[0, -1]]
+    ends = ends[np.argsort(ends[:, 0])]
+    assert ends[1, 0] > 0.8 * points[:, 0].max() and ends[0, 2] < 0.8 * points[:, 2].min()
+
+
+def test_bones_of_selected_ends():
+    source = cross()
+    points = positions(source.data)
+    rows = [np.argmax(points[:, 0]), np.argmin(points[:, 0]), np.argmax(points[:, 2])]
+    chosen = np.zeros(len(points), bool)
+    chosen[rows] = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for elements in (source.data.edges, source.data.polygons):
+        elements.foreach_set("select", np.zeros(len(elements), bool))
+    source.data.vertices.foreach_set("select", chosen)
+    select(source)
+    assert bpy.ops.object.medial_axis_armature(selected_ends=True) == {"FINISHED"}
+    low = min(bone.tail_local.z for bone in armature_of(source).data.bones)
+    assert low > 0.5 * points[:, 2].min()  # no bone goes down the fourth arm
+
+
 def test_parts_on_the_faces_of_the_source():
     source = cross()
     extract(parts=True)

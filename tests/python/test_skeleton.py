@@ -7,23 +7,24 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from medial_axis.cli import main
-from medial_axis.core.errors import DegenerateInputError, ExportError, ReadError
+from medial_axis.core.errors import DegenerateInputError, ExportError, InvalidInputError, ReadError
 from medial_axis.core.files.load_skeleton import load_skeleton
 from medial_axis.core.files.read_shape import read_shape
 from medial_axis.core.files.write_skeleton import export_skeleton
 from medial_axis.core.samples.nearness import nearest
 from medial_axis.core.samples.shape import Shape
-from medial_axis.core.settings import SamplingMode, Settings, SkeletonSettings
+from medial_axis.core.settings import KeptLoops, SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.skeleton.bones import Bones, Stubs, bones_of
 from medial_axis.core.skeleton.centre import centre_of_mass
 from medial_axis.core.skeleton.chords import keep_inside, kept_inside
+from medial_axis.core.skeleton.chosen_ends import join_ends
 from medial_axis.core.skeleton.compute import compute_skeleton
 from medial_axis.core.skeleton.ends import balls_of
 from medial_axis.core.skeleton.names import names_of
 from medial_axis.core.skeleton.net import Net
 from medial_axis.core.skeleton.parts import Places
 from medial_axis.core.skeleton.rig import compute_rig
-from medial_axis.core.skeleton.rules import Loops, clear_loops, prune
+from medial_axis.core.skeleton.rules import Loops, clear_loops, open_loops, prune
 from medial_axis.core.skeleton.simplify import kept_points
 from medial_axis.core.skeleton.skeleton import Skeleton
 from medial_axis.core.skeleton.spread import graph_of, spread
@@ -155,6 +156,66 @@ def test_ends_and_loops_of_real_meshes(data_file, name, tips, loops):
     shape, _ = read_shape(data_file(name))
     found = compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton
     assert found.tips in tips and found.loops == loops and found.pieces == 1
+
+
+def limb_ends(shape, found):
+    """The vertex of the surface farthest out at each tip of a skeleton, (t, 3), and the tips."""
+    tips = np.flatnonzero(found.degree == 1)
+    ends = []
+    for tip in tips:
+        way = found.points[tip] - found.points.mean(axis=0)
+        near = np.linalg.norm(shape.points - found.points[tip], axis=1) < 2 * found.radius[tip]
+        rows = np.flatnonzero(near)
+        ends.append(shape.points[rows[np.argmax((shape.points[rows] - found.points[tip]) @ way)]])
+    return np.array(ends), found.points[tips]
+
+
+def test_chosen_ends_of_a_hand_and_no_others(data_file):
+    """Five finger tips and the wrist, then fewer; the tips are where they were, and the rest is gone."""
+    shape, _ = read_shape(data_file("hand_closed.obj"))
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=4000)
+    whole = compute_skeleton(shape, settings, SkeletonSettings()).skeleton
+    ends, tips = limb_ends(shape, whole)
+    assert len(ends) == 6
+    for chosen in ([0, 1, 2, 3, 4, 5], [0, 2, 5], [1, 4]):
+        found = compute_skeleton(shape, settings, SkeletonSettings(), ends=ends[chosen])
+        points, radii = ends_of(found.skeleton)
+        assert len(points) == len(chosen) and found.skeleton.loops == 0
+        away = np.linalg.norm(points[:, None] - tips[chosen], axis=2)
+        assert (away.min(axis=1) <= radii).all()
+        assert len(set(away.argmin(axis=1))) == len(chosen)
+        assert found.parts.vertices.branch.min() >= 0  # the whole surface follows what is left
+    rig = compute_rig(shape, settings, SkeletonSettings(), ends=ends[[0, 2, 5]])
+    assert len(rig.limbs) <= 3
+
+
+def test_ends_that_cannot_be_joined_are_refused(data_file):
+    shape, _ = read_shape(data_file("hand_closed.obj"))
+    settings = Settings(sampling=SamplingMode.SURFACE, samples=3000)
+    whole = compute_skeleton(shape, settings, SkeletonSettings()).skeleton
+    ends, _ = limb_ends(shape, whole)
+    middle = shape.points[np.argmin(np.linalg.norm(shape.points - ends[[0, 1]].mean(0), axis=1))]
+    for wrong, message in (
+        (ends[:1], "two or more ends"),
+        (np.full((2, 3), np.nan), "two or more ends"),
+        (ends[[0, 1, 0]], "ends 1 and 3 at the same one"),
+        (np.stack((ends[0], ends[1], middle)), "lies between others"),
+    ):
+        with pytest.raises(InvalidInputError, match=message):
+            compute_skeleton(shape, settings, SkeletonSettings(), ends=wrong)
+
+
+def test_loops_are_kept_or_opened_by_choice():
+    """A ring with two tails: opened, it has all its length but one edge, and two ends more."""
+    ring = compute_skeleton(Shape(*meshes.torus()), Settings(), SkeletonSettings()).skeleton
+    for loops, count, tips in ((KeptLoops.KEEP, 1, 0), (KeptLoops.OPEN, 0, 2)):
+        found = compute_skeleton(Shape(*meshes.torus()), Settings(), SkeletonSettings(loops=loops))
+        assert (found.skeleton.loops, found.skeleton.tips, found.skeleton.pieces) == (
+            count,
+            tips,
+            1,
+        )
+        assert found.skeleton.length > 0.9 * ring.length
 
 
 def test_terraced_scans_get_few_ends(data_file):
@@ -542,6 +603,26 @@ def test_command_line(tmp_path, capsys):
     assert main(["skeleton", str(source), str(tmp_path / "ring.fbx")]) == 2
     assert main(["skeleton", str(tmp_path / "no.obj"), str(target)]) == 3
     assert main(["skeleton", str(source), str(target), "--detail", "2"]) == 2
+    assert main(["skeleton", str(source), str(target), "--loops", "open"]) == 0
+    assert "1 branches, 2 ends, 0 loops" in capsys.readouterr().out
+
+
+def test_command_line_takes_ends(tmp_path, capsys):
+    """Two tips of a Y are joined by one branch; other ends are other work; nonsense is refused."""
+    solid = tubes.y_of_tubes()
+    tips = [line[-1] for line in solid.lines[:2]]
+    words = ["skeleton", str(tmp_path / "y.npz"), str(tmp_path / "y.json")]
+    points = solid.sample(4000)
+    np.savez(words[1], points=points, normals=solid.normals(points))
+    ends = [f"--end={','.join(map(str, tip))}" for tip in tips]
+    assert main([*words, *ends]) == 0
+    assert "1 branches, 2 ends, 0 loops" in capsys.readouterr().out
+    assert main(words) == 0
+    assert "3 branches, 3 ends, 0 loops" in capsys.readouterr().out
+    assert main([*words, ends[0]]) == 3
+    for wrong in ("1,2", "a,b,c", "1,2,nan"):
+        assert main([*words, "--end", wrong]) == 2
+        assert f"Expected X,Y,Z, three finite numbers, found '{wrong}'" in capsys.readouterr().err
 
 
 def test_command_line_takes_frames_and_folders(tmp_path, capsys):
@@ -649,6 +730,35 @@ def test_thin_loops_are_cut_and_others_stay():
     net = net_of(*ladder(), [0.5] * 7)
     loops = clear_loops(net, np.full(7, 0.1))
     assert (loops.cut, loops.filled, len(net.branches)) == (0, 0, 3)
+
+
+def test_loops_open_at_their_thinnest_edge():
+    """Two loops that share a rung are both opened, every point stays, and nothing comes apart."""
+    net = net_of(*ladder(), [0.5] * 6 + [0.01])
+    rows = {row for chain in net.branches.values() for row in chain}
+    loops, tips = net.loops(), len(net.tips())
+    open_loops(net)
+    assert loops > 0 and net.loops() == 0 and len(net.tips()) >= tips + 1
+    assert {row for chain in net.branches.values() for row in chain} == rows
+
+
+def test_an_end_where_a_limb_forks_once_more():
+    """The end is the fork of two leaves that go, and stays a node between the first and the second."""
+    wires = np.array([(0, 1), (1, 2), (2, 3), (2, 4)])
+    points = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 1, 0), (3, -1, 0)], float)
+    net = net_of(points, wires, np.full(5, 0.1), np.full(5, 1.0))
+    assert join_ends(net, np.array([0, 2])) == [0]
+    assert list(map(sorted, net.branches.values())) == [[0, 1, 2]] and net.load[2] == 3.0
+
+
+def test_hanging_loops_join_no_ends():
+    """A chain from 0 to 3 with a ring on a stalk and a leaf: only the chain is left, and owns all."""
+    points = np.column_stack((np.arange(9.0), np.zeros((9, 2))))
+    wires = np.array([(0, 1), (1, 2), (2, 3), (1, 4), (4, 5), (5, 6), (6, 4), (2, 7)])
+    net = net_of(points, wires, np.full(9, 0.1), np.full(9, 1.0))
+    assert join_ends(net, np.array([0, 3])) == [0, 3]
+    assert sorted(map(sorted, net.branches.values())) == [[0, 1, 2, 3]]
+    assert net.load.sum() == 9.0 and net.load[:4].sum() == 8.0
 
 
 def test_genuine_loops_stay_however_thin_they_are():

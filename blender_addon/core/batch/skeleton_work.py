@@ -16,6 +16,7 @@ from ..samples.shape import Shape
 from ..settings import Settings, SkeletonSettings
 from ..skeleton.branches import measure_branches
 from ..skeleton.compute import Skeletonization, compute_skeleton
+from ..small_matrices import times
 from .option_words import as_words
 
 
@@ -25,11 +26,21 @@ class SkeletonWork:
 
     settings: Settings
     wanted: SkeletonSettings
+    ends: tuple[tuple[float, float, float], ...] = ()  # in the space of the output
 
     def compute(
         self, shape: Shape, limit: MemoryLimit, progress: Progress | None
     ) -> Skeletonization:
-        return compute_skeleton(shape, self.settings, self.wanted, progress, limit)
+        return compute_skeleton(
+            shape, self.settings, self.wanted, progress, limit, self._ends(shape)
+        )
+
+    def _ends(self, shape: Shape) -> np.ndarray | None:
+        """Return the ends in the space of the shape."""
+        if not self.ends:
+            return None
+        ends = np.array(self.ends, np.float64)
+        return times(ends - shape.frame[:3, 3], shape.frame[:3, :3].T)
 
     def check(self, found: Skeletonization) -> None:
         """Accept every result: a skeleton has at least one point."""
@@ -41,7 +52,8 @@ class SkeletonWork:
 
     def words(self) -> dict[str, Any]:
         """Return the settings as words of the command line."""
-        return {**as_words(self.settings), **as_words(self.wanted)}
+        words = {**as_words(self.settings), **as_words(self.wanted)}
+        return {**words, "end": [list(end) for end in self.ends]} if self.ends else words
 
     def figures(self, found: Skeletonization) -> dict[str, Any]:
         skeleton = found.skeleton

@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..axis.levels import hierarchy_of
-from ..errors import DegenerateInputError
+from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.nearness import nearest
 from ..samples.outward_faces import reading_warnings
-from ..settings import Settings, Side, SkeletonSettings
+from ..settings import KeptLoops, Settings, Side, SkeletonSettings
 from .centre import centre_of_mass
 from .chords import keep_inside, kept_inside
+from .chosen_ends import join_ends
 from .depth import Depth
 from .ends import end_limbs
 from .forks import draw_forks
@@ -28,7 +29,7 @@ from .mirror import make_symmetric
 from .net import Net
 from .owners import owners, shares
 from .parts import Parts, parts_of, places
-from .rules import Loops, clear_loops, join_forks, prune
+from .rules import Loops, clear_loops, join_forks, open_loops, prune
 from .simplify import kept_points
 from .skeleton import Skeleton, skeleton_of
 from .warnings import skeleton_warnings
@@ -88,6 +89,7 @@ def compute_skeleton(
     wanted: SkeletonSettings,
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
+    ends: NDArray[np.float64] | None = None,
 ) -> Skeletonization:
     """Return the skeleton of a solid.
 
@@ -99,6 +101,9 @@ def compute_skeleton(
     wanted : SkeletonSettings
     progress : Progress, optional
     limit : MemoryLimit
+    ends : (e, 3) float64, optional
+        Places on or near the surface. The skeleton keeps only what joins these ends; limbs that carry
+        little stay, too, but those that are shorter than `detail` says are not there to be joined.
 
     Raises
     ------
@@ -106,11 +111,12 @@ def compute_skeleton(
     DegenerateInputError
         The samples span no volume, enclose nothing, or enclose a solid without a curve.
     """
+    _check_ends(ends)
     begun = begin(
         shape, replace(settings, side=Side.INNER), progress, limit, _ANALYSIS, levels=True
     )
     chosen = begun.chosen
-    net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress)
+    net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress, ends)
     depth = Depth(begun.shape, chosen)
     inscribe(net, depth)
     names = sorted(net.branches)
@@ -139,8 +145,22 @@ def compute_skeleton(
     )
 
 
+def _check_ends(ends: NDArray[np.float64] | None) -> None:
+    if ends is not None and not (
+        ends.ndim == 2 and ends.shape[1] == 3 and len(ends) > 1 and np.isfinite(ends).all()
+    ):
+        raise InvalidInputError(
+            f"Expected two or more ends of three finite coordinates, found an array of shape {ends.shape}; "
+            "choose more places on the surface"
+        )
+
+
 def _net(
-    chosen: ChosenSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
+    chosen: ChosenSamples,
+    settings: Settings,
+    wanted: SkeletonSettings,
+    progress: Progress,
+    ends: NDArray[np.float64] | None,
 ) -> tuple[Net, NDArray[np.int64], int, Loops]:
     """Return the net of limbs, the owner of each sample, the number of facets without a curve, and cleared loops."""
     samples = chosen.samples
@@ -156,10 +176,18 @@ def _net(
         np.bincount(owner, weights=share, minlength=count).astype(np.float64),
     )
     genuine = 0 if samples.by_faces is None else samples.by_faces[1]
-    loops = clear_loops(net, _mean_of_owned(owner, spacing, count), genuine)
-    prune(net, wanted.share, balls)
+    loops = Loops(0, 0)
+    if wanted.loops is not KeptLoops.KEEP:
+        loops = clear_loops(net, _mean_of_owned(owner, spacing, count), genuine)
+    tips = None
+    if ends is None:
+        prune(net, wanted.share, balls)
+    else:
+        tips = join_ends(net, net.stands_for()[owner[nearest(ends, samples.points)]])
     join_forks(net)
-    owner = end_limbs(net, owner, balls)
+    owner = end_limbs(net, owner, balls, tips)
+    if wanted.loops is KeptLoops.OPEN:
+        open_loops(net)
     draw_forks(net, samples.points)
     return net, owner, len(level.generators), loops
 

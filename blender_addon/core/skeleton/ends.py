@@ -86,7 +86,9 @@ def _reaches(
     return dot(away, along / far) + balls.radius[rows]
 
 
-def end_limbs(net: Net, owner: NDArray[np.int64], balls: Balls) -> NDArray[np.int64]:
+def end_limbs(
+    net: Net, owner: NDArray[np.int64], balls: Balls, tips: list[int] | None = None
+) -> NDArray[np.int64]:
     """Move the end of each limb to its largest ball that reaches farthest.
 
     Parameters
@@ -96,6 +98,8 @@ def end_limbs(net: Net, owner: NDArray[np.int64], balls: Balls) -> NDArray[np.in
     owner : (n,) int64
         The point that owns each sample.
     balls : Balls
+    tips : list of int, optional
+        The tips to move; all, if it is not given.
 
     Returns
     -------
@@ -103,7 +107,7 @@ def end_limbs(net: Net, owner: NDArray[np.int64], balls: Balls) -> NDArray[np.in
         A copy of the given owners.
     """
     owner = owner.copy()
-    for tip in net.tips():
+    for tip in net.tips() if tips is None else tips:
         _end(net, tip, owner, balls)
     return owner
 

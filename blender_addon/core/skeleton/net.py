@@ -37,6 +37,8 @@ class Net:
         The branches that end at each node; a branch that starts and ends there is listed twice.
     moved : (p,) int64
         The point that has replaced each point; points that remain map to themselves.
+    kept : set of int
+        Nodes that stay nodes, also where only two branches meet.
     """
 
     def __init__(
@@ -51,6 +53,7 @@ class Net:
         self.branches: dict[int, list[int]] = {}
         self.at: dict[int, list[int]] = {int(row): [] for row in singles}
         self.moved = np.arange(len(points))
+        self.kept: set[int] = set()
         self._held: dict[int, list[int]] = {}
         self._next = 0
         for chain in chains(wires, len(points)):
@@ -153,6 +156,32 @@ class Net:
         self.branches[name] = [*chain[:at], row, *chain[at:]]
         return row
 
+    def split(self, name: int, at: int) -> None:
+        """Make the point at a position within a branch a node."""
+        chain = self.branches[name]
+        self._take(name)
+        self.add(chain[: at + 1])
+        self.add(chain[at:])
+
+    def open(self, name: int, at: int) -> None:
+        """Remove the edge after a position on a branch of a loop; both halves stay, and end there."""
+        chain = self.branches[name]
+        self._take(name)
+        for half in (chain[: at + 1], chain[at + 1 :]):
+            if len(half) > 1:
+                self.add(half)
+        for node in {chain[0], chain[-1]}:
+            self._join(node)
+
+    def remove(self, nodes: Iterable[int]) -> None:
+        """Remove all branches at some nodes, and the nodes; nothing takes over what they owned."""
+        for node in nodes:
+            for name in list(self.at[node]):
+                if name in self.branches:
+                    self._take(name)
+        for node in nodes:
+            del self.at[node]
+
     def cut(self, name: int) -> None:
         """Remove a branch of a loop; each half leaves its load to the node at its end."""
         chain = self.branches[name]
@@ -197,7 +226,7 @@ class Net:
     def _join(self, node: int) -> None:
         """Merge the two branches that meet at a node, if it is no longer a fork."""
         names = self.at[node]
-        if len(names) != 2 or names[0] == names[1]:
+        if len(names) != 2 or names[0] == names[1] or node in self.kept:
             return
         first, second = (self.branches[name] for name in names)
         first = first if first[-1] == node else first[::-1]

@@ -64,6 +64,24 @@ def clear_loops(net: Net, spacing: NDArray[np.float64], genuine: int = 0) -> Loo
     return Loops(cut, filled)
 
 
+def open_loops(net: Net) -> None:
+    """Open each loop where it is thinnest; both ends stay."""
+    while names := _on_loops(net):
+        net.open(*min(_thinnest_edge(net, name) for name in names)[1:])
+
+
+def _thinnest_edge(net: Net, name: int) -> tuple[float, int, int]:
+    """Return the radius at the thinnest edge of a branch, the branch, and the position before the edge.
+
+    Edges at its ends count only where it has no others, because an end of a single point is none.
+    """
+    radius = net.radius[net.branches[name]]
+    mean = (radius[:-1] + radius[1:]) / 2.0
+    inner = mean[1:-1] if len(mean) > 2 else mean
+    at = int(np.argmin(inner)) + (len(mean) > 2)
+    return float(mean[at]), name, at
+
+
 def prune(net: Net, share: float, balls: Balls) -> None:
     """Remove the leaves that are not limbs, the lightest first.
 

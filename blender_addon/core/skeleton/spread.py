@@ -109,3 +109,25 @@ def _edges_of(
     start, count = graph.first[vertices], graph.first[vertices + 1] - graph.first[vertices]
     before = np.cumsum(count) - count
     return np.arange(int(count.sum()), dtype=np.int64) + np.repeat(start - before, count), count
+
+
+def groups_of(rows: NDArray[np.int64], edges: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Return the number of the connected group of each row, (r,), from 0; only edges between two of the rows count.
+
+    Parameters
+    ----------
+    rows : (r,) int64
+        Ascending.
+    edges : (e, 2) int32
+    """
+    at = np.full(max(int(rows.max(initial=-1)), int(edges.max(initial=-1))) + 1, -1, np.int64)
+    at[rows] = np.arange(len(rows))
+    a, b = at[edges[(at[edges] >= 0).all(axis=1)]].T
+    lowest = np.arange(len(rows))
+    while True:
+        before = lowest.copy()
+        np.minimum.at(lowest, a, lowest[b])
+        np.minimum.at(lowest, b, lowest[a])
+        lowest = lowest[lowest]
+        if np.array_equal(before, lowest):
+            return np.unique(lowest, return_inverse=True)[1].reshape(-1).astype(np.int64)

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sentences tell where bones could not follow a mesh through frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .follow import Follower, Pose
+
+_LEFT = 0.1  # a bone is left where so much of its weights is farther off than it is thick
+_NAMED = 3  # so many bones are named in a sentence
+
+
+class Followed:
+    """The frames that were followed, and how far the mesh was off there.
+
+    Parameters
+    ----------
+    names : list of str
+        The bones.
+    thickness : (b,) float64
+        The mean distance of the vertices of each bone from it, at rest.
+
+    Attributes
+    ----------
+    off : dict of int to float
+        The root mean square of the distances of the vertices of each frame from where the bones put them, as a share
+        of the diagonal of the mesh.
+    """
+
+    def __init__(self, names: list[str], thickness: NDArray[np.float64]) -> None:
+        self._names, self._thickness = names, thickness
+        self.off: dict[int, float] = {}
+        self._left: dict[int, list[tuple[float, int]]] = {}  # the share and the frame, of each bone
+
+    def add(self, frame: int, follower: Follower, pose: Pose, places: NDArray[np.float64]) -> None:
+        """Compare the vertices of a frame, (v, 3), with where the pose of the bones puts them."""
+        off = follower.off(pose, places)
+        self.off[frame] = float(np.sqrt((off**2).mean())) / follower.size
+        beyond = follower.share_beyond(off, self._thickness)
+        for bone in np.flatnonzero(beyond > _LEFT).tolist():
+            self._left.setdefault(bone, []).append((float(beyond[bone]), frame))
+
+    @property
+    def worst(self) -> tuple[int, float]:
+        """Return the frame at which the mesh is farthest off, the first of several, and how far."""
+        return max(self.off.items(), key=lambda item: (item[1], -item[0]))
+
+    @property
+    def warnings(self) -> list[str]:
+        """Return a sentence about the bones that the mesh left, if there are any."""
+        if not self._left:
+            return []
+        frames = sorted({frame for found in self._left.values() for _, frame in found})
+        most = sorted(self._left, key=lambda bone: (-max(self._left[bone])[0], bone))
+        named = [f"'{self._names[bone]}'" for bone in most[:_NAMED]]
+        more = len(self._left) - len(named)
+        words = ", ".join(named) + (f" and {more} more" if more else "")
+        return [
+            f"The surface leaves {words} by more than their thickness in {len(frames)} frames, from {frames[0]} to "
+            f"{frames[-1]}: a branch is born or gone, or lengths change, which bones keep"
+        ]
