@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "reduce/sphere_complex.h"
-#include "base/sort_unique.h"
 
 #include <algorithm>
+
+#include "base/sort_unique.h"
 
 namespace medial {
 namespace {

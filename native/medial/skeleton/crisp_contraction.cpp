@@ -2,8 +2,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "skeleton/crisp_parts.h"
 #include "base/sort_unique.h"
+#include "skeleton/crisp_parts.h"
 
 namespace medial {
 namespace {

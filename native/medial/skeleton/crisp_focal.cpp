@@ -2,8 +2,8 @@
 #include <map>
 #include <tuple>
 
-#include "skeleton/crisp_parts.h"
 #include "base/sort_unique.h"
+#include "skeleton/crisp_parts.h"
 #include "skeleton/focal_line.h"
 
 namespace medial {

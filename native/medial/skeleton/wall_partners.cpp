@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "skeleton/wall_partners.h"
+
 #include "base/sort_unique.h"
 
 namespace medial {
