@@ -36,6 +36,7 @@ DATA = {
     "property int kind\n",
     "property int part\n",
     "property int place\n",
+    "{} Follow",
     "{} Part {}",
     "{} Parts",
     "{} Medial Axes",
