@@ -87,7 +87,7 @@ def check_flat(known, found):
 
 
 def test_ribs_and_their_plate_thickened_are_the_solid():
-    """Of the places in the box of the solid less than 1 % of its volume are in one of the two only."""
+    """Less than 1 % of the volume of the solid is in one of the two only, by random places in its box."""
     known = mid_surfaces.ribbed_plate()
     found = sheets_of(known.mesh)
     half = known.t / 2

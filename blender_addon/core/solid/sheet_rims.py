@@ -175,7 +175,7 @@ def _edges(
 def _ends_of(
     edges: RimEdges, walls: Walls
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-    """What each edge ends at, and the place and normal of the plane there.
+    """Return the kind of thing at which each edge ends, and the place and normal of the plane there.
 
     That is the wall that a ray out of the sheet meets. At the inner corner of a rim all balls touch the same reflex
     edge. Edges without a length or a ball, steps of the rim, and what a ray leaves without a wall end at nothing.
