@@ -54,6 +54,8 @@ TEST = {
     "screenshots": "imagemagick",
     "C++ linter": "clang-tidy",
     "types of the Python sources": "mypy",
+    "spelling of the docs": "hunspell",
+    "its British dictionary": "hunspell-en-gb",
 }
 FULL = {
     **TEST,
