@@ -233,7 +233,8 @@ def test_an_axis_does_not_depend_on_the_settings_before(name):
 
 @pytest.mark.parametrize("name", names_of(SkeletonSettings))
 def test_a_skeleton_does_not_depend_on_the_settings_before(name):
-    shape, settings = Shape(*box((4, 3, 2))), replace(FEW, sampling=SamplingMode.VERTICES)
+    solid = torus() if name == "loops" else box((4, 3, 2))  # a box has none
+    shape, settings = Shape(*solid), replace(FEW, sampling=SamplingMode.VERTICES)
     pairs = pairs_of(
         [SkeletonSettings(detail=1.0), SkeletonSettings(detail=0.0)], SKELETON_OPTIONS, name
     )
