@@ -201,3 +201,35 @@ def bent_gap(gap: float) -> ThinSolid:
     block = ((0, 0, 0), (0.6, 1, 0.6))
     above = ((0, 0, 0.6 + gap), (0.6 + gap, 1, 1)), ((0.6 + gap, 0, 0), (1, 1, 1))
     return ThinSolid(union(block, *above, ((0, 0, -0.2), (1, 1, 0))), (1, 0, 0), 0.0)
+
+
+def folded_plate(t: float) -> ThinSolid:
+    """A plate whose upper face folds back on itself: three faces lie on each other in its middle."""
+    corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float)
+    more = [(0.5, 0), (0.5, 1), (0.5, 0.3), (0.6, 0.5), (0.5, 0.7), (0.4, 0.5)]
+    flat = np.concatenate((corners, corners, more))
+    points = np.column_stack((flat, np.repeat([0.0, t], [4, len(flat) - 4])))
+    # 4 to 7: the corners above; 8, 9: between them; 10 to 13: the fold, whose ends are 10 and 12
+    left = [(4, 8, 10), (4, 10, 11), (4, 11, 7), (7, 11, 12), (7, 12, 9)]
+    right = [(8, 5, 10), (5, 12, 10), (5, 6, 12), (6, 9, 12), (10, 12, 13)]
+    between = [(11, 10, 13), (13, 12, 11)]
+    below = [(0, 2, 1), (0, 3, 2)]
+    front = [(0, 1, 8), (1, 5, 8), (0, 8, 4)]
+    back = [(2, 3, 9), (3, 7, 9), (2, 9, 6)]
+    ends = [(3, 0, 4), (3, 4, 7), (1, 2, 6), (1, 6, 5)]
+    rows = left + right + between + below + front + back + ends
+    return ThinSolid((points, np.array(rows, np.int32)), (1, 0, 0), 1.0)
+
+
+def groove(degrees: float) -> ThinSolid:
+    """A block with a groove of this angle along its upper face: one side upright; the area is a lower bound."""
+    wide = 0.2 * np.tan(np.radians(degrees))
+    outline = [(0, 0), (1, 0), (1, 0.5), (0.5 + wide, 0.5), (0.5, 0.3), (0.5, 0.5), (0, 0.5)]
+    points = np.array([(x, y, z) for y in (0.0, 2.0) for x, z in outline])
+    rows = []
+    for a, b, c in ((0, 1, 4), (1, 2, 3), (1, 3, 4), (0, 4, 5), (0, 5, 6)):
+        rows += [(a, b, c), (7 + a, 7 + c, 7 + b)]
+    for a in range(7):
+        b = (a + 1) % 7
+        rows += [(b, a, 7 + a), (b, 7 + a, 7 + b)]
+    return ThinSolid((points, np.array(rows, np.int32)), (1, 0, 0), 0.0)

@@ -68,10 +68,16 @@ def _why(
     betti: tuple[int, int, int], by_faces: tuple[int, int, int], samples: AnalysedSamples
 ) -> str:
     torn = betti[0] > by_faces[0]  # which no overlap does
-    if samples.buried and torn:
+    overlap = samples.buried > 0 and by_faces[0] > 1  # a single body has no parts that do
+    if overlap and torn:
         return "its parts overlap, and some are thinner than the spacing of the samples"
-    if samples.buried:
+    if overlap:
         return "its parts overlap"
     if torn:
         return "some parts are thinner than the spacing of the samples"
+    if samples.solid is not None and samples.solid.shape.is_folded:
+        return (
+            "faces fold back on each other, or walls or gaps are thinner than the spacing of the "
+            "samples"
+        )
     return "walls or gaps are thinner than the spacing of the samples, or faces pass through each other"

@@ -122,7 +122,7 @@ def _are_buried(
 
 
 def on_flat_faces(
-    shape: Shape, found: Any, spacing: float
+    shape: Shape, found: Any, faces: NDArray[np.int32], spacing: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(n, 3) a place on its flat face for each sample, and (n, 3) the normal of that face.
 
@@ -134,10 +134,12 @@ def on_flat_faces(
     ----------
     shape : Shape
     found : _medial.SurfaceSamples
+    faces : (n,) int32
+        The triangle of the shape on which each sample lies.
     spacing : float
         The distance of neighbours.
     """
-    corners = shape.points[shape.triangles[found.triangle]]
+    corners = shape.points[shape.triangles[faces]]
     points = dot(corners.swapaxes(1, 2), found.barycentric[:, None])
     with native.own_errors() as module:
         on_edge = found.kind != int(module.SampleKind.SURFACE)

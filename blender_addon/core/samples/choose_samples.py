@@ -253,7 +253,13 @@ def _samples_of_faces(request: Request, why: str) -> ChosenSamples:
     if found is not None:
         reason = f"{len(found.samples.points):,} samples of the surface: {why}; {found}"
         return ChosenSamples(
-            found.samples, SamplingMode.ADAPTIVE, reason, sides, request.gaps, differs=found.differs
+            found.samples,
+            SamplingMode.ADAPTIVE,
+            reason,
+            sides,
+            request.gaps,
+            differs=found.differs,
+            worst=found.worst,
         )
     kind = SamplingMode.SURFACE if passes == 1 else SamplingMode.ADAPTIVE
     reason = f"{len(samples.points):,} samples of the surface: {why}"

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .analysed import AnalysedSamples, Sides
     from .scan import Scan
     from .shape import Shape
+    from .worst_doubt import WorstDoubt
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +37,8 @@ class ChosenSamples:
         The faces were sampled because their vertices are too few.
     differs : bool
         The topology of the samples differs from that of the faces, although more samples were taken to change that.
+    worst : WorstDoubt or None
+        Where these samples are most in doubt.
     scan : Scan or None
         What was measured of points without faces, and done to them; None where there are faces.
     """
@@ -48,6 +51,7 @@ class ChosenSamples:
     thinned: str = ""
     sparse: bool = False
     differs: bool = False
+    worst: WorstDoubt | None = None
     scan: Scan | None = None
 
     @property

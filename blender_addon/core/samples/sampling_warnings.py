@@ -36,7 +36,7 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
     if samples.buried:
         yield (
             f"{samples.buried:,} samples were left out because the surface there bounds nothing: "
-            "overlapping parts, walls inside, or sheets without thickness"
+            "overlapping parts, walls inside, or sheets or gaps without thickness"
         )
     walls = samples.walls
     if walls is not None and walls.are_missed:
@@ -46,16 +46,23 @@ def sampling_warnings(shape: Shape, chosen: ChosenSamples) -> Iterator[str]:
             "more samples, a smaller Spacing or a larger Budget help"
         )
     if chosen.differs:
-        yield (
-            "the axis has not as many pieces, loops and cavities as the faces, although "
-            f"{len(samples.points):,} samples were taken: details or gaps are smaller than their "
-            "spacing, or faces pass through each other; a larger Budget may help"
-        )
+        yield _differs(chosen)
     if density.share > _SPARSE and not _confirmed_by_faces(chosen) and not is_noisy(chosen.scan):
         yield (
             f"{percent(density.share)} of the samples are too sparse for what the shape has there "
             f"(epsilon above {density.limit:g}), so the axis may be wrong; Report Sampling shows where"
         )
+
+
+def _differs(chosen: ChosenSamples) -> str:
+    worst, where = chosen.worst, ""
+    if worst is not None:
+        where = f", most of all near {worst.words}, where they are {worst.apart:.2g} apart"
+    return (
+        "the axis has not as many pieces, loops and cavities as the faces, although "
+        f"{len(chosen.samples.points):,} samples were taken: details, gaps or folds of the faces are "
+        f"smaller than their spacing{where}; a larger Budget or Merge by Distance may help"
+    )
 
 
 def _confirmed_by_faces(chosen: ChosenSamples) -> bool:

@@ -11,9 +11,15 @@ import numpy as np
 
 from ..machine import native
 from ..small_matrices import dot
+from .nearness import same_place
+from .triangles import unit_normals
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+# The cosine between the normals of faces that may lie on each other, at most; and how far off them their sides are
+# looked at, in roundings to float32.
+_FOLDED, _ROUNDINGS = -0.99, 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,3 +82,42 @@ class Shape:
         """Pieces, loops and cavities of the solid, counted from its closed faces; None where that is not possible."""
         with native.own_errors() as module:
             return module.solid_betti(self.points, self.triangles)
+
+    @cached_property
+    def neighbours(self) -> NDArray[np.int64]:
+        """(m, 3) the triangle beyond the side after each corner, which passes it the other way; -1 where there is none.
+
+        Vertices with the same coordinates are one.
+        """
+        ends = same_place(self.points)[self.triangles]
+        others, count = np.roll(ends, -1, axis=1), len(self.points)
+        keys, wanted = (ends * count + others).ravel(), (others * count + ends).ravel()
+        order = np.argsort(keys, kind="stable")
+        row = order[np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)]
+        return np.where(keys[row] == wanted, row // 3, -1).reshape(-1, 3)
+
+    @cached_property
+    def unfolded(self) -> NDArray[np.int64]:
+        """(k,) the faces without those that a fold hides: they lie between two others, with the solid outside of them.
+
+        Folds have neighbours that lie on each other, nearly; without one no face is tested.
+        """
+        corners = self.points[self.triangles]
+        normals, _ = unit_normals(corners)
+        cosines = dot(normals[:, None], normals[self.neighbours])
+        every = np.arange(len(self.triangles))
+        if not ((cosines < _FOLDED) & (self.neighbours >= 0)).any():
+            return every
+        off = _ROUNDINGS * float(np.finfo(np.float32).eps) * float(np.abs(self.points).max())
+        middles, faces = corners.mean(axis=1), (self.points, self.triangles)
+        with native.own_errors() as module:
+            above, below = (
+                module.winding_number(middles + away * normals, *faces) > 0.5
+                for away in (off, -off)
+            )
+        return every[~(above & ~below)]
+
+    @property
+    def is_folded(self) -> bool:
+        """Whether faces lie between two others in a fold."""
+        return len(self.unfolded) < len(self.triangles)

@@ -88,16 +88,18 @@ def sample_faces(
     DegenerateInputError
         The surface bounds nothing.
     """
+    rows = shape.unfolded if options["pairs"] else np.arange(len(shape.triangles))
     with native.own_errors() as module:
         found = module.sample_surface(
             shape.points,
-            shape.triangles,
+            shape.triangles[rows],
             sharp_edges=shape.sharp_edges,
             progress=progress,
             **options,
         )
     spacing = mean_spacing(found.area, max(1, len(found.points)))
-    feet, outward = on_flat_faces(shape, found, spacing)
+    faces = rows[found.triangle].astype(np.int32)
+    feet, outward = on_flat_faces(shape, found, faces, spacing)
     every = gaps > 0 and not closed
     bare, buried = np.ones(len(feet), bool), 0
     if not every:
@@ -109,7 +111,7 @@ def sample_faces(
         edges=found.points[bare & _are_on_edges(found.kind, gaps, closed)],
         normals=found.normals[bare],
         kinds=found.kind[bare],
-        faces=found.triangle[bare],
+        faces=faces[bare],
         radius=radius[bare],
         spacing=spacing,
         buried=buried,
@@ -119,7 +121,7 @@ def sample_faces(
             outward[inside],
             radius[inside] / _DISC,
             radius[inside] ** 2,
-            found.triangle[inside],
+            faces[inside],
             found.bend[inside],
             are_paired(found.partner)[inside],
             np.linalg.norm(found.points - feet, axis=1)[inside],

@@ -16,9 +16,11 @@ import numpy as np
 from ..errors import MemoryLimitError
 from ..machine import native
 from ..settings import Form, SamplingMode, Side, SidesFrom
+from .acute_corners import in_acute_corners
 from .effort import EFFORT
 from .nearness import nearest
 from .sample_spacing import next_amount
+from .worst_doubt import WorstDoubt, worst_doubt
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -84,12 +86,15 @@ class Closed:
         Why pairs were taken: what was wrong with the samples before.
     differs : bool
         The numbers of the samples still differ from those of the faces.
+    worst : WorstDoubt or None
+        Where the samples are most in doubt, if the numbers differ.
     """
 
     samples: AnalysedSamples
     passes: int
     why: str
     differs: bool
+    worst: WorstDoubt | None = None
 
     def __str__(self) -> str:
         end = "; the numbers of the faces are not reached within the budget" if self.differs else ""
@@ -150,7 +155,10 @@ def closed(
     if not passes:
         return None
     why = "the walls are thin" if close else "the topology was not that of the faces"
-    return Closed(best.samples, passes, why, best.differences > 0)
+    if not best.differences:
+        return Closed(best.samples, passes, why, differs=False)
+    worst = worst_doubt(request.shape, best.samples, best.places)
+    return Closed(best.samples, passes, why, differs=True, worst=worst)
 
 
 def _best(
@@ -248,7 +256,7 @@ def _doubts(
     with native.own_errors():
         found: tuple[NDArray[np.float64], NDArray[np.float64]] = samples.analysis.doubts(
             shape.points,
-            shape.triangles,
+            shape.triangles[shape.unfolded],
             samples.normals,
             _REACH * samples.apart,
             progress=request.progress.part(0.05),
@@ -269,19 +277,23 @@ def _finer(request: Request, trial: Trial, number: int, budget: int) -> dict[str
     if number == 1:
         sites, spacings = next_amount(samples, effort.elsewhere, effort.walls, budget)["sizing"]
     if len(trial.gaps) and trial.differences and not (number == 1 and are_close(samples)):
-        places, wanted = _wanted(trial)
+        places, wanted = _wanted(request, trial)
         sites = np.concatenate((sites, places))
         spacings = np.concatenate((spacings, wanted))
     return {"sizing": (sites, spacings), "count": budget}
 
 
-def _wanted(trial: Trial) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(k, 3) places of doubt, and (k,) the spacings there; first those where the gap is no mere touch."""
+def _wanted(request: Request, trial: Trial) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(k, 3) places of doubt, and (k,) the spacings there.
+
+    Places where the gap is a mere touch, or in an acute corner, count when there are no others.
+    """
     samples = trial.samples
     assert samples.apart is not None
     rows = nearest(trial.places, samples.points)
     own, away = samples.apart[rows], np.linalg.norm(trial.places - samples.points[rows], axis=1)
     wide = trial.gaps > _WIDE * away
+    wide &= ~in_acute_corners(request.shape, samples, trial.places, trial.gaps)
     if not wide.any():
         wide[:] = True
     wanted = np.clip(_OF_GAP * trial.gaps, _FINEST * own, _COARSEST * own)

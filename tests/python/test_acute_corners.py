@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Doubts in acute corners, which ask for no smaller spacing, and faces that a fold hides, which get no samples."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from medial_axis import library
+from medial_axis.core.machine import native
+from medial_axis.core.samples.acute_corners import acute_edges, in_acute_corners
+from medial_axis.core.samples.shape import Shape
+from support import thin_solids
+
+DISC = 0.727  # the radius of a sample's disc, in spacings
+
+
+def sampled(shape, fine):
+    """Samples that are closer at some places, and the doubts about them."""
+    module = native.load()
+    even = module.sample_surface(shape.points, shape.triangles, count=1500)
+    sites = np.concatenate((even.points, fine))
+    spacings = np.concatenate((even.radius / DISC, np.full(len(fine), 0.02)))
+    found = module.sample_surface(
+        shape.points, shape.triangles, sizing=(sites, spacings), count=20_000, pairs=True
+    )
+    analysis = module.MedialAnalysis(found.points, shape.triangles, vertices=shape.points)
+    apart = found.radius / DISC
+    doubts = analysis.doubts(shape.points, shape.triangles, found.normals, 1.5 * apart)
+    samples = SimpleNamespace(
+        points=found.points, kinds=found.kind, faces=found.triangle, apart=apart
+    )
+    return samples, doubts
+
+
+@pytest.mark.parametrize("degrees", [46.0, 30.0])
+def test_doubts_of_uneven_rows_are_in_the_corner_of_the_groove(degrees):
+    shape = Shape(*thin_solids.groove(degrees).mesh)
+    along = np.random.default_rng(0).uniform(0, 2, 30)
+    fine = np.column_stack((np.full(30, 0.5), along, np.full(30, 0.31)))
+    samples, (places, gaps) = sampled(shape, fine)
+    assert len(places) > 20
+    assert in_acute_corners(shape, samples, places, gaps).mean() > 0.8
+    edges = acute_edges(shape, samples)
+    assert np.allclose(edges.points[:, [0, 2]], [0.5, 0.3])
+    assert np.allclose(np.abs(edges.along), [0, 1, 0])
+
+
+def test_doubts_of_a_narrow_slot_are_in_no_acute_corner():
+    shape = Shape(*thin_solids.turned(thin_solids.slot(0.01).mesh))
+    samples, (places, gaps) = sampled(shape, shape.points[:1])
+    assert len(acute_edges(shape, samples).points) == 0
+    assert not in_acute_corners(shape, samples, places, gaps).any()
+
+
+def test_no_doubt_is_in_no_corner():
+    shape = Shape(*thin_solids.groove(30.0).mesh)
+    samples, _ = sampled(shape, shape.points[:1])
+    assert len(in_acute_corners(shape, samples, np.zeros((0, 3)), np.zeros(0))) == 0
+
+
+def test_neighbours_are_found_across_vertices_with_the_same_coordinates():
+    points, triangles = thin_solids.plate(0.5).mesh
+    shape = Shape(points[triangles].reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+    found = shape.neighbours
+    assert np.array_equal(found, Shape(points, triangles).neighbours)
+    assert (found >= 0).all()
+    for face, row in enumerate(found):
+        for corner, other in enumerate(row):
+            ends = {triangles[face, corner], triangles[face, (corner + 1) % 3]}
+            assert ends <= set(triangles[other])
+    assert (Shape(points, triangles[1:]).neighbours < 0).sum() == 3
+
+
+def test_faces_between_two_others_in_a_fold_are_hidden():
+    points, triangles = thin_solids.turned(thin_solids.folded_plate(0.01).mesh)
+    assert sorted(set(range(len(triangles))) - set(Shape(points, triangles).unfolded)) == [10, 11]
+    wedge = Shape(*thin_solids.wedge(2.0).mesh)
+    assert np.array_equal(wedge.unfolded, np.arange(len(wedge.triangles)))
+
+
+def test_a_fold_in_a_face_makes_no_loops():
+    mesh = thin_solids.turned(thin_solids.folded_plate(0.01).mesh)
+    found = library.compute(*mesh, side="inner", samples=3000)
+    assert found.axis.level.betti == (1, 0, 0)
+    assert found.topology.endswith("as the solid") and not found.warnings
+    assert len(found.chosen.samples.points) < 3200
