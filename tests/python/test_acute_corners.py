@@ -9,6 +9,7 @@ from medial_axis import library
 from medial_axis.core.machine import native
 from medial_axis.core.samples.acute_corners import acute_edges, in_acute_corners
 from medial_axis.core.samples.shape import Shape
+from medial_axis.core.samples.worst_doubt import worst_doubt
 from support import thin_solids
 
 DISC = 0.727  # the radius of a sample's disc, in spacings
@@ -84,3 +85,27 @@ def test_a_fold_in_a_face_makes_no_loops():
     assert found.axis.level.betti == (1, 0, 0)
     assert found.topology.endswith("as the solid") and not found.warnings
     assert len(found.chosen.samples.points) < 3200
+
+
+def test_the_worst_doubt_is_among_the_most_others_and_in_the_world():
+    places = np.array([(5.0, 0, 0), (0.0, 0, 0), (0.1, 0, 0), (0.2, 0, 0)])
+    samples = SimpleNamespace(points=np.zeros((1, 3)), apart=np.array([0.05]))
+    frame = np.eye(4)
+    frame[:3, 3] = 1, 2, 3
+    shape = Shape(places, np.zeros((0, 3), np.int32), frame=frame)
+    found = worst_doubt(shape, samples, places)
+    assert found.place == (1.0, 2.0, 3.0) and found.apart == 0.05
+    assert found.words == "(1, 2, 3)"
+    assert worst_doubt(shape, samples, places[:0]) is None
+
+
+def test_a_warning_names_the_place_where_loops_stay():
+    """The budget allows one pass in pairs only, which is too coarse for the round wall."""
+    points, triangles = thin_solids.cup(0.002, around=48).mesh
+    found = library.compute(points, triangles, side="inner", samples=1000, budget=1200)
+    assert found.axis.level.betti != (1, 0, 0) and found.chosen.differs
+    (said,) = [some for some in found.warnings if "not as many pieces" in some]
+    assert f"most of all near {found.chosen.worst.words}, where they are 0." in said
+    low, high = points.min(axis=0), points.max(axis=0)
+    assert ((found.chosen.worst.place >= low) & (found.chosen.worst.place <= high)).all()
+    assert "overlap" not in found.topology

@@ -68,7 +68,9 @@ def test_small_faces_at_a_sharp_edge_and_narrow_slots_are_not_buried():
         found = native.load().sample_surface(shape.points, shape.triangles, count=4000)
         bare, buried = find_bare(shape, *on_flat_faces(shape, found, found.triangle, 0.03), 0.03)
         assert buried == 0 and bare.all() == (mesh[0] is tip)
-        assert find_bare(shape, *on_flat_faces(shape, found, found.triangle, 0.03), 0.03, gaps=True)[0].all()
+        assert find_bare(
+            shape, *on_flat_faces(shape, found, found.triangle, 0.03), 0.03, gaps=True
+        )[0].all()
 
 
 def test_kept_vertices_bound_the_spacing_however_small_the_count_is():

@@ -78,7 +78,9 @@ def in_acute_corners(
     which = nearest(places, edges.points)
     one, other = _beside(edges, which, places), _other_ends(places, gaps)
     two = _beside(edges, which, places[other]).on_face
-    reached = one.above <= gaps[:, None]  # a gap that leads to samples may lead to those of the other face
+    reached = (
+        one.above <= gaps[:, None]
+    )  # a gap that leads to samples may lead to those of the other face
     two = np.where((other >= 0)[:, None], two, reached)
     return (one.on_face & two[:, ::-1]).any(axis=1)
 
@@ -91,9 +93,7 @@ class Beside:
     above: NDArray[np.float64]
 
 
-def _beside(
-    edges: AcuteEdges, which: NDArray[np.int64], places: NDArray[np.float64]
-) -> Beside:
+def _beside(edges: AcuteEdges, which: NDArray[np.int64], places: NDArray[np.float64]) -> Beside:
     away, apart = places - edges.points[which], edges.apart[which]
     along = dot(away, edges.along[which])
     distance = np.linalg.norm(away - along[:, None] * edges.along[which], axis=1)
@@ -102,9 +102,7 @@ def _beside(
     return Beside(near[:, None] & (above <= _ON_PLANE * distance[:, None]), above)
 
 
-def _other_ends(
-    places: NDArray[np.float64], gaps: NDArray[np.float64]
-) -> NDArray[np.int64]:
+def _other_ends(places: NDArray[np.float64], gaps: NDArray[np.float64]) -> NDArray[np.int64]:
     """(k,) the row of the place to which each gap leads, the next one or the one before; -1 if it leads to samples."""
     other = np.full(len(places), -1)
     if len(places) < 2:
