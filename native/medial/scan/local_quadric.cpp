@@ -12,7 +12,7 @@ using Equations = NormalEquations<kTerms>;
 using Terms = Equations::Terms;
 
 // The exponents of u and v in each term.
-constexpr std::array<std::array<int, 2>, kTerms> kPowers{
+constexpr std::array<std::array<size_t, 2>, kTerms> kPowers{
     {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
 
 Terms monomials(double u, double v) { return {1, u, v, u * u, u * v, v * v}; }
@@ -42,9 +42,9 @@ class Sums {
     Equations all;
     for (int i = 0; i < kTerms; ++i) {
       for (int j = 0; j <= i; ++j) {
-        const int power = kPowers[i][1] + kPowers[j][1],
-                  degree = kPowers[i][0] + kPowers[j][0] + power;
-        all.set(i, j, sum(moments_[static_cast<size_t>(degree * (degree + 1) / 2 + power)]));
+        const size_t power = kPowers[i][1] + kPowers[j][1],
+                     degree = kPowers[i][0] + kPowers[j][0] + power;
+        all.set(i, j, sum(moments_[degree * (degree + 1) / 2 + power]));
       }
       all.set_right(i, sum(heights_[static_cast<size_t>(i)]));
     }
