@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..small_matrices import placed
+from ..united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -73,15 +74,7 @@ class Skeleton:
     @property
     def pieces(self) -> int:
         """Return the number of connected parts."""
-        lowest = np.arange(len(self.points))
-        a, b = self.edges.T
-        while True:
-            before = lowest.copy()
-            np.minimum.at(lowest, a, lowest[b])
-            np.minimum.at(lowest, b, lowest[a])
-            lowest = lowest[lowest]
-            if np.array_equal(before, lowest):
-                return len(np.unique(lowest))
+        return len(np.unique(united(len(self.points), self.edges)))
 
     @property
     def length(self) -> float:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..small_matrices import dot
+from ..united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -122,12 +123,5 @@ def groups_of(rows: NDArray[np.int64], edges: NDArray[np.int32]) -> NDArray[np.i
     """
     at = np.full(max(int(rows.max(initial=-1)), int(edges.max(initial=-1))) + 1, -1, np.int64)
     at[rows] = np.arange(len(rows))
-    a, b = at[edges[(at[edges] >= 0).all(axis=1)]].T
-    lowest = np.arange(len(rows))
-    while True:
-        before = lowest.copy()
-        np.minimum.at(lowest, a, lowest[b])
-        np.minimum.at(lowest, b, lowest[a])
-        lowest = lowest[lowest]
-        if np.array_equal(before, lowest):
-            return np.unique(lowest, return_inverse=True)[1].reshape(-1).astype(np.int64)
+    pairs = at[edges[(at[edges] >= 0).all(axis=1)]]
+    return np.unique(united(len(rows), pairs), return_inverse=True)[1].reshape(-1).astype(np.int64)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..samples.triangles import unit_normals
 from ..small_matrices import shortest_solutions
-from .united import united
+from ..united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

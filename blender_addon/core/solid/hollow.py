@@ -17,8 +17,8 @@ from ..samples.outward_faces import are_left_out, outward_shape, reading_warning
 from ..samples.triangle_faces import TriangleFaces
 from ..settings import HollowSettings
 from ..small_matrices import dot
+from ..united import united
 from .offset_surface import COARSEST, OffsetSurface, offset_surface
-from .united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -27,11 +27,11 @@ from ..samples.sharp_angle import sharp_angle_of
 from ..samples.triangles import unit_normals
 from ..settings import Form, MidSurfaceSettings, Settings, Side
 from ..small_matrices import length_of
+from ..united import united
 from .carried_sheets import CarriedSheets, carried
 from .even_triangles import divided
 from .sheet_walls import Walls
 from .thin_sheets import thin_sheets
-from .united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..small_matrices import dot
-from .united import united
+from ..united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
