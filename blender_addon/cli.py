@@ -149,7 +149,7 @@ exit codes:
 _EXAMPLES_OF_MID_SURFACES = """\
 INPUT     as of medial_axis --help.
 OUTPUT    a file, or a folder; {name}, {file} and #### as there.
-          .inp   shell elements S6 with their thickness, for CalculiX and Abaqus
+          .inp   shell elements S6 with their thickness, for CalculiX
           .obj   polygons, a group for each sheet
           .ply   triangles, with the thickness of each vertex and face
           .stl   triangles; a .csv beside it has the thickness of each

@@ -21,9 +21,10 @@ INEXACT = re.compile(
     r"(sin|cos|sincos|tan|asin|acos|atan|sinh|cosh|tanh|asinh|acosh|atanh|atan2|exp|exp2|exp10|expm1|log|log2|log10"
     r"|log1p|pow|cbrt|hypot|erf|erfc|tgamma|lgamma|j0|j1|jn|y0|y1|yn)[fl]?"
 )
-# CGAL's alpha wrap calls these, and neither reaches a result: sincos gives the direction of a ray that tells whether a
+# CGAL calls these, and none reaches a result. In alpha wraps sincos gives the direction of a ray that tells whether a
 # point is inside closed faces, which all directions tell alike, and log the level at which a search for a cell begins.
-OF_CGAL = {"sincos", "log"}
+# In remeshing cos is asked for 160 degrees alone, beyond which a triangle is a cap.
+OF_CGAL = {"sincos", "log", "cos"}
 OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}
 ENTRY = "PyInit__medial"
 # The newest symbol versions that those systems have (manylinux_2_34).

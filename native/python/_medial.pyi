@@ -1454,6 +1454,42 @@ def part_places(
         A corner is no row of the points, or a coordinate is not finite.
     """
 
+def even_sheet(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    length: float,
+    *,
+    progress: Progress | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]] | None:
+    """A sheet of nearly equilateral triangles, by CGAL's isotropic remeshing (Botsch & Kobbelt 2004).
+
+    New vertices lie on the given triangles. Border edges, and edges at which the sheet turns by more than 45 degrees,
+    stay as they are.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) int32
+        Each turns as its neighbours do.
+    length : float
+        Of the edges that are wanted, in the unit of the points. No edge that stays may be longer than 4/3 of it.
+    progress : Progress, optional
+
+    Returns
+    -------
+    points : (k, 3) float64
+    given : (k,) int32
+        The row of the given point that each is; -1 for new ones.
+    triangles : (l, 3) int32
+        None instead of all three if an edge has more than two triangles, or its two triangles turn opposite ways.
+
+    Raises
+    ------
+    InvalidInputError
+        Rows are out of range, or the length is not positive.
+    Cancelled
+    """
+
 def wrap(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],

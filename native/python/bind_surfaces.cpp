@@ -5,6 +5,7 @@
 #include "base/rows.h"
 #include "base/triangle_tree.h"
 #include "bindings.h"
+#include "delaunay/even_sheet.h"
 #include "delaunay/polygon_triangles.h"
 #include "delaunay/samples.h"
 #include "delaunay/wrap.h"
@@ -72,6 +73,25 @@ py::tuple wrapped_faces(const py::object& points, const py::object& triangles, d
   }();
   return py::make_tuple(array_of<double>(std::move(found.rows)),
                         array_of<int32_t>(std::move(found.triangles)));
+}
+
+py::object even_triangles(const py::object& points, const py::object& triangles, double length,
+                          Progress* progress) {
+  const Points rows(points, "points");
+  const Triangles faces(triangles);
+  if (!(length > 0)) {
+    throw InvalidInputError("Expected a positive length of edges, found " + std::to_string(length) +
+                            "; choose a larger one");
+  }
+  std::optional<EvenSheet> found = [&, row_span = rows.span(), face_span = faces.span()] {
+    const py::gil_scoped_release release;
+    require_corners(face_span, row_span.size());
+    return even_sheet(row_span, face_span, length, {1, progress});
+  }();
+  if (!found) return py::none();
+  return py::make_tuple(array_of<double>(std::move(found->rows)),
+                        array_of<int32_t>(std::move(found->given)),
+                        array_of<int32_t>(std::move(found->triangles)));
 }
 
 py::tuple parts_of_mesh(const py::object& points, const py::object& triangles) {
@@ -217,6 +237,8 @@ void bind_surfaces(py::module_& m) {
   m.def("solid_betti", &betti_of_solid, docs::solid_betti, py::arg("points"), py::arg("triangles"));
   m.def("outward_faces", &faces_of_solid, docs::outward_faces, py::arg("points"),
         py::arg("triangles"), py::kw_only(), py::arg("progress") = nullptr, py::arg("threads") = 0);
+  m.def("even_sheet", &even_triangles, docs::even_sheet, py::arg("points"), py::arg("triangles"),
+        py::arg("length"), py::kw_only(), py::arg("progress") = nullptr);
   m.def("wrap", &wrapped_faces, docs::wrap, py::arg("points"), py::arg("triangles"),
         py::arg("opening"), py::arg("distance"), py::kw_only(), py::arg("progress") = nullptr);
   m.def("mesh_parts", &parts_of_mesh, docs::mesh_parts, py::arg("points"), py::arg("triangles"));

@@ -12,7 +12,7 @@ from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import MidSurfaceSettings, Settings
-from medial_axis.core.solid.even_triangles import divided
+from medial_axis.core.solid.even_triangles import divided, even_triangles
 from medial_axis.core.solid.mid_surface import mid_surface
 from support import mid_surfaces, topology
 from support.meshes import write_off
@@ -176,6 +176,39 @@ def test_sheets_that_do_not_meet_are_told():
     found = sheets_of(mesh)
     assert found.sheets == topology.components(found.triangles) == 2
     assert any("2 pieces and the solid 1" in text for text in found.warnings)
+
+
+@pytest.mark.parametrize("name", ["profile_t", "bent_sheet"])
+def test_triangles_of_a_size_are_even(name):
+    """Where the bend begins, its short edges lie beside a flat side; triangles there must be no slivers."""
+    known = mid_surfaces.ALL[name]()
+    found = sheets_of(known.mesh, size=0.05)
+    corners = found.vertices[found.triangles]
+    sides = np.roll(corners, -1, axis=1) - corners
+    lengths = np.linalg.norm(sides, axis=2)
+    assert lengths.max() < 0.05 * 1.5 and np.median(lengths) == pytest.approx(0.05, rel=0.15)
+    cosines = -(sides * np.roll(sides, 1, axis=1)).sum(2) / (lengths * np.roll(lengths, 1, axis=1))
+    least = np.degrees(np.arccos(cosines.max(axis=1)))
+    assert least.min() > 5 and np.quantile(least, 0.01) > 20
+    whole = sheets_of(known.mesh)
+    assert topology.euler(found.triangles) == topology.euler(whole.triangles)
+    assert areas(found).sum() == pytest.approx(areas(whole).sum(), rel=2e-3)  # chords of the bend
+    assert (topology.edges(found.triangles)[1] == 3).any() == (found.sheets == 3)
+
+
+def test_a_sheet_that_touches_itself_is_divided():
+    """Three triangles of one sheet at an edge, which no library remeshes, beside a square that is remeshed."""
+    places = [(0, 0, 0), (0, 4, 0), (3, 2, 0), (-3, 2, 1), (-3, 2, -1)]
+    square = [(9, 0, 0), (13, 0, 0), (13, 4, 0), (9, 4, 0)]
+    triangles = np.array([(0, 1, 2), (1, 0, 3), (1, 0, 4), (5, 6, 7), (5, 7, 8)], np.int32)
+    part = np.array((0, 0, 0, 1, 1), np.int32)
+    points, found, of = even_triangles(np.array(places + square, float), triangles, part, 0.5)
+    _, uses = topology.edges(found[of == 0])
+    assert (uses == 3).sum() == 8 and (points[found[of == 1]].min(axis=(0, 1)) == (9, 0, 0)).all()
+    turns = np.cross(
+        points[found[:, 1]] - points[found[:, 0]], points[found[:, 2]] - points[found[:, 0]]
+    )
+    assert turns[of == 1].sum(axis=0) == pytest.approx((0, 0, 32)) and turns[of == 1, 2].min() > 0
 
 
 def test_divided_triangles_still_share_edges():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This module writes middle surfaces as `.inp` for CalculiX and Abaqus, and as `.obj`, `.ply` and `.stl`
+"""This module writes middle surfaces as `.inp` for CalculiX, and as `.obj`, `.ply` and `.stl`
 (docs/formats.md).
 
 `.stl` has no place for thickness, so a `.csv` of the same name lies beside it. A file appears whole or not at all.
@@ -63,7 +63,7 @@ def _write_inp(found: MidSurface, points: NDArray[np.float64], stream: BinaryIO)
     nodes, elements = _with_middles(points, triangles)
     lines = [
         "** A middle surface: sheets of shell elements with their thickness.",
-        "** Replace the material, and add boundary conditions and a step.",
+        "** Replace the material, and add boundary conditions and a step. Abaqus calls S6 STRI65.",
         "*NODE, NSET=NALL",
         *(f"{i + 1}, {x:.12g}, {y:.12g}, {z:.12g}" for i, (x, y, z) in enumerate(nodes.tolist())),
         "*ELEMENT, TYPE=S6, ELSET=EALL",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangles divided at their longest edges until no edge is longer than a size; sheets that share edges keep them."""
+"""Sheets of even triangles: their borders divided to a size, and each sheet remeshed between its borders."""
 
 from __future__ import annotations
 
@@ -7,8 +7,74 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..machine.native import own_errors
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from ..machine.progress import Progress
+
+
+_LONGEST = 4.0 / 3.0  # the remeshing moves no edge that is longer than so many lengths
+
+
+def even_triangles(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    part: NDArray[np.int32],
+    length: float,
+    progress: Progress | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    """Remesh sheets to triangles that are nearly equilateral; sheets that share edges still do.
+
+    A sheet that touches itself, so that an edge has three triangles of it, has divided triangles instead.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    triangles : (t, 3) int32
+        Neighbours of the same sheet turn the same way.
+    part : (t,) int32
+        The sheet of each triangle.
+    length : float
+        Of the edges that are wanted; none is longer than about 4/3 of it.
+    progress : Progress, optional
+
+    Returns
+    -------
+    points : (m, 3) float64
+    triangles : (s, 3) int32
+    part : (s,) int32
+        Ascending.
+
+    Raises
+    ------
+    NativeModuleError, Cancelled
+    """
+    points, triangles, of = divided(points, triangles, _LONGEST * length)
+    part = part[of]
+    places, rows, parts = [points], [], []
+    count = len(points)
+    for sheet in np.unique(part):
+        used, corners = np.unique(triangles[part == sheet], return_inverse=True)
+        corners = corners.reshape(-1, 3).astype(np.int32)
+        with own_errors() as module:
+            found = module.even_sheet(points[used], corners, length, progress=progress)
+        row = used
+        if found is not None:
+            made, given, corners = found
+            new = given < 0
+            row = np.where(new, count + np.cumsum(new) - 1, used[given])
+            places.append(made[new])
+            count += int(new.sum())
+        rows.append(row[corners])
+        parts.append(np.full(len(corners), sheet, np.int32))
+    kept, triangles = np.unique(np.concatenate(rows), return_inverse=True)
+    return (
+        np.concatenate(places)[kept],
+        triangles.reshape(-1, 3).astype(np.int32),
+        np.concatenate(parts),
+    )
 
 
 def divided(

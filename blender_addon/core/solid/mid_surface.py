@@ -29,7 +29,7 @@ from ..settings import Form, MidSurfaceSettings, Settings, Side
 from ..small_matrices import length_of
 from ..united import united
 from .carried_sheets import CarriedSheets, carried
-from .even_triangles import divided
+from .even_triangles import even_triangles
 from .sheet_walls import Walls
 from .thin_sheets import thin_sheets
 
@@ -46,7 +46,6 @@ _PER_AREA = 2.0 / 3.0**0.5  # vertices of even triangles for an area of one squa
 _CURVED = (
     1.5  # so many thicknesses long are edges on curved sheets at least, where no size is wanted
 )
-_SLACK = 1.4  # edges may be longer than the size by this factor, as those of even triangles of that area are
 _MOST = 0.99  # where less of the volume is sheet, a warning says so
 
 
@@ -204,9 +203,11 @@ def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -
         return faces
     triangles = polygon_triangles(faces.vertices, faces.offsets, faces.corners)
     rows = np.repeat(np.arange(len(faces.part)), np.diff(faces.offsets) - 2)
-    vertices, triangles, of = divided(faces.vertices, triangles, _SLACK * size)
+    vertices, triangles, part = even_triangles(
+        faces.vertices, triangles, faces.part[rows], size, progress and progress.part()
+    )
     offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
-    return _Faces(vertices, offsets, triangles.ravel(), faces.part[rows[of]])
+    return _Faces(vertices, offsets, triangles.ravel(), part)
 
 
 def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
