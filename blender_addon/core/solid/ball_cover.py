@@ -16,6 +16,7 @@ from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.solid_faces import triangles_of_places
 from ..settings import BallSettings, CoverMode, Form, Settings, Side, SidesFrom
+from ..small_matrices import length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -61,8 +62,8 @@ class BallCover(OfChosenSamples):
     ----------
     shape : Shape
     balls : Balls
-        In the order in which they were chosen. For INSIDE the first n are the result for n balls; for AROUND this
-        holds for their centres only.
+        In the order of the volume that each adds. Without `refine` they are in the order in which they were chosen:
+        for INSIDE the first n are the result for n balls; for AROUND this holds for their centres only.
     shares : (n,) float64
         The shares of the volume that the first 1, 2, ... n balls hold, before they grow.
     places : int
@@ -129,13 +130,15 @@ def cover_by_balls(
             triangles,
             count=wanted.count,
             mode=getattr(module.CoverMode, wanted.mode.name),
+            refine=wanted.refine,
+            tolerance=wanted.tolerance / 100 * length_of(np.ptp(shape.points, axis=0)),
             progress=progress.part(),
         )
     balls = Balls(
         centres=centres[found.chosen],
         radii=found.radii,
         mode=wanted.mode,
-        covered=1.0 if wanted.mode is CoverMode.AROUND else float(found.covered[-1]),
+        covered=1.0 if wanted.mode is CoverMode.AROUND else found.held,
         outside=found.outside,
         farthest=found.farthest,
     )
