@@ -20,23 +20,16 @@ class Service {
   Service(std::span<const Ball> balls, std::span<const int32_t> ids, std::span<const Vec3> places,
           const Run& run)
       : balls_(balls), ids_(ids), places_(places.begin(), places.end()), run_(run) {
-    largest_ = *std::max_element(ids.begin(), ids.end(), [&](int32_t a, int32_t b) {
+    const int32_t largest = *std::max_element(ids.begin(), ids.end(), [&](int32_t a, int32_t b) {
       return balls[a].radius < balls[b].radius;
     });
     std::vector<double> away;
-    for (const Vec3& place : places) away.push_back(distance(place, balls[largest_].centre));
+    for (const Vec3& place : places) away.push_back(distance(place, balls[largest].centre));
     std::vector<int32_t> order(places.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
               [&](int32_t a, int32_t b) { return std::tie(away[b], a) < std::tie(away[a], b); });
     for (size_t i = 0; i < order.size(); ++i) places_[i] = places[order[i]];
-  }
-
-  int32_t largest() const { return largest_; }
-  double farthest() const {
-    double most = 0;
-    for (const Vec3& place : places_) most = std::max(most, gap(balls_[largest_], place));
-    return most;
   }
 
   // Returns at most `most` balls that serve all places, or nothing if it finds none.
@@ -84,16 +77,15 @@ class Service {
   std::span<const int32_t> ids_;
   std::vector<Vec3> places_;  // those farthest from the largest ball first
   const Run& run_;
-  int32_t largest_ = 0;
 };
 
 }  // namespace
 
 BoundedBalls bounded_balls(std::span<const Ball> balls, std::span<const int32_t> ids,
                            std::span<const Vec3> places, int64_t most, double fine,
-                           const Run& run) {
+                           BoundedBalls first, const Run& run) {
   const Service service(balls, ids, places, run);
-  BoundedBalls best{service.farthest(), {service.largest()}};
+  BoundedBalls best(std::move(first));
   double low = 0;
   while (best.bound > fine && best.bound - low > kSearched * best.bound) {
     const double middle = 0.5 * low + 0.5 * best.bound;

@@ -16,11 +16,13 @@ struct BoundedBalls {
   std::vector<int32_t> chosen;  // ids, in the order in which they were chosen
 };
 
-// Chooses at most `most` of the balls such that the largest distance of a place from them is small:
-// within 1 % of the least one that this search reaches, or less than `fine`. Always the remaining
-// place that is farthest from the largest ball is served next, so ends come first; of the balls
-// within the bound of it, the one that serves most of the remaining places is taken.
+// Looks for at most `most` of the balls from which no place is as far as from the `first` ones, and
+// returns the best that it finds, within 1 % of the least bound of this search, or less than
+// `fine`. Always the remaining place that is farthest from the largest ball is served next, so ends
+// come first; of the balls within the bound of it, the one that serves most of the remaining places
+// is taken.
 BoundedBalls bounded_balls(std::span<const Ball> balls, std::span<const int32_t> ids,
-                           std::span<const Vec3> places, int64_t most, double fine, const Run& run);
+                           std::span<const Vec3> places, int64_t most, double fine,
+                           BoundedBalls first, const Run& run);
 
 }  // namespace medial

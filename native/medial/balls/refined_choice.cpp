@@ -48,6 +48,16 @@ double farthest(std::span<const Vec3> places, std::span<const Ball> balls, const
   return away.empty() ? 0 : *std::max_element(away.begin(), away.end());
 }
 
+// Returns balls that follow the farthest place, and how far the places are from them.
+BoundedBalls farthest_first(std::span<const Ball> balls, int64_t count,
+                            std::span<const Vec3> places, const SolidLattice& whole,
+                            const Run& run) {
+  SolidLattice rest(whole);
+  auto chosen = balls_by_distance(balls, count, rest, {run.threads}).chosen;
+  const double bound = farthest(places, balls_of(balls, chosen), run);
+  return {bound, std::move(chosen)};
+}
+
 // Adds the balls that hold most of what the chosen ones leave, up to `count` in all.
 void fill(std::vector<int32_t>& chosen, std::span<const Ball> balls, std::span<const int32_t> ids,
           int64_t count, const SolidLattice& whole, const Run& run) {
@@ -87,7 +97,9 @@ BallChoice balls_by_bound(std::span<const Ball> balls, int64_t count, double sha
   if (ids.empty()) return {};
   const auto most = static_cast<int64_t>(std::ceil(share * static_cast<double>(count)));
   const auto even = even_places(places, left.step(), std::max(kPlaces, kPlacesOfBall * count));
-  auto chosen = bounded_balls(balls, ids, even, most, kFine * left.step(), run).chosen;
+  auto first = farthest_first(balls, most, even, left, run);
+  auto chosen =
+      bounded_balls(balls, ids, even, most, kFine * left.step(), std::move(first), run).chosen;
   advance(run.progress, 0.3);
   fill(chosen, balls, ids, count, left, run);
   advance(run.progress, 0.4);
