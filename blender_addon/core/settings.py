@@ -846,6 +846,9 @@ class CoverMode(Enum):
     AROUND = "AROUND"
 
 
+MOST_REFINED = 1024  # balls; above, ball_cover.cpp chooses greedily, too
+
+
 @dataclass(frozen=True)
 class BallSettings(Options):
     """The number of balls, and what they promise."""

@@ -435,11 +435,21 @@ def test_an_open_surface_has_balls():
     assert found.balls.covered > 0.9
 
 
+@pytest.mark.parametrize("count", [5, 12])
+def test_refined_balls_around_reach_out_no_farther_than_greedy_ones(count):
+    reach = [
+        covered(TORUS, count=count, mode="around", sampling="vertices", refine=refine).balls.outside
+        for refine in (True, False)
+    ]
+    assert 0 < reach[0] <= reach[1]
+
+
 @pytest.mark.slow
 def test_the_hand(data_file):
     shape = medial_axis.read(data_file("hand_closed.obj"))
     balls = covered((shape.points, shape.triangles), count=64).balls
     assert balls.covered > 0.8 and len(balls.radii) == 64 and balls.outside == 0.0
+    assert balls.farthest < 0.03 * np.linalg.norm(np.ptp(shape.points, axis=0))
     around = covered((shape.points, shape.triangles), count=64, mode="around").balls
     diagonal = np.linalg.norm(np.ptp(shape.points, axis=0))
     assert around.farthest == 0.0 and around.outside < 0.04 * diagonal
