@@ -135,9 +135,12 @@ INPUT     as of medial_axis --help.
 OUTPUT    a file, or a folder; {name}, {file} and #### as there.
           .ma    a vertex with its radius for each ball
           .json  centres, radii, the covered volume, how far balls reach out
+          .urdf  a robot of one link with a collision sphere for each ball
+          .mjcf .xml  a body of MuJoCo with a sphere for each ball
 
 examples:
   medial_axis balls robot.stl robot.json --count 64 --mode around
+  medial_axis balls robot.stl robot.urdf --count 100 --tolerance 1
   medial_axis balls parts/*.stl balls/ --format ma
   medial_axis balls walk.blend balls/{name}_####.json --frames 1-250 --object Body
 

@@ -196,6 +196,8 @@ def cover_by_balls(
     *,
     count: int = BALL_OPTIONS["count"].default,
     mode: CoverMode | str = BALL_OPTIONS["mode"].default,
+    tolerance: float = BALL_OPTIONS["tolerance"].default,
+    refine: bool = BALL_OPTIONS["refine"].default,
     progress: Progress | None = None,
     **settings: Any,
 ) -> BallCover:
@@ -208,7 +210,13 @@ def cover_by_balls(
     count : int
         Balls at most.
     mode : CoverMode or its name
-        "inside": no ball reaches out of the solid. "around": the balls hold the whole surface.
+        "inside": no ball reaches out of the solid by more than the tolerance. "around": the balls hold the whole
+        surface.
+    tolerance : float
+        In percent of the diagonal of the bounding box; "around", it changes nothing.
+    refine : bool
+        Leave no place far from the balls, then hold as much volume as possible. Without, and for more than 1,024
+        balls, the choice is greedy: the first balls of many are the few.
     progress : Progress, optional
     **settings
         As of `compute`; the side is always the inner one.
@@ -226,6 +234,8 @@ def cover_by_balls(
     wanted = BallSettings(
         count=_value(count, "count", BALL_OPTIONS["count"]),
         mode=_value(mode, "mode", BALL_OPTIONS["mode"]),
+        tolerance=_value(tolerance, "tolerance", BALL_OPTIONS["tolerance"]),
+        refine=_value(refine, "refine", BALL_OPTIONS["refine"]),
     )
     chosen = Settings(**_checked(settings, list(OPTIONS)))
     return ball_cover.cover_by_balls(_shape(points, triangles, normals), chosen, wanted, progress)
@@ -313,7 +323,7 @@ def write(
 
 
 def write_balls(found: Balls | BallCover, path: str | os.PathLike[str]) -> Path:
-    """Write balls; the extension chooses the format: .ma .json (docs/balls.md).
+    """Write balls; the extension chooses the format: .ma .json .urdf .mjcf .xml (docs/balls.md).
 
     Parameters
     ----------

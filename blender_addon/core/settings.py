@@ -846,6 +846,9 @@ class CoverMode(Enum):
     AROUND = "AROUND"
 
 
+MOST_REFINED = 1024  # balls; above, ball_cover.cpp chooses greedily, too
+
+
 @dataclass(frozen=True)
 class BallSettings(Options):
     """The number of balls, and what they promise."""
@@ -864,14 +867,28 @@ class BallSettings(Options):
         items={
             CoverMode.INSIDE: (
                 "Inside",
-                "No ball reaches out of the solid; each holds as much as it can of what the others leave, "
-                "so thin parts may have none; Around leaves no part out",
+                "No ball reaches out of the solid by more than the Tolerance",
             ),
             CoverMode.AROUND: (
                 "Around",
                 "The balls hold the whole surface, and so reach out of the solid",
             ),
         },
+    )
+    tolerance: float = number(
+        "Tolerance",
+        "How far balls Inside may reach out of the solid to hold more of its surface, in percent of the diagonal "
+        "of the bounding box; Around, it changes nothing",
+        default=0.0,
+        limits=(0.0, 100.0),
+        soft_maximum=5.0,
+        unit="%",
+    )
+    refine: bool = switch(
+        "Refine",
+        "Leave no place far from the balls, then hold as much volume as possible; off, or with more than 1,024 "
+        "balls: one after the other, so that the first of many are the few",
+        default=True,
     )
 
 

@@ -21,7 +21,9 @@ from .properties import prop
 from .translation import say
 
 _LABELS = {suffix: known.label for suffix, known in FORMATS.items()} | {
-    ".json": "JSON, balls and their figures"
+    ".json": "JSON, balls and their figures",
+    ".urdf": "URDF, balls as a link of a robot",
+    ".mjcf": "MJCF, balls as a body of MuJoCo",
 }
 _EXTENSIONS = {suffix[1:].upper(): suffix for suffix in _LABELS}
 
@@ -45,13 +47,15 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
     )
     balls: bpy.props.IntProperty(
         name="Balls",
-        description="At most so many balls instead of the axis, as .ma or .json; 0: the axis",
+        description="At most so many balls instead of the axis, as .ma, .json, .urdf or .mjcf; 0: the axis",
         default=0,
         min=0,
         soft_max=BALL_OPTIONS["count"].soft_maximum,
         max=BALL_OPTIONS["count"].maximum,
     )
     mode: prop(BALL_OPTIONS["mode"])
+    tolerance: prop(BALL_OPTIONS["tolerance"])
+    refine: prop(BALL_OPTIONS["refine"])
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -98,7 +102,7 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
                 f"Expected the object that '{result.name}' was computed of, found that it is gone; set Balls to 0"
             )
         shape = read_object(source, context.evaluated_depsgraph_get())
-        wanted = BallSettings(self.balls, CoverMode[self.mode])
+        wanted = BallSettings(self.balls, CoverMode[self.mode], self.tolerance, self.refine)
         found = cover_by_balls(shape, settings_of(result), wanted, limit=memory_limit())
         return found.balls, shape.frame
 

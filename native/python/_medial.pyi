@@ -521,14 +521,18 @@ class BallCover:
 
     @property
     def chosen(self) -> NDArray[np.int32]:
-        """(n,) int32: rows of the balls to choose from, in the order in which they were chosen, which does not depend
-        on their number. Fewer than asked for: more of them would not add anything."""
+        """(n,) int32: rows of the balls to choose from, in the order of the volume that each adds; without `refine` in
+        the order in which they were chosen, which does not depend on their number. Fewer than asked for: more of them
+        would not add anything."""
     @property
     def radii(self) -> NDArray[np.float64]:
-        """(n,) float64: inside no longer than to the surface, around grown."""
+        """(n,) float64: inside no longer than to the surface and the tolerance, around grown."""
     @property
     def covered(self) -> NDArray[np.float64]:
         """(n,) float64: share of the places in the solid that the first 1, 2, ... n balls hold, before they grow."""
+    @property
+    def held(self) -> float:
+        """Share of the places in the solid that all balls hold, after they grew."""
     @property
     def outside(self) -> float:
         """No place in a ball is farther from the solid."""
@@ -1950,15 +1954,20 @@ def cover_by_balls(
     count: int = 64,
     mode: CoverMode = ...,
     places: int = 100_000,
+    refine: bool = True,
+    tolerance: float = 0.0,
     progress: Progress | None = None,
     threads: int = 0,
 ) -> BallCover:
-    """A solid as few balls, chosen greedily among those of its inner axis, by the volume that each adds.
+    """A solid as few balls, chosen among those of its inner axis.
 
     The solid is where the winding number of its faces exceeds 1/2, and a volume the number of places of a cubic
-    lattice in it. INSIDE, each ball is the one that holds most of what those before it left, of equal ones the first:
+    lattice in it. A refined choice bounds how far the surface is from the balls, INSIDE with nine tenths of them and
+    AROUND with all, fills the rest by volume, and exchanges balls for those that hold more within that bound.
+
+    A choice that is not refined is greedy. INSIDE, each ball is the one that holds most of what those before it left, of equal ones the first:
     the first n hold at least 1 - 1/e of the places that any n of the candidates hold. AROUND, it is one that comes near
-    to the place farthest from those before it; each then grows until it holds what is nearest to it.
+    to the place farthest from those before it. In the end, each ball AROUND grows until it holds what is nearest to it.
 
     Parameters
     ----------
@@ -1974,6 +1983,10 @@ def cover_by_balls(
     places : int
         Of the lattice in the solid; at least half as many, where a lattice of 16 million places in the box of the solid
         has them, a million where the surface is open.
+    refine : bool
+        More than 1024 balls are chosen greedily.
+    tolerance : float
+        INSIDE, a ball may grow to reach out so far, if that is needed to hold what is nearest to it.
     progress : Progress, optional
     threads : int
         0: as many as the machine has. The result does not depend on it.

@@ -15,12 +15,13 @@ std::span<const double> lengths_of(const py::object& column, const char* name) {
 
 BallCover cover(const py::object& centres, const py::object& radii, const py::object& vertices,
                 const py::object& triangles, int64_t count, CoverMode mode, int64_t places,
-                Progress* progress, int threads) {
+                bool refine, double tolerance, Progress* progress, int threads) {
   const Points balls(centres, "centres"), corners(vertices, "vertices");
   const Triangles faces(triangles);
   const BallCoverInput input{balls.span(), lengths_of(radii, "radii"), corners.span(),
                              faces.span()};
-  const BallCoverOptions options{.count = count, .mode = mode, .places = places};
+  const BallCoverOptions options{
+      .count = count, .mode = mode, .places = places, .refine = refine, .tolerance = tolerance};
   const int wanted = thread_argument(threads);
   const py::gil_scoped_release release;
   return cover_by_balls(input, options, wanted, progress);
@@ -39,14 +40,15 @@ void bind_balls(py::module_& m) {
                              docs::BallCover_radii)
       .def_property_readonly("covered", view_property<double>(&BallCover::covered),
                              docs::BallCover_covered)
+      .def_readonly("held", &BallCover::held, docs::BallCover_held)
       .def_readonly("outside", &BallCover::outside, docs::BallCover_outside)
       .def_readonly("farthest", &BallCover::farthest, docs::BallCover_farthest)
       .def_readonly("places", &BallCover::places, docs::BallCover_places)
       .def_readonly("step", &BallCover::step, docs::BallCover_step);
   m.def("cover_by_balls", &cover, docs::cover_by_balls, py::arg("centres"), py::arg("radii"),
         py::arg("vertices"), py::arg("triangles"), py::kw_only(), py::arg("count") = 64,
-        py::arg("mode") = CoverMode::inside, py::arg("places") = 100'000,
-        py::arg("progress") = nullptr, py::arg("threads") = 0);
+        py::arg("mode") = CoverMode::inside, py::arg("places") = 100'000, py::arg("refine") = true,
+        py::arg("tolerance") = 0.0, py::arg("progress") = nullptr, py::arg("threads") = 0);
 }
 
 }  // namespace medial::python

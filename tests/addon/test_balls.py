@@ -138,7 +138,7 @@ def test_an_axis_is_written_as_balls(tmp_path):
     world = positions(made.data) @ np.array(made.matrix_world)[:3, :3].T
     assert np.allclose(rows, np.column_stack([world, attribute(made.data, "ma_radius")]), atol=1e-5)
     select(result_of(source))
-    with pytest.raises(RuntimeError, match=".ma or .json, found 'a.ply'"):
+    with pytest.raises(RuntimeError, match=".mjcf or .xml, found 'a.ply'"):
         bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "a.ply"), balls=6)
     with pytest.raises(RuntimeError, match="found 'a.json'"):
         bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "a.json"))

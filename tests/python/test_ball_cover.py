@@ -3,7 +3,9 @@
 
 import json
 import threading
+from dataclasses import replace
 from functools import cache
+from xml.etree import ElementTree
 
 import medial_axis
 import numpy as np
@@ -13,7 +15,7 @@ from medial_axis.core.errors import (
     ExportError,
     InvalidInputError,
 )
-from support import meshes
+from support import meshes, swept
 from support.shape_meshes import of_capsule
 from support.shapes import SHAPES
 
@@ -92,7 +94,7 @@ def places_of(medial, case, step):
 
 def test_inside_is_the_greedy_choice(medial):
     case = torus_case()
-    found = cover(medial, case, 12, places=3000)
+    found = cover(medial, case, 12, places=3000, refine=False)
     centres, radii, _ = inner(medial, case)
     places = places_of(medial, case, found.step)
     assert found.places == len(places) >= 1500
@@ -110,7 +112,7 @@ def test_inside_is_the_greedy_choice(medial):
 
 def test_around_follows_the_farthest_place(medial):
     case = torus_case()
-    found = cover(medial, case, 12, "AROUND", places=3000)
+    found = cover(medial, case, 12, "AROUND", places=3000, refine=False)
     centres, radii, _ = inner(medial, case)
     places = places_of(medial, case, found.step)
     order = np.lexsort(places.T[[0, 1, 2]])  # rows along x, then those along y
@@ -130,10 +132,11 @@ def test_around_follows_the_farthest_place(medial):
     assert found.chosen.tolist() == chosen
 
 
+@pytest.mark.parametrize("refine", [True, False])
 @pytest.mark.parametrize("mode", ["INSIDE", "AROUND"])
-def test_figures_bound_what_is_measured(medial, mode):
+def test_figures_bound_what_is_measured(medial, mode, refine):
     case = torus_case()
-    found = cover(medial, case, 10, mode, places=5000)
+    found = cover(medial, case, 10, mode, places=5000, refine=refine)
     balls = case[1][found.chosen], found.radii
     off = distances(on_surface(TORUS), balls).min(axis=1).max()
     assert off <= found.farthest + 1e-12
@@ -164,17 +167,132 @@ def test_an_independent_lattice_counts_the_same_volume(medial):
     assert held == pytest.approx(found.covered[-1], abs=0.01)
 
 
+# --- the refined choice
+
+
+@cache
+def rod_case():
+    """A capsule of radius 0.3, 4 long between the centres of its ends, and 401 balls along it."""
+    centres = np.column_stack([np.zeros(401), np.zeros(401), np.linspace(0.0, 4.0, 401)])
+    return swept.capsule(4.0, 0.3, 96), centres, np.full(401, 0.3)
+
+
+def least_reach(count):
+    """How far the tips and the creases between `count` balls along the rod are from the balls, if all are as far: the
+    best that is possible."""
+    low, high = 0.0, 2.0
+    for _ in range(60):
+        reach = (low + high) / 2
+        between = 2 * np.sqrt(
+            (0.3 + reach) ** 2 - 0.3**2
+        )  # two balls that leave a crease so far away
+        low, high = (reach, high) if 2 * reach + (count - 1) * between < 4.0 else (low, reach)
+    return high
+
+
+@pytest.mark.parametrize("count", [4, 7, 16])
+def test_around_a_rod_nearly_as_close_as_possible(medial, count):
+    """16 balls that follow the farthest place reach out 1.5 to 2 times as far."""
+    found = cover(medial, rod_case(), count, "AROUND", places=200_000)
+    least = least_reach(count)
+    assert 0.97 * least < found.outside < 1.15 * least + found.step
+
+
+@cache
+def hedgehog_case():
+    """A ball with three thin spines, and balls along all of them."""
+    parts, centres, radii = [meshes.icosphere(3)], [np.zeros((1, 3))], [np.ones(1)]
+    for axis in range(3):
+        spine = swept.capsule(2.0, 0.1)
+        parts.append((np.roll(spine[0] + (0, 0, 1.05), axis + 1, axis=1), spine[1]))
+        along = np.zeros((80, 3))
+        along[:, axis] = np.linspace(1.05, 3.05, 80)
+        centres.append(along)
+        radii.append(np.full(80, 0.1))
+    solid = parts[0]
+    for part in parts[1:]:
+        solid = meshes.join(solid, part)
+    return solid, np.concatenate(centres), np.concatenate(radii)
+
+
+def test_no_thin_end_is_left_out(medial):
+    """The first balls of the greedy choice are too few for all spines."""
+    case = hedgehog_case()
+    greedy = cover(medial, case, 8, refine=False)
+    refined = cover(medial, case, 8)
+    assert refined.farthest < 0.6 * greedy.farthest and refined.outside == 0.0
+    assert refined.held > 0.97 * greedy.held
+
+
+def test_no_exchange_of_one_ball_holds_more(medial):
+    """Every ball beside every other, counted by NumPy: one that holds more leaves some place farther away."""
+    case = hedgehog_case()
+    found = cover(medial, case, 8, places=3000)
+    centres, radii, _ = inner(medial, case)
+    held = distances(places_of(medial, case, found.step), (centres, radii)) <= 0
+    away = distances(on_surface(case[0], 5000), (centres, radii))
+    chosen = found.chosen.tolist()
+    bound = away[:, chosen].min(axis=1).max()
+    assert found.held == pytest.approx(held[:, chosen].any(axis=1).mean(), abs=1e-12)
+    for slot in range(8):
+        others = chosen[:slot] + chosen[slot + 1 :]
+        more = (held | held[:, others].any(axis=1)[:, None]).mean(axis=0) > found.held + 1e-12
+        far = np.minimum(away, away[:, others].min(axis=1)[:, None]).max(axis=0)
+        assert (far[more] > bound - found.step).all()
+
+
+def test_the_order_is_by_volume(medial):
+    case = torus_case()
+    found = cover(medial, case, 12, places=3000)
+    assert len(set(found.chosen.tolist())) == 12 and found.held == found.covered[-1]
+    gains = np.diff(found.covered, prepend=0)
+    assert (np.diff(gains) <= 1e-12).all()
+
+
+def test_more_balls_than_are_refined_are_greedy(medial):
+    case = torus_case()
+    many = cover(medial, case, 1025, places=3000)
+    greedy = cover(medial, case, 1025, places=3000, refine=False)
+    assert many.chosen.tobytes() == greedy.chosen.tobytes()
+
+
+# --- between inside and around
+
+
+def test_tolerance_lies_between_inside_and_around(medial):
+    case = torus_case()
+    inside = cover(medial, case, 10, places=5000)
+    before = inside.farthest
+    assert before > 0.02
+    for part in (0.25, 0.5, 0.75):
+        found = cover(medial, case, 10, places=5000, tolerance=part * inside.farthest)
+        assert found.chosen.tolist() == inside.chosen.tolist()
+        assert 0 < found.outside <= part * inside.farthest * (1 + 1e-12)
+        off = distances(on_surface(TORUS), (case[1][found.chosen], found.radii)).min(axis=1).max()
+        assert off <= found.farthest + 1e-12 < before
+        assert found.held > inside.held
+        before = found.farthest
+    far = cover(medial, case, 10, places=5000, tolerance=10.0)
+    assert far.farthest == 0.0 and far.held == 1.0
+    assert (far.radii >= inside.radii).all() and far.outside < 10.0
+
+
+def test_no_ball_grows_without_need(medial):
+    found = cover(medial, (BALL, np.zeros((1, 3)), np.full(1, 0.9)), 1, tolerance=5.0)
+    assert found.radii[0] == pytest.approx(1.0, abs=0.01) and found.farthest == 0.0
+
+
 # --- orders, threads, scales
 
 
 @pytest.mark.parametrize("mode", ["INSIDE", "AROUND"])
 def test_the_first_balls_of_many_are_the_few(medial, mode):
     case = torus_case()
-    many = cover(medial, case, 30, mode, places=5000)
+    many = cover(medial, case, 30, mode, places=5000, refine=False)
     assert (np.diff(many.covered) >= 0).all()
     before = np.full(30, np.inf)
     for count in (1, 2, 7, 20, 30):
-        few = cover(medial, case, count, mode, places=5000)
+        few = cover(medial, case, count, mode, places=5000, refine=False)
         assert few.chosen.tolist() == many.chosen[:count].tolist()
         assert few.covered.tolist() == many.covered[:count].tolist()
         if mode == "INSIDE":
@@ -184,11 +302,12 @@ def test_the_first_balls_of_many_are_the_few(medial, mode):
             before[:count] = few.radii
 
 
+@pytest.mark.parametrize("refine", [True, False])
 @pytest.mark.parametrize("mode", ["INSIDE", "AROUND"])
-def test_threads_and_scale_change_nothing(medial, mode):
+def test_threads_and_scale_change_nothing(medial, mode, refine):
     case = torus_case()
-    one = cover(medial, case, 15, mode, places=5000, threads=1)
-    more = cover(medial, case, 15, mode, places=5000, threads=5)
+    one = cover(medial, case, 15, mode, places=5000, refine=refine, threads=1)
+    more = cover(medial, case, 15, mode, places=5000, refine=refine, threads=5)
     for name in ("chosen", "radii", "covered"):
         assert getattr(one, name).tobytes() == getattr(more, name).tobytes()
     assert (one.outside, one.farthest) == (more.outside, more.farthest)
@@ -200,6 +319,7 @@ def test_threads_and_scale_change_nothing(medial, mode):
             15,
             mode,
             places=5000,
+            refine=refine,
         )
         assert large.chosen.tolist() == one.chosen.tolist()
         assert (large.radii / scale).tolist() == one.radii.tolist()
@@ -234,6 +354,8 @@ def test_it_can_be_cancelled(medial):
     ("change", "words"),
     [
         ({"count": 0}, "Expected at least one ball and one place, found 0"),
+        ({"tolerance": -1.0}, "Expected a finite tolerance of 0 or more, found -1"),
+        ({"tolerance": np.nan}, "Expected a finite tolerance of 0 or more, found nan"),
         ({"radii": np.ones(2)}, "Expected one radius per centre, found 2 for 300"),
         ({"radii": np.full(300, np.nan)}, "Expected finite radii of 0 or more, found nan"),
         ({"centres": np.full((300, 3), np.inf)}, "centre"),
@@ -313,11 +435,21 @@ def test_an_open_surface_has_balls():
     assert found.balls.covered > 0.9
 
 
+@pytest.mark.parametrize("count", [5, 12])
+def test_refined_balls_around_reach_out_no_farther_than_greedy_ones(count):
+    reach = [
+        covered(TORUS, count=count, mode="around", sampling="vertices", refine=refine).balls.outside
+        for refine in (True, False)
+    ]
+    assert 0 < reach[0] <= reach[1]
+
+
 @pytest.mark.slow
 def test_the_hand(data_file):
     shape = medial_axis.read(data_file("hand_closed.obj"))
     balls = covered((shape.points, shape.triangles), count=64).balls
     assert balls.covered > 0.8 and len(balls.radii) == 64 and balls.outside == 0.0
+    assert balls.farthest < 0.03 * np.linalg.norm(np.ptp(shape.points, axis=0))
     around = covered((shape.points, shape.triangles), count=64, mode="around").balls
     diagonal = np.linalg.norm(np.ptp(shape.points, axis=0))
     assert around.farthest == 0.0 and around.outside < 0.04 * diagonal
@@ -329,6 +461,8 @@ def test_the_hand(data_file):
         ({"count": 0}, "Expected count from 1"),
         ({"count": "many"}, "Expected count as int, found 'many'"),
         ({"mode": "outside"}, "Expected mode as one of 'inside', 'around'"),
+        ({"tolerance": 101.0}, "Expected tolerance from 0"),
+        ({"refine": 2}, "Expected refine as bool, found 2"),
         ({"colour": 1}, "Expected settings among"),
     ],
 )
@@ -357,9 +491,81 @@ def test_files_say_the_same(tmp_path):
     assert known["outside"] == 0.0 and known["farthest"] == balls.farthest
     assert [ball["radius"] for ball in known["balls"]] == balls.radii.tolist()
     assert [ball["centre"] for ball in known["balls"]] == balls.centres.tolist()
-    with pytest.raises(ExportError, match=r"ends in .ma or .json, found 'a.ply'"):
+    with pytest.raises(
+        ExportError, match=r"ends in .ma, .json, .urdf, .mjcf or .xml, found 'a.ply'"
+    ):
         medial_axis.write_balls(balls, tmp_path / "a.ply")
     assert not (tmp_path / "a.ply").exists()
+
+
+# --- files of robots
+
+
+@cache
+def few():
+    return covered(TORUS, count=5, sampling="vertices").balls
+
+
+def links_of(path):
+    """Centres and radii in a file of a robot, by Python's parser."""
+    root = ElementTree.parse(path).getroot()
+    if root.tag == "robot":
+        assert root.get("name") == root.find("link").get("name")
+        spheres = root.findall("link/collision")
+        places = [sphere.find("origin").get("xyz") for sphere in spheres]
+        sizes = [sphere.find("geometry/sphere").get("radius") for sphere in spheres]
+    else:
+        assert root.tag == "mujoco" and root.get("model") == root.find("worldbody/body").get("name")
+        spheres = root.findall("worldbody/body/geom")
+        assert {sphere.get("type") for sphere in spheres} == {"sphere"}
+        places = [sphere.get("pos") for sphere in spheres]
+        sizes = [sphere.get("size") for sphere in spheres]
+    centres = np.array([[float(word) for word in place.split()] for place in places])
+    return root, centres, np.array([float(size) for size in sizes])
+
+
+@pytest.mark.parametrize("suffix", [".urdf", ".mjcf", ".xml"])
+@pytest.mark.parametrize("stem", ["arm 1", 'a&b<"c">\'', "Grün\x01", "\udcff手"])
+def test_files_of_robots_hold_the_balls(tmp_path, suffix, stem):
+    path = medial_axis.write_balls(few(), tmp_path / (stem + suffix))
+    root, centres, radii = links_of(path)
+    assert np.array_equal(centres, few().centres) and np.array_equal(radii, few().radii)
+    name = root.get("name" if suffix == ".urdf" else "model")
+    assert name == stem.replace("\x01", "_").replace("\udcff", "_")
+
+
+@pytest.mark.parametrize("suffix", [".urdf", ".mjcf"])
+def test_files_of_robots_refuse_balls_without_size(tmp_path, suffix):
+    none = replace(few(), radii=np.where(np.arange(5) == 2, 0.0, few().radii))
+    with pytest.raises(ExportError, match="Expected radii above 0 for a file of a robot, found 0"):
+        medial_axis.write_balls(none, tmp_path / ("arm" + suffix))
+    assert not list(tmp_path.iterdir())
+
+
+def test_mujoco_reads_them(tmp_path):
+    mujoco = pytest.importorskip("mujoco")
+    path = medial_axis.write_balls(few(), tmp_path / "arm.xml")
+    model = mujoco.MjModel.from_xml_path(str(path))
+    assert (model.geom_type == mujoco.mjtGeom.mjGEOM_SPHERE).all()
+    assert np.allclose(model.geom_pos, few().centres) and np.allclose(
+        model.geom_size[:, 0], few().radii
+    )
+    urdf = medial_axis.write_balls(few(), tmp_path / "arm.urdf")
+    model = mujoco.MjModel.from_xml_path(str(urdf))
+    assert np.allclose(model.geom_pos, few().centres) and np.allclose(
+        model.geom_size[:, 0], few().radii
+    )
+
+
+@pytest.mark.parametrize("parser", ["yourdfpy", "urchin"])
+def test_parsers_of_urdf_read_them(tmp_path, parser):
+    module = pytest.importorskip(parser)
+    path = medial_axis.write_balls(few(), tmp_path / "arm.urdf")
+    robot = module.URDF.load(str(path))
+    (link,) = robot.links if parser == "urchin" else robot.robot.links
+    found = link.collisions
+    assert np.allclose([item.origin[:3, 3] for item in found], few().centres)
+    assert np.allclose([item.geometry.sphere.radius for item in found], few().radii)
 
 
 def test_placed_balls_scale(tmp_path):

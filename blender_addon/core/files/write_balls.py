@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This module writes balls as `.ma` and `.json` files (docs/balls.md). A file appears whole or not at all."""
+"""This module writes balls as `.ma`, `.json`, `.urdf` and MJCF files (docs/balls.md), each whole or not at all."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from ..small_matrices import times
 from ..solid.ball_cover import Balls
 from .extensions import extension_of
 from .placing import is_identity, parts_of
+from .robot_links import write_mjcf, write_urdf
 from .rows_of_text import write_rows
 from .whole_file import write_whole
 
@@ -43,15 +44,16 @@ def export_balls(
     Raises
     ------
     ExportError
-        The extension is unknown, the transform does not fit, or the system refused to write; an old file is then
-        unchanged.
+        The extension is unknown, the transform does not fit, the format has no place for such balls, or the system
+        refused to write; an old file is then unchanged.
     """
     write = ball_format(path)
     placed = balls if transform is None else _placed(balls, transform)
-    return write_whole(path, lambda stream: write(placed, stream))
+    name = Path(path).stem
+    return write_whole(path, lambda stream: write(placed, name, stream))
 
 
-def ball_format(path: str | os.PathLike) -> Callable[[Balls, BinaryIO], None]:
+def ball_format(path: str | os.PathLike) -> Callable[[Balls, str, BinaryIO], None]:
     """Return the writer of the format that the extension of `path` names."""
     return BALL_FORMATS[extension_of(path, BALL_FORMATS)]
 
@@ -70,13 +72,13 @@ def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
     )
 
 
-def _write_ma(balls: Balls, stream: BinaryIO) -> None:
+def _write_ma(balls: Balls, _name: str, stream: BinaryIO) -> None:
     """Write the balls as vertices of a medial axis without edges and triangles."""
     stream.write(b"%d 0 0\n" % len(balls.radii))
     write_rows(stream, "v %.17g %.17g %.17g %.17g\n", balls.centres, balls.radii)
 
 
-def _write_json(balls: Balls, stream: BinaryIO) -> None:
+def _write_json(balls: Balls, _name: str, stream: BinaryIO) -> None:
     """Write the balls and all figures; an unknown figure is null."""
     rows = zip(balls.centres.tolist(), balls.radii.tolist(), strict=True)
     found: dict[str, Any] = {
@@ -101,7 +103,10 @@ def _known(figure: float) -> float | None:
     return figure if math.isfinite(figure) else None
 
 
-BALL_FORMATS: dict[str, Callable[[Balls, BinaryIO], None]] = {
+BALL_FORMATS: dict[str, Callable[[Balls, str, BinaryIO], None]] = {
     ".ma": _write_ma,
     ".json": _write_json,
+    ".urdf": write_urdf,
+    ".mjcf": write_mjcf,
+    ".xml": write_mjcf,
 }

@@ -15,7 +15,16 @@ from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.sampling_warnings import sampling_warnings
 from ..samples.solid_faces import triangles_of_places
-from ..settings import BallSettings, CoverMode, Form, Settings, Side, SidesFrom
+from ..settings import (
+    MOST_REFINED,
+    BallSettings,
+    CoverMode,
+    Form,
+    Settings,
+    Side,
+    SidesFrom,
+)
+from ..small_matrices import length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -61,8 +70,8 @@ class BallCover(OfChosenSamples):
     ----------
     shape : Shape
     balls : Balls
-        In the order in which they were chosen. For INSIDE the first n are the result for n balls; for AROUND this
-        holds for their centres only.
+        In the order of the volume that each adds. Without `refine` they are in the order in which they were chosen:
+        for INSIDE the first n are the result for n balls; for AROUND this holds for their centres only.
     shares : (n,) float64
         The shares of the volume that the first 1, 2, ... n balls hold, before they grow.
     places : int
@@ -120,22 +129,14 @@ def cover_by_balls(
     hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
     progress.until(1.0)
     centres, radii = _balls(hierarchy)
-    points, triangles = _surface(shape, chosen)
-    with native.own_errors() as module:
-        found = module.cover_by_balls(
-            centres,
-            radii,
-            points,
-            triangles,
-            count=wanted.count,
-            mode=getattr(module.CoverMode, wanted.mode.name),
-            progress=progress.part(),
-        )
+    surface = _surface(shape, chosen)
+    tolerance = wanted.tolerance / 100 * length_of(np.ptp(shape.points, axis=0))
+    found = _closest_cover((centres, radii, *surface), wanted, tolerance, progress)
     balls = Balls(
         centres=centres[found.chosen],
         radii=found.radii,
         mode=wanted.mode,
-        covered=1.0 if wanted.mode is CoverMode.AROUND else float(found.covered[-1]),
+        covered=1.0 if wanted.mode is CoverMode.AROUND else found.held,
         outside=found.outside,
         farthest=found.farthest,
     )
@@ -148,6 +149,27 @@ def cover_by_balls(
         warnings=tuple(sampling_warnings(shape, chosen)),
         seconds=begun.seconds,
     )
+
+
+def _closest_cover(
+    given: tuple[NDArray, ...], wanted: BallSettings, tolerance: float, progress: Progress
+) -> Any:
+    """Return a `_medial.BallCover`: AROUND, of the refined and the greedy choice the one that reaches out less."""
+    refine = wanted.refine and wanted.count <= MOST_REFINED
+    choices = (True, False) if refine and wanted.mode is CoverMode.AROUND else (refine,)
+    with native.own_errors() as module:
+        covers = [
+            module.cover_by_balls(
+                *given,
+                count=wanted.count,
+                mode=getattr(module.CoverMode, wanted.mode.name),
+                refine=choice,
+                tolerance=tolerance,
+                progress=progress.part(1 / (len(choices) - made)),
+            )
+            for made, choice in enumerate(choices)
+        ]
+    return min(covers, key=lambda cover: cover.outside)
 
 
 def _balls(hierarchy: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

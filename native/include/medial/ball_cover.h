@@ -28,6 +28,11 @@ struct BallCoverOptions {
   int64_t count = 64;  // most balls to choose
   CoverMode mode = CoverMode::inside;
   int64_t places = 100'000;  // of the lattice in the solid, at least half as many where it may
+  // The choice bounds the distance of the surface first, then exchanges balls for those that hold
+  // more. Without, or with more than 1024 balls, it is greedy, and the first of many are the few.
+  bool refine = true;
+  // With `inside`, balls that leave something out may grow until they reach out so far.
+  double tolerance = 0;
 };
 
 // Volumes are counted in places of a cubic lattice in the solid, where the winding number of its
@@ -41,6 +46,7 @@ struct BallCover {
   std::vector<double> radii;    // (n) inside: no longer than to the surface; around: grown
   // This is the (n) share of the places that the first 1, 2, ... n balls hold, before they grow.
   std::vector<double> covered;
+  double held = 0;      // share of the places that all balls hold, after they grew
   double outside = 0;   // no place in a ball is farther from the solid
   double farthest = 0;  // no place on the surface is farther from the balls
   int64_t places = 0;

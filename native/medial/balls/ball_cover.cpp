@@ -4,7 +4,9 @@
 #include <string>
 
 #include "balls/ball_choice.h"
+#include "balls/ball_places.h"
 #include "balls/ball_reach.h"
+#include "balls/refined_choice.h"
 #include "base/frame.h"
 #include "base/parallel.h"
 #include "base/rows.h"
@@ -20,6 +22,12 @@ namespace {
 constexpr int64_t kMost = 1 << 24, kMostOpen = 1 << 20;
 constexpr double kPiece = 0.5;         // edges of pieces of the surface, in steps of the lattice
 constexpr int64_t kBallsOfTask = 256;  // balls in one piece of work
+// With more balls than this, a refined choice would cost much and gain next to nothing.
+constexpr int64_t kMostRefined = 1024;
+// This share of the balls inside bounds how far the surface is from them.
+constexpr double kBounding = 0.9;
+// The places inside at which distances are bounded, too, are so many steps of the lattice apart.
+constexpr double kCoarse = 2;
 
 void check(const BallCoverInput& input, const BallCoverOptions& options) {
   require_finite(input.centres, "centre");
@@ -39,6 +47,10 @@ void check(const BallCoverInput& input, const BallCoverOptions& options) {
     throw InvalidInputError("Expected at least one ball and one place, found " +
                             std::to_string(std::min(options.count, options.places)) +
                             "; ask for more.");
+  }
+  if (!(options.tolerance >= 0 && options.tolerance <= kLargestCoordinate)) {
+    throw InvalidInputError("Expected a finite tolerance of 0 or more, found " +
+                            text(options.tolerance) + "; correct it.");
   }
 }
 
@@ -104,21 +116,47 @@ SolidLattice lattice_of(const Solid& solid, int64_t places, const Run& run) {
   return lattice;
 }
 
-// Sets the radii of the chosen balls, grown to hold what is nearest to each if `around`, then how
-// far the balls reach out of the solid, and how far the surface is from them.
+// Returns the places from which balls are not to be far: on the surface, and if they are to hold
+// the solid, inside it.
+std::vector<Vec3> bounded_places(const Solid& solid, const SolidLattice& whole, bool around,
+                                 const Run& run) {
+  const double step = whole.step();
+  auto places = surface_places(solid.vertices.points, solid.surface.triangles, step, run);
+  if (!around) return places;
+  const auto all = whole.places();
+  for (const int32_t id : one_per_cell(all, {}, kCoarse * step)) places.push_back(all[id]);
+  return places;
+}
+
+BallChoice choice(std::span<const Ball> balls, const BallCoverOptions& options, const Solid& solid,
+                  SolidLattice& left, const Run& run) {
+  const bool around = options.mode == CoverMode::around;
+  if (options.refine && options.count <= kMostRefined) {
+    const auto places = bounded_places(solid, left, around, run);
+    return balls_by_bound(balls, options.count, around ? 1 : kBounding, places, left, run);
+  }
+  return (around ? balls_by_distance : balls_by_volume)(balls, options.count, left, run);
+}
+
+// Sets the radii of the chosen balls, which grow by at most `reach` to hold what is nearest to
+// each, then how far the balls reach out of the solid, and how far the surface is from them.
 void set_reach(BallCover& cover, std::span<const Ball> balls, std::span<const double> depth,
-               bool around, const Solid& solid, const SolidLattice& left, const Run& run) {
+               double reach, const Solid& solid, SolidLattice& left, const Run& run) {
   std::vector<Ball> kept;
   for (const int32_t ball : cover.chosen) kept.push_back(balls[ball]);
-  const auto places = around ? left.places() : std::vector<Vec3>{};
+  const auto places = reach > 0 ? left.places() : std::vector<Vec3>{};
   const auto needed = needed_radii(kept, solid.vertices.points, solid.surface.triangles, places,
                                    kPiece * left.step(), run);
   for (size_t i = 0; i < kept.size(); ++i) {
-    const double radius = around ? std::max(kept[i].radius, needed[i]) : kept[i].radius;
+    const double most = std::max(kept[i].radius, depth[cover.chosen[i]] + reach);
+    const double radius = reach > 0 ? std::clamp(needed[i], kept[i].radius, most) : kept[i].radius;
     cover.farthest = std::max(cover.farthest, needed[i] - radius);
     cover.outside = std::max(cover.outside, radius - depth[cover.chosen[i]]);
     cover.radii.push_back(solid.frame.outward(radius));
+    if (reach > 0) left.remove(kept[i].centre, radius);
   }
+  const auto rest = static_cast<double>(left.places().size());
+  cover.held = 1 - rest / static_cast<double>(left.count());
   cover.farthest = solid.frame.outward(cover.farthest);
   cover.outside = solid.frame.outward(cover.outside);
 }
@@ -135,9 +173,7 @@ BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& option
   const auto balls = inner_balls(input, solid, depth);
   begin_stage(run.progress, "Choice of balls", 0.5, 0.8);
   BallCover cover;
-  const bool around = options.mode == CoverMode::around;
-  const auto choose = around ? balls_by_distance : balls_by_volume;
-  auto [chosen, covered] = choose(balls, options.count, left, run);
+  auto [chosen, covered] = choice(balls, options, solid, left, run);
   cover.chosen = std::move(chosen);
   cover.covered = std::move(covered);
   if (cover.chosen.empty() || cover.covered.front() == 0) {
@@ -149,7 +185,10 @@ BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& option
   cover.step = solid.frame.outward(left.step());
 
   begin_stage(run.progress, "Reach of balls", 0.8, 1);
-  set_reach(cover, balls, depth, around, solid, left, run);
+  const double reach = options.mode == CoverMode::around
+                           ? HUGE_VAL
+                           : std::scalbn(options.tolerance, -solid.frame.exponent);
+  set_reach(cover, balls, depth, reach, solid, left, run);
   advance(run.progress, 1);
   return cover;
 }

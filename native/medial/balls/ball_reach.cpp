@@ -3,13 +3,13 @@
 
 #include <array>
 
+#include "balls/pieces.h"
 #include "base/parallel.h"
 
 namespace medial {
 namespace {
 
 constexpr int64_t kTriangles = 16;  // triangles in one piece of work
-constexpr double kLong = 64;        // pieces along an edge that make a triangle slow
 
 // This keeps the largest radius that each ball needs, among the places that one thread has seen.
 class Needs {
@@ -24,21 +24,11 @@ class Needs {
 
   void add(const Vec3& place) { add(nearest_.find(place), place); }
 
-  // Halves the triangle across its longest edge until that is short enough.
   void add(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
-    const double longest = std::max({ab, bc, ca});
-    if (longest > kLong * piece_) throw_if_cancelled(progress_);
-    if (longest <= piece_) {
-      const int32_t ball = nearest_.find((1.0 / 3) * (a + b + c));
-      for (const Vec3& corner : {a, b, c}) add(ball, corner);
-    } else if (ab >= bc && ab >= ca) {
-      split(a, b, c);
-    } else if (bc >= ca) {
-      split(b, c, a);
-    } else {
-      split(c, a, b);
-    }
+    visit_pieces(a, b, c, piece_, progress_, [&](const Vec3& p, const Vec3& q, const Vec3& r) {
+      const int32_t ball = nearest_.find((1.0 / 3) * (p + q + r));
+      for (const Vec3& corner : {p, q, r}) add(ball, corner);
+    });
   }
 
   const std::vector<double>& radii() const { return radii_; }
@@ -46,11 +36,6 @@ class Needs {
  private:
   void add(int32_t ball, const Vec3& place) {
     radii_[ball] = std::max(radii_[ball], distance(place, balls_[ball].centre));
-  }
-  void split(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 middle = 0.5 * a + 0.5 * b;
-    add(a, middle, c);
-    add(middle, b, c);
   }
 
   std::span<const Ball> balls_;

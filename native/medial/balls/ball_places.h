@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Places of a solid at which distances to balls are bounded, and even selections of points.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/nearest_ball.h"
+#include "base/run.h"
+
+namespace medial {
+
+// Returns the distance of a place from a ball, negative in it.
+inline double gap(const Ball& ball, const Vec3& place) {
+  return distance(place, ball.centre) - ball.radius;
+}
+
+// Returns the centres of pieces of the triangles whose edges are at most `piece` long, one in each
+// cubic cell of that size.
+std::vector<Vec3> surface_places(std::span<const Vec3> vertices, std::span<const Triangle> faces,
+                                 double piece, const Run& run);
+
+// Returns ids, in rising order, of one point in each cubic cell: the one with the largest rank,
+// ties by lowest id. Without ranks, the first.
+std::vector<int32_t> one_per_cell(std::span<const Vec3> points, std::span<const double> ranks,
+                                  double cell);
+
+// Returns at most `most` points, one in each cell; the cells are as small as possible up to a
+// factor, and no smaller than `cell`.
+std::vector<Vec3> even_places(std::span<const Vec3> points, double cell, int64_t most);
+
+}  // namespace medial
