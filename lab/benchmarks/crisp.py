@@ -110,7 +110,7 @@ def mesh_row(name: str, count: int, crisp: bool) -> list[str]:
         spread(crisp_measures.Spread.of(off / np.linalg.norm(np.ptp(points, axis=0)))),
         spread_of_gap(gap),
         spread_of_gap(gap[bends]),
-        f"{turns.mean():.1f} {np.quantile(turns, 0.95):.0f}",
+        f"{turns.mean():.1f} {np.quantile(turns, 0.95):.0f}" if len(turns) else "",
         str(int(output.rings().folded().sum())),
         str(len(crossing_triangles.crossing_pairs(output.vertices, output.triangles))),
         f"{seconds:.1f}",
