@@ -8,7 +8,8 @@
 Each mesh is turned at random by its seed, sampled as Sampling Surface does, and its axis computed with the default
 settings. Rows: exact, the places of the Voronoi diagram; relaxed, what is shown without crisp places; crisp, what is
 shown with them, where the product has them. docs/lab/crisp.md says what the columns are. Meshes are files of the data
-folder; they are not turned, and what is known of their axes is measured only.
+folder; they are not turned, and what is known of their axes is measured only. Their bends are those of their sharp
+convex edges round which the faces are convex, too: a reflex edge cut by a zigzag of triangles has others.
 """
 
 import sys
@@ -16,6 +17,7 @@ import time
 
 import _module
 import numpy as np
+from scipy.spatial import cKDTree
 
 medial = _module.load()
 
@@ -43,9 +45,10 @@ HEADER += [
     "s",
 ]
 
-MESH_HEADER = ["mesh", "samples", "facets", "r-d mean/99/max", "gap mean/95/max", "turn mean/95"]
-MESH_HEADER += ["folds", "crossings", "s"]
+MESH_HEADER = ["mesh", "samples", "facets", "r-d mean/99/max", "gap mean/95/max", "at bends"]
+MESH_HEADER += ["turn mean/95", "folds", "crossings", "s"]
 SHARP = 32.0  # degrees between the faces of an edge that has a gap
+AROUND = 1.2, 3.0  # steps of the mesh to the faces that say whether it bends outwards at an edge
 
 
 def rows(case: crisp_runs.Case, crisp: bool) -> list[list[str]]:
@@ -93,10 +96,11 @@ def mesh_row(name: str, count: int, crisp: bool) -> list[str]:
     corners = points[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     spacing = np.sqrt(np.linalg.norm(normals, axis=1).sum() / (np.sqrt(3.0) * samples))
-    ends = points[sharp_edges(points, triangles, normals)]
+    sharp, faces = sharp_edges(points, triangles, normals)
     share = np.linspace(0.0, 1.0, 4)[:, None]
-    edges = (ends[:, None, 0] * (1.0 - share) + ends[:, None, 1] * share).reshape(-1, 3)
-    gap = distance.to_triangles(edges, output.cells()) / spacing
+    places = points[sharp][:, :1] * (1.0 - share) + points[sharp][:, 1:] * share
+    gap = distance.to_triangles(places.reshape(-1, 3), output.cells()).reshape(-1, 4) / spacing
+    bends = bend_outwards(points, triangles, normals, sharp, faces)
     off = np.abs(output.radius - distance.to_triangles(output.vertices, corners))
     turns = crisp_measures.rim_turns(output)
     return [
@@ -104,16 +108,23 @@ def mesh_row(name: str, count: int, crisp: bool) -> list[str]:
         str(samples),
         str(len(output.across)),
         spread(crisp_measures.Spread.of(off / np.linalg.norm(np.ptp(points, axis=0)))),
-        f"{gap.mean():.2f} {np.quantile(gap, 0.95):.2f} {gap.max():.1f}",
-        f"{turns.mean():.1f} {np.quantile(turns, 0.95):.0f}",
+        spread_of_gap(gap),
+        spread_of_gap(gap[bends]),
+        f"{turns.mean():.1f} {np.quantile(turns, 0.95):.0f}" if len(turns) else "",
         str(int(output.rings().folded().sum())),
         str(len(crossing_triangles.crossing_pairs(output.vertices, output.triangles))),
         f"{seconds:.1f}",
     ]
 
 
+def spread_of_gap(gap) -> str:
+    if not len(gap):
+        return ""
+    return f"{gap.mean():.2f} {np.quantile(gap, 0.95):.2f} {gap.max():.1f}"
+
+
 def sharp_edges(points, triangles, normals):
-    """(e, 2) convex edges whose faces differ by more than `SHARP`."""
+    """(e, 2) ends and (e, 2) faces of the convex edges whose faces differ by more than `SHARP`."""
     normals = normals / np.linalg.norm(normals, axis=1)[:, None]
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     order = np.lexsort(sides.T[::-1])
@@ -121,8 +132,41 @@ def sharp_edges(points, triangles, normals):
     first, second = order[pair] // 3, order[pair + 1] // 3
     edges = sides[order[pair]]
     beyond = points[triangles[second]].mean(axis=1) - points[edges[:, 0]]
-    bent = np.einsum("ei,ei->e", normals[first], normals[second]) < np.cos(np.radians(SHARP))
-    return edges[bent & (np.einsum("ei,ei->e", normals[first], beyond) < 0.0)]
+    sharp = np.einsum("ei,ei->e", normals[first], normals[second]) < np.cos(np.radians(SHARP))
+    sharp &= np.einsum("ei,ei->e", normals[first], beyond) < 0.0
+    return edges[sharp], np.column_stack((first, second))[sharp]
+
+
+def bend_outwards(points, triangles, normals, edges, faces):
+    """(e,) whether the faces `AROUND` an edge fall off to its two sides, as they do beside a convex edge.
+
+    `normals` are as long as twice the area; the two sides are the faces whose normals are nearest to those of either
+    face of the edge.
+    """
+    step = np.median(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1))
+    centres, middles = points[triangles].mean(axis=1), points[edges].mean(axis=1)
+    tree = cKDTree(centres)
+    outwards = np.zeros(len(edges), bool)
+    for row, near in enumerate(tree.query_ball_point(middles, AROUND[1] * step)):
+        near = np.array(near)
+        away = np.linalg.norm(centres[near] - middles[row], axis=1) > AROUND[0] * step
+        sides = _two_sides(normals[near[away]], normals[faces[row]])
+        if sides is not None:
+            size = np.linalg.norm(normals[near[away]], axis=1)
+            low, high = (np.average(centres[near[away]][s], axis=0, weights=size[s]) for s in sides)
+            outwards[row] = normals[near[away]][sides[0]].sum(axis=0) @ (high - low) < 0.0
+    return outwards
+
+
+def _two_sides(normals, seeds):
+    """Two masks of normals, each nearer to its mean than to the other one; None if one is empty."""
+    for _ in range(5):
+        seeds = seeds / np.linalg.norm(seeds, axis=1)[:, None]
+        first = normals @ seeds[0] > normals @ seeds[1]
+        if first.all() or not first.any():
+            return None
+        seeds = np.array([normals[first].sum(axis=0), normals[~first].sum(axis=0)])
+    return first, ~first
 
 
 def main() -> None:

@@ -496,3 +496,21 @@ def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_no_teeth(crisp, medial
     assert output.rings().folded().sum() < 90
     off = np.abs(output.radius - distance.to_triangles(output.vertices, mesh[0][mesh[1]]))
     assert off.mean() < 3e-5 * np.linalg.norm(np.ptp(mesh[0], axis=0))
+
+
+def test_a_rim_that_ends_in_the_middle_of_a_sheet_stays_there(crisp, medial):
+    """The upright sheet of a prism over an ellipse ends at the curvature of the ellipse, and at the sheets that lead
+    into the edges of the two flat faces. Its rims must not be drawn on to these edges."""
+    import medial_axis
+
+    points, triangles = crisp_solids.solid("cylinder").mesh
+    points = points * (1.0, 0.4, 1.0)
+    a, _, half = np.ptp(points, axis=0) / 2
+    curvature = 0.4**2 * a
+    made = medial_axis.compute(points, triangles, sampling="surface", samples=6_000)
+    output = crisp_measures.output_of(made, np.eye(3))
+    ends = [(s * (a - curvature), 0.0, t * (half - curvature)) for s in (-1, 1) for t in (-1, 1)]
+    assert cKDTree(output.vertices).query(ends)[0].max() < 0.2 * curvature
+    sides = output.vertices[output.face_vertices[output.following()]]
+    sides = np.linalg.norm(sides - output.vertices[output.face_vertices], axis=1)
+    assert sides.max() < curvature and output.rings().folded().sum() == 0

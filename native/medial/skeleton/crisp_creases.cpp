@@ -30,12 +30,13 @@ bool CreaseRims::onto_crease(int32_t v) {
   if (!(c_.complex.radius[v] < kNearCrease * spacing)) return false;
   std::optional<PlaceOnCrease> nearest;
   int32_t facet = -1;
-  bool at_corner = false;
+  bool at_corner = false, ends = false;
   for (const int32_t f : c_.facets_at[v]) {
     const auto found = c_.samples.crease_between(c_.complex.generators[f], c_.complex.position[v]);
     if (!found || distance(found->point, c_.complex.position[v]) > reach_of(*found) * spacing) {
       continue;
     }
+    ends = ends || ends_at(f, v);
     if (nearest && !same_direction(*nearest, *found)) at_corner = true;
     if (!nearest || distance(found->point, c_.complex.position[v]) <
                         distance(nearest->point, c_.complex.position[v])) {
@@ -43,7 +44,7 @@ bool CreaseRims::onto_crease(int32_t v) {
       facet = f;
     }
   }
-  if (!nearest) return false;
+  if (!nearest || !ends) return false;
   const bool jagged = c_.samples.creases().is_jagged(nearest->edge);
   c_.made.position[v] =
       jagged ? end_between(c_.complex.generators[facet], v, nearest->point) : nearest->point;
@@ -51,6 +52,17 @@ bool CreaseRims::onto_crease(int32_t v) {
   c_.made.place[v] = jagged ? Placing::rim : Placing::crease;
   if (at_corner && !jagged) onto_corner(v, kNearCrease * spacing);
   return true;
+}
+
+// Where the rim of one sheet meets the middle of another, only the first one ends, and the crease
+// into which the second one leads is farther on.
+bool CreaseRims::ends_at(int32_t facet, int32_t v) const {
+  const auto ring = c_.complex.ring(facet);
+  for (size_t i = 0; i < ring.size(); ++i) {
+    if (c_.edge_uses[ring[i].edge] != 1) continue;
+    if (ring[i].vertex == v || ring[(i + 1) % ring.size()].vertex == v) return true;
+  }
+  return false;
 }
 
 // A zigzag stands for the line in which the planes beside it meet. The sheet ends on the way to

@@ -135,6 +135,8 @@ class CreaseRims {
   void smooth_zigzags();
 
  private:
+  // Returns whether a facet has an edge without another facet at a vertex.
+  bool ends_at(int32_t facet, int32_t v) const;
   double reach_of(const PlaceOnCrease& place) const;
   void onto_corner(int32_t v, double within);
   std::vector<int32_t> on_zigzags();
