@@ -17,6 +17,7 @@ HIDDEN = {
     "core/batch/outputs.py",
     "core/machine/free_memory.py",
     "core/batch/option_words.py",
+    "core/files/robot_links.py",
     "core/files/thickness_page.py",
     "core/files/vtp.py",
     "core/files/write_mid_surface.py",

@@ -6,7 +6,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, BinaryIO
 from xml.sax.saxutils import quoteattr
 
-from ..errors import ExportError
 from .rows_of_text import write_rows
 
 if TYPE_CHECKING:
@@ -14,14 +13,7 @@ if TYPE_CHECKING:
 
 
 def write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    """Write a robot of one link, with a collision sphere for each ball; URDF measures in metres.
-
-    Raises
-    ------
-    ExportError
-        A radius is not above 0.
-    """
-    _check(balls)
+    """Write a robot of one link, with a collision sphere for each ball; URDF measures in metres."""
     quoted = _quoted(name)
     _write(stream, f'<?xml version="1.0"?>\n<robot name={quoted}>\n  <link name={quoted}>\n')
     row = (
@@ -33,28 +25,12 @@ def write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
 
 
 def write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    """Write a model of one body that is fixed to the world, with a sphere for each ball.
-
-    Raises
-    ------
-    ExportError
-        A radius is not above 0.
-    """
-    _check(balls)
+    """Write a model of one body that is fixed to the world, with a sphere for each ball."""
     quoted = _quoted(name)
     _write(stream, f"<mujoco model={quoted}>\n  <worldbody>\n    <body name={quoted}>\n")
     row = '      <geom type="sphere" pos="%.17g %.17g %.17g" size="%.17g"/>\n'
     write_rows(stream, row, balls.centres, balls.radii)
     _write(stream, "    </body>\n  </worldbody>\n</mujoco>\n")
-
-
-def _check(balls: Balls) -> None:
-    """Refuse balls that parsers refuse, or read as something else."""
-    least = float(balls.radii.min())
-    if not least > 0.0:
-        raise ExportError(
-            f"Expected radii above 0 for a file of a robot, found {least:.6g}; delete such balls"
-        )
 
 
 def _quoted(name: str) -> str:

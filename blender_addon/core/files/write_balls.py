@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from ..errors import ExportError
 from ..small_matrices import times
 from ..solid.ball_cover import Balls
 from .extensions import extension_of
@@ -103,10 +104,29 @@ def _known(figure: float) -> float | None:
     return figure if math.isfinite(figure) else None
 
 
+def _write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
+    _check_radii(balls)
+    write_urdf(balls, name, stream)
+
+
+def _write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:
+    _check_radii(balls)
+    write_mjcf(balls, name, stream)
+
+
+def _check_radii(balls: Balls) -> None:
+    """Refuse balls that parsers of such files refuse, or read as something else."""
+    least = float(balls.radii.min())
+    if not least > 0.0:
+        raise ExportError(
+            f"Expected radii above 0 for a file of a robot, found {least:.6g}; delete such balls"
+        )
+
+
 BALL_FORMATS: dict[str, Callable[[Balls, str, BinaryIO], None]] = {
     ".ma": _write_ma,
     ".json": _write_json,
-    ".urdf": write_urdf,
-    ".mjcf": write_mjcf,
-    ".xml": write_mjcf,
+    ".urdf": _write_urdf,
+    ".mjcf": _write_mjcf,
+    ".xml": _write_mjcf,
 }
