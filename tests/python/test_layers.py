@@ -21,6 +21,7 @@ CORE = {
     "core",
     "core/machine",
     "core/samples",
+    "core/curves",
     "core/axis",
     "core/solid",
     "core/skeleton",
@@ -31,9 +32,10 @@ MAY_IMPORT = {
     "core": {"core/machine", "core/axis", ""},  # only the known box, which is on top, sees rooms
     "core/machine": {"core", "lib"},
     "core/samples": {"core", "core/machine"},
-    "core/axis": {"core", "core/machine", "core/samples"},
+    "core/curves": {"core", "core/machine", "core/samples"},
+    "core/axis": {"core", "core/machine", "core/samples", "core/curves"},
     "core/solid": {"core", "core/machine", "core/samples", "core/axis"},
-    "core/skeleton": {"core", "core/machine", "core/samples", "core/axis"},
+    "core/skeleton": {"core", "core/machine", "core/samples", "core/curves", "core/axis"},
     "core/files": {
         "core",
         "core/machine",

@@ -23,6 +23,7 @@ _PER_RADIUS = 8  # a mean radius has so many steps
 _LEAST, _MOST = 16, 16_384  # a line has so many
 _HALVED = 0.7  # waves of so many circumferences lose half their height
 _CLIPPED = 2.0, 16.0  # that many radii count as so many steps
+_BEYOND = 64  # so many steps beyond an end have an influence
 _FOURTH = 1.0, -4.0, 6.0, -4.0, 1.0
 _BAND = len(_FOURTH)
 _AROUND = 2  # so many places before and after a place decide how the line bends there
@@ -98,6 +99,48 @@ def smooth_line(
         curvature=bends[0] / length,
         torsion=bends[1] / length,
     )
+
+
+def smooth_between(
+    points: NDArray[np.float64], radius: NDArray[np.float64], closed: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return shares and places of a smooth line in even steps, whose ends are those of the given line.
+
+    Beyond each end the line goes on as its own image in the end, so the end stays and its direction is free.
+
+    Parameters
+    ----------
+    points, radius, closed
+        As of `smooth_line`; the line has a length.
+
+    Returns
+    -------
+    share : (n,) float64
+        As of `SmoothLine`.
+    places : (n, 3) float64
+        The last place of a closed line is its first; it may be off the given line, as all others.
+    """
+    marks = marks_of(points)
+    length = float(marks[-1])
+    share, places = even_places(marks, points, radius)
+    count = len(share) - 1
+    steps = np.clip(_HALVED * places[:, 3] * (count / length), *_CLIPPED)
+    unit = (places[:, :3] - points[0]) / length
+    reach = min(count, _BEYOND)
+    if closed:
+        before, after = np.arange(count - reach, count), np.arange(1, reach + 1)
+        ends = unit[before], unit[after]
+    else:
+        before, after = np.arange(reach, 0, -1), np.arange(count - 1, count - reach - 1, -1)
+        ends = 2.0 * unit[0] - unit[before], 2.0 * unit[-1] - unit[after]
+    table = np.concatenate((ends[0], unit, ends[1]))
+    smooth = smoothed(table, np.concatenate((steps[before], steps, steps[after])))
+    smooth = smooth[reach : reach + count + 1]
+    if closed:
+        smooth[-1] = smooth[0]
+    else:
+        smooth[[0, -1]] = unit[[0, -1]]
+    return share, smooth * length + points[0]
 
 
 def marks_of(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wires of a curve as smooth lines between its tips and forks.
+
+Wires follow Voronoi edges, and zigzag where the solid is thick. Each wire becomes a line in even steps without waves
+that are short compared with the balls there. No place leaves its own ball, so the line stays in the solid and can be
+drawn back to the wire within it: the topology is that of the wires.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..curves.net import chains
+from ..curves.smooth_line import at_marks, marks_of, smooth_between
+from ..small_matrices import dot
+from .medial_axis import VORONOI
+from .rows_of_axis import OF_VERTICES, with_rows
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from .medial_axis import MedialAxis
+
+_FARTHEST = 0.5  # a place moves by at most this share of the radius of its ball
+
+
+@dataclass(frozen=True, eq=False)
+class _Line:
+    """A wire in even steps.
+
+    Parameters
+    ----------
+    chain : list of int
+        The vertices of the wire.
+    at : (n,) float64
+        The place of each new vertex on the chain: 2.25 is a quarter of the way from its vertex 2 to its vertex 3.
+    points : (n, 3) float64
+        The smooth places of the new vertices.
+    closed : bool
+        The wire has no ends; otherwise the new vertices at both ends are those of the wire.
+    """
+
+    chain: list[int]
+    at: NDArray[np.float64]
+    points: NDArray[np.float64]
+    closed: bool
+
+    @property
+    def new(self) -> slice:
+        """The new vertices: all but those that are vertices of the wire, and the second end of a closed line."""
+        return slice(0 if self.closed else 1, -1)
+
+
+def smooth_curve(
+    axis: MedialAxis, depth: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+) -> MedialAxis:
+    """Return a curve whose wires are smooth; tips, forks and facets stay.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+        A level in the form CURVE.
+    depth : function
+        It returns the distances of (n, 3) places from the surface, (n,).
+    """
+    assert axis.level is not None
+    held = np.unique(axis.face_vertices)
+    lines = [
+        line
+        for chain in chains(axis.edges, len(axis.vertices), held.tolist())
+        if (line := _smooth(axis, chain, held)) is not None
+    ]
+    return _with_lines(axis, lines, depth) if lines else axis
+
+
+def _smooth(axis: MedialAxis, chain: list[int], held: NDArray[np.int64]) -> _Line | None:
+    """Return the smooth line of a wire; None where it is a single edge, or has no length."""
+    if len(chain) < 3:
+        return None
+    start = axis.vertices[chain[0]]
+    points = axis.vertices[chain] - start
+    size = float(np.abs(points).max())
+    if not 0.0 < size < np.inf:
+        return None
+    points /= size  # the squares of very small or large lengths are no numbers
+    closed = chain[0] == chain[-1] and _is_whole(axis, chain[0], held)
+    share, places = smooth_between(points, axis.radius[chain] / size, closed)
+    marks = marks_of(points)
+    at = np.interp(share * marks[-1], marks, np.arange(len(chain), dtype=np.float64))
+    return _Line(chain, at, places * size + start, closed)
+
+
+def _is_whole(axis: MedialAxis, vertex: int, held: NDArray[np.int64]) -> bool:
+    """Whether a wire that ends where it starts has no fork there, and no facet."""
+    on_facet = held[np.searchsorted(held, vertex) % len(held)] == vertex if len(held) else False
+    return not on_facet and np.count_nonzero(axis.edges == vertex) == 2
+
+
+def _with_lines(
+    axis: MedialAxis,
+    lines: list[_Line],
+    depth: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+) -> MedialAxis:
+    values = axis.level
+    assert values is not None
+    keep = np.ones(len(axis.vertices), np.bool_)
+    for line in lines:
+        keep[line.chain[line.new]] = False
+    edges, limb = _edges_of(axis, lines, keep)
+    along = [_along(axis, line) for line in lines]
+    table = np.concatenate(along)
+    wanted = np.concatenate([line.points[line.new] for line in lines])
+    places, radius = _moved(table[:, :3], table[:, 3], wanted, depth)
+    # The second vertex of a wire is on no facet and no fork.
+    like = np.repeat([line.chain[1] for line in lines], [len(some) for some in along])
+    new: dict[str, Any] = {
+        "exact": table[:, 4:7],
+        "exact_radius": table[:, 7],
+        "place": np.full(len(table), VORONOI, np.int32),
+        "crumb": None if values.crumb is None else values.crumb[like],
+    }
+    level = replace(
+        values,
+        **{
+            name: None if rows is None else np.concatenate((getattr(values, name), rows))
+            for name, rows in new.items()
+        },
+    )
+    assert set(new) == set(OF_VERTICES)
+    structure = axis.structure
+    if structure is not None:
+        kind = np.concatenate((structure.kind, structure.kind[like]))
+        structure = replace(structure, kind=kind)
+    longer = replace(
+        axis,
+        vertices=np.concatenate((axis.vertices, places)),
+        radius=np.concatenate((axis.radius, radius)),
+        structure=structure,
+        level=level,
+    )
+    return with_rows(longer, np.concatenate((keep, np.ones(len(table), np.bool_))), edges, limb)
+
+
+def _along(axis: MedialAxis, line: _Line) -> NDArray[np.float64]:
+    """Return places, radii, exact places and exact radii of a wire at the new vertices of its line, (n, 8)."""
+    assert axis.level is not None
+    columns = (axis.vertices, axis.radius, axis.level.exact, axis.level.exact_radius)
+    table = np.column_stack([column[line.chain] for column in columns])
+    return at_marks(line.at[line.new], np.arange(len(table), dtype=np.float64), table)
+
+
+def _moved(
+    places: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    wanted: NDArray[np.float64],
+    depth: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return places, moved as far towards the wanted ones as their balls allow, and the radii there.
+
+    A radius changes by as much as the distance from the surface does, so it stays that of the ball at the faces or at
+    the samples, whichever it was.
+    """
+    before = depth(places)
+    ball = np.minimum(before, radius)
+    way = (wanted - places) / np.where(ball > 0.0, ball, np.inf)[:, None]
+    far = np.sqrt(dot(way, way))
+    share = ball * _FARTHEST / np.maximum(far, _FARTHEST)
+    moved = places + share[:, None] * way
+    return moved, np.maximum(radius + depth(moved) - before, 0.0)
+
+
+def _edges_of(
+    axis: MedialAxis, lines: list[_Line], keep: NDArray[np.bool_]
+) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+    """Return the edges with the lines in place of their wires, and their values; new vertices follow the old ones."""
+    assert axis.level is not None
+    row_of = {(min(a, b), max(a, b)): row for row, (a, b) in enumerate(axis.edges.tolist())}
+    other = keep[axis.edges].all(axis=1)
+    pieces, rows, next_row = [], [], len(keep)
+    for line in lines:
+        way = np.array([line.chain[0], *[0] * (len(line.at) - 2), line.chain[-1]])
+        count = len(way[line.new])
+        way[line.new] = np.arange(next_row, next_row + count)
+        if line.closed:
+            way[-1] = way[0]
+        next_row += count
+        pieces.append(np.column_stack((way[:-1], way[1:])))
+        steps = np.floor(0.5 * (line.at[:-1] + line.at[1:])).astype(np.int64)
+        pairs = zip(line.chain[:-1], line.chain[1:], strict=True)
+        wires = np.array([row_of[min(a, b), max(a, b)] for a, b in pairs])
+        rows.append(wires[np.minimum(steps, len(wires) - 1)])
+    edges = np.concatenate((axis.edges[other], *pieces)).astype(np.int32)
+    limb = axis.level.limb
+    return edges, np.concatenate((limb[other], limb[np.concatenate(rows)]))
