@@ -69,16 +69,16 @@ def smooth_curve(
         It returns the distances of (n, 3) places from the surface, (n,).
     """
     assert axis.level is not None
-    held = np.unique(axis.face_vertices)
+    held = set(axis.face_vertices.tolist())
     lines = [
         line
-        for chain in chains(axis.edges, len(axis.vertices), held.tolist())
+        for chain in chains(axis.edges, len(axis.vertices), held)
         if (line := _smooth(axis, chain, held)) is not None
     ]
     return _with_lines(axis, lines, depth) if lines else axis
 
 
-def _smooth(axis: MedialAxis, chain: list[int], held: NDArray[np.int64]) -> _Line | None:
+def _smooth(axis: MedialAxis, chain: list[int], held: set[int]) -> _Line | None:
     """Return the smooth line of a wire; None where it is a single edge, or has no length."""
     if len(chain) < 3:
         return None
@@ -95,10 +95,9 @@ def _smooth(axis: MedialAxis, chain: list[int], held: NDArray[np.int64]) -> _Lin
     return _Line(chain, at, places * size + start, closed)
 
 
-def _is_whole(axis: MedialAxis, vertex: int, held: NDArray[np.int64]) -> bool:
+def _is_whole(axis: MedialAxis, vertex: int, held: set[int]) -> bool:
     """Whether a wire that ends where it starts has no fork there, and no facet."""
-    on_facet = held[np.searchsorted(held, vertex) % len(held)] == vertex if len(held) else False
-    return not on_facet and np.count_nonzero(axis.edges == vertex) == 2
+    return vertex not in held and np.count_nonzero(axis.edges == vertex) == 2
 
 
 def _with_lines(
@@ -106,52 +105,55 @@ def _with_lines(
     lines: list[_Line],
     depth: Callable[[NDArray[np.float64]], NDArray[np.float64]],
 ) -> MedialAxis:
-    values = axis.level
-    assert values is not None
     keep = np.ones(len(axis.vertices), np.bool_)
     for line in lines:
         keep[line.chain[line.new]] = False
     edges, limb = _edges_of(axis, lines, keep)
-    along = [_along(axis, line) for line in lines]
-    table = np.concatenate(along)
+    table = np.concatenate([_along(axis, line) for line in lines])
     wanted = np.concatenate([line.points[line.new] for line in lines])
     places, radius = _moved(table[:, :3], table[:, 3], wanted, depth)
+    longer = _with_vertices(axis, lines, places, radius)
+    return with_rows(longer, np.concatenate((keep, np.ones(len(table), np.bool_))), edges, limb)
+
+
+def _with_vertices(
+    axis: MedialAxis, lines: list[_Line], places: NDArray[np.float64], radius: NDArray[np.float64]
+) -> MedialAxis:
+    """Return a level with the new vertices of lines behind its own; no edge has them yet."""
+    values, structure = axis.level, axis.structure
+    assert values is not None
+    near = np.concatenate([_nearest(line) for line in lines])
     # The second vertex of a wire is on no facet and no fork.
-    like = np.repeat([line.chain[1] for line in lines], [len(some) for some in along])
+    like = np.concatenate([np.full(len(_nearest(line)), line.chain[1]) for line in lines])
     new: dict[str, Any] = {
-        "exact": table[:, 4:7],
-        "exact_radius": table[:, 7],
-        "place": np.full(len(table), VORONOI, np.int32),
+        "exact": values.exact[near],
+        "exact_radius": values.exact_radius[near],
+        "place": np.full(len(near), VORONOI, np.int32),
         "crumb": None if values.crumb is None else values.crumb[like],
     }
-    level = replace(
-        values,
-        **{
-            name: None if rows is None else np.concatenate((getattr(values, name), rows))
-            for name, rows in new.items()
-        },
-    )
     assert set(new) == set(OF_VERTICES)
-    structure = axis.structure
+    added = {n: np.concatenate((getattr(values, n), v)) for n, v in new.items() if v is not None}
     if structure is not None:
         kind = np.concatenate((structure.kind, structure.kind[like]))
         structure = replace(structure, kind=kind)
-    longer = replace(
+    return replace(
         axis,
         vertices=np.concatenate((axis.vertices, places)),
         radius=np.concatenate((axis.radius, radius)),
         structure=structure,
-        level=level,
+        level=replace(values, **added),
     )
-    return with_rows(longer, np.concatenate((keep, np.ones(len(table), np.bool_))), edges, limb)
 
 
 def _along(axis: MedialAxis, line: _Line) -> NDArray[np.float64]:
-    """Return places, radii, exact places and exact radii of a wire at the new vertices of its line, (n, 8)."""
-    assert axis.level is not None
-    columns = (axis.vertices, axis.radius, axis.level.exact, axis.level.exact_radius)
-    table = np.column_stack([column[line.chain] for column in columns])
+    """Return places and radii of a wire at the new vertices of its line, (n, 4)."""
+    table = np.column_stack((axis.vertices[line.chain], axis.radius[line.chain]))
     return at_marks(line.at[line.new], np.arange(len(table), dtype=np.float64), table)
+
+
+def _nearest(line: _Line) -> NDArray[np.int64]:
+    """Return the vertex of the wire that is nearest along it to each new vertex of its line, (n,)."""
+    return np.array(line.chain)[np.rint(line.at[line.new]).astype(np.int64)]
 
 
 def _moved(
