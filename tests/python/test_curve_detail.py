@@ -11,7 +11,7 @@ from medial_axis.core.axis.extract import extract
 from medial_axis.core.curves.depth import Depth
 from medial_axis.core.curves.net import Net
 from medial_axis.core.curves.removals import recorded
-from medial_axis.core.curves.smooth_line import smooth_between
+from medial_axis.core.curves.smooth_line import Course, smooth_between
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import Form, SamplingMode, Settings, SkeletonSettings
 from medial_axis.core.skeleton.compute import compute_skeleton
@@ -22,7 +22,7 @@ DETAILS = (1.0, 0.75, 0.5, 0.25, 0.0)
 
 
 def moved(mesh, x):
-    return (*np.asarray(mesh[0], float), x, 0, 0), mesh[1]
+    return np.asarray(mesh[0], float) + np.array((x, 0, 0)), mesh[1]
 
 
 def tongs():
@@ -207,7 +207,11 @@ def test_waves_shorter_than_the_ball_go_and_ends_stay(closed):
     line = np.column_stack((wave * np.cos(angle), wave * np.sin(angle), 0 * angle))
     if closed:
         line[-1] = line[0]
-    share, places = smooth_between(line, np.full(401, 0.3), closed)
+    course = Course(line, np.full(401, 0.3), closed)
+    (share, places), again = smooth_between([course, course])
+    np.testing.assert_allclose(again[1], places, rtol=0, atol=1e-12)
+    ((_, alone),) = smooth_between([course])
+    np.testing.assert_allclose(alone, places, rtol=0, atol=1e-12)
     radius = np.linalg.norm(places, axis=1)
     inner = radius if closed else radius[len(radius) // 5 : -len(radius) // 5]
     assert np.abs(inner - 1).max() < 0.004 and len(share) == len(places)

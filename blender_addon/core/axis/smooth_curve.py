@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..curves.net import chains
-from ..curves.smooth_line import at_marks, marks_of, smooth_between
+from ..curves.smooth_line import Course, at_marks, marks_of, smooth_between
 from ..small_matrices import dot
 from .medial_axis import VORONOI
 from .rows_of_axis import OF_VERTICES, with_rows
@@ -69,30 +69,36 @@ def smooth_curve(
         It returns the distances of (n, 3) places from the surface, (n,).
     """
     assert axis.level is not None
-    held = set(axis.face_vertices.tolist())
-    lines = [
-        line
-        for chain in chains(axis.edges, len(axis.vertices), held)
-        if (line := _smooth(axis, chain, held)) is not None
-    ]
+    lines = _lines(axis)
     return _with_lines(axis, lines, depth) if lines else axis
 
 
-def _smooth(axis: MedialAxis, chain: list[int], held: set[int]) -> _Line | None:
-    """Return the smooth line of a wire; None where it is a single edge, or has no length."""
-    if len(chain) < 3:
-        return None
-    start = axis.vertices[chain[0]]
-    points = axis.vertices[chain] - start
-    size = float(np.abs(points).max())
-    if not 0.0 < size < np.inf:
-        return None
-    points /= size  # the squares of very small or large lengths are no numbers
-    closed = chain[0] == chain[-1] and _is_whole(axis, chain[0], held)
-    share, places = smooth_between(points, axis.radius[chain] / size, closed)
-    marks = marks_of(points)
+def _lines(axis: MedialAxis) -> list[_Line]:
+    """Return the smooth lines of all wires of more than one edge that have a length."""
+    held = set(axis.face_vertices.tolist())
+    found, courses, sizes = [], [], []
+    for chain in chains(axis.edges, len(axis.vertices), held):
+        points = axis.vertices[chain] - axis.vertices[chain[0]]
+        size = float(np.abs(points).max())
+        if len(chain) > 2 and 0.0 < size < np.inf:
+            closed = chain[0] == chain[-1] and _is_whole(axis, chain[0], held)
+            # The squares of very small or large lengths are no numbers.
+            courses.append(Course(points / size, axis.radius[chain] / size, closed))
+            found.append(chain)
+            sizes.append(size)
+    smooth = smooth_between(courses)
+    return [
+        _line(chain, course, share, places * size + axis.vertices[chain[0]])
+        for chain, course, size, (share, places) in zip(found, courses, sizes, smooth, strict=True)
+    ]
+
+
+def _line(
+    chain: list[int], course: Course, share: NDArray[np.float64], places: NDArray[np.float64]
+) -> _Line:
+    marks = marks_of(course.points)
     at = np.interp(share * marks[-1], marks, np.arange(len(chain), dtype=np.float64))
-    return _Line(chain, at, places * size + start, closed)
+    return _Line(chain, at, places, course.closed)
 
 
 def _is_whole(axis: MedialAxis, vertex: int, held: set[int]) -> bool:
