@@ -40,6 +40,7 @@ MAY_IMPORT = {
         "core",
         "core/machine",
         "core/samples",
+        "core/curves",
         "core/axis",
         "core/solid",
         "core/skeleton",
