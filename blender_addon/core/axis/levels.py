@@ -7,6 +7,7 @@ Settings in percent become shares of the diagonal here, and values of the hierar
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -96,7 +97,9 @@ def extract_level(
     if settings.form is not Form.CURVE:
         return axis
     axis = with_detail(axis, level, hierarchy, samples, settings.detail)
-    return smooth_curve(axis, _depth(samples, hierarchy)) if relaxed else axis
+    if not relaxed:
+        return axis
+    return smooth_curve(axis, _depth(samples, hierarchy), partial(_inside, samples))
 
 
 def _depth(samples: AnalysedSamples, hierarchy: Any) -> Depth:
@@ -104,6 +107,15 @@ def _depth(samples: AnalysedSamples, hierarchy: Any) -> Depth:
     shape = None if samples.solid is None else samples.solid.shape
     depth: Depth = samples.levels.kept("depth", hierarchy, lambda _: Depth(samples, shape))
     return depth
+
+
+def _inside(samples: AnalysedSamples, places: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(n,) whether places are in the solid; all of them where no faces decide."""
+    if samples.solid is None:
+        return np.ones(len(places), np.bool_)
+    shape = samples.solid.shape
+    with native.own_errors() as module:
+        return np.asarray(module.winding_number(places, shape.points, shape.triangles)) > 0.5
 
 
 def _placing(level: Any, hierarchy: Any, settings: Settings) -> NDArray[np.int32]:

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
     from .medial_axis import MedialAxis
 
+    Depth = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    Inside = Callable[[NDArray[np.float64]], NDArray[np.bool_]]
+
 _FARTHEST = 0.5  # a place moves by at most this share of the radius of its ball
 
 
@@ -56,10 +59,11 @@ class _Line:
         return slice(0 if self.closed else 1, -1)
 
 
-def smooth_curve(
-    axis: MedialAxis, depth: Callable[[NDArray[np.float64]], NDArray[np.float64]]
-) -> MedialAxis:
+def smooth_curve(axis: MedialAxis, depth: Depth, inside: Inside) -> MedialAxis:
     """Return a curve whose wires are smooth; tips, forks and facets stay.
+
+    A wire whose line has a place outside stays as it is: it crosses a gap that is narrower than the spacing of the
+    samples.
 
     Parameters
     ----------
@@ -67,10 +71,20 @@ def smooth_curve(
         A level in the form CURVE.
     depth : function
         It returns the distances of (n, 3) places from the surface, (n,).
+    inside : function
+        It returns whether (n, 3) places are in the solid, (n,).
     """
-    assert axis.level is not None
     lines = _lines(axis)
-    return _with_lines(axis, lines, depth) if lines else axis
+    if not lines:
+        return axis
+    table = np.concatenate([_along(axis, line) for line in lines])
+    wanted = np.concatenate([line.points[line.new] for line in lines])
+    places, radius = _moved(table[:, :3], table[:, 3], wanted, depth)
+    counts = np.array([len(line.points[line.new]) for line in lines])
+    fine = np.logical_and.reduceat(inside(places), np.cumsum(counts) - counts)
+    lines = [line for line, is_fine in zip(lines, fine.tolist(), strict=True) if is_fine]
+    kept = np.repeat(fine, counts)
+    return _with_lines(axis, lines, places[kept], radius[kept]) if lines else axis
 
 
 def _lines(axis: MedialAxis) -> list[_Line]:
@@ -107,19 +121,15 @@ def _is_whole(axis: MedialAxis, vertex: int, held: set[int]) -> bool:
 
 
 def _with_lines(
-    axis: MedialAxis,
-    lines: list[_Line],
-    depth: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    axis: MedialAxis, lines: list[_Line], places: NDArray[np.float64], radius: NDArray[np.float64]
 ) -> MedialAxis:
+    """Return a level with lines in place of their wires; places and radii are those of all new vertices."""
     keep = np.ones(len(axis.vertices), np.bool_)
     for line in lines:
         keep[line.chain[line.new]] = False
     edges, limb = _edges_of(axis, lines, keep)
-    table = np.concatenate([_along(axis, line) for line in lines])
-    wanted = np.concatenate([line.points[line.new] for line in lines])
-    places, radius = _moved(table[:, :3], table[:, 3], wanted, depth)
     longer = _with_vertices(axis, lines, places, radius)
-    return with_rows(longer, np.concatenate((keep, np.ones(len(table), np.bool_))), edges, limb)
+    return with_rows(longer, np.concatenate((keep, np.ones(len(places), np.bool_))), edges, limb)
 
 
 def _with_vertices(
@@ -166,7 +176,7 @@ def _moved(
     places: NDArray[np.float64],
     radius: NDArray[np.float64],
     wanted: NDArray[np.float64],
-    depth: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    depth: Depth,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return places, moved as far towards the wanted ones as their balls allow, and the radii there.
 
