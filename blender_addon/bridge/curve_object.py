@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.curves.net import chains
 from ..core.errors import InvalidInputError
-from ..core.skeleton.net import chains
 from ..core.skeleton.skeleton import Skeleton
 from .output_object import follow_like, new_object
 from .read_axis import read_axis

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
+from ..core.curves.spread import groups_of
 from ..core.errors import InvalidInputError
-from ..core.skeleton.spread import groups_of
 from .mesh_arrays import read_edges
 from .skeleton_object import rows_of_vertices
 

@@ -127,6 +127,8 @@ def applies_to_form(name: str, form: Form) -> bool:
     """Whether an option changes anything for a Form."""
     if name in ("simplify", "erode", "spike"):
         return form is Form.CLEAN
+    if name == "detail":
+        return form is Form.CURVE
     if name in ("limb", "crisp"):
         return form is not Form.PUBLISHED
     return name != "limit_set" or form is Form.PUBLISHED
@@ -207,6 +209,13 @@ class Settings(Options):
         limits=(0.0, 100.0),
         soft_maximum=20.0,
         unit="%",
+    )
+    detail: float = number(
+        "Detail",
+        "How much of what the samples show a curve keeps: at 1 everything; below, one after the other, loops of limbs "
+        "that touch, pinholes, and the branches that are no limbs are left out; at 0 a skeleton is left",
+        default=1.0,
+        limits=(0.0, 1.0),
     )
     crisp: bool = switch(
         "Crisp",

@@ -7,7 +7,7 @@ from .ranged_sliders import row_of_slider
 from .skeleton_operators import copy_all
 from .tab import draws_buttons
 
-_SLIDERS = ("simplify", "erode", "spike", "limb")
+_SLIDERS = ("simplify", "erode", "spike", "detail", "limb")
 
 
 def draw_form(context, layout, panel):

@@ -151,6 +151,25 @@ def test_form_and_its_sliders_act_at_once_without_another_analysis():
     assert analyses() == before
 
 
+def test_detail_of_a_curve_acts_at_once():
+    source = pair()
+    clean(samples=2_000)
+    result, panel, before = result_of(source), bpy.context.scene.medial_axis, analyses()
+    panel.form, panel.limb = "CURVE", 0.0
+    whole = positions(result.data)
+    panel.detail = 0.0
+    skeleton = positions(result.data)
+    assert 2 < len(skeleton) < len(whole) / 2 and tuple(result["ma_betti"]) == (1, 0, 0)
+    assert bpy.ops.object.medial_axis_to_curve() == {"FINISHED"}
+    points = sum(len(spline.points) for spline in bpy.context.object.data.splines)
+    assert len(skeleton) <= points < len(whole) / 2, "what is seen is converted"
+    select(source)
+    panel.detail = 1.0
+    assert np.array_equal(positions(result.data), whole) and analyses() == before
+    del result["ma_detail"]  # as of a version without it
+    assert addon("bridge.axis_object").settings_of(result).detail == 1.0
+
+
 @pytest.mark.parametrize("side", ["OUTER", "BOTH"])
 def test_other_sides_are_as_published_which_is_said(side):
     source = torus()

@@ -22,6 +22,7 @@ CHOICES = {
     "criteria": ("ANGLE_OR_RATIO", "ANGLE", "RATIO"),
     "simplify": (0.0, 2.0),
     "limb": (0.0, 4.0, 10.0),
+    "detail": (0.0, 0.5, 1.0),
     "crisp": (True, False),
 }
 ANALYSED = {

@@ -26,7 +26,7 @@ SAMPLING = (
     "seed",
 )
 OPTIONS = (
-    *("form", "simplify", "erode", "spike", "limb", "crisp"),
+    *("form", "simplify", "erode", "spike", "limb", "detail", "crisp"),
     *("theta", "rho", "side", "sides", "rule", "criteria", "limit_set"),
     *SAMPLING,
 )

@@ -145,7 +145,7 @@ def bent_shape():
 FEW = Settings(samples=200, budget=600, rho=1.5)
 STARTS = (
     replace(FEW, sampling=SamplingMode.VERTICES, form=Form.PUBLISHED),
-    replace(FEW, sampling=SamplingMode.SURFACE, form=Form.CURVE),
+    replace(FEW, sampling=SamplingMode.SURFACE, form=Form.CURVE, detail=0.0),
     replace(FEW, sampling=SamplingMode.ADAPTIVE, form=Form.CLEAN),
     replace(FEW, sampling=SamplingMode.VERTICES, form=Form.PUBLISHED, criteria=Criteria.ANGLE),
     replace(FEW, sampling=SamplingMode.SURFACE, sides=SidesFrom.WRAP, wrap_opening=5.0),

@@ -235,13 +235,13 @@ def test_other_sides_are_as_published_and_said(side, form):
 
 def test_what_applies_to_a_form():
     acts = {
-        form: {name for name in ("simplify", "erode", "spike", "limb", "crisp", "limit_set", "theta")
+        form: {name for name in ("simplify", "erode", "spike", "limb", "detail", "crisp", "limit_set", "theta")
                if applies_to_form(name, form)}
         for form in Form
     }  # fmt: skip
     assert acts[Form.CLEAN] == {"simplify", "erode", "spike", "limb", "crisp", "theta"}
     assert acts[Form.PUBLISHED] == {"limit_set", "theta"}
-    assert acts[Form.CURVE] == {"limb", "crisp", "theta"}
+    assert acts[Form.CURVE] == {"limb", "detail", "crisp", "theta"}
 
 
 @pytest.mark.parametrize(

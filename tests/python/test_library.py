@@ -14,7 +14,7 @@ from medial_axis.core.settings import OPTIONS, Settings
 from support.meshes import icosphere, torus
 from support.same_axis import same_axis as same
 
-FORM = ("form", "simplify", "erode", "spike", "limb", "crisp")
+FORM = ("form", "simplify", "erode", "spike", "limb", "detail", "crisp")
 
 
 def egg(count=2000):

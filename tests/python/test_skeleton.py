@@ -7,6 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from medial_axis.cli import main
+from medial_axis.core.curves.ends import balls_of
+from medial_axis.core.curves.net import Net
+from medial_axis.core.curves.rules import Loops, clear_loops, open_loops, prune
+from medial_axis.core.curves.spread import graph_of, spread
 from medial_axis.core.errors import DegenerateInputError, ExportError, InvalidInputError, ReadError
 from medial_axis.core.files.load_skeleton import load_skeleton
 from medial_axis.core.files.read_shape import read_shape
@@ -19,15 +23,11 @@ from medial_axis.core.skeleton.centre import centre_of_mass
 from medial_axis.core.skeleton.chords import keep_inside, kept_inside
 from medial_axis.core.skeleton.chosen_ends import join_ends
 from medial_axis.core.skeleton.compute import compute_skeleton
-from medial_axis.core.skeleton.ends import balls_of
 from medial_axis.core.skeleton.names import names_of
-from medial_axis.core.skeleton.net import Net
 from medial_axis.core.skeleton.parts import Places
 from medial_axis.core.skeleton.rig import compute_rig
-from medial_axis.core.skeleton.rules import Loops, clear_loops, open_loops, prune
 from medial_axis.core.skeleton.simplify import kept_points
 from medial_axis.core.skeleton.skeleton import Skeleton
-from medial_axis.core.skeleton.spread import graph_of, spread
 from medial_axis.core.skeleton.warnings import skeleton_warnings
 from medial_axis.core.skeleton.weights import _share_with_parents, axis_weights, edges_of
 from scipy.sparse import coo_array

@@ -7,13 +7,13 @@ does not have. Their axes are single points and short wires.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..samples.nearness import nearest
 from .cut import lowest_of_piece
+from .rows_of_axis import with_rows
 from .spacing import spacing_of
 
 if TYPE_CHECKING:
@@ -69,28 +69,8 @@ def without_crumbs(axis: MedialAxis, smallest: float) -> MedialAxis:
     keep = level.crumb >= smallest
     if keep.all() or not keep.any():
         return axis
-    row = (np.cumsum(keep) - 1).astype(np.int32)
     wires = keep[axis.edges[:, 0]] if len(axis.edges) else np.zeros(0, bool)
-    structure = axis.structure
-    if structure is not None:  # crumbs have no facets, so neither edges nor nodes of it
-        structure = replace(
-            structure,
-            kind=structure.kind[keep],
-            facet_edges=row[structure.facet_edges],
-            node_vertex=row[structure.node_vertex],
-        )
-    of_vertices = ("exact", "exact_radius", "place", "crumb")
-    return replace(
-        axis,
-        vertices=axis.vertices[keep],
-        radius=axis.radius[keep],
-        face_vertices=row[axis.face_vertices],
-        edges=row[axis.edges[wires]],
-        structure=structure,
-        level=replace(
-            level, limb=level.limb[wires], **{n: getattr(level, n)[keep] for n in of_vertices}
-        ),
-    )
+    return with_rows(axis, keep, axis.edges[wires], level.limb[wires])
 
 
 def _piece_of(wires: NDArray[np.int32], small: NDArray[np.bool_]) -> NDArray[np.int64]:

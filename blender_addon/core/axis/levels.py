@@ -7,16 +7,20 @@ Settings in percent become shares of the diagonal here, and values of the hierar
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..curves.depth import Depth
 from ..machine import native
 from ..machine.cache import CACHE
 from ..settings import Form, Settings
 from .crumbs import crumb_sizes
+from .detail import with_detail
 from .medial_axis import IN_CORNER, ON_CREASE, LevelValues, MedialAxis
 from .slider_range import ranges_of
+from .smooth_curve import smooth_curve
 from .structure import structure_of
 
 if TYPE_CHECKING:
@@ -65,7 +69,7 @@ def extract_level(
         level = hierarchy.extract(
             **_wanted(settings), relaxed=relaxed, progress=progress and progress.part()
         )
-    return MedialAxis(
+    axis = MedialAxis(
         vertices=level.vertices,
         radius=level.radius,
         face_offsets=level.face_offsets,
@@ -90,6 +94,28 @@ def extract_level(
         ),
         structure=structure_of(level, samples) if len(level.facet_of) else None,
     )
+    if settings.form is not Form.CURVE:
+        return axis
+    axis = with_detail(axis, level, hierarchy, samples, settings.detail)
+    if not relaxed:
+        return axis
+    return smooth_curve(axis, _depth(samples, hierarchy), partial(_inside, samples))
+
+
+def _depth(samples: AnalysedSamples, hierarchy: Any) -> Depth:
+    """Return the distances from the faces that decide what is inside, or else from the samples."""
+    shape = None if samples.solid is None else samples.solid.shape
+    depth: Depth = samples.levels.kept("depth", hierarchy, lambda _: Depth(samples, shape))
+    return depth
+
+
+def _inside(samples: AnalysedSamples, places: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(n,) whether places are in the solid; all of them where no faces decide."""
+    if samples.solid is None:
+        return np.ones(len(places), np.bool_)
+    shape = samples.solid.shape
+    with native.own_errors() as module:
+        return np.asarray(module.winding_number(places, shape.points, shape.triangles)) > 0.5
 
 
 def _placing(level: Any, hierarchy: Any, settings: Settings) -> NDArray[np.int32]:

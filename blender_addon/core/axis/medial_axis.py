@@ -46,6 +46,8 @@ class LevelValues:
         None where it is not known.
     ranges : dict of SliderRange
         The ranges of Simplify, Erode and Limbs, by the names of the settings; empty where they are not known.
+    loops_left_out : int
+        The number of loops that the samples show, and that a curve with less Detail does not have.
     """
 
     exact: NDArray[np.float64]
@@ -57,6 +59,7 @@ class LevelValues:
     place: NDArray[np.int32]
     crumb: NDArray[np.float32] | None = None
     ranges: dict[str, SliderRange] = field(default_factory=dict)
+    loops_left_out: int = 0
 
     @property
     def is_crisp(self) -> NDArray[np.bool_]:

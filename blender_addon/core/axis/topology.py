@@ -38,6 +38,8 @@ def topology_sentence(axis: MedialAxis, wanted: Form, samples: AnalysedSamples) 
         return f"{betti_words(betti)}, as the solid"
     if samples.analysis.sides_from.name == SidesFrom.POLES.name:
         return f"{betti_words(betti)}, as the poles tell, which is a guess"
+    if axis.level.loops_left_out:
+        return f"{betti_words(betti)}, with less detail than the samples show"
     sentence = f"{betti_words(betti)}, by the samples"
     if by_faces is None:
         return sentence

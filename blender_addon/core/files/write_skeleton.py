@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from ..curves.smooth_line import marks_of
 from ..skeleton.branches import MEASURES, branches_of
 from ..skeleton.skeleton import Skeleton
-from ..skeleton.smooth_line import marks_of
 from .extensions import extension_of
 from .vtp import write_vtp
 from .whole_file import write_whole

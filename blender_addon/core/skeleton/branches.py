@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..curves.bridges import on_loops
+from ..curves.smooth_line import at_marks, even_places, marks_of, mean_along, smooth_line
 from ..settings import SidesFrom
 from ..small_matrices import length_of
-from .bridges import on_loops
 from .sections import Faces, section
-from .smooth_line import at_marks, even_places, marks_of, mean_along, smooth_line
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
+    from ..curves.smooth_line import SmoothLine
     from .compute import Skeletonization
     from .skeleton import Skeleton
-    from .smooth_line import SmoothLine
 
 _APART = 4  # a cross-section at every so many places of the smooth line, which is half a radius
 _MOST_SECTIONS = 64  # of a branch

@@ -18,8 +18,8 @@ from ..small_matrices import length_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .depth import Depth
-    from .net import Net
+    from ..curves.depth import Depth
+    from ..curves.net import Net
 
 _HALVED = 8  # an edge that balls at so fine places do not cover touches the surface
 # Balls on two sides of the surface may touch, and by rounding seem to overlap; balls overlap by more than this share.

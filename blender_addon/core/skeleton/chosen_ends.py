@@ -14,7 +14,7 @@ from ..small_matrices import length_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .net import Net
+    from ..curves.net import Net
 
 _NEAR = 2.0  # an end less than so many radii from the tip of its limb means the tip
 

@@ -10,6 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..axis.levels import hierarchy_of
+from ..curves.depth import Depth
+from ..curves.ends import end_limbs
+from ..curves.loaded_net import genuine_loops, loaded_net
+from ..curves.net import Net
+from ..curves.rules import Loops, clear_loops, join_forks, open_loops, prune
 from ..errors import DegenerateInputError, InvalidInputError
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
@@ -17,19 +22,14 @@ from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.nearness import nearest
 from ..samples.outward_faces import reading_warnings
-from ..settings import KeptLoops, Settings, Side, SkeletonSettings
+from ..settings import KeptLoops, Settings, Side, SidesFrom, SkeletonSettings
 from .centre import centre_of_mass
 from .chords import keep_inside, kept_inside
 from .chosen_ends import join_ends
-from .depth import Depth
-from .ends import end_limbs
 from .forks import draw_forks
 from .inscribe import inscribe
 from .mirror import make_symmetric
-from .net import Net
-from .owners import owners, shares
 from .parts import Parts, parts_of, places
-from .rules import Loops, clear_loops, join_forks, open_loops, prune
 from .simplify import kept_points
 from .skeleton import Skeleton, skeleton_of
 from .warnings import skeleton_warnings
@@ -117,7 +117,8 @@ def compute_skeleton(
     )
     chosen = begun.chosen
     net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress, ends)
-    depth = Depth(begun.shape, chosen)
+    by_faces = chosen.sides.source is SidesFrom.SURFACE
+    depth = Depth(chosen.samples, begun.shape if by_faces else None)
     inscribe(net, depth)
     names = sorted(net.branches)
     plane = float(centre_of_mass(_whole(net, names))[0])
@@ -165,20 +166,11 @@ def _net(
     """Return the net of limbs, the owner of each sample, the number of facets without a curve, and cleared loops."""
     samples = chosen.samples
     level, hierarchy = _curve(samples, settings, wanted, progress)
-    owner, balls = owners(samples, hierarchy, level)
-    spacing, share = shares(samples)
-    count = len(level.vertices)
-    net = Net(
-        level.vertices,
-        level.radius,
-        level.wires,
-        level.points,
-        np.bincount(owner, weights=share, minlength=count).astype(np.float64),
-    )
-    genuine = 0 if samples.by_faces is None else samples.by_faces[1]
+    loaded = loaded_net(samples, hierarchy, level)
+    net, owner, balls = loaded.net, loaded.owner, loaded.balls
     loops = Loops(0, 0)
     if wanted.loops is not KeptLoops.KEEP:
-        loops = clear_loops(net, _mean_of_owned(owner, spacing, count), genuine)
+        loops = clear_loops(net, loaded.spacing, genuine_loops(samples))
     tips = None
     if ends is None:
         prune(net, wanted.share, balls)
@@ -207,15 +199,6 @@ def _curve(
             "sheets, as of a hollow ball; fill its cavities"
         )
     return level, hierarchy
-
-
-def _mean_of_owned(
-    owner: NDArray[np.int64], values: NDArray[np.float64], count: int
-) -> NDArray[np.float64]:
-    """Return the mean value of the samples that each point owns, (count,); a point without samples gets that of all."""
-    owned = np.bincount(owner, minlength=count)
-    total = np.bincount(owner, weights=values, minlength=count)
-    return np.where(owned > 0, total / np.maximum(owned, 1), values.mean())
 
 
 def _whole(net: Net, names: list[int]) -> Skeleton:

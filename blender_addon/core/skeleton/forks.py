@@ -18,7 +18,7 @@ from ..small_matrices import dot, inverse, stretches, times
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .net import Net
+    from ..curves.net import Net
 
 _FAR = 2.5  # points of a limb count up to this distance from the fork, in radii of its ball
 _MOVED = 1.0  # a fork moves by at most so many radii

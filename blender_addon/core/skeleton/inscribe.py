@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from .depth import Depth
-    from .net import Net
+    from ..curves.depth import Depth
+    from ..curves.net import Net
 
 
 def inscribe(net: Net, depth: Depth, plane: float | None = None) -> None:

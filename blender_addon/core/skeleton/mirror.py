@@ -17,7 +17,7 @@ from ..small_matrices import length_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .net import Net
+    from ..curves.net import Net
 
 SYMMETRIC = 0.02  # a mirror image may be off by this share of the size
 

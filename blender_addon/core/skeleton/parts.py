@@ -11,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .net import Net
+    from ..curves.net import Net
 
 
 @dataclass(frozen=True, eq=False)

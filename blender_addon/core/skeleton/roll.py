@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..curves.smooth_line import marks_of
 from ..small_matrices import dot, stretches
-from .smooth_line import marks_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -6,8 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ..curves.rules import Loops
     from ..samples.chosen import ChosenSamples
-    from .rules import Loops
 
 
 def skeleton_warnings(chosen: ChosenSamples, loops: Loops, sheets: int, outside: int) -> list[str]:

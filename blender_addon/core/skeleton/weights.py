@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .spread import Graph, graph_of, spread
+from ..curves.spread import Graph, graph_of, spread
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

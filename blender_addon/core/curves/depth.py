@@ -10,13 +10,12 @@ import numpy as np
 from ..machine import native
 from ..samples.nearness import nearest
 from ..samples.triangles import unit_normals
-from ..settings import SidesFrom
 from ..small_matrices import dot, length_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..samples.chosen import ChosenSamples
+    from ..samples.analysed import AnalysedSamples
     from ..samples.shape import Shape
 
 _ASIDE = 1e-5  # a buried face has the solid on both sides, so far away as a share of the diagonal
@@ -26,14 +25,19 @@ class Depth:
     """A depth is the distance from a place to the boundary of a solid, to its faces where they decide what is inside.
 
     Faces inside of the solid bound nothing, and do not count.
+
+    Parameters
+    ----------
+    samples : AnalysedSamples
+    shape : Shape or None
+        The faces that decide what is inside; without them the samples are the boundary.
     """
 
-    def __init__(self, shape: Shape, chosen: ChosenSamples) -> None:
-        samples = chosen.samples
+    def __init__(self, samples: AnalysedSamples, shape: Shape | None) -> None:
         self._samples = samples.points[samples.analysis.samples]
         self._faces: tuple[NDArray[np.float64], NDArray[np.int32]] | None = None
         self._offset = samples.offset
-        if chosen.sides.source is SidesFrom.SURFACE and len(shape.triangles):
+        if shape is not None and len(shape.triangles):
             kept = shape.triangles
             if samples.buried:
                 kept = kept[~buried_faces(shape.points, kept)]

@@ -25,6 +25,8 @@ from .bridges import on_loops
 from .ends import reach_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from .ends import Balls
@@ -53,15 +55,22 @@ def clear_loops(net: Net, spacing: NDArray[np.float64], genuine: int = 0) -> Loo
     genuine : int
         At least so many loops are kept.
     """
-    cut = 0
+    cut = sum(1 for _ in cut_loops(net, spacing, genuine))
+    return Loops(cut, sum(1 for _ in fill_loops(net, spacing, genuine)))
+
+
+def cut_loops(net: Net, spacing: NDArray[np.float64], genuine: int) -> Iterator[None]:
+    """Cut a loop of limbs that touch at each step, the thinnest first; the arguments are those of `clear_loops`."""
     while net.loops() > genuine and (name := _thinnest_of_loops(net, spacing)) is not None:
         net.cut(name)
-        cut += 1
-    filled = 0
+        yield
+
+
+def fill_loops(net: Net, spacing: NDArray[np.float64], genuine: int) -> Iterator[None]:
+    """Fill a pinhole at each step; the arguments are those of `clear_loops`."""
     while net.loops() > genuine and (found := _pinhole(net, spacing)) is not None:
         net.contract(*found)
-        filled += 1
-    return Loops(cut, filled)
+        yield
 
 
 def open_loops(net: Net) -> None:
@@ -83,7 +92,13 @@ def _thinnest_edge(net: Net, name: int) -> tuple[float, int, int]:
 
 
 def prune(net: Net, share: float, balls: Balls) -> None:
-    """Remove the leaves that are not limbs, the lightest first.
+    """Remove the leaves that are not limbs, the lightest first; the arguments are those of `drop_leaves`."""
+    for _ in drop_leaves(net, share, balls):
+        pass
+
+
+def drop_leaves(net: Net, share: float, balls: Balls) -> Iterator[None]:
+    """Remove a leaf that is not a limb at each step, the lightest first.
 
     Parameters
     ----------
@@ -107,6 +122,7 @@ def prune(net: Net, share: float, balls: Balls) -> None:
             for new in net.branches.keys() - before:
                 if len(net.ends_free(new)) == 1:
                     heapq.heappush(queue, (net.carried(new), new))
+            yield
 
 
 def join_forks(net: Net) -> None:
@@ -157,7 +173,10 @@ def _pinhole(net: Net, spacing: NDArray[np.float64]) -> tuple[list[int], int] | 
         rows = np.unique(np.concatenate([net.branches[branch] for branch in loop]))
         centre = int(rows[np.argmax(net.radius[rows])])
         reach = np.linalg.norm(net.points[rows] - net.points[centre], axis=1)
-        if (reach <= net.radius[centre] + spacing[centre]).all():
+        if (
+            net.anchored.isdisjoint(rows.tolist())
+            and (reach <= net.radius[centre] + spacing[centre]).all()
+        ):
             return loop, centre
     return None
 

@@ -10,7 +10,7 @@ one twice as long 0.4 %.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,6 +23,7 @@ _PER_RADIUS = 8  # a mean radius has so many steps
 _LEAST, _MOST = 16, 16_384  # a line has so many
 _HALVED = 0.7  # waves of so many circumferences lose half their height
 _CLIPPED = 2.0, 16.0  # that many radii count as so many steps
+_BEYOND = 64  # so many steps beyond an end have an influence
 _FOURTH = 1.0, -4.0, 6.0, -4.0, 1.0
 _BAND = len(_FOURTH)
 _AROUND = 2  # so many places before and after a place decide how the line bends there
@@ -100,6 +101,87 @@ def smooth_line(
     )
 
 
+@dataclass(frozen=True, eq=False)
+class Course:
+    """A line to be made smooth.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        The last point of a closed line is its first. The line has a length.
+    radius : (n,) float64
+        The radii of the balls around the points.
+    closed : bool
+        The line has no ends.
+    """
+
+    points: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    closed: bool
+
+
+def smooth_between(
+    lines: list[Course],
+) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Return shares and places of smooth lines in even steps, whose ends are those of the given lines.
+
+    Beyond each end a line goes on as its own image in the end, so the end stays and its direction is free.
+
+    Returns
+    -------
+    share : (n,) float64
+        As of `SmoothLine`.
+    places : (n, 3) float64
+        The last place of a closed line is its first; it may be off the given line, as all others.
+    """
+    longer = [_longer(line) for line in lines]
+    same: dict[int, list[int]] = {}  # lines of equal numbers of steps are made smooth together
+    for number, (_, table, _) in enumerate(longer):
+        same.setdefault(len(table), []).append(number)
+    found: list[Any] = [None] * len(lines)
+    for numbers in same.values():
+        tables = np.stack([longer[number][1] for number in numbers], axis=-1)
+        smooth = smoothed(tables, np.stack([longer[number][2] for number in numbers], axis=-1))
+        for number, places in zip(numbers, np.moveaxis(smooth, -1, 0), strict=True):
+            share = longer[number][0]
+            found[number] = share, _shorter(lines[number], places, len(share))
+    return found
+
+
+def _longer(
+    line: Course,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return shares of a line in even steps, (n,), and places, (m, 3), and steps, (m,), also beyond its ends.
+
+    Places are relative to the first point.
+    """
+    share, places = even_places(marks_of(line.points), line.points, line.radius)
+    count = len(share) - 1
+    unit, radius = places[:, :3] - line.points[0], places[:, 3]
+    step = float(marks_of(line.points)[-1]) / count
+    steps = np.clip(_HALVED * radius / step, *_CLIPPED)
+    reach = min(count, _BEYOND)
+    if line.closed:
+        before, after = np.arange(count - reach, count), np.arange(1, reach + 1)
+        ends = unit[before], unit[after]
+    else:
+        before, after = np.arange(reach, 0, -1), np.arange(count - 1, count - reach - 1, -1)
+        ends = 2.0 * unit[0] - unit[before], 2.0 * unit[-1] - unit[after]
+    table = np.concatenate((ends[0], unit, ends[1]))
+    return share, table, np.concatenate((steps[before], steps, steps[after]))
+
+
+def _shorter(line: Course, places: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """Return the places between the ends of a line, (count, 3)."""
+    reach = (len(places) - count) // 2
+    between = places[reach : reach + count] + line.points[0]
+    if line.closed:
+        between[-1] = between[0]
+    else:
+        between[[0, -1]] = line.points[[0, -1]]
+    return between
+
+
 def marks_of(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the length of a line before each of its points, (n,)."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
@@ -131,36 +213,45 @@ def at_marks(
 
 
 def smoothed(places: NDArray[np.float64], steps: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return smooth places, (n, 3), for at least 5 places in even steps.
+    """Return smooth places, as many as are given, for at least 5 places in even steps, of one line or of many.
 
     Parameters
     ----------
-    places : (n, 3) float64
-    steps : (n,) float64
+    places : (n, 3) or (n, 3, lines) float64
+    steps : (n,) or (n, lines) float64
         Waves of 2 pi times so many steps lose half their height.
     """
     middle = steps[2:-2]
     square = middle * middle
     weight = square * square * square * square
-    count = len(places)
-    bands = np.zeros((_BAND, count))
+    bands = np.zeros((_BAND, *steps.shape))
     bands[0] = 1.0
     for i, a in enumerate(_FOURTH):
         for j, b in enumerate(_FOURTH[i:]):
             bands[j, i : i + len(weight)] += a * b * weight
-    return _solved(bands.T.tolist(), places)
+    if steps.ndim == 1:
+        return _solved(bands.T.tolist(), places.T.tolist())
+    if steps.shape[1] == 1:  # plain numbers are faster than arrays of one
+        return smoothed(places[..., 0], steps[:, 0])[..., None]
+    rows = [list(row) for row in np.moveaxis(bands, 1, 0)]
+    return _solved(rows, [list(column) for column in np.moveaxis(places.copy(), 1, 0)])
 
 
-def _solved(bands: list[list[float]], wanted: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return what a symmetric band matrix turns into the wanted table, (n, 3), by Cholesky's method without roots.
+def _solved(bands: list[list[Any]], columns: list[list[Any]]) -> NDArray[np.float64]:
+    """Return what symmetric band matrices turn into the wanted tables, by Cholesky's method without roots.
 
     Row j of `bands` has the entries (j, j), (j + 1, j), and so on; those beyond the matrix are 0. NumPy has no such
-    method, and products of small lists are faster in plain Python.
+    method. Products of small lists are faster in plain Python; for many matrices each entry is an array.
+
+    Parameters
+    ----------
+    bands : list of n lists
+    columns : list of 3 lists of n
+        They are changed.
     """
     size, reach = len(bands), _BAND - 1
-    pivots: list[float] = []
-    below: list[list[float]] = []  # row j has the factors (j + 1, j), (j + 2, j), ...
-    columns = [column.tolist() for column in wanted.T]
+    pivots: list[Any] = []
+    below: list[list[Any]] = []  # row j has the factors (j + 1, j), (j + 2, j), ...
     for j in range(size):
         row = list(bands[j])
         for back in range(1, min(reach, j) + 1):
@@ -178,7 +269,7 @@ def _solved(bands: list[list[float]], wanted: NDArray[np.float64]) -> NDArray[np
             for k in range(1, min(reach, size - 1 - j) + 1):
                 value -= below[j][k - 1] * column[j + k]
             column[j] = value
-    return np.array(columns).T
+    return np.moveaxis(np.array(columns), 1, 0)
 
 
 def _bends(

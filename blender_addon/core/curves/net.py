@@ -28,6 +28,8 @@ class Net:
     load : (p,) float64
         The share of the surface that each point owns. A point that is removed leaves its load to the point that it
         was attached to.
+    anchored : iterable of int
+        Points that something else holds, such as facets. They are nodes, and no tips.
 
     Attributes
     ----------
@@ -48,22 +50,24 @@ class Net:
         wires: NDArray[np.int32],
         singles: NDArray[np.int32],
         load: NDArray[np.float64],
+        anchored: Iterable[int] = (),
     ) -> None:
         self.points, self.radius, self.load = points.copy(), radius.copy(), load.copy()
         self.branches: dict[int, list[int]] = {}
         self.at: dict[int, list[int]] = {int(row): [] for row in singles}
         self.moved = np.arange(len(points))
         self.kept: set[int] = set()
+        self.anchored = set(anchored)
         self._held: dict[int, list[int]] = {}
         self._next = 0
-        for chain in chains(wires, len(points)):
+        for chain in chains(wires, len(points), self.anchored):
             self.add(chain)
 
     # --- queries
 
     def tips(self) -> list[int]:
         """Return the nodes at which exactly one branch ends."""
-        return [node for node, branches in self.at.items() if len(branches) == 1]
+        return [node for node in self.at if self._is_tip(node)]
 
     def leaves(self) -> list[int]:
         """Return the branches from a fork to a tip."""
@@ -72,7 +76,10 @@ class Net:
     def ends_free(self, name: int) -> list[int]:
         """Return the ends of a branch that are tips."""
         chain = self.branches[name]
-        return [node for node in (chain[0], chain[-1]) if len(self.at[node]) == 1]
+        return [node for node in (chain[0], chain[-1]) if self._is_tip(node)]
+
+    def _is_tip(self, node: int) -> bool:
+        return len(self.at[node]) == 1 and node not in self.anchored
 
     def loops(self) -> int:
         """Return the number of independent loops."""
@@ -99,7 +106,7 @@ class Net:
     def from_fork(self, name: int) -> list[int]:
         """Return the points of a leaf from its fork to its tip."""
         chain = self.branches[name]
-        return chain[::-1] if len(self.at[chain[0]]) == 1 else chain
+        return chain[::-1] if self._is_tip(chain[0]) else chain
 
     def carried(self, name: int) -> float:
         """Return the load of a leaf without its fork."""
@@ -226,7 +233,7 @@ class Net:
     def _join(self, node: int) -> None:
         """Merge the two branches that meet at a node, if it is no longer a fork."""
         names = self.at[node]
-        if len(names) != 2 or names[0] == names[1] or node in self.kept:
+        if len(names) != 2 or names[0] == names[1] or node in self.kept | self.anchored:
             return
         first, second = (self.branches[name] for name in names)
         first = first if first[-1] == node else first[::-1]
@@ -237,19 +244,21 @@ class Net:
         self.add([*first, *second[1:]])
 
 
-def chains(wires: NDArray[np.int32], count: int) -> list[list[int]]:
-    """Return edges as chains between vertices whose degree is not 2, then as loops; both ascend by their start."""
-    degree = np.bincount(wires.ravel(), minlength=count)
+def chains(wires: NDArray[np.int32], count: int, ends: Iterable[int] = ()) -> list[list[int]]:
+    """Return edges as chains between vertices whose degree is not 2, then as loops; both ascend by their start.
+
+    Chains also end at the vertices `ends`.
+    """
+    inner = np.bincount(wires.ravel(), minlength=count) == 2
+    inner[list(ends)] = False
     edges_at: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     for edge, (a, b) in enumerate(wires.tolist()):
         edges_at[a].append((edge, b))
         edges_at[b].append((edge, a))
     used = np.zeros(len(wires), bool)
-    nodes = np.flatnonzero((degree != 2) & (degree > 0)).tolist()
-    on_loops = np.flatnonzero(degree == 2).tolist()
     return [
-        _walked(start, edge, edges_at, degree, used)
-        for start in (*nodes, *on_loops)
+        _walked(start, edge, edges_at, inner, used)
+        for start in (*np.flatnonzero(~inner).tolist(), *np.flatnonzero(inner).tolist())
         for edge, _ in edges_at[start]
         if not used[edge]
     ]
@@ -259,7 +268,7 @@ def _walked(
     start: int,
     edge: int,
     edges_at: list[list[tuple[int, int]]],
-    degree: NDArray[np.int64],
+    inner: NDArray[np.bool_],
     used: NDArray[np.bool_],
 ) -> list[int]:
     """Return the vertices from a vertex through an edge to the next node, or around a loop."""
@@ -267,6 +276,6 @@ def _walked(
     while True:
         used[edge] = True
         chain.append(next(end for name, end in edges_at[chain[-1]] if name == edge))
-        if degree[chain[-1]] != 2 or chain[-1] == start:
+        if not inner[chain[-1]] or chain[-1] == start:
             return chain
         edge = next(name for name, _ in edges_at[chain[-1]] if name != edge)

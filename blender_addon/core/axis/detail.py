@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A curve with less detail: without loops and short branches that come from the sampling, as a skeleton is.
+
+The rules of the skeleton take one loop or branch after the other away. Detail is the share of these removals that is
+not done, so a curve with less detail has only loops and branches of one with more.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..curves.loaded_net import genuine_loops, loaded_net
+from ..curves.removals import Removals, removals_of
+from ..settings import SkeletonSettings
+from .cut import lowest_of_piece
+from .rows_of_axis import with_rows
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..samples.analysed import AnalysedSamples
+    from .medial_axis import MedialAxis
+
+
+def with_detail(
+    axis: MedialAxis, level: Any, hierarchy: Any, samples: AnalysedSamples, detail: float
+) -> MedialAxis:
+    """Return a curve without some of its loops and branches.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+        The level `level` in the form CURVE; facets of closed sheets, and what they hold, stay.
+    level : _medial.Level
+    hierarchy : _medial.Hierarchy
+    samples : AnalysedSamples
+    detail : float
+        From 0, what a skeleton has, to 1, everything.
+    """
+    if detail >= 1.0 or not len(axis.edges):
+        return axis
+    removals = _removals(level, hierarchy, samples)
+    done = round((1.0 - detail) * removals.count)
+    return _with_edges(axis, removals.after(done).astype(np.int32)) if done else axis
+
+
+def _removals(level: Any, hierarchy: Any, samples: AnalysedSamples) -> Removals:
+    loaded = loaded_net(samples, hierarchy, level, np.unique(level.face_vertices).tolist())
+    return removals_of(loaded, genuine_loops(samples), SkeletonSettings().share)
+
+
+def _with_edges(axis: MedialAxis, edges: NDArray[np.int32]) -> MedialAxis:
+    """Return a curve with other edges, of which each piece has some or one vertex."""
+    values = axis.level
+    assert values is not None
+    keep = np.zeros(len(axis.vertices), np.bool_)
+    keep[edges.ravel()] = True
+    keep[axis.face_vertices] = True
+    keep |= _alone(axis, keep)
+    fewer = with_rows(axis, keep, edges, _limbs(axis, edges))
+    pieces, loops, cavities = values.betti
+    # No piece is lost or divided, so the number of loops follows from the numbers of cells.
+    lost = len(axis.edges) - len(edges) - (len(axis.vertices) - len(fewer.vertices))
+    assert fewer.level is not None
+    betti = pieces, loops - lost, cavities
+    return replace(fewer, level=replace(fewer.level, betti=betti, loops_left_out=lost))
+
+
+def _alone(axis: MedialAxis, keep: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the largest ball of each piece of wires of which nothing else is kept, and single points, (v,)."""
+    piece = lowest_of_piece(len(keep), np.arange(0, 2 * len(axis.edges), 2), axis.edges.ravel())
+    order = np.lexsort((np.arange(len(keep)), -axis.radius, piece))
+    first = np.ones(len(order), np.bool_)
+    first[1:] = piece[order][1:] != piece[order][:-1]
+    largest = order[first]
+    some = np.zeros(len(keep), np.bool_)
+    some[piece[keep]] = True
+    alone = np.zeros(len(keep), np.bool_)
+    alone[largest] = ~some[piece[largest]]
+    return alone
+
+
+def _limbs(axis: MedialAxis, edges: NDArray[np.int32]) -> NDArray[np.float32]:
+    """Return the values of edges; a new one has the smaller of the largest values at its ends."""
+    values = axis.level
+    assert values is not None
+    old = np.sort(axis.edges, axis=1).astype(np.int64)
+    new = edges.astype(np.int64)
+    count = len(axis.vertices)
+    key = old[:, 0] * count + old[:, 1]
+    order = np.argsort(key, kind="stable")
+    wanted = new[:, 0] * count + new[:, 1]
+    at = np.minimum(np.searchsorted(key, wanted, sorter=order), len(order) - 1)
+    row = order[at]
+    largest = np.zeros(count, np.float32)
+    np.maximum.at(largest, old.ravel(), np.repeat(values.limb, 2))
+    return np.where(key[row] == wanted, values.limb[row], largest[new].min(axis=1, initial=np.inf))

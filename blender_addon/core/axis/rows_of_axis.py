@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A level with fewer vertices, and other wires between those that stay."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .medial_axis import LevelValues, MedialAxis
+
+OF_VERTICES = ("exact", "exact_radius", "place", "crumb")  # fields of LevelValues
+
+
+def with_rows(
+    axis: MedialAxis, keep: NDArray[np.bool_], edges: NDArray[np.int32], limb: NDArray[np.float32]
+) -> MedialAxis:
+    """Return a level with some of its vertices.
+
+    Parameters
+    ----------
+    axis : MedialAxis
+        Its `level` is not None.
+    keep : (v,) bool
+        All vertices of facets and of the edges are kept.
+    edges : (w, 2) int32
+        The wires, as rows of the vertices of `axis`.
+    limb : (w,) float32
+    """
+    row = (np.cumsum(keep) - 1).astype(np.int32)
+    structure = axis.structure
+    if structure is not None:  # only vertices of wires go, so neither edges nor nodes of it
+        structure = replace(
+            structure,
+            kind=structure.kind[keep],
+            facet_edges=row[structure.facet_edges],
+            node_vertex=row[structure.node_vertex],
+        )
+    level: LevelValues | None = axis.level
+    assert level is not None
+    values = {name: getattr(level, name) for name in OF_VERTICES}
+    kept = {name: value[keep] for name, value in values.items() if value is not None}
+    return replace(
+        axis,
+        vertices=axis.vertices[keep],
+        radius=axis.radius[keep],
+        face_vertices=row[axis.face_vertices],
+        edges=row[edges],
+        structure=structure,
+        level=replace(level, limb=limb, **kept),
+    )
