@@ -1965,9 +1965,10 @@ def cover_by_balls(
     lattice in it. A refined choice bounds how far the surface is from the balls, INSIDE with nine tenths of them and
     AROUND with all, fills the rest by volume, and exchanges balls for those that hold more within that bound.
 
-    A choice that is not refined is greedy. INSIDE, each ball is the one that holds most of what those before it left, of equal ones the first:
-    the first n hold at least 1 - 1/e of the places that any n of the candidates hold. AROUND, it is one that comes near
-    to the place farthest from those before it. In the end, each ball AROUND grows until it holds what is nearest to it.
+    A choice that is not refined is greedy. INSIDE, each ball is the one that holds most of what those before it left,
+    of equal ones the first: the first n hold at least 1 - 1/e of the places that any n of the candidates hold. AROUND,
+    it is one that comes near to the place farthest from those before it. In the end, each ball AROUND grows until it
+    holds what is nearest to it.
 
     Parameters
     ----------
