@@ -124,9 +124,11 @@ def _newer_pybind11(modules: list[str]) -> str:
     found = []
     for folder in sorted((paths.BUILD / "python").glob("**/3.*")):
         digits = folder.name.replace(".", "")
-        marks = {"windows": f".cp{digits}-win", "macos": f".cpython-{digits}-darwin"}
-        mark = marks.get(folder.parent.name, f".cpython-{digits}-x86_64-linux")
-        if (folder / headers.STAMP).is_file() and any(mark in name for name in modules):
+        mark = f".cp{digits}-win" if folder.parent.name == "windows" else f".cpython-{digits}-"
+        for_macs = folder.parent.name == "macos"
+        own = [n for n in modules if mark in n and n.endswith("-darwin.so") == for_macs]
+        if (folder / headers.STAMP).is_file() and own:
             versions = [name for name in headers.origin(folder) if name.startswith("pybind11")]
-            found += [f"{name} ({mark.strip('.-')})" for name in versions]
+            label = mark.strip(".-") + " for Macs" * for_macs
+            found += [f"{name} ({label})" for name in versions]
     return ", ".join(found)

@@ -34,7 +34,8 @@ def build_for_macs() -> list[Path]:
     intel = {version: folders[version] for version in INTEL_MAC_PYTHONS if version in folders}
     built: dict[str, list[bytes]] = {}
     for preset, pythons in (("zig-macos-arm64", folders), ("zig-macos-x64", intel)):
-        build_preset(preset, headers.definition_of(pythons))
+        if pythons:
+            build_preset(preset, headers.definition_of(pythons))
         for version in pythons:
             name = f"_medial.cpython-{headers.digits(version)}-darwin.so"
             built.setdefault(name, []).append(_content(paths.BUILD / preset / name))

@@ -240,6 +240,47 @@ def test_licences_name_what_zig_compiles_in(tmp_path, monkeypatch):
     assert "LLVM" not in licences.text(["lib/_medial.cpython-311-x86_64-linux-gnu.so"])
 
 
+PROJECT = """
+cmake_minimum_required(VERSION 3.25)
+project(small LANGUAGES CXX)
+find_package(Threads REQUIRED)
+add_library(core STATIC core.cpp)
+add_library(module SHARED module.cpp)
+target_link_libraries(module PRIVATE core Threads::Threads)
+target_link_options(module PRIVATE -Wl,-undefined,dynamic_lookup)
+set_target_properties(module PROPERTIES PREFIX "" OUTPUT_NAME _medial.cpython-311-darwin SUFFIX .so)
+"""
+CORE = """
+#include <thread>
+#include <vector>
+int twice(int x) { std::vector<int> v; std::thread([&] { v.push_back(2 * x); }).join(); return v.at(0); }
+"""
+MODULE = """
+int twice(int);
+extern "C" void* PyList_New(long);
+extern "C" __attribute__((visibility("default"))) void* PyInit__medial() {
+  return twice(1) == 2 ? PyList_New(0) : nullptr;
+}
+"""
+
+
+def test_the_toolchain_of_zig_makes_what_the_checks_accept(tmp_path):
+    if not any((zig.folder() / "cache").glob("o/*/libc++.a")) or zig.origin() is None:
+        pytest.skip("zig has compiled nothing; 'build_addon.py build --macos' brings it and does")
+    if not (paths.BUILD / "python/macos/3.11/libpython3.11.dylib").is_file():
+        pytest.skip("no Python for Macs; 'build_addon.py build --macos' brings it")
+    for name, text in (("CMakeLists.txt", PROJECT), ("core.cpp", CORE), ("module.cpp", MODULE)):
+        (tmp_path / name).write_text(text)
+    commands = zig.folder() / zig.TARGETS["zig-macos-arm64"]
+    options = [f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/native/zig.cmake", "-DMEDIAL_SYSTEM_NAME=Darwin"]
+    options += ["-DMEDIAL_SYSTEM_PROCESSOR=arm64", f"-DMEDIAL_ZIG_COMMANDS={commands}"]
+    options += ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_VISIBILITY_PRESET=hidden", "-GNinja"]
+    subprocess.run(["cmake", *options, "-S", tmp_path, "-B", tmp_path / "b"], check=True)
+    subprocess.run(["cmake", "--build", tmp_path / "b"], check=True)
+    text = check_module.check(tmp_path / "b" / NAME)
+    assert "for arm64" in text[0] and "every name it takes is of Python or of macOS" in text[1]
+
+
 def test_compiled_modules_for_macs_pass():
     modules = sorted(paths.LIBRARY.glob("_medial.*-darwin.so"))
     if not modules:
