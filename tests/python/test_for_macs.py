@@ -243,16 +243,22 @@ def test_licences_name_what_zig_compiles_in(tmp_path, monkeypatch):
 PROJECT = """
 cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_EXTENSIONS OFF)
 find_package(Threads REQUIRED)
 add_library(core STATIC core.cpp)
 add_library(module SHARED module.cpp)
 target_link_libraries(module PRIVATE core Threads::Threads)
 target_link_options(module PRIVATE -Wl,-undefined,dynamic_lookup)
-set_target_properties(module PROPERTIES PREFIX "" OUTPUT_NAME _medial.cpython-311-darwin SUFFIX .so)
+set_target_properties(module PROPERTIES PREFIX "" OUTPUT_NAME _medial.cpython-311-darwin SUFFIX .so
+  INSTALL_NAME_DIR @rpath BUILD_WITH_INSTALL_NAME_DIR ON)
 """
 CORE = """
+#include <cfloat>
+#include <complex>
 #include <thread>
 #include <vector>
+static_assert(DBL_EPSILON < INFINITY);
 int twice(int x) { std::vector<int> v; std::thread([&] { v.push_back(2 * x); }).join(); return v.at(0); }
 """
 MODULE = """
@@ -279,6 +285,7 @@ def test_the_toolchain_of_zig_makes_what_the_checks_accept(tmp_path):
     subprocess.run(["cmake", "--build", tmp_path / "b"], check=True)
     text = check_module.check(tmp_path / "b" / NAME)
     assert "for arm64" in text[0] and "every name it takes is of Python or of macOS" in text[1]
+    assert str(tmp_path).encode() not in (tmp_path / "b" / NAME).read_bytes()
 
 
 def test_compiled_modules_for_macs_pass():
