@@ -36,7 +36,7 @@ def folders_of(pythons: dict[str, str], parent: Path, bring: Bring = None) -> di
 
 
 def definition_of(folders: dict[str, Path]) -> str:
-    """What CMake is told of the folders."""
+    """CMake's definition of the folders."""
     return f"-DMEDIAL_PYTHON_HEADERS={';'.join(map(str, folders.values()))}"
 
 

@@ -21,7 +21,7 @@ _DEBUG, _PRIVATE, _TYPE, _EXTERNAL = 0xE0, 0x10, 0x0E, 0x01  # bits of a symbol'
 
 @dataclass(frozen=True)
 class Image:
-    """What one processor's part of a library says about itself."""
+    """The part of a library for one processor, by what it says about itself."""
 
     processor: int
     libraries: list[str]

@@ -77,7 +77,7 @@ RACE = {**BUILD, "SciPy, for the judge": "python3-scipy"}
 
 
 def of_systems(systems: Iterable[str]) -> dict[str, str]:
-    """What modules for other systems need."""
+    """The packages for building modules for other systems, by need."""
     return {name: package for system in systems for name, package in OF_SYSTEM[system].items()}
 
 
