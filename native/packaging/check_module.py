@@ -6,9 +6,11 @@
 
 A module must not need libraries that Blender brings too, must export its entry point alone, must call
 no function of the C library whose last bits differ from machine to machine, and must run on systems
-as old as RHEL 9 and Ubuntu 22.04. --local allows newer ones: it is for this machine.
+as old as RHEL 9 and Ubuntu 22.04. --local allows newer ones: it is for this machine. None may name the
+folder in which it was built.
 One for Windows must need nothing but Python and what every Windows has. One for Macs must need nothing
-but what every macOS since 11.0 has, take no name that neither Python nor macOS has, and be signed.
+but what every macOS since 11.0 has, take no name that neither Python nor macOS has, be signed, and lie in
+pages of the size that its processor has.
 """
 
 import re
@@ -32,6 +34,7 @@ OF_CGAL = {"sincos", "log"}
 OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}
 OF_MACS = ["/usr/lib/libSystem.B.dylib"]
 OLDEST_MACOS = (11, 0)
+PAGE_OF_MACS = {macho.X64: 4096, macho.ARM64: 16384}
 # zig's linker cannot hide the operators new and delete of its C++ library, all of which end in malloc and free;
 # it adds two marks.
 OF_ZIG = re.compile(r"__Z(nw|na|dl|da)\w+|__mh_dylib_header|___dso_handle")
@@ -42,21 +45,22 @@ NEWEST = {"GLIBC": "2.34", "GLIBCXX": "3.4.29", "CXXABI": "1.3.13"}
 
 def check(module, local=False):
     """Lines to print about a module; raises SystemExit with one sentence."""
+    names_no_folder(module)
     if module.name.endswith("-darwin.so"):
         return check_mac(module)
     return check_windows(module) if module.suffix == ".pyd" else check_linux(module, local)
+
+
+def names_no_folder(module):
+    if str(paths.ROOT).encode() in module.read_bytes():
+        refuse(module, f"must not name {paths.ROOT}, where it was built; strip it")
 
 
 def check_mac(module):
     """Each processor's image by itself."""
     found = [macho.read(data) for data in macho.processors(module.read_bytes()).values()]
     for image in found:
-        if image.libraries != OF_MACS:
-            refuse(module, f"must need {OF_MACS[0]} alone, found {image.libraries}")
-        if image.oldest_system is None or image.oldest_system > OLDEST_MACOS:
-            refuse(module, f"must run on macOS 11.0, found {image.oldest_system} to be needed")
-        if image.processor == macho.ARM64 and not image.signed:
-            refuse(module, "must have a signature that agrees with its pages, found none")
+        check_image(module, image)
         only_entry(module, [name[1:] for name in image.exported if not OF_ZIG.fullmatch(name)])
         calls_nothing_inexact(module, image.undefined)
         missing = image.undefined - python_for_macs(module) - names_of_macos(image.processor)
@@ -67,6 +71,19 @@ def check_mac(module):
         f"{module.name}: {module.stat().st_size / 1e6:.1f} MB for {names}, needs {OF_MACS[0]}",
         f"  exports {ENTRY} and operators of C++; every name it takes is of Python or of macOS",
     ]
+
+
+def check_image(module, image):
+    """Whether macOS would load it."""
+    if image.libraries != OF_MACS:
+        refuse(module, f"must need {OF_MACS[0]} alone, found {image.libraries}")
+    if image.oldest_system is None or image.oldest_system > OLDEST_MACOS:
+        refuse(module, f"must run on macOS 11.0, found {image.oldest_system} to be needed")
+    if image.processor == macho.ARM64 and not image.signed:
+        refuse(module, "must have a signature that agrees with its pages, found none")
+    page = PAGE_OF_MACS[image.processor]
+    if image.page < page:
+        refuse(module, f"must have pages of {page} bytes, found {image.page}")
 
 
 def python_for_macs(module):

@@ -14,7 +14,7 @@ X64, ARM64 = 0x01000007, 0x0100000C  # processors
 NAMES = {X64: "x64", ARM64: "arm64"}
 _UNIVERSAL, _IMAGE = 0xCAFEBABE, 0xFEEDFACF
 _LIBRARY_COMMANDS = {0xC, 0x80000018, 0x8000001F}  # load, load if there, export again
-_SYMBOLS, _SIGNATURE, _VERSION, _OLD_VERSION = 0x2, 0x1D, 0x32, 0x24
+_SYMBOLS, _SEGMENT, _SIGNATURE, _VERSION, _OLD_VERSION = 0x2, 0x19, 0x1D, 0x32, 0x24
 _PAGE = 14  # images begin at multiples of 2**14 bytes: memory pages of Apple's processors
 _DEBUG, _PRIVATE, _TYPE, _EXTERNAL = 0xE0, 0x10, 0x0E, 0x01  # bits of a symbol's kind
 
@@ -31,6 +31,7 @@ class Image:
     ]  # names taken from others; each begins with an underscore that C does not show
     exported: set[str]
     signed: bool  # a signature is there, and the hash of each page agrees with it
+    page: int  # bytes: the largest power of two of which all places of segments are multiples; 0 without segments
 
 
 def processors(data: bytes) -> dict[int, bytes]:
@@ -60,7 +61,7 @@ def read(data: bytes) -> Image:
     if magic != _IMAGE:
         raise ValueError("no image of 64 bits")
     libraries, version, symbols, signed = [], None, (set(), set()), False
-    place = 32
+    place, bits = 32, 0
     for _ in range(count):
         command, size = struct.unpack_from("<II", data, place)
         if command in _LIBRARY_COMMANDS:
@@ -70,10 +71,13 @@ def read(data: bytes) -> Image:
             version = (packed >> 16, packed >> 8 & 0xFF)
         elif command == _SYMBOLS:
             symbols = _symbols(data, *struct.unpack_from("<4I", data, place + 8))
+        elif command == _SEGMENT:
+            in_memory, _, in_file = struct.unpack_from("<3Q", data, place + 24)
+            bits |= in_memory | in_file
         elif command == _SIGNATURE:
             signed = _agrees(data, struct.unpack_from("<I", data, place + 8)[0])
         place += size
-    return Image(processor, libraries, version, *symbols, signed)
+    return Image(processor, libraries, version, *symbols, signed, bits & -bits)
 
 
 def _text(data: bytes, place: int) -> str:

@@ -32,7 +32,7 @@ BUILD = {
 }
 WINDOWS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
 ZIG = {"pip, which brings zig": "python3-pip"}
-MACOS = {**ZIG, "Maven, which brings Python's headers": "maven"}
+MACOS = {**ZIG, "Maven, which brings Python's headers": "maven", "strip for Macs": "llvm"}
 OF_SYSTEM = {"windows": WINDOWS, "macos": MACOS}
 DEMO = {
     **BUILD,

@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 
 from . import headers, library, macho, paths, zig
 from .headers_for_macs import fetch_for_macs
 from .headers_for_windows import fetch_for_windows
-from .terminal import Failure, build_preset
+from .terminal import Failure, build_preset, run
 
 # The Pythons of the Blenders on these systems, and the suite of Debian that the headers come from.
 WINDOWS_PYTHONS = {"3.11": "bookworm", "3.13": "trixie"}
@@ -38,17 +39,22 @@ def build_for_macs() -> list[Path]:
             build_preset(preset, headers.definition_of(pythons))
         for version in pythons:
             name = f"_medial.cpython-{headers.digits(version)}-darwin.so"
-            built.setdefault(name, []).append(_content(paths.BUILD / preset / name))
+            built.setdefault(name, []).append(stripped(paths.BUILD / preset / name))
     return [
         library.write(name, images[0] if len(images) == 1 else macho.join(images))
         for name, images in built.items()
     ]
 
 
-def _content(module: Path) -> bytes:
+def stripped(module: Path) -> bytes:
+    """A module for Macs without the names and folders of which debuggers alone ask, signed anew: zig's linker does not
+    end when it is asked to leave them out."""
     if not module.is_file():
         raise Failure(f"Expected {paths.shown(module)}, found none; run clean first")
-    return module.read_bytes()
+    with tempfile.TemporaryDirectory() as private:
+        target = Path(private, module.name)
+        run("llvm-strip", "-x", "-o", target, module)
+        return target.read_bytes()
 
 
 BUILDERS = {"windows": build_for_windows, "macos": build_for_macs}

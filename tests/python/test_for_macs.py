@@ -35,12 +35,16 @@ def image(
     undefined=("_malloc",),
     exported=("_PyInit__medial",),
     signed=True,
+    places=(0, 16384),
 ):
-    """A library for one processor, without code: its commands, its names, and a signature of pages of 4096 bytes."""
+    """A library for one processor, without code: its commands, its names, a signature of pages of 4096 bytes, and
+    segments at these places in memory.
+    """
     symbols = [(name, 0x01) for name in undefined] + [(name, 0x0F) for name in exported]
     symbols += [("_hidden", 0x1F), ("_local", 0x0E), ("_debug", 0x64)]
     commands = [library_command(name) for name in libraries]
     commands.append(struct.pack("<6I", 0x32, 24, 1, system[0] << 16 | system[1] << 8, 0, 0))
+    commands += [struct.pack("<II16s4Q4I", 0x19, 72, b"__A", at, 1, at, 1, *4 * [0]) for at in places]
     size = sum(map(len, commands)) + 24 + 16 * signed
     table, names = b"", b"\0"
     for name, kind in symbols:
@@ -75,7 +79,9 @@ def signature(whole):
 def test_what_an_image_says_is_read():
     many = [f"_name_{i}" for i in range(300)]  # several pages
     found = macho.read(image(undefined=many, exported=("_a", "_b"), system=(12, 3)))
-    assert found == macho.Image(macho.ARM64, [SYSTEM], (12, 3), set(many), {"_a", "_b"}, True)
+    names = (set(many), {"_a", "_b"})
+    assert found == macho.Image(macho.ARM64, [SYSTEM], (12, 3), *names, True, 16384)
+    assert macho.read(image(places=(4096, 16384))).page == 4096
     with pytest.raises(ValueError, match="no image of 64 bits"):
         macho.read(b"\x7fELF" + bytes(60))
 
@@ -125,6 +131,9 @@ def built(tmp_path, monkeypatch):
         ({"libraries": (SYSTEM, "/usr/lib/libc++.1.dylib")}, "must need /usr/lib/libSystem.B"),
         ({"libraries": ()}, "must need /usr/lib/libSystem.B.dylib alone, found .."),
         ({"system": (12, 0)}, r"must run on macOS 11.0, found \(12, 0\)"),
+        ({"processor": macho.X64, "places": (0, 4096)}, None),
+        ({"places": (0, 20480)}, "must have pages of 16384 bytes, found 4096"),
+        ({"places": ()}, "must have pages of 16384 bytes, found 0"),
         ({"signed": False}, "must have a signature"),
         ({"exported": ()}, "must export PyInit__medial only, found 0"),
         ({"exported": ("_PyInit__medial", "_other")}, "must export PyInit__medial only, found 2"),
@@ -144,6 +153,14 @@ def test_module_for_macs_needs_python_and_macos_alone(built, fault, told):
     else:
         with pytest.raises(SystemExit, match=told):
             check_module.check(module)
+
+
+def test_module_that_names_a_folder_of_its_build_is_refused(built, monkeypatch):
+    monkeypatch.setattr(paths, "ROOT", Path("/home/somebody/checkout"))
+    module = built / NAME
+    module.write_bytes(image(undefined=("_malloc",)) + b"/home/somebody/checkout/a.cpp")
+    with pytest.raises(SystemExit, match="must not name /home/somebody/checkout, where it was bui"):
+        check_module.check(module)
 
 
 def test_headers_and_library_of_python_are_unpacked(tmp_path):
@@ -213,9 +230,14 @@ def test_one_file_has_the_module_for_both_processors(built, monkeypatch):
         assert definition.count("macos/3.") == len(made[preset])
         (built / preset).mkdir(exist_ok=True)
         for digits in made[preset]:
-            (built / preset / NAME.replace("311", digits)).write_bytes(kinds[preset])
+            (built / preset / NAME.replace("311", digits)).write_bytes(kinds[preset] + b"debug")
+
+    def strip(command, option, _, target, module):
+        assert (command, option) == ("llvm-strip", "-x")
+        target.write_bytes(module.read_bytes().removesuffix(b"debug"))
 
     monkeypatch.setattr(other_systems, "build_preset", compile_preset)
+    monkeypatch.setattr(other_systems, "run", strip)
     both, arm = other_systems.build_for_macs()
     assert both == paths.LIBRARY / NAME and arm.name == "_medial.cpython-313-darwin.so"
     assert list(macho.processors(both.read_bytes())) == [macho.ARM64, macho.X64]
@@ -283,9 +305,13 @@ def test_the_toolchain_of_zig_makes_what_the_checks_accept(tmp_path):
     options += ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_VISIBILITY_PRESET=hidden", "-GNinja"]
     subprocess.run(["cmake", *options, "-S", tmp_path, "-B", tmp_path / "b"], check=True)
     subprocess.run(["cmake", "--build", tmp_path / "b"], check=True)
-    text = check_module.check(tmp_path / "b" / NAME)
+    made = tmp_path / "b" / NAME
+    assert bytes(tmp_path) in made.read_bytes(), "nothing to strip"
+    made.write_bytes(other_systems.stripped(made))
+    assert bytes(tmp_path) not in made.read_bytes()
+    text = check_module.check(made)
     assert "for arm64" in text[0] and "every name it takes is of Python or of macOS" in text[1]
-    assert f"@rpath/{NAME}".encode() in (tmp_path / "b" / NAME).read_bytes()
+    assert f"@rpath/{NAME}".encode() in made.read_bytes()
 
 
 def test_compiled_modules_for_macs_pass():
