@@ -44,7 +44,9 @@ def image(
     symbols += [("_hidden", 0x1F), ("_local", 0x0E), ("_debug", 0x64)]
     commands = [library_command(name) for name in libraries]
     commands.append(struct.pack("<6I", 0x32, 24, 1, system[0] << 16 | system[1] << 8, 0, 0))
-    commands += [struct.pack("<II16s4Q4I", 0x19, 72, b"__A", at, 1, at, 1, *4 * [0]) for at in places]
+    commands += [
+        struct.pack("<II16s4Q4I", 0x19, 72, b"__A", at, 1, at, 1, *4 * [0]) for at in places
+    ]
     size = sum(map(len, commands)) + 24 + 16 * signed
     table, names = b"", b"\0"
     for name, kind in symbols:
