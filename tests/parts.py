@@ -167,6 +167,7 @@ def native(blender: Path) -> None:
 def python(blender: Path) -> str:
     """Everything without Blender but the long tests, with one case in four of the oracles."""
     run_pytest(blender, "--share", share(), "tests/python")
+    run_pytest(blender, "lab/tests/test_mutations.py")  # its texts follow the sources
     return f"cases {share()} of the oracles"
 
 

@@ -159,8 +159,8 @@ MUTATIONS = (
     ),
     Mutation(
         "axis/poles.cpp",
-        "  rays.erase(std::unique(rays.begin(), rays.end()), rays.end());\n",
-        "",
+        "  sort_unique(rays);\n",
+        "  std::sort(rays.begin(), rays.end());\n",
         "an infinite edge counts as often as triangles share it",
     ),
     Mutation(
