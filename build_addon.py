@@ -28,7 +28,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # also when a test imports this file
 
-from native.packaging import modules, needs, pack, paths
+from native.packaging import modules, needs, other_systems, pack, paths
 from native.packaging import repository as repo
 from native.packaging.blender import blender_python, find_blender
 from native.packaging.terminal import Failure, run, say, use_system_python
@@ -39,9 +39,10 @@ from tests.demo import show
 
 
 def build(arguments: argparse.Namespace) -> None:
-    needs.require({**needs.BUILD, **(needs.WINDOWS if arguments.windows else {})})
+    systems = [name for name in other_systems.BUILDERS if getattr(arguments, name)]
+    needs.require(dict(needs.BUILD, **needs.of_systems(systems)))
     blender = find_blender(arguments.blender)
-    modules.build_modules(blender, arguments.local, arguments.windows)
+    modules.build_modules(blender, arguments.local, systems)
     archive = paths.shown(pack.pack(blender, arguments.local))
     print(f"\nInstall in Blender: Edit > Preferences > Add-ons > Install..., choose {archive}")
 
@@ -122,7 +123,8 @@ Debian's packages, for {", ".join(modules.PYTHONS)}; what cannot be had is left 
 blender_addon/lib/, checks that they need no library that Blender brings too and no newer system than others have, and
 packs dist/medial_axis-VERSION.zip, which installs on Blender 3.4 and on 4.2 and newer, and for the extensions platform
 one like it per system, such as dist/medial_axis-VERSION-linux-x64.zip. With --windows the modules for Windows x64 and
-Python {" and ".join(modules.WINDOWS_PYTHONS)} are compiled, too, by mingw-w64. A build of a commit that is not the tag
+Python {" and ".join(other_systems.WINDOWS_PYTHONS)} are compiled, too, by mingw-w64; with --macos those for Macs, by
+zig, which comes from Python's package index into build/zig. A build of a commit that is not the tag
 of a release carries the commit in its version: 0.2.0+g1a2b3c4d."""
 
 PACK_HELP = """Makes the zips of `build` from the modules that lie in blender_addon/lib, which may come from other
@@ -203,6 +205,9 @@ def add_build_options(command: argparse.ArgumentParser) -> None:
     flag = {"action": "store_true"}
     command.add_argument("--local", **flag, help="for this machine's Blender; needs no network")
     command.add_argument("--windows", **flag, help="modules for Windows, too, by mingw-w64")
+    command.add_argument(
+        "--macos", **flag, help="modules for Macs, too, by zig; never ran to its end"
+    )
 
 
 def add_demo_options(command: argparse.ArgumentParser) -> None:

@@ -14,7 +14,7 @@ import shutil
 import subprocess
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Callable, Optional
 
@@ -155,9 +155,9 @@ def run_part(name: str, part: Part, blender: Path) -> tuple[str, float]:
 # --- the parts
 
 
-def build(blender: Path, **options: bool) -> None:
-    build_modules(blender, tests=True, **options)
-    pack.pack(blender, local=options.get("local", False))
+def build(blender: Path, local: bool = False, systems: Iterable[str] = ()) -> None:
+    build_modules(blender, local, systems, tests=True)
+    pack.pack(blender, local)
 
 
 def native(blender: Path) -> None:
@@ -340,5 +340,5 @@ TIERS: dict[str, dict[str, Part]] = {
         "native": native,
         "python": quick_python,
     },
-    "matrix": {"build": functools.partial(build, windows=True), "matrix": matrix},
+    "matrix": {"build": functools.partial(build, systems=["windows"]), "matrix": matrix},
 }

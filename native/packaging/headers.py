@@ -11,17 +11,47 @@ from __future__ import annotations
 import shutil
 import tempfile
 from pathlib import Path
+from typing import Callable, List, Optional
 
 from .debian import download, extract, labels
-from .headers_for_windows import fetch_for_windows
+from .terminal import Failure
 
+# Fills a folder with the headers of a version of Python, from a suite; returns what they came from.
+Bring = Optional[Callable[[str, str, Path], List[str]]]
 STAMP = "packages.txt"  # written last: what was unpacked, by version
 
 
-def fill(folder: Path, version: str, suite: str, windows: bool = False) -> list[str]:
-    """Fill the folder, unless it is full; returns what it came from, such as ['pybind11-dev 3.1.0-1']."""
+def folders_of(pythons: dict[str, str], parent: Path, bring: Bring = None) -> dict[str, Path]:
+    """Full folders below `parent`, by version of Python; those not to be had are named. `pythons` has their suites."""
+    folders = {}
+    for version, suite in pythons.items():
+        try:
+            names = fill(parent / version, version, suite, bring)
+        except Failure as reason:
+            print(f"No module for Python {version}: {reason}")
+        else:
+            print(f"Python {version}: {', '.join(names)}")
+            folders[version] = parent / version
+    return folders
+
+
+def definition_of(folders: dict[str, Path]) -> str:
+    """CMake's definition of the folders."""
+    return f"-DMEDIAL_PYTHON_HEADERS={';'.join(map(str, folders.values()))}"
+
+
+def digits(version: str) -> str:
+    """The version as names of modules have it: 311 for 3.11."""
+    return version.replace(".", "")
+
+
+def fill(folder: Path, version: str, suite: str, bring: Bring = None) -> list[str]:
+    """Fill the folder, unless it is full; returns what it came from, such as ['pybind11-dev 3.1.0-1'].
+
+    `bring` fills it for another system than this.
+    """
     if not (folder / STAMP).exists():
-        bring = fetch_for_windows if windows else fetch
+        bring = bring or fetch
         fresh = folder.with_name(f"{folder.name}.new")
         shutil.rmtree(fresh, ignore_errors=True)
         names = bring(version, suite, fresh)

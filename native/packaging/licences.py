@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import headers, paths
+from . import headers, paths, zig
 from .terminal import Failure, output_of
 
 DOCUMENTS = Path("/usr/share/doc")
@@ -50,6 +50,11 @@ _INTRODUCTION = """\
 The compiled modules of this add-on, lib/_medial.*, contain code of others, as follows. The add-on itself is under the
 GNU General Public License, version 3 or later: see LICENSE, whose text also holds for the parts below that name it.
 """
+_BY_ZIG = """LLVM's libc++, libc++abi and compiler-rt: Apache-2.0 WITH LLVM-exception
+They are compiled into modules for systems other than Linux and Windows on x86-64. These come from: {origin}.
+
+{terms}"""
+_OF_ZIG = ("-darwin.so", "-aarch64-linux-gnu.so")
 _RULE = "=" * 100
 
 
@@ -57,7 +62,7 @@ def text(modules: list[str]) -> str:
     """The whole file for a zip with the modules of these names."""
     windows = any(name.endswith(".pyd") for name in modules)
     components = [*EVERYWHERE, *(WINDOWS if windows else ())]
-    parts = [_INTRODUCTION, *map(_part, components), _lesser_licence()]
+    parts = [_INTRODUCTION, *map(_part, components), *_parts_of_zig(modules), _lesser_licence()]
     if others := _newer_pybind11(modules):
         parts.insert(1, f"In modules for other Pythons pybind11 is another version: {others}.\n")
     return f"\n{_RULE}\n\n".join(parts)
@@ -67,6 +72,15 @@ def _part(component: Component) -> str:
     package, version = _package(component)
     terms = _terms(component, package)
     return f"{component.name}: {component.licence}\nDebian package {package} {version}\n\n{terms}"
+
+
+def _parts_of_zig(modules: list[str]) -> list[str]:
+    """The C++ library in modules that zig compiled, and its terms; those from other machines have none of it."""
+    origin = zig.origin()
+    if origin is None or not any(name.endswith(_OF_ZIG) for name in modules):
+        return []
+    terms = zig.program().parent / "lib/libcxx/LICENSE.TXT"
+    return [_BY_ZIG.format(origin=", ".join(origin), terms=terms.read_text(encoding="utf-8"))]
 
 
 def _package(component: Component) -> tuple[str, str]:
@@ -111,7 +125,10 @@ def _newer_pybind11(modules: list[str]) -> str:
     for folder in sorted((paths.BUILD / "python").glob("**/3.*")):
         digits = folder.name.replace(".", "")
         mark = f".cp{digits}-win" if folder.parent.name == "windows" else f".cpython-{digits}-"
-        if (folder / headers.STAMP).is_file() and any(mark in name for name in modules):
+        for_macs = folder.parent.name == "macos"
+        own = [n for n in modules if mark in n and n.endswith("-darwin.so") == for_macs]
+        if (folder / headers.STAMP).is_file() and own:
             versions = [name for name in headers.origin(folder) if name.startswith("pybind11")]
-            found += [f"{name} ({mark.strip('.-')})" for name in versions]
+            label = mark.strip(".-") + " for Macs" * for_macs
+            found += [f"{name} ({label})" for name in versions]
     return ", ".join(found)

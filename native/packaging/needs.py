@@ -7,7 +7,7 @@ import contextlib
 import os
 import shutil
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import IO
 
@@ -31,6 +31,9 @@ BUILD = {
     "Blender": "blender",
 }
 WINDOWS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
+ZIG = {"pip, which brings zig": "python3-pip"}
+MACOS = {**ZIG, "Maven, which brings Python's headers": "maven", "strip for Macs": "llvm"}
+OF_SYSTEM = {"windows": WINDOWS, "macos": MACOS}
 DEMO = {
     **BUILD,
     "software OpenGL": "libgl1-mesa-dri",
@@ -71,6 +74,11 @@ BENCH = {
     "software OpenGL": "libgl1-mesa-dri",
 }
 RACE = {**BUILD, "SciPy, for the judge": "python3-scipy"}
+
+
+def of_systems(systems: Iterable[str]) -> dict[str, str]:
+    """The packages for building modules for other systems, by need."""
+    return {name: package for system in systems for name, package in OF_SYSTEM[system].items()}
 
 
 def require(needs: dict[str, str]) -> None:

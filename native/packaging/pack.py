@@ -9,7 +9,7 @@ import zipfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import licences, node_groups, paths
+from . import licences, macho, node_groups, paths
 from .terminal import python_that, run, say
 
 MODULES = "lib/_medial."  # how the names of compiled modules begin
@@ -118,16 +118,27 @@ def inside_folder(files: dict[str, bytes]) -> dict[str, bytes]:
 
 def for_platform(files: dict[str, bytes], platform: str) -> dict[str, bytes]:
     """The files for one system, if there is a module for it; the manifest says for which, before its first table."""
-    own = {
-        name: content
+    parts = {
+        name: _module_for(platform, name, content) if name.startswith(MODULES) else content
         for name, content in files.items()
-        if not name.startswith(MODULES) or name.endswith(PLATFORMS[platform])
     }
+    own = {name: content for name, content in parts.items() if content is not None}
     if not any(name.startswith(MODULES) for name in own):
         return {}
     line = f'platforms = ["{platform}"]\n\n['.encode()
     manifest = files["blender_manifest.toml"].replace(b"\n[", b"\n" + line, 1)
     return {**own, "blender_manifest.toml": manifest}
+
+
+def _module_for(platform: str, name: str, module: bytes) -> bytes | None:
+    """A module as the zip of a system has it, None in those of others; of one for Macs, the processor's image."""
+    if not name.endswith(PLATFORMS[platform]):
+        return None
+    system, _, processor = platform.partition("-")
+    if system != "macos":
+        return module
+    images = {macho.NAMES[key]: image for key, image in macho.processors(module).items()}
+    return images.get(processor)
 
 
 def write_zip(target: Path, files: dict[str, bytes]) -> None:

@@ -4,6 +4,7 @@
 import ast
 import os
 import re
+import struct
 import subprocess
 import sys
 import tarfile
@@ -17,6 +18,7 @@ from native.packaging import (
     check_module,
     headers_for_windows,
     licences,
+    macho,
     modules,
     needs,
     pack,
@@ -171,14 +173,31 @@ SYSTEMS = {
 }
 
 
+def image_of(processor):
+    return struct.pack("<8I", 0xFEEDFACF, processor, 0, 6, 0, 0, 0, 0)
+
+
+ARM, INTEL = image_of(macho.ARM64), image_of(macho.X64)
+MANIFEST = {"blender_manifest.toml": b'version = "1"\n\n[permissions]\n'}
+
+
 def test_each_system_gets_its_own_modules_from_one_folder():
     every = {f"lib/{name}": b"" for names in SYSTEMS.values() for name in names}
-    files = {**every, "blender_manifest.toml": b'version = "1"\n\n[permissions]\n'}
+    every["lib/_medial.cpython-311-darwin.so"] = macho.join([ARM, INTEL])
     assert set(SYSTEMS) == set(pack.PLATFORMS)
     for platform, names in SYSTEMS.items():
-        own = pack.for_platform(files, platform)
+        own = pack.for_platform({**every, **MANIFEST}, platform)
         assert [name for name in own if name.startswith("lib/")] == [f"lib/{n}" for n in names]
         assert f'platforms = ["{platform}"]'.encode() in own["blender_manifest.toml"]
+
+
+def test_each_processor_of_macs_gets_its_own_image_and_no_promise_without_one():
+    both, arm = (f"lib/_medial.cpython-{digits}-darwin.so" for digits in ("311", "313"))
+    files = {both: macho.join([ARM, INTEL]), arm: ARM, **MANIFEST}
+    of_arm, of_intel = (pack.for_platform(files, f"macos-{name}") for name in ("arm64", "x64"))
+    assert (of_arm[both], of_arm[arm]) == (ARM, ARM)
+    assert of_intel[both] == INTEL and arm not in of_intel
+    assert pack.for_platform({arm: ARM, **MANIFEST}, "macos-x64") == {}
 
 
 def test_missing_blender_exits_2(monkeypatch):
@@ -513,13 +532,15 @@ def test_licences_name_what_is_compiled_in_with_versions_and_terms():
 
 def test_licences_name_the_pybind11_of_other_pythons(tmp_path, monkeypatch):
     monkeypatch.setattr(paths, "BUILD", tmp_path)
-    for name in ("3.14", "windows/3.13"):
+    for name in ("3.14", "windows/3.13", "macos/3.11"):
         folder = tmp_path / "python" / name
         folder.mkdir(parents=True)
         (folder / "packages.txt").write_text("libpython-dev 1\npybind11-dev 9.9\n")
     newer = "another version: pybind11-dev 9.9 (cpython-314)"
     assert newer in licences.text([LINUX, LINUX.replace("311", "314")])
     assert "9.9" not in licences.text([LINUX])
+    mac = "lib/_medial.cpython-311-darwin.so"
+    assert "version: pybind11-dev 9.9 (cpython-311 for Macs)." in licences.text([LINUX, mac])
 
 
 def test_licence_that_is_not_at_hand_is_a_failure(tmp_path, monkeypatch):

@@ -90,7 +90,11 @@ bool AddressSpace::populate([[maybe_unused]] size_t from, [[maybe_unused]] size_
 }
 
 bool AddressSpace::release(size_t from, size_t bytes) const {
+#ifdef __APPLE__  // where MADV_DONTNEED keeps the pages
+  return madvise(begin_ + from, bytes, MADV_FREE) == 0;
+#else
   return madvise(begin_ + from, bytes, MADV_DONTNEED) == 0;
+#endif
 }
 
 #endif

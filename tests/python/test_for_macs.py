@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Modules for Macs: what is read of them, what is refused, how they are made. No test needs zig or a Mac."""
+
+import hashlib
+import struct
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from native.packaging import (  # noqa: E402 - found through the line above
+    check_module,
+    headers_for_macs,
+    licences,
+    macho,
+    other_systems,
+    paths,
+    zig,
+)
+from native.packaging.terminal import Failure  # noqa: E402
+
+SYSTEM = "/usr/lib/libSystem.B.dylib"
+NAME = "_medial.cpython-311-darwin.so"
+
+
+def image(
+    processor=macho.ARM64,
+    libraries=(SYSTEM,),
+    system=(11, 0),
+    undefined=("_malloc",),
+    exported=("_PyInit__medial",),
+    signed=True,
+    places=(0, 16384),
+):
+    """A library for one processor, without code: its commands, its names, a signature of pages of 4096 bytes, and
+    segments at these places in memory.
+    """
+    symbols = [(name, 0x01) for name in undefined] + [(name, 0x0F) for name in exported]
+    symbols += [("_hidden", 0x1F), ("_local", 0x0E), ("_debug", 0x64)]
+    commands = [library_command(name) for name in libraries]
+    commands.append(struct.pack("<6I", 0x32, 24, 1, system[0] << 16 | system[1] << 8, 0, 0))
+    commands += [
+        struct.pack("<II16s4Q4I", 0x19, 72, b"__A", at, 1, at, 1, *4 * [0]) for at in places
+    ]
+    size = sum(map(len, commands)) + 24 + 16 * signed
+    table, names = b"", b"\0"
+    for name, kind in symbols:
+        table += struct.pack("<IBBHQ", len(names), kind, 0, 0, 0)
+        names += name.encode() + b"\0"
+    start = 32 + size
+    place = (start, len(symbols), start + len(table), len(names))
+    commands.append(struct.pack("<6I", 2, 24, *place))
+    end = start + len(table) + len(names)
+    commands += [struct.pack("<4I", 0x1D, 16, end, 0)] * signed
+    head = struct.pack("<8I", 0xFEEDFACF, processor, 0, 6, len(commands), size, 0, 0)
+    whole = head + b"".join(commands) + table + names
+    return whole + signature(whole) * signed
+
+
+def library_command(name):
+    text = name.encode() + b"\0"
+    text += bytes(-len(text) % 8)
+    return struct.pack("<6I", 0xC, 24 + len(text), 24, 0, 0, 0) + text
+
+
+def signature(whole):
+    pages = [whole[at : at + 4096] for at in range(0, len(whole), 4096)]
+    hashes = b"".join(hashlib.sha256(page).digest() for page in pages)
+    directory = struct.pack(
+        ">9I", 0xFADE0C02, 44 + len(hashes), 0, 0, 44, 0, 0, len(pages), len(whole)
+    )
+    directory += struct.pack("4BI", 32, 2, 0, 12, 0) + hashes
+    return struct.pack(">5I", 0xFADE0CC0, 20 + len(directory), 1, 0, 20) + directory
+
+
+def test_what_an_image_says_is_read():
+    many = [f"_name_{i}" for i in range(300)]  # several pages
+    found = macho.read(image(undefined=many, exported=("_a", "_b"), system=(12, 3)))
+    names = (set(many), {"_a", "_b"})
+    assert found == macho.Image(macho.ARM64, [SYSTEM], (12, 3), *names, True, 16384)
+    assert macho.read(image(places=(4096, 16384))).page == 4096
+    with pytest.raises(ValueError, match="no image of 64 bits"):
+        macho.read(b"\x7fELF" + bytes(60))
+
+
+@pytest.mark.parametrize("where", ["head", "names", "hash"])
+def test_a_signature_that_disagrees_is_none(where):
+    data = bytearray(image(undefined=[f"_name_{i}" for i in range(300)]))
+    assert macho.read(bytes(data)).signed
+    end = data.index(struct.pack(">I", 0xFADE0CC0))
+    data[{"head": 28, "names": end - 10, "hash": len(data) - 1}[where]] ^= 1
+    assert not macho.read(bytes(data)).signed
+
+
+def test_images_for_two_processors_are_joined():
+    arm, intel = image(), image(macho.X64, signed=False)
+    both = macho.join([arm, intel])
+    assert macho.processors(both) == {macho.ARM64: arm, macho.X64: intel}
+    assert macho.processors(arm) == {macho.ARM64: arm}
+    places = [struct.unpack_from(">I", both, 16 + 20 * row)[0] for row in range(2)]
+    assert places == [16384, 32768], "images begin at pages of memory"
+
+
+@pytest.fixture
+def built(tmp_path, monkeypatch):
+    """A folder build with the libraries that the checks compare with: Python's, and zig's list of macOS."""
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    monkeypatch.setattr(paths, "LIBRARY", tmp_path / "lib")
+    python = tmp_path / "python/macos/3.11/libpython3.11.dylib"
+    python.parent.mkdir(parents=True)
+    python.write_bytes(image(exported=("_PyList_New",), signed=False))
+    listed = zig.program().parent / "lib/libc/darwin/libSystem.tbd"
+    listed.parent.mkdir(parents=True)
+    listed.write_text(
+        "exports:\n  - targets: [ x86_64-macos ]\n    symbols: [ _old$INODE64 ]\n"
+        "  - targets: [ x86_64-macos, arm64e-macos ]\n    symbols: [ _malloc, _sin, ___sincos_stret ]\n"
+    )
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    "fault, told",
+    [
+        ({}, None),
+        ({"exported": ("_PyInit__medial", "__Znwm", "__ZdaPvm", "___dso_handle")}, None),
+        ({"undefined": ("_PyList_New", "___sincos_stret")}, None),
+        ({"processor": macho.X64, "signed": False, "undefined": ("_old$INODE64",)}, None),
+        ({"libraries": (SYSTEM, "/usr/lib/libc++.1.dylib")}, "must need /usr/lib/libSystem.B"),
+        ({"libraries": ()}, "must need /usr/lib/libSystem.B.dylib alone, found .."),
+        ({"system": (12, 0)}, r"must run on macOS 11.0, found \(12, 0\)"),
+        ({"processor": macho.X64, "places": (0, 4096)}, None),
+        ({"places": (0, 20480)}, "must have pages of 16384 bytes, found 4096"),
+        ({"places": ()}, "must have pages of 16384 bytes, found 0"),
+        ({"signed": False}, "must have a signature"),
+        ({"exported": ()}, "must export PyInit__medial only, found 0"),
+        ({"exported": ("_PyInit__medial", "_other")}, "must export PyInit__medial only, found 2"),
+        ({"undefined": ("_sin",)}, "must not call sin of the C library"),
+        ({"undefined": ("_forgotten",)}, "Python and macOS alone, found .'_forgotten'"),
+        ({"undefined": ("_old$INODE64",)}, "Python and macOS alone, found"),
+    ],
+)
+def test_module_for_macs_needs_python_and_macos_alone(built, fault, told):
+    module = built / NAME
+    module.write_bytes(
+        macho.join([image(), image(**fault)]) if fault.get("processor") else image(**fault)
+    )
+    if told is None:
+        text = check_module.check(module)
+        assert "for arm64" in text[0] and "every name it takes is of Python or of macOS" in text[1]
+    else:
+        with pytest.raises(SystemExit, match=told):
+            check_module.check(module)
+
+
+def test_module_that_names_a_folder_of_its_build_is_refused(built, monkeypatch):
+    monkeypatch.setattr(paths, "ROOT", Path("/home/somebody/checkout"))
+    module = built / NAME
+    module.write_bytes(image(undefined=("_malloc",)) + b"/home/somebody/checkout/a.cpp")
+    with pytest.raises(SystemExit, match="must not name /home/somebody/checkout, where it was bui"):
+        check_module.check(module)
+
+
+def test_headers_and_library_of_python_are_unpacked(tmp_path):
+    inside = "org/bytedeco/cpython/macosx-arm64"
+    with zipfile.ZipFile(tmp_path / "a.jar", "w") as archive:
+        for name in ("include/python3.13/Python.h", "include/python3.13/cpython/a.h"):
+            archive.writestr(f"{inside}/{name}", name)
+        archive.writestr(f"{inside}/libpython3.13.dylib", "library")
+        archive.writestr(f"{inside}/lib/python3.13/abc.py", "not wanted")
+    headers_for_macs.unpack_python(tmp_path / "a.jar", "3.13", tmp_path / "to")
+    found = {
+        path.relative_to(tmp_path / "to").as_posix()
+        for path in (tmp_path / "to").rglob("*")
+        if path.is_file()
+    }
+    assert found == {"libpython3.13.dylib", "python3.13/Python.h", "python3.13/cpython/a.h"}
+
+
+def test_a_python_for_macs_that_cannot_be_had_is_a_failure(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(Failure, match="expected mvn, found none"):
+        headers_for_macs.fetch_for_macs("3.13", "trixie", tmp_path)
+    (tmp_path / "mvn").write_text("#!/bin/sh\necho no such artifact; exit 1\n")
+    (tmp_path / "mvn").chmod(0o755)
+    with pytest.raises(Failure, match=r"cpython:3\.13\.0-\S+ could not be had: no such artifact"):
+        headers_for_macs.fetch_for_macs("3.13", "trixie", tmp_path / "to")
+
+
+def test_zig_is_brought_once_and_has_commands_for_each_target(tmp_path, monkeypatch):
+    monkeypatch.setattr(paths, "BUILD", tmp_path / "with space")
+    brought = []
+    monkeypatch.setattr(zig, "_bring_headers", lambda target: ["libcgal-dev 6"])
+    monkeypatch.setattr(
+        zig, "_bring_compiler", lambda target: brought.append(target) or f"ziglang {zig.VERSION}"
+    )
+    assert zig.bring() == zig.bring() == ["libcgal-dev 6", f"ziglang {zig.VERSION}"]
+    assert len(brought) == 1
+    zig.program().parent.mkdir()
+    zig.program().write_text('#!/bin/sh\necho "$@" in "$ZIG_GLOBAL_CACHE_DIR"\n')
+    zig.program().chmod(0o755)
+    for target in zig.TARGETS.values():
+        said = subprocess.check_output([zig.folder() / target / "c++", "-c", "a b.cpp"], text=True)
+        assert said.startswith(f"c++ -target {target} ") and "-c a b.cpp in " in said
+        assert said.endswith("with space/zig/cache\n")
+    monkeypatch.setattr(zig, "VERSION", "99")
+    zig.bring()
+    assert len(brought) == 2, "another version is brought anew"
+
+
+def test_presets_compile_for_the_targets_of_zig():
+    text = (ROOT / "CMakePresets.json").read_text(encoding="utf-8")
+    for preset, target in zig.TARGETS.items():
+        assert f'"name": "{preset}"' in text and f"/build/zig/{target}" in text
+
+
+def test_one_file_has_the_module_for_both_processors(built, monkeypatch):
+    made = {"zig-macos-arm64": ["311", "313"], "zig-macos-x64": ["311"]}
+    kinds = {"zig-macos-arm64": image(), "zig-macos-x64": image(macho.X64)}
+    monkeypatch.setattr(zig, "bring", list)
+    monkeypatch.setattr(
+        other_systems.headers,
+        "folders_of",
+        lambda pythons, parent, bring: {version: parent / version for version in pythons},
+    )
+
+    def compile_preset(preset, definition):
+        assert definition.count("macos/3.") == len(made[preset])
+        (built / preset).mkdir(exist_ok=True)
+        for digits in made[preset]:
+            (built / preset / NAME.replace("311", digits)).write_bytes(kinds[preset] + b"debug")
+
+    def strip(command, option, _, target, module):
+        assert (command, option) == ("llvm-strip", "-x")
+        target.write_bytes(module.read_bytes().removesuffix(b"debug"))
+
+    monkeypatch.setattr(other_systems, "build_preset", compile_preset)
+    monkeypatch.setattr(other_systems, "run", strip)
+    both, arm = other_systems.build_for_macs()
+    assert both == paths.LIBRARY / NAME and arm.name == "_medial.cpython-313-darwin.so"
+    assert list(macho.processors(both.read_bytes())) == [macho.ARM64, macho.X64]
+    assert arm.read_bytes() == kinds["zig-macos-arm64"]
+    assert sorted(path.name for path in paths.LIBRARY.iterdir()) == [both.name, arm.name]
+    (built / "zig-macos-x64" / NAME).unlink()
+    made["zig-macos-x64"] = []
+    monkeypatch.setattr(other_systems, "build_preset", lambda preset, definition: None)
+    with pytest.raises(Failure, match=f"Expected .*zig-macos-x64/{NAME}, found none"):
+        other_systems.build_for_macs()
+
+
+def test_licences_name_what_zig_compiles_in(tmp_path, monkeypatch):
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    assert "LLVM" not in licences.text([f"lib/{NAME}"]), "compiled on a Mac, which has the library"
+    terms = zig.folder() / "ziglang/lib/libcxx/LICENSE.TXT"
+    terms.parent.mkdir(parents=True)
+    terms.write_text("The LLVM Project is under the Apache License")
+    (zig.folder() / zig.STAMP).write_text(f"libcgal-dev 6\nziglang {zig.VERSION}\n")
+    text = licences.text([f"lib/{NAME}"])
+    assert f"libcgal-dev 6, ziglang {zig.VERSION}" in text and "The LLVM Project is under" in text
+    assert "LLVM" not in licences.text(["lib/_medial.cpython-311-x86_64-linux-gnu.so"])
+
+
+PROJECT = """
+cmake_minimum_required(VERSION 3.25)
+project(small LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_EXTENSIONS OFF)
+find_package(Threads REQUIRED)
+add_library(core STATIC core.cpp)
+add_library(module SHARED module.cpp)
+target_link_libraries(module PRIVATE core Threads::Threads)
+target_link_options(module PRIVATE -Wl,-undefined,dynamic_lookup)
+set_target_properties(module PROPERTIES PREFIX "" OUTPUT_NAME _medial.cpython-311-darwin SUFFIX .so
+  INSTALL_NAME_DIR @rpath BUILD_WITH_INSTALL_NAME_DIR ON)
+"""
+CORE = """
+#include <cfloat>
+#include <complex>
+#include <thread>
+#include <vector>
+static_assert(DBL_EPSILON < INFINITY);
+int twice(int x) { std::vector<int> v; std::thread([&] { v.push_back(2 * x); }).join(); return v.at(0); }
+"""
+MODULE = """
+int twice(int);
+extern "C" void* PyList_New(long);
+extern "C" __attribute__((visibility("default"))) void* PyInit__medial() {
+  return twice(1) == 2 ? PyList_New(0) : nullptr;
+}
+"""
+
+
+def test_the_toolchain_of_zig_makes_what_the_checks_accept(tmp_path):
+    if not any((zig.folder() / "cache").glob("o/*/libc++.a")) or zig.origin() is None:
+        pytest.skip("zig has compiled nothing; 'build_addon.py build --macos' brings it and does")
+    if not (paths.BUILD / "python/macos/3.11/libpython3.11.dylib").is_file():
+        pytest.skip("no Python for Macs; 'build_addon.py build --macos' brings it")
+    for name, text in (("CMakeLists.txt", PROJECT), ("core.cpp", CORE), ("module.cpp", MODULE)):
+        (tmp_path / name).write_text(text)
+    commands = zig.folder() / zig.TARGETS["zig-macos-arm64"]
+    options = [f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/native/zig.cmake", "-DMEDIAL_SYSTEM_NAME=Darwin"]
+    options += ["-DMEDIAL_SYSTEM_PROCESSOR=arm64", f"-DMEDIAL_ZIG_COMMANDS={commands}"]
+    options += ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_VISIBILITY_PRESET=hidden", "-GNinja"]
+    subprocess.run(["cmake", *options, "-S", tmp_path, "-B", tmp_path / "b"], check=True)
+    subprocess.run(["cmake", "--build", tmp_path / "b"], check=True)
+    made = tmp_path / "b" / NAME
+    assert bytes(tmp_path) in made.read_bytes(), "nothing to strip"
+    made.write_bytes(other_systems.stripped(made))
+    assert bytes(tmp_path) not in made.read_bytes()
+    text = check_module.check(made)
+    assert "for arm64" in text[0] and "every name it takes is of Python or of macOS" in text[1]
+    assert f"@rpath/{NAME}".encode() in made.read_bytes()
+
+
+def test_compiled_modules_for_macs_pass():
+    modules = sorted(paths.LIBRARY.glob("_medial.*-darwin.so"))
+    if not modules:
+        pytest.skip("no module for Macs was built; 'build_addon.py build --macos' makes them")
+    for module in modules:
+        assert check_module.check(module)
