@@ -31,7 +31,7 @@ constexpr bool kFill = true;
 constexpr bool kFill = false;
 #endif
 
-constexpr int kPattern = 0xCD;  // no valid id, and a coordinate out of range
+constexpr int kPattern = 0xCD;     // no valid id, and a coordinate out of range
 constexpr size_t kPage = 16384;    // a multiple of every page of memory: 4 KB on PCs, 16 KB on Macs
 constexpr size_t kSmall = 4096;    // requests below leave no gaps in the block
 constexpr size_t kStep = 8 << 20;  // between two looks at whether to stop
