@@ -9,10 +9,13 @@ set(CMAKE_AR ${MEDIAL_ZIG_COMMANDS}/ar CACHE FILEPATH "")
 set(CMAKE_RANLIB ${MEDIAL_ZIG_COMMANDS}/ranlib CACHE FILEPATH "")
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_OSX_SYSROOT "" CACHE PATH "")  # zig brings its own
+# Messages of Boost and CGAL name the files that they come from, and no module may name the folder of its build.
+get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
+set(CMAKE_CXX_FLAGS_INIT "-fmacro-prefix-map=${root}/=")
 if(CMAKE_SYSTEM_NAME STREQUAL Darwin)
   # Apple's math.h asks float.h for INFINITY and NAN alone, after which the C++ library's float.h gives nothing more:
   # so both parts come first.
-  set(CMAKE_CXX_FLAGS_INIT "-include float.h -include __float_infinity_nan.h")
+  string(APPEND CMAKE_CXX_FLAGS_INIT " -include float.h -include __float_infinity_nan.h")
 endif()
-set(CGAL_INCLUDE_DIR ${CMAKE_CURRENT_LIST_DIR}/../build/zig/include CACHE PATH "")
+set(CGAL_INCLUDE_DIR ${root}/build/zig/include CACHE PATH "")
 set(BOOST_INCLUDE_DIR ${CGAL_INCLUDE_DIR} CACHE PATH "")
