@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
+#include "base/portable_math.h"
 #include "base/progress.h"
 #include "delaunay/cgal.h"
 // clang-format off: CGAL's headers come after what sets CGAL up.
@@ -21,6 +24,20 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Edges = Mesh::Property_map<Mesh::Edge_index, bool>;
 using Rows = Mesh::Property_map<Mesh::Vertex_index, int32_t>;
+
+// CGAL 6 flips edges by angles, which it would ask the C library for.
+struct Traits : Kernel {
+  struct Compute_approximate_angle_3 {
+    double operator()(const Kernel::Point_3& p, const Kernel::Point_3& q,
+                      const Kernel::Point_3& r) const {
+      const Kernel::Vector_3 u = p - q, v = r - q;
+      const double lengths = std::sqrt(u.squared_length() * v.squared_length());
+      return lengths > 0 ? degrees * portable::acos(std::clamp(u * v / lengths, -1.0, 1.0)) : 0;
+    }
+    static constexpr double degrees = 180 / std::numbers::pi;
+  };
+  Compute_approximate_angle_3 compute_approximate_angle_3_object() const { return {}; }
+};
 
 constexpr int iterations = 5;             // more change little
 constexpr double flat = 0.01;             // the square of height by longest edge
@@ -111,6 +128,7 @@ std::optional<EvenSheet> even_sheet(std::span<const Vec3> rows, std::span<const 
   const Edges stays = edges_that_stay(mesh, row);
   pmp::isotropic_remeshing(mesh.faces(), 1.0, mesh,
                            CGAL::parameters::number_of_iterations(iterations)
+                               .geom_traits(Traits())
                                .protect_constraints(true)
                                .edge_is_constrained_map(stays));
   mesh.collect_garbage();
