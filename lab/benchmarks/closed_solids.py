@@ -23,7 +23,7 @@ medial = _module.load()
 from medial_axis import library  # noqa: E402
 
 _TAG = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
-_ENDINGS = (".stl", ".obj", ".3mf", ".ply", ".off")
+ENDINGS = (".stl", ".obj", ".3mf", ".ply", ".off")
 
 
 def main() -> None:
@@ -36,9 +36,7 @@ def main() -> None:
     print("| solid | faces | Betti of faces | Betti | samples | left out | s | topology |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
     for path in sorted(wanted.folder.iterdir(), key=lambda path: path.name.lower()):
-        if path.suffix.lower() not in _ENDINGS or not any(
-            word in path.name for word in wanted.only
-        ):
+        if path.suffix.lower() not in ENDINGS or not any(word in path.name for word in wanted.only):
             continue
         points, triangles = welded(*read(path))
         betti = medial.solid_betti(points, triangles) if len(triangles) else None

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Real closed solids as middle surfaces at the defaults, or why not, and what it costs; a Markdown table.
+
+    python3 lab/benchmarks/middles_of_solids.py FOLDER [--only WORD ...]
+
+Files that are no single closed body are passed over. Pieces are those of the sheets, by their edges. The share is the
+volume of the sheets, area times thickness, in percent of that of the solid; where walls meet, both count.
+"""
+
+import argparse
+import time
+from pathlib import Path
+
+import _module
+import numpy as np
+
+medial = _module.load()
+
+from closed_solids import ENDINGS, read, welded  # noqa: E402
+from medial_axis.core.errors import InvalidInputError  # noqa: E402
+from medial_axis.core.machine.cache import CACHE  # noqa: E402
+from medial_axis.core.samples.shape import Shape  # noqa: E402
+from medial_axis.core.settings import MidSurfaceSettings, Settings  # noqa: E402
+from medial_axis.core.solid.mid_surface import mid_surface  # noqa: E402
+from support.topology import components  # noqa: E402
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--only", nargs="+", default=[""])
+    wanted = parser.parse_args()
+    print("| solid | sheets | pieces | faces | thickness | share, % | s | warnings |")
+    print("| --- | --: | --: | --: | --- | --: | --: | --- |")
+    for path in sorted(wanted.folder.iterdir(), key=lambda path: path.name.lower()):
+        known = path.suffix.lower() in ENDINGS and any(word in path.name for word in wanted.only)
+        points, triangles = welded(*read(path)) if known else (np.empty((0, 3)), np.empty((0, 3)))
+        betti = medial.solid_betti(points, triangles) if len(triangles) else None
+        if betti is not None and betti[0] == 1:
+            print(row(path.name, Shape(points, triangles)), flush=True)
+
+
+def row(name: str, shape: Shape) -> str:
+    CACHE.clear()
+    start = time.process_time()
+    try:
+        found = mid_surface(shape, Settings(), MidSurfaceSettings())
+    except InvalidInputError as error:
+        return f"| {name} | | | | | | {time.process_time() - start:.1f} | {error} |"
+    low, high = found.thickness.min(), found.thickness.max()
+    cells = [
+        name,
+        f"{found.sheets:,}",
+        f"{components(found.triangles):,}",
+        f"{len(found.part):,}",
+        f"{low:.3g} to {high:.3g}",
+        f"{100 * found.share:.1f}",
+        f"{time.process_time() - start:.1f}",
+        "; ".join(found.warnings),
+    ]
+    return f"| {' | '.join(cells)} |"
+
+
+if __name__ == "__main__":
+    main()
