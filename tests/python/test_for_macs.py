@@ -118,7 +118,7 @@ def built(tmp_path, monkeypatch):
     listed.parent.mkdir(parents=True)
     listed.write_text(
         "exports:\n  - targets: [ x86_64-macos ]\n    symbols: [ _old$INODE64 ]\n"
-        "  - targets: [ x86_64-macos, arm64e-macos ]\n    symbols: [ _malloc, _sin, ___sincos_stret ]\n"
+        "  - targets: [ x86_64-macos, arm64e-macos ]\n    symbols: [ _malloc, _tan, ___sincos_stret ]\n"
     )
     return tmp_path
 
@@ -139,7 +139,7 @@ def built(tmp_path, monkeypatch):
         ({"signed": False}, "must have a signature"),
         ({"exported": ()}, "must export PyInit__medial only, found 0"),
         ({"exported": ("_PyInit__medial", "_other")}, "must export PyInit__medial only, found 2"),
-        ({"undefined": ("_sin",)}, "must not call sin of the C library"),
+        ({"undefined": ("_tan",)}, "must not call tan of the C library"),
         ({"undefined": ("_forgotten",)}, "Python and macOS alone, found .'_forgotten'"),
         ({"undefined": ("_old$INODE64",)}, "Python and macOS alone, found"),
     ],
