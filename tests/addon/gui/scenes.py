@@ -243,7 +243,7 @@ def scene_compute_drag_undo():
     first, before = facets(), analyses()
     yield from click(145, 705)  # opens Adjust Last Operation at the lower left
     yield 1.0
-    yield from drag((220, 297), (250, 297))  # its theta
+    yield from drag((220, 320), (250, 320))  # its theta
     yield 1.0
     look("adjusted")
     adjusted = facets()
