@@ -12,6 +12,7 @@ from medial_axis import cli
 from medial_axis.core.errors import InvalidInputError
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.settings import MidSurfaceSettings, Settings
+from medial_axis.core.solid import mid_surface as middle
 from medial_axis.core.solid.even_triangles import divided, even_triangles
 from medial_axis.core.solid.mid_surface import mid_surface
 from support import mid_surfaces, topology
@@ -194,6 +195,16 @@ def test_triangles_of_a_size_are_even(name):
     assert topology.euler(found.triangles) == topology.euler(whole.triangles)
     assert areas(found).sum() == pytest.approx(areas(whole).sum(), rel=2e-3)  # chords of the bend
     assert (topology.edges(found.triangles)[1] == 3).any() == (found.sheets == 3)
+
+
+def test_a_polygon_that_crosses_itself_is_no_face():
+    """A rim with a loop in it: its triangles overlap, so the sheet keeps those that it had."""
+    places = [(0, 0), (4, 0), (4, 4), (2, 4), (2, -1), (1, -1), (1, 4), (0, 4)]
+    vertices = np.column_stack((places, np.zeros(8))).astype(float)
+    for corners, simple in (((0, 1, 2, 7), True), (range(8), False)):
+        row = np.array(corners, np.int32)
+        offsets, part = np.array((0, len(row)), np.int32), np.zeros(1, np.int32)
+        assert middle._are_simple(middle._Faces(vertices, offsets, row, part)) == simple
 
 
 def test_a_sheet_that_touches_itself_is_divided():

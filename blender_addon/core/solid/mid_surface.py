@@ -199,6 +199,8 @@ def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -
         wanted = min(whole, int(_PER_AREA * 0.5 * float(doubled.sum()) / length**2) + 1)
     found = _reduced(sheets, wanted, progress) or _reduced(sheets, whole, progress)
     faces = cast("_Faces", found)
+    if not _are_simple(faces):
+        faces = _triangles_of(sheets)
     if size <= 0.0:
         return faces
     triangles = polygon_triangles(faces.vertices, faces.offsets, faces.corners)
@@ -208,6 +210,22 @@ def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -
     )
     offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
     return _Faces(vertices, offsets, triangles.ravel(), part)
+
+
+def _are_simple(faces: _Faces) -> bool:
+    """Whether no polygon crosses itself: else its triangles overlap, and have more area than it encloses."""
+    triangles = polygon_triangles(faces.vertices, faces.offsets, faces.corners)
+    normals, doubled = unit_normals(faces.vertices[triangles])
+    of = np.repeat(np.arange(len(faces.part)), np.diff(faces.offsets) - 2)
+    enclosed = np.zeros((len(faces.part), 3))
+    np.add.at(enclosed, of, normals * doubled[:, None])
+    whole = float(doubled.sum())
+    return whole - float(np.linalg.norm(enclosed, axis=1).sum()) <= _PLAIN * whole
+
+
+def _triangles_of(sheets: CarriedSheets) -> _Faces:
+    offsets = np.arange(0, sheets.triangles.size + 1, 3, dtype=np.int32)
+    return _Faces(sheets.vertices, offsets, sheets.triangles.ravel(), sheets.part)
 
 
 def _are_curved(sheets: CarriedSheets, vectors: NDArray[np.float64]) -> bool:
