@@ -36,9 +36,12 @@ OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}
 OF_MACS = ["/usr/lib/libSystem.B.dylib"]
 OLDEST_MACOS = (11, 0)
 PAGE_OF_MACS = {macho.X64: 4096, macho.ARM64: 16384}
-# zig's linker cannot hide the operators new and delete of its C++ library, all of which end in malloc and free, nor the
-# entry point that pybind11 writes and ours calls; it adds two marks.
-OF_ZIG = re.compile(r"__Z(nw|na|dl|da)\w+|_initialise_medial|__mh_dylib_header|___dso_handle")
+# zig's linker cannot hide the operators new and delete of its C++ library, all of which end in malloc and free, names of
+# types, which are alike wherever they are defined, nor the entry point that pybind11 writes and ours calls; it adds two
+# marks.
+OF_ZIG = re.compile(
+    r"__Z(nw|na|dl|da)\w+|__ZT[IS]\w+|_initialise_medial|__mh_dylib_header|___dso_handle"
+)
 ENTRY = "PyInit__medial"
 # The newest symbol versions that those systems have (manylinux_2_34).
 NEWEST = {"GLIBC": "2.34", "GLIBCXX": "3.4.29", "CXXABI": "1.3.13"}
