@@ -36,7 +36,7 @@ struct Traits : Kernel {
     }
     static constexpr double degrees = 180 / std::numbers::pi;
   };
-  Compute_approximate_angle_3 compute_approximate_angle_3_object() const { return {}; }
+  static Compute_approximate_angle_3 compute_approximate_angle_3_object() { return {}; }
 };
 
 constexpr int iterations = 5;             // more change little
