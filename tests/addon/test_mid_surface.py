@@ -46,7 +46,7 @@ def test_a_bracket_is_two_rectangles():
     bpy.context.view_layer.objects.active = bracket
     bracket.select_set(True)
     made = unsolidify()
-    found = {tuple(np.round(vertex.co, 4) + 0.0) for vertex in made.data.vertices}
+    found = {tuple(round(float(x), 4) + 0.0 for x in each.co) for each in made.data.vertices}
     wanted = {(x, y, z) for x, z in ((half, half), (1.0, half), (half, 0.5)) for y in (0.0, 1.0)}
     assert found == wanted and len(made.data.polygons) == 2
     assert sorted(each.value for each in made.data.attributes["ma_part"].data) == [0, 1]
