@@ -205,9 +205,7 @@ def add_build_options(command: argparse.ArgumentParser) -> None:
     flag = {"action": "store_true"}
     command.add_argument("--local", **flag, help="for this machine's Blender; needs no network")
     command.add_argument("--windows", **flag, help="modules for Windows, too, by mingw-w64")
-    command.add_argument(
-        "--macos", **flag, help="modules for Macs, too, by zig; never run on one"
-    )
+    command.add_argument("--macos", **flag, help="modules for Macs, too, by zig; never run on one")
 
 
 def add_demo_options(command: argparse.ArgumentParser) -> None:

@@ -29,8 +29,8 @@ INEXACT = re.compile(
     r"|log1p|pow|cbrt|hypot|erf|erfc|tgamma|lgamma|j0|j1|jn|y0|y1|yn)[fl]?"
 )
 # CGAL calls these, and none reaches a result. In alpha wraps sincos (for Macs sin and cos) gives the direction of a ray
-# that tells whether a point is inside closed faces, which all directions tell alike, and log the level at which a search
-# for a cell begins. In remeshing cos is asked for 160 degrees alone, beyond which a triangle is a cap.
+# that tells whether a point is inside closed faces, which all directions tell alike, and log the level at which
+# a search for a cell begins. In remeshing cos is asked for 160 degrees alone, beyond which a triangle is a cap.
 OF_CGAL = {"sincos", "log", "cos"}
 OF_WINDOWS = {"KERNEL32.dll", "msvcrt.dll"}
 OF_MACS = ["/usr/lib/libSystem.B.dylib"]
