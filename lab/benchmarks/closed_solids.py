@@ -23,7 +23,7 @@ medial = _module.load()
 from medial_axis import library  # noqa: E402
 
 _TAG = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
-ENDINGS = (".stl", ".obj", ".3mf", ".ply", ".off")
+_ENDINGS = (".stl", ".obj", ".3mf", ".ply", ".off")
 
 
 def main() -> None:
@@ -35,13 +35,21 @@ def main() -> None:
     options = {name: _value(word) for name, _, word in (o.partition("=") for o in wanted.option)}
     print("| solid | faces | Betti of faces | Betti | samples | left out | s | topology |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
-    for path in sorted(wanted.folder.iterdir(), key=lambda path: path.name.lower()):
-        if path.suffix.lower() not in ENDINGS or not any(word in path.name for word in wanted.only):
+    for name, points, triangles, betti in closed_bodies(wanted.folder, wanted.only):
+        print(row(name, points, triangles, betti, options), flush=True)
+
+
+def closed_bodies(
+    folder: Path, words: list[str]
+) -> Iterator[tuple[str, np.ndarray, np.ndarray, tuple]]:
+    """Name, points, triangles and Betti numbers of each file with one of the words that is a single closed body."""
+    for path in sorted(folder.iterdir(), key=lambda path: path.name.lower()):
+        if path.suffix.lower() not in _ENDINGS or not any(word in path.name for word in words):
             continue
         points, triangles = welded(*read(path))
         betti = medial.solid_betti(points, triangles) if len(triangles) else None
         if betti is not None and betti[0] == 1:
-            print(row(path.name, points, triangles, betti, options), flush=True)
+            yield path.name, points, triangles, betti
 
 
 def row(name: str, points: np.ndarray, triangles: np.ndarray, betti: tuple, options: dict) -> str:

@@ -12,11 +12,10 @@ import time
 from pathlib import Path
 
 import _module
-import numpy as np
 
-medial = _module.load()
+_module.load()
 
-from closed_solids import ENDINGS, read, welded  # noqa: E402
+from closed_solids import closed_bodies  # noqa: E402
 from medial_axis.core.errors import InvalidInputError  # noqa: E402
 from medial_axis.core.machine.cache import CACHE  # noqa: E402
 from medial_axis.core.samples.shape import Shape  # noqa: E402
@@ -32,12 +31,8 @@ def main() -> None:
     wanted = parser.parse_args()
     print("| solid | sheets | pieces | faces | thickness | share, % | s | warnings |")
     print("| --- | --: | --: | --: | --- | --: | --: | --- |")
-    for path in sorted(wanted.folder.iterdir(), key=lambda path: path.name.lower()):
-        known = path.suffix.lower() in ENDINGS and any(word in path.name for word in wanted.only)
-        points, triangles = welded(*read(path)) if known else (np.empty((0, 3)), np.empty((0, 3)))
-        betti = medial.solid_betti(points, triangles) if len(triangles) else None
-        if betti is not None and betti[0] == 1:
-            print(row(path.name, Shape(points, triangles)), flush=True)
+    for name, points, triangles, _ in closed_bodies(wanted.folder, wanted.only):
+        print(row(name, Shape(points, triangles)), flush=True)
 
 
 def row(name: str, shape: Shape) -> str:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -189,6 +190,15 @@ class _Faces:
     corners: NDArray[np.int32]
     part: NDArray[np.int32]
 
+    @cached_property
+    def triangles(self) -> NDArray[np.int32]:
+        return polygon_triangles(self.vertices, self.offsets, self.corners)
+
+    @cached_property
+    def of(self) -> NDArray[np.int64]:
+        """The face of each triangle."""
+        return np.repeat(np.arange(len(self.part)), np.diff(self.offsets) - 2)
+
 
 def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -> _Faces:
     """The sheets with the faces that show their shape, or with even triangles of a size."""
@@ -203,10 +213,8 @@ def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -
         faces = _triangles_of(sheets)
     if size <= 0.0:
         return faces
-    triangles = polygon_triangles(faces.vertices, faces.offsets, faces.corners)
-    rows = np.repeat(np.arange(len(faces.part)), np.diff(faces.offsets) - 2)
     vertices, triangles, part = even_triangles(
-        faces.vertices, triangles, faces.part[rows], size, progress and progress.part()
+        faces.vertices, faces.triangles, faces.part[faces.of], size, progress and progress.part()
     )
     offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int32)
     return _Faces(vertices, offsets, triangles.ravel(), part)
@@ -214,11 +222,9 @@ def _simplified(sheets: CarriedSheets, size: float, progress: Progress | None) -
 
 def _are_simple(faces: _Faces) -> bool:
     """Whether no polygon crosses itself: else its triangles overlap, and have more area than it encloses."""
-    triangles = polygon_triangles(faces.vertices, faces.offsets, faces.corners)
-    normals, doubled = unit_normals(faces.vertices[triangles])
-    of = np.repeat(np.arange(len(faces.part)), np.diff(faces.offsets) - 2)
+    normals, doubled = unit_normals(faces.vertices[faces.triangles])
     enclosed = np.zeros((len(faces.part), 3))
-    np.add.at(enclosed, of, normals * doubled[:, None])
+    np.add.at(enclosed, faces.of, normals * doubled[:, None])
     whole = float(doubled.sum())
     return whole - float(np.linalg.norm(enclosed, axis=1).sum()) <= _PLAIN * whole
 
@@ -294,9 +300,8 @@ def _with_thickness(
     found: Computation,
     start: float,
 ) -> MidSurface:
-    triangles = polygon_triangles(made.vertices, made.offsets, made.corners)
+    triangles, of = made.triangles, made.of
     areas = 0.5 * unit_normals(made.vertices[triangles])[1]
-    of = np.repeat(np.arange(len(made.part)), np.diff(made.offsets) - 2)
     whole = np.asarray(np.bincount(of, areas, len(made.part)), np.float64)
     middles = made.vertices[triangles].mean(axis=1) * areas[:, None]
     sums = [np.bincount(of, column, len(made.part)) for column in middles.T]
