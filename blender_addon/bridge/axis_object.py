@@ -156,6 +156,15 @@ def settings_of(result: bpy.types.Object) -> Settings:
     return Settings(**values)
 
 
+def shown_curve(source: bpy.types.Object) -> Settings | None:
+    """The settings of the curve of a source whose Detail was lowered; None where it has another axis, or none."""
+    result = result_of(source)
+    settings = None if result is None else settings_of(result)
+    if settings is None or settings.form is not Form.CURVE or settings.detail >= 1.0:
+        return None
+    return settings
+
+
 def _value_of(option: Any, value: Any) -> Any:
     if isinstance(option, Choice):
         return (

@@ -6,6 +6,7 @@ from functools import partial
 import bpy
 
 from ..bridge.armature_object import check_no_other, find_armature, in_rest, write_armature
+from ..bridge.axis_object import shown_curve
 from ..bridge.bind_armature import bind_by_axis, bind_by_heat, check_bindable, groups_of_others
 from ..bridge.follow_mesh import remember_rest
 from ..bridge.read_object import read_object
@@ -73,6 +74,26 @@ class WithEnds:
         return shape
 
 
+class WithCurve:
+    """An operator that can start from the curve that is seen."""
+
+    as_shown: bpy.props.BoolProperty(
+        name="As Shown",
+        description="Keep the loops and branches of the curve that is shown, where Form is Curve and its Detail is "
+        "below 1, whatever Detail says here",
+        default=True,
+    )
+
+    def remember_curve(self, thing, shape):
+        """Remember the settings of the curve of an object for `curve_of` the shape that is read from it."""
+        self._curves = getattr(self, "_curves", {})
+        if self.as_shown:
+            self._curves[id(shape)] = shown_curve(thing)
+
+    def curve_of(self, shape):
+        return self._curves.pop(id(shape), None)
+
+
 class ArmatureProperties:
     """The option of an armature."""
 
@@ -86,7 +107,12 @@ def copy_all(context, button) -> None:
 
 
 class OBJECT_OT_medial_axis_skeleton(
-    ComputeOperator, WithEnds, SamplingProperties, SkeletonProperties, bpy.types.Operator
+    ComputeOperator,
+    WithEnds,
+    WithCurve,
+    SamplingProperties,
+    SkeletonProperties,
+    bpy.types.Operator,
 ):
     bl_idname = "object.medial_axis_skeleton"
     bl_label = "Extract Skeleton"
@@ -108,8 +134,9 @@ class OBJECT_OT_medial_axis_skeleton(
 
     def draw(self, _context):
         self.layout.use_property_split = True
-        for name in (*SKELETON_OPTIONS, "selected_ends", "parts", "parent", "sides", "sampling"):
+        for name in (*SKELETON_OPTIONS, "as_shown", "selected_ends", "parts", "parent", "sides"):
             self.layout.prop(self, name)
+        self.layout.prop(self, "sampling")
         draw_sampling(self.layout.box().column(), self)
 
     def check_writable(self, thing):
@@ -118,11 +145,15 @@ class OBJECT_OT_medial_axis_skeleton(
             check_parts_writable(thing)
 
     def read(self, thing, depsgraph):
-        return self.with_ends(thing, read_object(thing, depsgraph))
+        shape = read_object(thing, depsgraph)
+        self.remember_curve(thing, shape)
+        return self.with_ends(thing, shape)
 
     def work(self, shape):
         settings, ends = self.settings(shape)
-        return partial(compute_skeleton, shape, *settings, limit=memory_limit(), ends=ends)
+        curve = self.curve_of(shape)
+        limit = memory_limit()
+        return partial(compute_skeleton, shape, *settings, limit=limit, ends=ends, curve=curve)
 
     def write(self, thing, found, frame):
         made = write_skeleton(thing, found, frame)
@@ -146,6 +177,7 @@ class RigProperties:
 class OBJECT_OT_medial_axis_armature(
     ComputeOperator,
     WithEnds,
+    WithCurve,
     SamplingProperties,
     SkeletonProperties,
     ArmatureProperties,
@@ -178,7 +210,7 @@ class OBJECT_OT_medial_axis_armature(
         for name in (*RIG_OPTIONS, "bind", "replace_weights"):
             self.layout.prop(self, name)
         self.layout.prop_search(self, "armature", bpy.data, "objects")
-        for name in (*SKELETON_OPTIONS, "selected_ends", "sides", "sampling"):
+        for name in (*SKELETON_OPTIONS, "as_shown", "selected_ends", "sides", "sampling"):
             self.layout.prop(self, name)
         draw_sampling(self.layout.box().column(), self)
 
@@ -189,13 +221,13 @@ class OBJECT_OT_medial_axis_armature(
     def read(self, thing, _depsgraph):
         with in_rest(thing):
             shape = read_object(thing, bpy.context.evaluated_depsgraph_get())
+            self.remember_curve(thing, shape)
             return self.with_ends(thing, shape)
 
     def work(self, shape):
         settings, ends = self.settings(shape)
-        return partial(
-            compute_rig, shape, *settings, self.per_limb, limit=memory_limit(), ends=ends
-        )
+        words = {"limit": memory_limit(), "ends": ends, "curve": self.curve_of(shape)}
+        return partial(compute_rig, shape, *settings, self.per_limb, **words)
 
     def write(self, thing, rig, frame):
         taken, into = groups_of_others(thing), find_armature(self.armature)

@@ -10,15 +10,18 @@ from mathutils import Euler, Matrix
 from scene import (
     addon,
     attribute,
+    compute,
     contents,
     link,
     positions,
     refuse,
+    result_of,
     select,
     torus,
     world_positions,
 )
 from support.data import DATA
+from support.meshes import capsule, join
 
 
 def skeleton_of(source):
@@ -142,6 +145,26 @@ def test_detail_says_how_many_ends():
     few = skeleton_of(source)["ma_ends"]
     extract(detail=0.5)
     assert few <= skeleton_of(source)["ma_ends"]
+
+
+def test_skeleton_and_bones_start_from_the_curve_that_is_seen():
+    """Two arms a tenth of a radius apart, which the samples join by rungs: some are seen, so some are kept."""
+    arms = capsule((0, 0, 0), (4, 0, 0), 0.3), capsule((0, 0.63, 0), (4, 0.63, 0), 0.3)
+    vertices, faces = join(*arms, capsule((0, 0, 0), (0, 0.63, 0), 0.3))
+    source = link("Tongs", np.asarray(vertices).tolist(), np.asarray(faces).tolist())
+    sampling = {"sampling": "SURFACE", "samples": 1_200}
+    compute(form="CURVE", detail=0.5, **sampling)
+    loops = result_of(source)["ma_betti"][1]
+    assert loops > 0
+    select(source)
+    extract(**sampling)
+    assert skeleton_of(source)["ma_loops"] == loops
+    make_armature(bind="NONE", **sampling)
+    rungs = len(armature_of(source).data.bones)
+    extract(as_shown=False, **sampling)
+    assert skeleton_of(source)["ma_loops"] == 0
+    make_armature(bind="NONE", as_shown=False, **sampling)
+    assert len(armature_of(source).data.bones) < rungs
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])

@@ -230,3 +230,25 @@ def test_waves_shorter_than_the_ball_go_and_ends_stay(closed):
     assert np.abs(inner - 1).max() < 0.004 and len(share) == len(places)
     ends = (places[0], places[0]) if closed else (line[0], line[-1])
     assert np.array_equal(places[[0, -1]], ends)
+
+
+@pytest.mark.parametrize("detail", DETAILS)
+@pytest.mark.parametrize("name", ["tongs", "torus"])
+def test_a_skeleton_starts_from_the_curve_that_is_seen(curves, name, detail):
+    """It has its loops, and its tips but for branches between forks whose balls nearly agree."""
+    computation, smooth, _ = curves[name]
+    axis, settings = smooth[detail], replace(computation.settings, detail=detail)
+    shape = Shape(*(np.asarray(a) for a in SOLIDS[name][0]()))
+    found = compute_skeleton(shape, settings, SkeletonSettings(), curve=settings)
+    assert (found.skeleton.tips, found.skeleton.loops) == (tips(axis), axis.level.betti[1])
+    assert (found.loops.cut + found.loops.filled == 0) == (detail == 1.0 or name == "torus")
+
+
+def test_removals_are_found_once_for_all_details(curves, monkeypatch):
+    computation = curves["tongs"][0]
+    key, settings = computation.key, computation.settings
+    refilter(key, replace(settings, detail=0.5))
+    monkeypatch.setattr("medial_axis.core.axis.detail.removals_of", None)
+    refilter(key, replace(settings, detail=0.25))
+    with pytest.raises(TypeError):
+        refilter(key, replace(settings, detail=0.25, limb=0.0))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..curves.loaded_net import genuine_loops, loaded_net
-from ..curves.removals import Removals, removals_of
+from ..curves.removals import Removals, removals_of, take_apart
 from ..settings import SkeletonSettings
 from .cut import lowest_of_piece
 from .rows_of_axis import with_rows
@@ -21,8 +21,12 @@ from .rows_of_axis import with_rows
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..curves.loaded_net import LoadedNet
+    from ..curves.rules import Loops
     from ..samples.analysed import AnalysedSamples
     from .medial_axis import MedialAxis
+
+_SHARE = SkeletonSettings().share
 
 
 def with_detail(
@@ -43,13 +47,41 @@ def with_detail(
     if detail >= 1.0 or not len(axis.edges):
         return axis
     removals = _removals(level, hierarchy, samples)
-    done = round((1.0 - detail) * removals.count)
+    done = _done(removals, detail)
     return _with_edges(axis, removals.after(done).astype(np.int32)) if done else axis
 
 
+def net_with_detail(
+    level: Any, hierarchy: Any, samples: AnalysedSamples, detail: float
+) -> tuple[LoadedNet, Loops]:
+    """Return the net of a curve with some detail, and how many of its loops were cut and filled.
+
+    It has the branches that `with_detail` shows; the parameters are the same.
+    """
+    done = _done(_removals(level, hierarchy, samples), detail)
+    loaded = _loaded(level, hierarchy, samples)
+    return loaded, take_apart(loaded, genuine_loops(samples), _SHARE, done)
+
+
+def _done(removals: Removals, detail: float) -> int:
+    return round((1.0 - detail) * removals.count)
+
+
 def _removals(level: Any, hierarchy: Any, samples: AnalysedSamples) -> Removals:
-    loaded = loaded_net(samples, hierarchy, level, np.unique(level.face_vertices).tolist())
-    return removals_of(loaded, genuine_loops(samples), SkeletonSettings().share)
+    """Return the removals, which are kept as long as the level has the same wires."""
+    kept = samples.levels.kept("removals", hierarchy, lambda _: {})
+    wires = level.wires.tobytes()
+    found: Removals | None = kept.get(wires)
+    if found is None:
+        loaded = _loaded(level, hierarchy, samples)
+        found = removals_of(loaded, genuine_loops(samples), _SHARE)
+        kept.clear()
+        kept[wires] = found
+    return found
+
+
+def _loaded(level: Any, hierarchy: Any, samples: AnalysedSamples) -> LoadedNet:
+    return loaded_net(samples, hierarchy, level, np.unique(level.face_vertices).tolist())
 
 
 def _with_edges(axis: MedialAxis, edges: NDArray[np.int32]) -> MedialAxis:

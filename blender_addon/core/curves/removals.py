@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import chain as joined
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .rules import cut_loops, drop_leaves, fill_loops
+from .rules import Loops, cut_loops, drop_leaves, fill_loops
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -56,13 +56,25 @@ def removals_of(loaded: LoadedNet, genuine: int, share: float) -> Removals:
     genuine, share
         As in `clear_loops` and `drop_leaves`.
     """
+    return recorded(loaded.net, joined.from_iterable(_steps(loaded, genuine, share)))
+
+
+def take_apart(loaded: LoadedNet, genuine: int, share: float, number: int) -> Loops:
+    """Do the first so many removals of those that `removals_of` records; the other parameters are the same."""
+    done: list[int] = []
+    for steps in _steps(loaded, genuine, share):
+        done.append(sum(1 for _ in islice(steps, number - sum(done))))
+    cut, filled, _ = done
+    return Loops(cut, filled)
+
+
+def _steps(loaded: LoadedNet, genuine: int, share: float) -> Iterable[Iterator[None]]:
     net, spacing = loaded.net, loaded.spacing
-    steps = joined(
+    return (
         cut_loops(net, spacing, genuine),
         fill_loops(net, spacing, genuine),
         drop_leaves(net, share, loaded.balls),
     )
-    return recorded(net, steps)
 
 
 def recorded(net: Net, steps: Iterable[None]) -> Removals:

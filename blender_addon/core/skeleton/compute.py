@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..axis.detail import net_with_detail
 from ..axis.levels import hierarchy_of
 from ..curves.depth import Depth
 from ..curves.ends import end_limbs
@@ -37,6 +38,7 @@ from .warnings import skeleton_warnings
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..curves.loaded_net import LoadedNet
     from ..machine.progress import Progress
     from ..samples.analysed import AnalysedSamples
     from ..samples.shape import Shape
@@ -90,6 +92,7 @@ def compute_skeleton(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
     ends: NDArray[np.float64] | None = None,
+    curve: Settings | None = None,
 ) -> Skeletonization:
     """Return the skeleton of a solid.
 
@@ -104,6 +107,9 @@ def compute_skeleton(
     ends : (e, 3) float64, optional
         Places on or near the surface. The skeleton keeps only what joins these ends; limbs that carry
         little stay, too, but those that are shorter than `detail` says are not there to be joined.
+    curve : Settings, optional
+        The skeleton keeps the loops and branches that the form CURVE has with these settings: their `limb`, `detail`
+        and `crisp` count, and not `wanted.detail`. With `ends`, it is ignored.
 
     Raises
     ------
@@ -116,7 +122,10 @@ def compute_skeleton(
         shape, replace(settings, side=Side.INNER), progress, limit, _ANALYSIS, levels=True
     )
     chosen = begun.chosen
-    net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress, ends)
+    if curve is None or ends is not None:
+        net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress, ends)
+    else:
+        net, owner, sheets, loops = _net_of_curve(chosen, curve, wanted, begun.progress)
     by_faces = chosen.sides.source is SidesFrom.SURFACE
     depth = Depth(chosen.samples, begun.shape if by_faces else None)
     inscribe(net, depth)
@@ -165,33 +174,54 @@ def _net(
 ) -> tuple[Net, NDArray[np.int64], int, Loops]:
     """Return the net of limbs, the owner of each sample, the number of facets without a curve, and cleared loops."""
     samples = chosen.samples
-    level, hierarchy = _curve(samples, settings, wanted, progress)
+    # Curves are fitted to samples, so no place is crisp.
+    level, hierarchy = _curve(samples, replace(settings, crisp=False), wanted.limb, progress)
     loaded = loaded_net(samples, hierarchy, level)
-    net, owner, balls = loaded.net, loaded.owner, loaded.balls
+    net, owner = loaded.net, loaded.owner
     loops = Loops(0, 0)
     if wanted.loops is not KeptLoops.KEEP:
         loops = clear_loops(net, loaded.spacing, genuine_loops(samples))
     tips = None
     if ends is None:
-        prune(net, wanted.share, balls)
+        prune(net, wanted.share, loaded.balls)
     else:
         tips = join_ends(net, net.stands_for()[owner[nearest(ends, samples.points)]])
-    join_forks(net)
-    owner = end_limbs(net, owner, balls, tips)
-    if wanted.loops is KeptLoops.OPEN:
-        open_loops(net)
-    draw_forks(net, samples.points)
+    owner = _drawn(loaded, wanted, samples, tips)
     return net, owner, len(level.generators), loops
 
 
+def _net_of_curve(
+    chosen: ChosenSamples, curve: Settings, wanted: SkeletonSettings, progress: Progress
+) -> tuple[Net, NDArray[np.int64], int, Loops]:
+    """Return what `_net` does, with the loops and branches of a curve with some detail."""
+    samples = chosen.samples
+    level, hierarchy = _curve(samples, curve, curve.limb / 100, progress)
+    loaded, loops = net_with_detail(level, hierarchy, samples, curve.detail)
+    owner = _drawn(loaded, wanted, samples, None)
+    return loaded.net, owner, len(level.generators), loops
+
+
+def _drawn(
+    loaded: LoadedNet, wanted: SkeletonSettings, samples: AnalysedSamples, tips: list[int] | None
+) -> NDArray[np.int64]:
+    """Give the remaining branches of a net their ends and forks; returns the new owner of each sample."""
+    net = loaded.net
+    join_forks(net)
+    owner = end_limbs(net, loaded.owner, loaded.balls, tips)
+    if wanted.loops is KeptLoops.OPEN:
+        open_loops(net)
+    draw_forks(net, samples.points)
+    return owner
+
+
 def _curve(
-    samples: AnalysedSamples, settings: Settings, wanted: SkeletonSettings, progress: Progress
+    samples: AnalysedSamples, settings: Settings, limb: float, progress: Progress
 ) -> tuple[Any, Any]:
-    """Return the level without sheets, and its hierarchy; curves are fitted to samples, so no place is crisp."""
-    hierarchy = hierarchy_of(samples, replace(settings, crisp=False), progress.part(0.9))
+    """Return the level without sheets and without limbs shorter than a share of the diagonal, and its hierarchy."""
+    hierarchy = hierarchy_of(samples, settings, progress.part(0.9))
     with native.own_errors():
         level = hierarchy.extract(
-            sheet=math.inf, limb=wanted.limb, relaxed=True, progress=progress.part()
+            sheet=math.inf, limb=limb, crisp=settings.crisp, relaxed=True, progress=progress.part()
         )
     if not len(level.wires) and not len(level.points):
         raise DegenerateInputError(
