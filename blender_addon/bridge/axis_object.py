@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
+from ..core.axis.clip import within_box
 from ..core.axis.colours import radius_range as colours_of_radii
 from ..core.axis.crumbs import crumbs_below, without_crumbs
-from ..core.axis.cut import pieces, within_box, without_small_pieces
+from ..core.axis.cut import pieces, without_small_pieces
 from ..core.axis.verdict import verdict
 from ..core.options import Choice
 from ..core.settings import (

@@ -589,7 +589,7 @@ class Look(Options):
     within: float = number(
         "Within",
         "Facets of an outer axis are shown as far as they lie in the bounding box, made so "
-        "many times as large; 0: all of them",
+        "many times as large, and are cut off there; 0: all of them",
         default=1.5,
         limits=(0.0, 1000.0),
         soft_maximum=5.0,

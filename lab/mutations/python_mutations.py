@@ -115,11 +115,11 @@ MUTATIONS = (
         "test_cut.py",
     ),
     _bug(
-        "axis/cut.py",
-        "inside = (np.abs(axis.vertices - middle) <= half).all(axis=1)",
-        "inside = (np.abs(axis.vertices - middle) <= half).any(axis=1)",
-        "a vertex inside the box along one axis is inside",
-        "test_cut.py",
+        "axis/clip.py",
+        "ascent = (axis.radius[end] - length) * (axis.radius[end] + length) - near * near",
+        "ascent = (axis.radius[end] - length) * (axis.radius[end] + length) + near * near",
+        "the balls of facets that were cut do not touch the samples",
+        "test_clip.py",
     ),
     _bug(
         "axis/colours.py",

@@ -5,10 +5,8 @@ import numpy as np
 import pytest
 from medial_axis.core.axis import cut
 from medial_axis.core.axis.medial_axis import MedialAxis
-from medial_axis.core.machine import native
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
-from support.meshes import icosphere
 
 
 def axis_of(points, polygons):
@@ -82,30 +80,3 @@ def test_what_stays_is_as_it_was():
         np.testing.assert_array_equal(left.radius[mine], axis.radius[whole])
     for name in ("theta", "rho", "side", "generators"):
         np.testing.assert_array_equal(getattr(left, name), getattr(axis, name)[rows])
-
-
-def test_within_a_box():
-    axis, low, high = random_axis(6), np.array([-1.0, -1.0, -1.0]), np.array([1.0, 1.0, 1.0])
-    assert cut.within_box(axis, low, high, 0.0) is axis
-    left = cut.within_box(axis, low, high, 1.5)
-    assert 0 < left.facets < axis.facets and np.abs(left.vertices).max() <= 1.5
-    out = [
-        np.abs(axis.vertices[axis.face_vertices[a:b]]).max() > 1.5
-        for a, b in zip(axis.face_offsets[:-1], axis.face_offsets[1:], strict=True)
-    ]
-    assert left.facets == axis.facets - sum(out)
-
-
-def test_outer_axis_of_a_sphere_scales():
-    points, triangles = icosphere(2)[:2]
-    module = native.load()
-    analysis = module.MedialAnalysis(points, triangles, bounding_sphere=True)
-    mesh = analysis.extract(side=module.Side.OUTER, theta=0.0, rho=0.0)
-    names = MedialAxis.__dataclass_fields__
-    axis = MedialAxis(**{n: getattr(mesh, n) for n in names if hasattr(mesh, n)})
-    for scale in (1.0, 2.0**40):
-        grown = MedialAxis(**vars(axis) | {"vertices": scale * axis.vertices})
-        box = scale * points.min(axis=0), scale * points.max(axis=0)
-        assert cut.within_box(grown, *box, 1.2).facets == (
-            cut.within_box(axis, points.min(axis=0), points.max(axis=0), 1.2).facets
-        )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts of a medial axis: its pieces, and the axis without small or distant ones.
+"""Parts of a medial axis: its pieces, and the axis without small ones.
 
 This is for axes as published, which consist of facets only.
 """
@@ -42,26 +42,6 @@ def without_small_pieces(axis: MedialAxis, share: float) -> MedialAxis:
     large = counts >= share * axis.facets
     large[0] = True
     return axis if large.all() else with_facets(axis, large[piece])
-
-
-def within_box(
-    axis: MedialAxis, low: NDArray[np.float64], high: NDArray[np.float64], times: float
-) -> MedialAxis:
-    """Keep the facets that lie wholly in the box from `low` to `high`, enlarged about its middle.
-
-    Parameters
-    ----------
-    axis : MedialAxis
-    low, high : (3,) float64
-    times : float
-        The factor by which the box is enlarged; 0 keeps everything.
-    """
-    if times <= 0.0 or not axis.facets:
-        return axis
-    middle, half = (low + high) / 2, times * (high - low) / 2
-    inside = (np.abs(axis.vertices - middle) <= half).all(axis=1)
-    keep = np.logical_and.reduceat(inside[axis.face_vertices], axis.face_offsets[:-1])
-    return axis if keep.all() else with_facets(axis, keep)
 
 
 def with_facets(axis: MedialAxis, keep: NDArray[np.bool_]) -> MedialAxis:
