@@ -37,7 +37,7 @@ from .lint import Skip
 Part = Callable[[Path], Optional[str]]
 LONGEST = 15  # tests that pytest names with their seconds
 TIMES = paths.BUILD / "test_times.json"
-SHARES = 4  # one oracle's case in so many runs by default
+SHARES = 4  # one oracle's case in so many runs by default, and one test in so many that take turns
 
 # The scenes of the window that run by default: computing and undoing, Esc, undo of a running job, and a zip
 # without a module.
@@ -251,13 +251,15 @@ def run_matrix(blender: Path, *options: object) -> None:
     run(interpreter, "tests/matrix/run.py", pack.archive_for(), *options)
 
 
-def asan(blender: Path) -> None:
-    """The native tests, for addresses and undefined behaviour, where the last commits changed C++."""
+def asan(blender: Path) -> str:
+    """A native test in four, for addresses and undefined behaviour, where the last commits changed C++."""
     if not any(
         name.endswith((".cpp", ".h")) for name in lint.changed_files("native", "tests/native")
     ):
         raise Skip("the last commits changed no C++; --full runs it always")
-    run_sanitized("asan", "-DMEDIAL_PYTHON=OFF")
+    index, _, count = share().partition("/")
+    run_sanitized("asan", "-DMEDIAL_PYTHON=OFF", tests=("-I", f"{int(index) + 1},,{count}"))
+    return f"turn {share()}"
 
 
 def asan_and_module(blender: Path) -> None:
@@ -284,12 +286,12 @@ def tsan(blender: Path) -> None:
     run_sanitized("tsan")
 
 
-def run_sanitized(preset: str, *definitions: str) -> None:
+def run_sanitized(preset: str, *definitions: str, tests: tuple[str, ...] = ()) -> None:
     """The native tests under a sanitizer; without address randomisation, which older ones cannot live with."""
     library_of(preset)
     build_preset(preset, *definitions)
     fixed = ["setarch", os.uname().machine, "-R"]
-    words = ["ctest", "--preset", preset, "--parallel", str(parallel_jobs())]
+    words = ["ctest", "--preset", preset, "--parallel", str(parallel_jobs()), *tests]
     run(*(fixed if succeeds(*fixed, "true") else []), *words)
 
 
@@ -309,15 +311,16 @@ def clang(blender: Path) -> None:
     run("ctest", "--preset", "clang", "--parallel", parallel_jobs())
 
 
-# Whatever is left out of `test` is left out by a rule: the marker slow, all but one case in four of the marker oracle,
-# the scenes that are not in SCENES, the parts that only `full` has, and what looks at C++ where none has changed.
+# Whatever is left out of `test` is left out by a rule: the marker slow, all but one case in four of the marker oracle
+# and one test in four of the marker turn and of those under AddressSanitizer, the scenes that are not in SCENES, the
+# parts that only `full` has, and what looks at C++ where none has changed.
 TIERS: dict[str, dict[str, Part]] = {
     "test": {
         "build": functools.partial(build, local=True),
         "lint": lint.lint,
         "native": native,
         "python": python,
-        "addon": addon,
+        "addon": lambda blender: addon(blender, "--share", share()),
         "gui": functools.partial(gui, scenes=SCENES),
         "asan": asan,
     },

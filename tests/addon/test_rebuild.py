@@ -91,6 +91,7 @@ def test_offset_of_a_sphere(offset):
     assert volume(evaluated(made)) == pytest.approx(ball_volume(1 + offset), rel=0.02)
 
 
+@pytest.mark.turn
 def test_offset_of_a_box():
     bpy.ops.mesh.primitive_cube_add(size=2)
     source = bpy.context.object

@@ -88,6 +88,7 @@ def test_panel_settings_are_used_and_the_command_line_agrees(growing, tmp_path, 
     assert out.count(" facets, kept\n") == 2
 
 
+@pytest.mark.turn
 def test_several_objects_and_a_frame_that_fails(growing, tmp_path, capfd):
     other = torus("Ring")
     other.scale = (1, 1, 0)
@@ -137,6 +138,7 @@ def test_saved_file_plays_without_the_addon(growing, tmp_path):
     assert [list(each) for each in handlers] == before
 
 
+@pytest.mark.turn
 @renders
 def test_render_shows_the_right_frame(growing, tmp_path):
     """The extent of what Workbench draws grows as the axis does."""
@@ -162,6 +164,7 @@ def test_render_shows_the_right_frame(growing, tmp_path):
     assert drawn[3] == pytest.approx(4 * drawn[0], rel=0.25)
 
 
+@pytest.mark.turn
 def test_files_of_a_farm_are_imported(growing, tmp_path, capfd):
     words = [f"{tmp_path}/", "--frames", "1-4", "--format", "npz"]
     assert addon("cli").main(words) == 0

@@ -371,6 +371,7 @@ def test_where_heat_fails_the_axis_steps_in(capfd):
     assert "weights of the axis" in armature_of(twice)["ma_warnings"]
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", ["hand_closed.obj", "human_woman.obj"])
 def test_real_meshes_are_bound(name):
     source = imported(name)

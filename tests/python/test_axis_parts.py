@@ -48,6 +48,7 @@ def boxed():
     return axis_of(plates.box())
 
 
+@pytest.mark.turn
 @pytest.mark.oracle
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("count", [4000, 10000])

@@ -326,6 +326,7 @@ def test_threads_and_scale_change_nothing(medial, mode, refine):
         assert large.outside == scale * one.outside and large.farthest == scale * one.farthest
 
 
+@pytest.mark.turn
 def test_fewer_balls_where_more_add_nothing(medial):
     centres, radii = np.zeros((3, 3)), np.array([0.5, 0.9, 0.2])
     found = cover(medial, (BALL, centres, radii), 64)

@@ -223,6 +223,7 @@ def pairs_of(starts, options, name):
     ]
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", names_of(Settings))
 def test_an_axis_does_not_depend_on_the_settings_before(name):
     of_points = name == "prepare"
@@ -261,6 +262,7 @@ def test_a_thickness_does_not_depend_on_the_settings_before(name):
     assert_independent_of_history(compute, pairs)
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", names_of(Settings))
 def test_a_kept_measurement_is_not_replaced_by_one_of_other_settings(name):
     shape = bent_shape()

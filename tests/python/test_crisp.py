@@ -485,6 +485,7 @@ def test_the_bars_can_fail():
     assert {word.split()[0].rstrip(",") for word in missed} >= {"err", "cov", "gap", "rim", "area"}
 
 
+@pytest.mark.turn
 def test_rims_at_the_bevelled_zigzags_of_a_real_mesh_have_no_teeth(crisp, medial, data_file):
     import medial_axis
 

@@ -386,6 +386,7 @@ def test_axis_of_a_coarse_ring_of_circles_is_a_circle(medial):
 # --- what it is asked
 
 
+@pytest.mark.turn
 def test_the_same_bytes_for_every_thread_count(medial):
     points = SHAPES["ellipsoid"].random_sample(20000, 0)
     one, three = (medial.MedialAnalysis(points, threads=t).hierarchy() for t in (1, 3))
@@ -512,6 +513,7 @@ def sheets(level):
     return connected_components(at @ at.T, directed=False)[0] if len(sizes) else 0
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "name", [pytest.param(n, marks=pytest.mark.slow if n in LARGE else ()) for n in MESHES]
 )

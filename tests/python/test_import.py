@@ -507,6 +507,7 @@ def damaged(data, rng):
     return bytes(data)
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", FUZZED)
 def test_damaged_files_are_read_or_refused(name, file):
     """Every result satisfies the promises of ImportedPoints; the only exceptions are our errors."""

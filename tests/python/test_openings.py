@@ -137,6 +137,7 @@ def surface(mesh, count=4000, **settings):
     return compute(*mesh, Settings(sampling=SamplingMode.SURFACE, samples=count, **settings))
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "mesh",
     [BOWL, OPEN_BOX, pytest.param(EYE, marks=pytest.mark.slow)],
@@ -199,6 +200,7 @@ def test_chosen_normals_are_kept(medial):
     assert samples.buried == 0 and samples.kinds.max() == int(medial.SampleKind.SURFACE)
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "name, most",
     [

@@ -153,6 +153,7 @@ def plate_with_a_hole(width, thickness):
     return thin_solids.ThinSolid(thin_solids.union(*boxes), (1, 1, 0), 1.0)
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "solid",
     [

@@ -82,6 +82,11 @@ def test_many(case): pass
 def test_few(case): pass
 @pytest.mark.parametrize("case", range(8))
 def test_no_oracle(case): pass
+@pytest.mark.turn
+def test_first(): pass
+@pytest.mark.turn
+@pytest.mark.parametrize("case", range(3))
+def test_later(case): pass
 """
 
 
@@ -95,7 +100,7 @@ def rules(tmp_path):
 
 
 def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(rules):
-    """Four shares in processes of their own: two of the eight cases each, and every other test in each."""
+    """Four shares in processes of their own: two of the eight cases and one turn each, and every other test in each."""
     folder, words = rules
     (folder / "test_a.py").write_text(ORACLES)
     words += ["-q", "--collect-only"]
@@ -107,8 +112,9 @@ def test_shares_of_the_oracles_see_every_case_and_nothing_else_is_left_out(rules
     ]
     names = [{line for line in run.stdout.splitlines() if "::" in line} for run in runs]
     assert [sum("test_many" in name for name in found) for found in names] == [2] * 4
-    assert len(set.union(*names)) == 19 and len(set.intersection(*names)) == 11
-    assert [len(found) for found in names] == [13] * 4
+    assert [sum("first" in name or "later" in name for name in found) for found in names] == [1] * 4
+    assert len(set.union(*names)) == 23 and len(set.intersection(*names)) == 11
+    assert [len(found) for found in names] == [14] * 4
 
 
 def test_processes_share_files_and_leave_none_out(rules, tmp_path_factory):
@@ -177,7 +183,7 @@ def test_one_failing_linter_fails_after_all_ran(monkeypatch):
 def test_the_sanitizer_runs_where_cpp_has_changed(monkeypatch, name, runs):
     begun = []
     monkeypatch.setattr(lint, "changed_files", lambda *folders: [name])
-    monkeypatch.setattr(parts, "run_sanitized", lambda *words: begun.append(words))
+    monkeypatch.setattr(parts, "run_sanitized", lambda *words, **_: begun.append(words))
     with contextlib.suppress(lint.Skip):
         parts.asan(Path("blender"))
     assert bool(begun) == runs

@@ -101,6 +101,7 @@ def meeting_points(solid):
     return places[times > 2]
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("count", [8000, 16_000])
 def test_forks_at_other_densities(count):
     solid = tubes.y_of_tubes()
@@ -139,6 +140,7 @@ def test_a_plate_has_few_ends():
 # --- real meshes
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     ("name", "tips", "loops"),
     [
@@ -218,6 +220,7 @@ def test_loops_are_kept_or_opened_by_choice():
         assert found.skeleton.length > 0.9 * ring.length
 
 
+@pytest.mark.turn
 def test_terraced_scans_get_few_ends(data_file):
     shape, _ = read_shape(data_file("liver.ply"))
     assert compute_skeleton(shape, Settings(), SkeletonSettings()).skeleton.tips <= 24
@@ -261,6 +264,7 @@ def test_the_same_ends_at_every_density_and_however_turned(data_file, name, tips
             assert (away <= radii_off * np.maximum(first[1], np.median(first[1]))).all()
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("seed", range(3))
 def test_a_limb_that_is_cut_flat_ends_in_the_ball_that_touches_its_end(seed):
     """No joint lies in a corner of the solid, a rod of radius 0.2 from -1 to 1."""
@@ -356,6 +360,7 @@ def rig_of(data_file, name):
 RIGGED = ["hand_closed.obj", "spot_low.obj", "dilo.off", "human_woman.obj"]
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", RIGGED)
 def test_bones_are_few_connected_and_near_the_curve(data_file, name):
     _, rig = rig_of(data_file, name)
@@ -467,6 +472,7 @@ def test_a_limb_leaves_to_its_parent_what_it_loses():
     assert limb[0] < 0.1 and (np.diff(limb) >= 0.0).all() and limb[-1] == 1.0
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize("name", RIGGED)
 def test_weights_hold(data_file, name):
     shape, rig = rig_of(data_file, name)
@@ -855,6 +861,7 @@ def windings(places, shape):
     return np.array(found) / (2 * np.pi)
 
 
+@pytest.mark.turn
 @pytest.mark.parametrize(
     "name", ["spot_low.obj", pytest.param("hand_closed.obj", marks=pytest.mark.slow)]
 )

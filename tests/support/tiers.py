@@ -4,6 +4,7 @@
 - slow: tests that take minutes; left out unless --slow is given.
 - oracle: tests that compare results with independent ones over many cases. With --share I/N the case number k of each
   function runs if k % N == I, so N runs with different I see all cases, and each run sees every function.
+- turn: tests that take many seconds. With --share I/N the test number k of all of them runs if k % N == I.
 - --claims FOLDER: processes that share the folder share the files of tests. Each takes the next file that none has
   taken, the longest first, and notes it there.
 """
@@ -17,6 +18,7 @@ import pytest
 def pytest_configure(config):
     config.addinivalue_line("markers", "slow: minutes long; left out unless --slow is given")
     config.addinivalue_line("markers", "oracle: many cases of one relation; --share I/N takes some")
+    config.addinivalue_line("markers", "turn: many seconds long; with --share I/N they take turns")
     config.addinivalue_line("markers", "docs: about the documentation, not about the product")
     # A marker of pytest-xdist: one worker runs them all, so that a shared compilation is done once.
     config.addinivalue_line("markers", "xdist_group(name): tests that run in one worker")
@@ -24,7 +26,9 @@ def pytest_configure(config):
 
 def pytest_addoption(parser):
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
-    parser.addoption("--share", type=_part, default=(0, 1), help="cases of the oracles: I/N")
+    parser.addoption(
+        "--share", type=_part, default=(0, 1), help="cases of the oracles, and turns: I/N"
+    )
     parser.addoption("--claims", type=Path, help="where processes note the files that they take")
 
 
@@ -40,7 +44,8 @@ def pytest_collection_modifyitems(config, items):
         for item in items:
             if "slow" in item.keywords:
                 item.add_marker(pytest.mark.skip(reason="minutes long; run with --slow"))
-    left_out = {*_other_cases(items, *config.getoption("--share"))}
+    share = config.getoption("--share")
+    left_out = {*_other_cases(items, *share), *_other_turns(items, *share)}
     if left_out:
         config.hook.pytest_deselected(items=[item for item in items if item in left_out])
         items[:] = [item for item in items if item not in left_out]
@@ -64,6 +69,12 @@ def _other_cases(items, index, count):
         if sizes[name] >= count and seen[name] % count != index:
             yield item
         seen[name] += 1
+
+
+def _other_turns(items, index, count):
+    """The tests that take their turn in another share."""
+    turns = [item for item in items if "turn" in item.keywords]
+    return [item for k, item in enumerate(turns) if k % count != index]
 
 
 def _longest_first(items):
