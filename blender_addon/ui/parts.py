@@ -9,6 +9,7 @@ from ..bridge.output_object import is_gone
 from ..bridge.parts_objects import part_of_active_face, select_part, separate_parts
 from ..bridge.structure_object import counts_on
 from ..core.errors import MedialAxisError
+from .properties import shown_result
 from .tab import InResult, settings_column
 from .translation import say
 from .view_place import edit_faces
@@ -100,10 +101,14 @@ class VIEW3D_PT_medial_axis_parts(InResult, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context):
-        return _axis(context) is not None
+        # It is there for every form: where a panel goes and the rest grows by as much, Blender moves no panel.
+        return shown_result(context) is not None
 
     def draw(self, context):
         layout = self.layout
+        if _axis(context) is None:
+            layout.label(text="Only clean forms have parts", icon="INFO")
+            return
         settings_column(layout).prop(context.scene.medial_axis, "by_part")
         layout.operator("object.medial_axis_select_part", icon="RESTRICT_SELECT_OFF")
         layout.operator("object.medial_axis_separate_parts", icon="OUTLINER_COLLECTION")

@@ -154,3 +154,16 @@ def test_a_changed_axis_has_no_table(result):
     bpy.ops.mesh.delete(type="FACE")
     bpy.ops.object.mode_set(mode="OBJECT")
     assert addon("bridge.read_axis").read_axis(result).structure is None
+
+
+def test_the_panel_of_parts_stays_in_its_place(result):
+    """If it went where the result grows by as much, the panels below would lie over what has grown."""
+    source = bpy.data.objects["Cube"]
+    panel = bpy.types.VIEW3D_PT_medial_axis_parts
+    assert panel.poll(bpy.context)
+    select(source)
+    compute(side="OUTER")
+    assert panel.poll(bpy.context)
+    assert not bpy.ops.object.medial_axis_select_part.poll()
+    bpy.data.objects.remove(result_of(source))
+    assert not panel.poll(bpy.context)
