@@ -84,14 +84,14 @@ class WithCurve:
         default=True,
     )
 
-    def remember_curve(self, thing, shape):
-        """Remember the settings of the curve of an object for `curve_of` the shape that is read from it."""
-        self._curves = getattr(self, "_curves", {})
+    def remember_shown(self, thing, shape):
+        """Remember the settings of the curve of an object for `shown_of` the shape that is read from it."""
+        self._shown = getattr(self, "_shown", {})
         if self.as_shown:
-            self._curves[id(shape)] = shown_curve(thing)
+            self._shown[id(shape)] = shown_curve(thing)
 
-    def curve_of(self, shape):
-        return self._curves.pop(id(shape), None)
+    def shown_of(self, shape):
+        return self._shown.pop(id(shape), None)
 
 
 class ArmatureProperties:
@@ -146,14 +146,14 @@ class OBJECT_OT_medial_axis_skeleton(
 
     def read(self, thing, depsgraph):
         shape = read_object(thing, depsgraph)
-        self.remember_curve(thing, shape)
+        self.remember_shown(thing, shape)
         return self.with_ends(thing, shape)
 
     def work(self, shape):
         settings, ends = self.settings(shape)
-        curve = self.curve_of(shape)
+        shown = self.shown_of(shape)
         limit = memory_limit()
-        return partial(compute_skeleton, shape, *settings, limit=limit, ends=ends, curve=curve)
+        return partial(compute_skeleton, shape, *settings, limit=limit, ends=ends, shown=shown)
 
     def write(self, thing, found, frame):
         made = write_skeleton(thing, found, frame)
@@ -221,12 +221,12 @@ class OBJECT_OT_medial_axis_armature(
     def read(self, thing, _depsgraph):
         with in_rest(thing):
             shape = read_object(thing, bpy.context.evaluated_depsgraph_get())
-            self.remember_curve(thing, shape)
+            self.remember_shown(thing, shape)
             return self.with_ends(thing, shape)
 
     def work(self, shape):
         settings, ends = self.settings(shape)
-        words = {"limit": memory_limit(), "ends": ends, "curve": self.curve_of(shape)}
+        words = {"limit": memory_limit(), "ends": ends, "shown": self.shown_of(shape)}
         return partial(compute_rig, shape, *settings, self.per_limb, **words)
 
     def write(self, thing, rig, frame):

@@ -239,7 +239,7 @@ def test_a_skeleton_starts_from_the_curve_that_is_seen(curves, name, detail):
     computation, smooth, _ = curves[name]
     axis, settings = smooth[detail], replace(computation.settings, detail=detail)
     shape = Shape(*(np.asarray(a) for a in SOLIDS[name][0]()))
-    found = compute_skeleton(shape, settings, SkeletonSettings(), curve=settings)
+    found = compute_skeleton(shape, settings, SkeletonSettings(), shown=settings)
     assert (found.skeleton.tips, found.skeleton.loops) == (tips(axis), axis.level.betti[1])
     assert (found.loops.cut + found.loops.filled == 0) == (detail == 1.0 or name == "torus")
 

@@ -92,7 +92,7 @@ def compute_skeleton(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
     ends: NDArray[np.float64] | None = None,
-    curve: Settings | None = None,
+    shown: Settings | None = None,
 ) -> Skeletonization:
     """Return the skeleton of a solid.
 
@@ -107,7 +107,7 @@ def compute_skeleton(
     ends : (e, 3) float64, optional
         Places on or near the surface. The skeleton keeps only what joins these ends; limbs that carry
         little stay, too, but those that are shorter than `detail` says are not there to be joined.
-    curve : Settings, optional
+    shown : Settings, optional
         The skeleton keeps the loops and branches that the form CURVE has with these settings: their `limb`, `detail`
         and `crisp` count, and not `wanted.detail`. With `ends`, it is ignored.
 
@@ -122,10 +122,10 @@ def compute_skeleton(
         shape, replace(settings, side=Side.INNER), progress, limit, _ANALYSIS, levels=True
     )
     chosen = begun.chosen
-    if curve is None or ends is not None:
+    if shown is None or ends is not None:
         net, owner, sheets, loops = _net(chosen, settings, wanted, begun.progress, ends)
     else:
-        net, owner, sheets, loops = _net_of_curve(chosen, curve, wanted, begun.progress)
+        net, owner, sheets, loops = _net_of_curve(chosen, shown, wanted, begun.progress)
     by_faces = chosen.sides.source is SidesFrom.SURFACE
     depth = Depth(chosen.samples, begun.shape if by_faces else None)
     inscribe(net, depth)
@@ -191,12 +191,12 @@ def _net(
 
 
 def _net_of_curve(
-    chosen: ChosenSamples, curve: Settings, wanted: SkeletonSettings, progress: Progress
+    chosen: ChosenSamples, shown: Settings, wanted: SkeletonSettings, progress: Progress
 ) -> tuple[Net, NDArray[np.int64], int, Loops]:
     """Return what `_net` does, with the loops and branches of a curve with some detail."""
     samples = chosen.samples
-    level, hierarchy = _curve(samples, curve, curve.limb / 100, progress)
-    loaded, loops = net_with_detail(level, hierarchy, samples, curve.detail)
+    level, hierarchy = _curve(samples, shown, shown.limb / 100, progress)
+    loaded, loops = net_with_detail(level, hierarchy, samples, shown.detail)
     owner = _drawn(loaded, wanted, samples, None)
     return loaded.net, owner, len(level.generators), loops
 

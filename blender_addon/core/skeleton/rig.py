@@ -67,7 +67,7 @@ def compute_rig(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
     ends: NDArray[np.float64] | None = None,
-    curve: Settings | None = None,
+    shown: Settings | None = None,
 ) -> Rig:
     """Compute bones along the skeleton of a shape; most parameters and errors are those of `compute_skeleton`.
 
@@ -82,7 +82,7 @@ def compute_rig(
         The skeleton has only single points, as that of a ball.
     """
     start = time.perf_counter()
-    made_of = compute_skeleton(shape, settings, wanted, progress, limit, ends, curve)
+    made_of = compute_skeleton(shape, settings, wanted, progress, limit, ends, shown)
     if not made_of.skeleton.count:
         raise DegenerateInputError(
             "Expected a solid with limbs, found that its skeleton is a point, as that of a ball; "
