@@ -1314,7 +1314,8 @@ def spread_lengths(
 ) -> NDArray[np.float64]:
     """(n,) float64: lengths with those of the nearest points, along edges, where they are infinite.
 
-    A length reaches points up to twice itself away. Where none does, the largest of `own` nearby counts.
+    A length reaches points up to twice itself away, and four times where `own` is no larger. Where none does, the
+    largest of `own` nearby counts.
 
     Parameters
     ----------

@@ -24,6 +24,7 @@ from medial_axis.core.solid.fine_faces import coarse_faces, cut_faces
 from medial_axis.core.solid.thickness import measure_thickness
 from medial_axis.core.solid.thin_parts import find_thin_parts
 from support import inputs, meshes
+from support.plates import prism
 from support.thick_meshes import (
     block,
     ellipsoid,
@@ -353,6 +354,36 @@ def test_a_fin_does_not_make_what_it_stands_on_thin():
     found = measure(mesh, Settings(samples=30_000))
     of_block = np.abs(found.points[:, 2] + 0.5) < 1e-9
     assert np.percentile(found.lengths[of_block], 1) > 0.95
+
+
+def disc(sides, height):
+    """A plate over a polygon, whose flat faces are fans of needles."""
+    turns = 2 * np.pi * np.arange(sides) / sides
+    outline = 7.5 * np.column_stack((np.cos(turns), np.sin(turns)))
+    fan = [(0, corner, corner + 1) for corner in range(1, sides - 1)]
+    points, triangles = prism(outline, fan, height)
+    return points.astype(np.float32).astype(float), triangles
+
+
+@pytest.mark.parametrize("height", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize("sides", [24, 187, 400])
+def test_no_place_of_a_plate_with_a_round_rim_is_thinner_than_the_plate(sides, height):
+    """Values reach all needles at the rim, and a bulge of the rim over the straight edges is no wall."""
+    found = measure(disc(sides, height), Settings())
+    assert found.minimum == pytest.approx(height, rel=1e-5)
+    flat = np.ptp(found.points[found.triangles][:, :, 2], axis=1) == 0.0
+    assert found.of_triangles[flat].max() < 1.06 * height  # the rim of 24 sides bulges by 0.06
+
+
+def test_a_thin_plate_flush_with_a_block_leaves_the_block_thick():
+    """The strip along the edge of the block is near no other wall, and its balls are small."""
+    profile = [(0, 0), (2, 0), (2, 0.05), (1, 0.05), (1, 1), (0, 1)]
+    caps = [(0, 1, 3), (1, 2, 3), (0, 3, 4), (0, 4, 5)]
+    found = measure(prism(profile, caps, 1.0), Settings())
+    assert found.minimum == pytest.approx(0.05, rel=1e-5)
+    middle = found.points[found.triangles].mean(axis=1)
+    far = middle[:, 0] < 0.6  # the plate is 0.05 thick, and the strip no wider than its half
+    assert found.of_triangles[far].min() > 0.5
 
 
 # --- limits and patches

@@ -57,6 +57,10 @@ class Faces {
   bool separates(int32_t edge) const { return separates_[edge] != 0; }
   // Returns whether an edge is sharp, and the solid is convex there.
   bool is_convex_crease(int32_t edge) const { return separates_[edge] == kConvex; }
+  // Returns whether an edge is sharp, and a ball inside may roll round it.
+  bool is_reflex_crease(int32_t edge) const {
+    return separates_[edge] == 0 && creases_.edges[edge].crease != Crease::none;
+  }
 
   // Returns how far the surface is at most from the flat triangle.
   double bulge(int32_t triangle) const { return bulge_.empty() ? 0 : bulge_[triangle]; }

@@ -24,6 +24,8 @@ constexpr double kUnknown = 1.0 / 64, kUnknownBetween = 1.0 / 4;
 // A ball lies between walls if one of the places that it touches, up to so much of its radius, is
 // opposite: the normal there differs from that of the first place by 120 degrees or more.
 constexpr double kTouched = 0.03, kOpposite = -0.5;
+// There the normal of the faces leads away from the centre, up to 25 degrees.
+constexpr double kTangent = 0.9;
 // It is looked for from half of the way to the place opposite, up to so far from there, in radii.
 constexpr double kHalfWay = 0.5, kReachOpposite = 0.9;
 constexpr int kMostInVain = 48;    // leaves of the tree of faces
@@ -82,7 +84,7 @@ class Shrinking {
     const auto is_opposite = [&](const Foot& q) {
       const double away = distance(q.point, centre);
       return away <= (1 + kTouched) * ball.radius &&
-             dot(x.normal, q.point - centre) <= kOpposite * away;
+             dot(x.normal, q.point - centre) <= kOpposite * away && is_tangent(q, centre);
     };
     if (is_opposite(ball.foot)) return ball;
     const auto beside = [&](const Foot& q) {
@@ -158,6 +160,18 @@ class Shrinking {
       found = {radius, next};
     }
     return found;
+  }
+
+  // Returns whether a ball that reaches a foot touches the faces there. One that sticks out of a
+  // flat face, as far as the surface is unknown, reaches places beside the one that it touches.
+  bool is_tangent(const Foot& q, const Vec3& centre) const {
+    const Vec3 away = q.point - centre;
+    if (dot(faces_.normal(q.triangle, q.at), away) >= kTangent * length(away)) return true;
+    const std::array<double, 3> opposite{q.at.c, q.at.a, q.at.b};  // of the corner, for each edge
+    for (int i = 0; i < 3; ++i) {
+      if (opposite[i] == 0 && faces_.is_reflex_crease(faces_.edge_of(q.triangle, i))) return true;
+    }
+    return false;
   }
 
   // Returns whether a foot belongs to the surface round a place: a ball that touches this at the

@@ -9,6 +9,10 @@
 namespace medial {
 namespace {
 
+// A value reaches twice as far where no ball is larger than it, and where samples are farther apart
+// than the wall is thick, so many edges beyond.
+constexpr int kBeyond = 3;
+
 // An edge of the surface has the circumcircle of a triangle of the umbrellas at both of its ends.
 bool follows_surface(const Edge& ends, std::span<const Vec3> points, const Tangents& tangents,
                      const Significance& significance) {
@@ -34,27 +38,32 @@ struct Way {
   double length;
   int32_t to;
   double value;
+  int32_t from;
+  int beyond = 0;  // so many edges led on from where the value reaches
 };
 
 // The next way is the shortest one, or the one with the largest value; the other comparisons break
 // ties, so that the order is the same on every machine.
 struct ByLength {
   bool operator()(const Way& a, const Way& b) const {
-    return std::tie(a.length, a.to, a.value) > std::tie(b.length, b.to, b.value);
+    return std::tie(a.length, a.to, a.value, a.beyond, a.from) >
+           std::tie(b.length, b.to, b.value, b.beyond, b.from);
   }
 };
 struct ByValue {
   bool operator()(const Way& a, const Way& b) const {
-    return std::tie(b.value, a.length, a.to) > std::tie(a.value, b.length, b.to);
+    return std::tie(b.value, a.length, a.to, a.beyond, a.from) >
+           std::tie(a.value, b.length, b.to, b.beyond, b.from);
   }
 };
 
 // This follows the ways along the surface to samples without a value.
 class Spreading {
  public:
-  Spreading(std::vector<double>& values, std::span<const Vec3> points, std::vector<Edge> ends,
-            const Run& run)
+  Spreading(std::vector<double>& values, std::span<const double> own, std::span<const Vec3> points,
+            std::vector<Edge> ends, const Run& run)
       : values_(values),
+        own_(own),
         points_(points),
         ends_(std::move(ends)),
         at_(rows_containing(std::span<const Edge>(ends_), static_cast<int32_t>(values.size()),
@@ -68,15 +77,15 @@ class Spreading {
     for (size_t p = 0; p < values_.size(); ++p) {
       if (values_[p] < HUGE_VAL) known.push_back(static_cast<int32_t>(p));
     }
-    for (const int32_t p : known) go_on({0, p, values_[p]}, ways);
+    for (const int32_t p : known) go_on({0, p, values_[p], p}, ways);
     finish(ways);
   }
   // Starts from the samples that have no value, with their own balls, largest first.
-  void spread(std::span<const double> own) {
+  void spread_own() {
     std::priority_queue<Way, std::vector<Way>, ByValue> ways;
     for (size_t p = 0; p < values_.size(); ++p) {
-      if (!(values_[p] < HUGE_VAL) && own[p] < HUGE_VAL)
-        ways.push({0, static_cast<int32_t>(p), own[p]});
+      if (!(values_[p] < HUGE_VAL) && own_[p] < HUGE_VAL)
+        ways.push({0, static_cast<int32_t>(p), own_[p], static_cast<int32_t>(p)});
     }
     finish(ways);
   }
@@ -98,12 +107,19 @@ class Spreading {
     for (const int32_t e : at_[way.to]) {
       const int32_t next = ends_[e][0] == way.to ? ends_[e][1] : ends_[e][0];
       if (values_[next] < HUGE_VAL) continue;
+      const double away = distance(points_[way.from], points_[next]);
+      if (away > kReach * way.value && is_wider(next, way.value)) continue;
+      const int beyond = away > 2 * kReach * way.value ? way.beyond + 1 : 0;
+      if (beyond > kBeyond) continue;
       const double length = way.length + distance(points_[way.to], points_[next]);
-      if (length <= kReach * way.value) ways.push({length, next, way.value});
+      ways.push({length, next, way.value, way.from, beyond});
     }
   }
+  // Returns whether there is a ball at a sample that is larger than a value.
+  bool is_wider(int32_t p, double value) const { return own_[p] < HUGE_VAL && own_[p] > value; }
 
   std::vector<double>& values_;
+  std::span<const double> own_;
   std::span<const Vec3> points_;
   std::vector<Edge> ends_;
   Csr<int32_t> at_;
@@ -120,9 +136,9 @@ void extrapolate(std::vector<double>& values, std::span<const double> own,
 
 void spread(std::vector<double>& values, std::span<const double> own, std::span<const Vec3> points,
             std::vector<Edge> ends, const Run& run) {
-  Spreading to_others(values, points, std::move(ends), run);
+  Spreading to_others(values, own, points, std::move(ends), run);
   to_others.spread();
-  to_others.spread(own);
+  to_others.spread_own();
 }
 
 }  // namespace medial

@@ -9,9 +9,10 @@ namespace medial {
 
 // Gives each sample with an infinite value that of the nearest sample with a finite one. Samples
 // with no wall nearby, as on a cube, where only the centres face each other, get the largest nearby
-// ball of `own`. Nearby means within kReach times the value, along the short Delaunay edges between
-// samples that do not face away from each other: such edges follow the surface and cross neither
-// walls nor gaps.
+// ball of `own`. Nearby means no farther away than kReach times the value, along the short Delaunay
+// edges between samples that do not face away from each other: such edges follow the surface and
+// cross neither walls nor gaps. Where no ball is larger than the value, it goes twice as far, and
+// some edges on.
 void extrapolate(std::vector<double>& values, std::span<const double> own,
                  std::span<const Vec3> points, const Tangents& tangents, const Edges& edges,
                  const Significance& significance, const Run& run);
