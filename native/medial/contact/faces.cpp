@@ -237,6 +237,7 @@ std::optional<Foot> Faces::nearer(const Vec3& from, double than) const {
 // Returns the foot on a triangle, or nothing if it is certain that none is nearer than a distance.
 std::optional<Foot> Faces::foot_within(int32_t triangle, const Vec3& from, double within) const {
   if (!is_curved(triangle)) return foot_on(triangle, from);
+  if (flat_foot(triangle, from).distance - bulge(triangle) > within) return {};
   const Patch patch = surface_->patch(triangle);
   if (least_squared_distance(patch, from) >= within * within) return {};
   const auto corners = patch.controls();
