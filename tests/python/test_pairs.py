@@ -2,13 +2,14 @@
 """Samples in pairs across thin walls: with the option, and where Automatic closes its loop, the topology is right."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from medial_axis import cli, library
 from medial_axis.core.machine import native
 from medial_axis.core.machine.progress import Progress
-from medial_axis.core.samples import choose_samples
+from medial_axis.core.samples import choose_samples, topology_loop
 from medial_axis.core.samples.buried_samples import find_bare, on_flat_faces
 from medial_axis.core.samples.shape import Shape
 from medial_axis.core.samples.surface_samples import _of_rows, are_paired
@@ -170,6 +171,39 @@ def test_automatic_finds_thin_walls_and_small_holes(solid):
     assert found.axis.level.betti == solid.betti
     assert "samples in pairs" in found.chosen.reason and found.settings.pairs
     assert not found.warnings and found.topology.endswith("as the solid")
+
+
+@pytest.mark.parametrize(
+    "differences, passes",
+    [
+        (
+            [8, 3, 46, 19, 5, 0],
+            6,
+        ),  # the spacings of both sides of a wall became small one after the other
+        ([8, 4, 17, 36, 16, 2, 0], 7),
+        ([8, 9, 9, 9, 9, 0], 1),  # three in a row are no better
+        ([8, 5, 200, 0], 2),
+        ([9, 8, 7, 6, 5, 4, 3, 2, 1, 1, 0], 10),
+    ],
+)
+def test_the_loop_goes_on_while_it_helps(monkeypatch, differences, passes):
+    """The best of the passes is taken; `differences` are those that each pass would have."""
+    left = iter(differences)
+    samples = SimpleNamespace(
+        points=np.zeros((1, 3)), buried=0, walls=None, density=SimpleNamespace(dense_enough=True)
+    )
+    monkeypatch.setattr(topology_loop, "are_close", lambda _: False)
+    monkeypatch.setattr(topology_loop, "_finer", lambda *_: {})
+    monkeypatch.setattr(
+        topology_loop,
+        "_trial",
+        lambda *_: SimpleNamespace(differences=next(left), samples=samples),
+    )
+    progress = SimpleNamespace(begin_pass=lambda _: None, begin_share=lambda _: None)
+    request = SimpleNamespace(progress=progress, settings=SimpleNamespace(budget=1000))
+    start = SimpleNamespace(differences=10, samples=samples)
+    best, found = topology_loop._best(request, start, False, lambda *_: samples)
+    assert found == passes and best.differences == differences[passes - 1]
 
 
 def test_a_thick_mesh_takes_one_pass_and_the_same_samples(monkeypatch):

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from .solid_faces import SolidFaces
 
 _LEVELS = 0.9  # the share of all work that ends with the first hierarchy
-_PASSES = 6  # the most passes with pairs
+_PASSES = 10  # the most passes with pairs
 _OF_REST = (
     0.3  # the share of the work left that a pass is shown as: nobody knows how many there will be
 )
@@ -41,8 +41,10 @@ _OF_GAP, _COARSEST, _FINEST = 0.5, 0.5, 0.25
 _WIDE = 0.2
 # So large a share of the samples may be buried, for foils are too thin to tell; and while spacings become smaller.
 _BURIED, _FEW_BURIED = 0.01, 0.005
-# Where smaller spacings make more differences by this factor, and by this number, they do not help.
-_WORSE, _MANY = 2, 10
+# Where smaller spacings make more differences by this factor, and by this number, they do not help. Some more are made
+# on the way, as where the spacings of both sides of a wall become small one after the other; but a pass that is no
+# better than the one before may be followed by no more than so many others of this kind.
+_WORSE, _MANY, _STALLED = 10, 100, 2
 # A pass with fewer samples than this multiple of the last one cannot be finer where it matters.
 _MORE = 1.05
 
@@ -168,7 +170,7 @@ def _best(
     take: Callable[[dict[str, Any] | None, bool], AnalysedSamples],
 ) -> tuple[Trial, int]:
     """Return the best trial, and the number of passes with pairs up to it; `close` samples without pairs are worst."""
-    best, last, found, spent = start, start, 0, 0
+    best, last, found, spent, stalled = start, start, 0, 0, 0
     amount: dict[str, Any] | None = None
     flat = _is_flat(start.samples)
     for number in range(1, _PASSES + 1):
@@ -186,7 +188,8 @@ def _best(
         left = request.settings.budget - spent
         if not (trial.differences or again) or left < _MORE * len(samples.points):
             break
-        if _is_hopeless(trial, last, number):
+        stalled = stalled + 1 if number > 2 and trial.differences >= last.differences else 0
+        if stalled > _STALLED or _is_hopeless(trial, last, number):
             break
         last = trial
         flat = flat or _is_flat(samples)
