@@ -182,6 +182,7 @@ TEST(Pairs, SamplesOfALongEdgeFollowASmallSpacingNextToLargeOnes) {
   options.sites = sites;
   options.site_spacings = spacings;
   const SurfaceSamples samples = sample_surface(cube.vertices, cube.triangles, options, 2);
+  EXPECT_EQ(samples.points, sample_surface(cube.vertices, cube.triangles, options, 1).points);
   std::vector<double> at;
   for (const Vec3& p : samples.points) {
     const double share = dot(p - from, along);
