@@ -165,6 +165,37 @@ TEST(Pairs, PartnersOnCurvedWallsAreAlongTheNormals) {
   }
 }
 
+// The smallest spacing is in the middle of no step of a coarse division of the edge.
+TEST(Pairs, SamplesOfALongEdgeFollowASmallSpacingNextToLargeOnes) {
+  constexpr double kFinest = 0.002, kAt = 0.12;
+  const test::Mesh cube = plate(1);
+  const Vec3 from = cube.vertices[0], along = cube.vertices[1] - from;
+  std::vector<Vec3> sites;
+  std::vector<double> spacings;
+  for (int i = 0; i <= 100; ++i) {
+    sites.push_back(from + 0.01 * i * along);
+    spacings.push_back(i == 12 ? kFinest : 0.5);
+  }
+  SamplingOptions options;
+  options.pairs = true;
+  options.smooth = false;
+  options.sites = sites;
+  options.site_spacings = spacings;
+  const SurfaceSamples samples = sample_surface(cube.vertices, cube.triangles, options, 2);
+  EXPECT_EQ(samples.points, sample_surface(cube.vertices, cube.triangles, options, 1).points);
+  std::vector<double> at;
+  for (const Vec3& p : samples.points) {
+    const double share = dot(p - from, along);
+    if (distance(p, from + share * along) < 1e-5) at.push_back(share);
+  }
+  std::sort(at.begin(), at.end());
+  ASSERT_GT(at.size(), 20);
+  for (size_t i = 1; i < at.size(); ++i) {
+    const double far = std::max(std::abs(at[i] - kAt), std::abs(at[i - 1] - kAt));
+    EXPECT_LT(at[i] - at[i - 1], 1.3 * (kFinest + 0.3 * far)) << at[i];
+  }
+}
+
 TEST(Pairs, AreTheSameForAnyNumberOfThreads) {
   for (const test::Mesh& mesh : {plate(1e-3), hollow_torus(0.02)}) {
     const SurfaceSamples one = paired(mesh, 3000, false, 1), four = paired(mesh, 3000, false, 4);

@@ -79,25 +79,67 @@ int steps_of(const Model& model, const MeshEdge& edge, const Spacing& spacing) {
   return static_cast<int>(std::clamp(std::ceil(spacings), least, 65536.0));
 }
 
-Polyline measured(const Model& model, std::span<const ChainLink> chain, const Spacing& spacing) {
-  Polyline line;
-  double passed = 0;
-  for (const ChainLink& link : chain) {
-    const MeshEdge& edge = model.creases.edges[link.edge];
-    const Triangle& corners = model.mesh.triangles[edge.triangles[0]];
-    const int steps = steps_of(model, edge, spacing);
-    Vec3 before;
+// Measures a chain step by step.
+class Measuring {
+ public:
+  Measuring(const Model& model, const Spacing& spacing)
+      : model_(model), spacing_(spacing), halves_(model.walls && spacing.field) {}
+
+  void add_edge(const ChainLink& link) {
+    const MeshEdge& edge = model_.creases.edges[link.edge];
+    const int steps = steps_of(model_, edge, spacing_);
+    Stop before;
     for (int i = 0; i <= steps; ++i) {
       const double walked = static_cast<double>(i) / steps;
-      const double share = link.reversed ? 1 - walked : walked;
-      const Vec3 here =
-          model.surface->point(edge.triangles[0], place_on_edge(corners, edge.ends, share));
-      if (i > 0) passed += distance(before, here) / spacing(0.5 * before + 0.5 * here);
-      line.knots.push_back({link.edge, share, passed});
+      const Stop here = stop(edge, link.reversed ? 1 - walked : walked);
+      if (i > 0) add_step(link.edge, before, here, 0);
+      if (i == 0) line_.knots.push_back({link.edge, here.share, passed_});
       before = here;
     }
   }
-  return line;
+  Polyline line() && { return std::move(line_); }
+
+ private:
+  struct Stop {
+    double share = 0;
+    Vec3 point;
+  };
+
+  Stop stop(const MeshEdge& edge, double share) const {
+    const int32_t triangle = edge.triangles[0];
+    const Triangle& corners = model_.mesh.triangles[triangle];
+    return {share, model_.surface->point(triangle, place_on_edge(corners, edge.ends, share))};
+  }
+
+  // Adds a step of an edge. A step that is longer than the spacing in its middle is halved: a field
+  // may have far smaller spacings next to it, and samples in pairs must follow them. As spacings
+  // grow slowly, those along a step that is no longer differ little.
+  void add_step(int32_t edge, const Stop& from, const Stop& to, int halvings) {
+    const double way = distance(from.point, to.point);
+    const double apart = spacing_(0.5 * from.point + 0.5 * to.point);
+    if (halves_ && way > apart && halvings < kMostHalvings) {
+      const Stop middle = stop(model_.creases.edges[edge], 0.5 * (from.share + to.share));
+      add_step(edge, from, middle, halvings + 1);
+      add_step(edge, middle, to, halvings + 1);
+      return;
+    }
+    passed_ += way / apart;
+    line_.knots.push_back({edge, to.share, passed_});
+  }
+
+  static constexpr int kMostHalvings = 24;
+
+  const Model& model_;
+  const Spacing& spacing_;
+  const bool halves_;
+  double passed_ = 0;
+  Polyline line_;
+};
+
+Polyline measured(const Model& model, std::span<const ChainLink> chain, const Spacing& spacing) {
+  Measuring measuring(model, spacing);
+  for (const ChainLink& link : chain) measuring.add_edge(link);
+  return std::move(measuring).line();
 }
 
 bool begins_at_corner(const Model& model, std::span<const ChainLink> chain, bool keep_vertices) {
