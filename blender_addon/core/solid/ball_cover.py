@@ -85,7 +85,7 @@ class Balls:
     @property
     def words(self) -> str:
         """How many there are, for people."""
-        return f"{self.count:,} {'capsules' if len(self.edges) else 'balls'}"
+        return f"{self.count:,} capsules" if len(self.edges) else f"{self.count:,} balls"
 
     @property
     def is_tapered(self) -> bool:
