@@ -32,6 +32,7 @@ __all__ = [
     "Cancelled",
     "Computation",
     "CoverMode",
+    "CoverShapes",
     "Criteria",
     "DegenerateInputError",
     "EachPart",

@@ -93,6 +93,10 @@ class Console:
             _turn_off("stderr")
 
 
+def _shapes(report: dict[str, Any]) -> str:
+    return "balls" if report["settings"]["shapes"] == "balls" else "capsules"
+
+
 def _said(report: dict[str, Any]) -> str:
     """The content of an output, in a few words."""
     if "facets" in report:
@@ -105,7 +109,7 @@ def _said(report: dict[str, Any]) -> str:
         return f"{report['sheets']:,} sheets, {100 * report['share_of_volume']:.1f} % of the volume"
     if "covered" in report:
         return (
-            f"{report['count']:,} balls, {100 * report['covered']:.1f} % of the volume, "
+            f"{report['count']:,} {_shapes(report)}, {100 * report['covered']:.1f} % of the volume, "
             f"{report['outside']:.4g} outside, surface at most {report['farthest']:.4g} away"
         )
     unit = f" {report['unit']}" if report["unit"] else ""

@@ -47,6 +47,7 @@ from .core.settings import (
     SAMPLING_OPTIONS,
     BallSettings,
     CoverMode,
+    CoverShapes,
     Criteria,
     Form,
     Rule,
@@ -69,6 +70,7 @@ __all__ = [
     "Cancelled",
     "Computation",
     "CoverMode",
+    "CoverShapes",
     "Criteria",
     "DegenerateInputError",
     "EachPart",
@@ -196,6 +198,7 @@ def cover_by_balls(
     *,
     count: int = BALL_OPTIONS["count"].default,
     mode: CoverMode | str = BALL_OPTIONS["mode"].default,
+    shapes: CoverShapes | str = BALL_OPTIONS["shapes"].default,
     tolerance: float = BALL_OPTIONS["tolerance"].default,
     refine: bool = BALL_OPTIONS["refine"].default,
     progress: Progress | None = None,
@@ -208,10 +211,13 @@ def cover_by_balls(
     points, triangles, normals
         As of `compute`.
     count : int
-        Balls at most.
+        Balls, or capsules, at most.
     mode : CoverMode or its name
         "inside": no ball reaches out of the solid by more than the tolerance. "around": the balls hold the whole
         surface.
+    shapes : CoverShapes or its name
+        "balls"; "capsules" of one radius, or "tapered" ones with a radius at each end, along the edges of a small
+        medial mesh.
     tolerance : float
         In percent of the diagonal of the bounding box; "around", it changes nothing.
     refine : bool
@@ -224,8 +230,8 @@ def cover_by_balls(
     Returns
     -------
     cover : BallCover
-        `balls` has centres, radii, and three figures: the share of the volume that is covered, how far balls reach
-        out of the solid, and how far its surface is from them.
+        `balls` has centres, radii, edges of capsules, and three figures: the share of the volume that is covered, how
+        far balls reach out of the solid, and how far its surface is from them.
 
     Raises
     ------
@@ -234,6 +240,7 @@ def cover_by_balls(
     wanted = BallSettings(
         count=_value(count, "count", BALL_OPTIONS["count"]),
         mode=_value(mode, "mode", BALL_OPTIONS["mode"]),
+        shapes=_value(shapes, "shapes", BALL_OPTIONS["shapes"]),
         tolerance=_value(tolerance, "tolerance", BALL_OPTIONS["tolerance"]),
         refine=_value(refine, "refine", BALL_OPTIONS["refine"]),
     )

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Few balls as an object: a vertex with a radius for each, shown as spheres by the modifier *Balls*."""
+"""Few balls or capsules as an object: a vertex with a radius for each ball, an edge for each capsule.
+
+Balls are shown as spheres by the modifier *Balls*, capsules by the modifier *Capsules*.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +19,9 @@ from ..core.machine.cache import key_of
 from ..core.settings import CoverMode
 from ..core.solid.ball_cover import Balls
 from .attributes import RADIUS, read_vectors
+from .capsules_shown import add_capsules, is_capsules
 from .material import radius_material
-from .nodes.groups import add_coloured_balls
+from .nodes.groups import add_coloured_balls, is_group
 from .output_object import Product, check_mode, place, remember
 from .write_mesh import new_mesh
 
@@ -64,17 +68,29 @@ def write_balls(source: bpy.types.Object, found: BallCover, frame: np.ndarray) -
     balls = found.balls
     none = np.zeros(1, np.int32)
     rows = _Vertices(balls.centres, balls.radii, none, none[:0])
-    build = partial(new_mesh, rows, table=(RADIUS,))
+    build = partial(new_mesh, rows, table=(RADIUS,), edges=balls.edges)
     span = radius_range(balls.radii)
     thing, is_new = BALLS.write_coloured(source, build, RADIUS.name, balls.radii, *span)
-    if is_new:
-        add_coloured_balls(thing)
+    _show(thing, bool(len(balls.edges)), is_new)
     place(thing, frame)
     remember(thing, source, found.points, found.duplicates, found.warnings)
     thing[MODE], thing[COVERED] = balls.mode.name, balls.covered
     thing[OUTSIDE], thing[FARTHEST] = balls.outside, balls.farthest
     thing[_WRITTEN] = _name_of(*_rows(thing))
     return thing
+
+
+def _show(thing: bpy.types.Object, capsules: bool, is_new: bool) -> None:
+    """Show spheres or capsules; where an artist removed the modifier, none comes back."""
+    if is_new:
+        (add_capsules if capsules else add_coloured_balls)(thing)
+        return
+    for modifier in list(thing.modifiers):
+        group = getattr(modifier, "node_group", None)
+        if is_group(group, "BALLS") if capsules else is_capsules(group):
+            thing.modifiers.remove(modifier)
+            (add_capsules if capsules else add_coloured_balls)(thing)
+            return
 
 
 def read_balls(thing: bpy.types.Object) -> Balls:
@@ -87,15 +103,17 @@ def read_balls(thing: bpy.types.Object) -> Balls:
         The radii are gone, or no ball is left, or somebody is editing them.
     """
     check_mode(thing)
-    centres, radii = _rows(thing)
-    known = thing.get(_WRITTEN) == _name_of(centres, radii)
+    centres, radii, edges = _rows(thing)
+    known = thing.get(_WRITTEN) == _name_of(centres, radii, edges)
     covered, outside, farthest = (
         float(thing[name]) if known else np.nan for name in (COVERED, OUTSIDE, FARTHEST)
     )
-    return Balls(centres, radii, CoverMode[thing[MODE]], covered, outside, farthest)
+    return Balls(centres, radii, CoverMode[thing[MODE]], covered, outside, farthest, edges)
 
 
-def _rows(thing: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _rows(
+    thing: bpy.types.Object,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]]:
     mesh = thing.data
     found = mesh.attributes.get(RADIUS.name)
     if found is None or not len(mesh.vertices):
@@ -105,8 +123,10 @@ def _rows(thing: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.floa
         )
     radii = np.empty(len(mesh.vertices), np.float32)
     found.data.foreach_get("value", radii)
-    return read_vectors(mesh.vertices, "co"), radii.astype(np.float64)
+    edges = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", edges)
+    return read_vectors(mesh.vertices, "co"), radii.astype(np.float64), edges.reshape(-1, 2)
 
 
-def _name_of(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> str:
-    return key_of("balls", centres, radii)
+def _name_of(*rows: NDArray) -> str:
+    return key_of("balls", *rows)

@@ -8,11 +8,13 @@ before all frames are fitted.
 from __future__ import annotations
 
 from contextlib import ExitStack
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
+from mathutils.bvhtree import BVHTree
 
 from ..core.errors import InvalidInputError
 from ..core.skeleton.follow import Follower
@@ -117,12 +119,17 @@ class MeshFollower:
         Raises
         ------
         InvalidInputError
-            The mesh has other faces there, or numbers that are not finite.
+            The mesh has no faces there, or numbers that are not finite.
         """
         self._set_frame(frame)
         places = self._places(f"at frame {frame}")
-        pose = self._follower.pose(places)
-        self.found.add(frame, self._follower, pose, places)
+        same = self._has_faces_of_rest()
+        if same:
+            pose = self._follower.pose(places)
+            self.found.add(frame, self._follower, pose, places)
+        else:
+            pose, places = self._follow_nearest(frame, places)
+        self._pose = pose
         self._moves = self._moves or not np.allclose(
             places, self._rest_places, rtol=0.0, atol=1e-6 * self._follower.size
         )
@@ -182,7 +189,7 @@ class MeshFollower:
                 f"Expected '{self.source.name}' at frame {frame:g} as it was when its bones were made, found it "
                 "hidden or changed; show it, or press Make Armature again"
             )
-        self._faces: tuple[NDArray[np.int32], NDArray[np.int32]] | None = None
+        self._faces = read_polygons(self._mesh())
         self._rest_places = self._places(f"at frame {frame:g}")
         vertex, group, weight = self._weights()
         bones = self.armature.data.bones
@@ -208,6 +215,7 @@ class MeshFollower:
             for end in ("head_local", "tail_local")
         )
         self.found = Followed(self._names, self._follower.thickness(*ends))
+        self._pose = self._follower.at_rest()
 
     def _weights(self) -> tuple[NDArray[np.int64], list[str], NDArray[np.float64]]:
         """The vertex, the bone and the weight of each weight of the evaluated mesh."""
@@ -238,18 +246,8 @@ class MeshFollower:
         return self.source.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
 
     def _places(self, when: str) -> NDArray[np.float64]:
-        """(v, 3) the vertices in the space of the armature, of a mesh with the faces that it has at rest."""
-        mesh = self._mesh()
-        faces = read_polygons(mesh)
-        places = read_positions(mesh)
-        if self._faces is None:
-            self._faces, self._vertices = faces, len(places)
-        same = all(np.array_equal(a, b) for a, b in zip(faces, self._faces, strict=True))
-        if len(places) != self._vertices or not same:
-            raise InvalidInputError(
-                f"Expected the same vertices and faces at every frame, found others of '{self.source.name}' {when}; "
-                "choose frames without that one"
-            )
+        """(v, 3) the vertices in the space of the armature."""
+        places = read_positions(self._mesh())
         depsgraph = bpy.context.evaluated_depsgraph_get()
         worlds = (
             np.array(thing.evaluated_get(depsgraph).matrix_world, np.float64)
@@ -262,6 +260,31 @@ class MeshFollower:
                 f"Expected finite coordinates, found others of '{self.source.name}' {when}; repair the mesh"
             )
         return found
+
+    def _has_faces_of_rest(self) -> bool:
+        mesh = self._mesh()
+        same = (np.array_equal(a, b) for a, b in zip(read_polygons(mesh), self._faces, strict=True))
+        return len(mesh.vertices) == len(self._rest_places) and all(same)
+
+    def _follow_nearest(
+        self, frame: int, own: NDArray[np.float64]
+    ) -> tuple[Pose, NDArray[np.float64]]:
+        """Fit the pose to a mesh with other vertices, `own`: the pose, and the nearest place of each vertex at rest."""
+        polygons = read_polygons(self._mesh())
+        if len(polygons[0]) < 2:
+            raise InvalidInputError(
+                f"Expected faces at every frame, found none of '{self.source.name}' at frame {frame}; choose frames "
+                "without that one"
+            )
+        tree = _tree(own, polygons)
+        pose, places = self._follower.pose_near(self._pose, lambda at: _nearest(tree, at)[0])
+        self.found.add(frame, self._follower, pose, places)
+        posed = self._follower.skinned(pose)
+        found, faces = _nearest(_tree(posed, self._faces), own)
+        corner = self._faces[1][self._faces[0][faces]]
+        back = np.sqrt(((found - own) ** 2).sum(axis=1))
+        self.found.add_back(frame, back, self._follower.main_bone()[corner], self._follower.size)
+        return pose, places
 
     def _keep(self, frame: int, pose: Pose) -> None:
         """Remember what Blender keys for a pose: of each bone the transform against its parent."""
@@ -289,6 +312,21 @@ class MeshFollower:
             else:
                 basis = self.armature.pose.bones[bone.name].matrix_basis
                 poses[bone.name] = bone.convert_local_to_pose(basis, bone.matrix_local, **parent)
+
+
+def _tree(places: NDArray[np.float64], faces: tuple[NDArray[np.int32], ...]) -> BVHTree:
+    """A tree of polygons, by the offsets and the corners of each."""
+    offsets, corners = faces
+    rows = [corners[a:b].tolist() for a, b in pairwise(offsets)]
+    return BVHTree.FromPolygons(places.tolist(), rows)
+
+
+def _nearest(
+    tree: BVHTree, places: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The nearest place on the polygons, (v, 3), and its polygon, (v,)."""
+    found = [tree.find_nearest(place) for place in places.tolist()]
+    return np.array([place for place, *_ in found]), np.array([face for _, _, face, _ in found])
 
 
 def _parents_first(

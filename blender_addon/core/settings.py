@@ -855,6 +855,14 @@ class CoverMode(Enum):
     AROUND = "AROUND"
 
 
+class CoverShapes(Enum):
+    """The shapes that cover a solid."""
+
+    BALLS = "BALLS"
+    CAPSULES = "CAPSULES"
+    TAPERED = "TAPERED"
+
+
 MOST_REFINED = 1024  # balls; above, ball_cover.cpp chooses greedily, too
 
 
@@ -864,10 +872,26 @@ class BallSettings(Options):
 
     count: int = integer(
         "Balls",
-        "How many balls there are at most",
+        "How many balls, or capsules, there are at most",
         default=64,
         limits=(1, 100_000),
         soft_limits=(4, 1_000),
+    )
+    shapes: CoverShapes = choice(
+        "Shapes",
+        "What covers the solid",
+        default=CoverShapes.BALLS,
+        items={
+            CoverShapes.BALLS: ("Balls", "Balls of the medial axis"),
+            CoverShapes.CAPSULES: (
+                "Capsules",
+                "Capsules of one radius along the edges of a small medial mesh, as simulators have them",
+            ),
+            CoverShapes.TAPERED: (
+                "Tapered Capsules",
+                "Capsules with a radius at each end along the edges of a small medial mesh",
+            ),
+        },
     )
     mode: CoverMode = choice(
         "Cover",
@@ -896,7 +920,7 @@ class BallSettings(Options):
     refine: bool = switch(
         "Refine",
         "Leave no place far from the balls, then hold as much volume as possible; off, or with more than 1,024 "
-        "balls: one after the other, so that the first of many are the few",
+        "balls: one after the other, so that the first of many are the few. Capsules do not need it",
         default=True,
     )
 

@@ -71,7 +71,7 @@ class OBJECT_OT_medial_axis_balls(
     def summary(self, found):
         balls = found.balls
         return (
-            f"{len(balls.radii):,} balls, {100 * balls.covered:.1f} % of the volume, "
+            f"{balls.words}, {100 * balls.covered:.1f} % of the volume, "
             f"at most {balls.outside:.4g} outside; {found.chosen.reason}"
         )
 
@@ -117,8 +117,10 @@ def _shown(context):
 
 def _draw_figures(context, layout, thing):
     layout.label(text=thing.name, icon="DOT", translate=False)
+    capsules = len(thing.data.edges)
+    single = max(0, len(thing.data.vertices) - 2 * capsules)
     figures = {
-        "Balls": f"{len(thing.data.vertices):,}",
+        "Capsules" if capsules else "Balls": f"{capsules + single:,}",
         "Volume": f"{100 * thing[COVERED]:.1f} %",
         "Outside": length_text(context, thing[OUTSIDE]),
         "Surface Away": length_text(context, thing[FARTHEST]),

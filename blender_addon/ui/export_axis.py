@@ -13,7 +13,7 @@ from ..core.axis.medial_axis import MedialAxis
 from ..core.errors import InvalidInputError, MedialAxisError
 from ..core.files.write import FORMATS, export_axis
 from ..core.files.write_balls import export_balls
-from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode
+from ..core.settings import BALL_OPTIONS, BallSettings, CoverMode, CoverShapes
 from ..core.solid.ball_cover import cover_by_balls
 from .export_file import ExportFile
 from .preferences import memory_limit
@@ -21,9 +21,9 @@ from .properties import prop
 from .translation import say
 
 _LABELS = {suffix: known.label for suffix, known in FORMATS.items()} | {
-    ".json": "JSON, balls and their figures",
-    ".urdf": "URDF, balls as a link of a robot",
-    ".mjcf": "MJCF, balls as a body of MuJoCo",
+    ".json": "JSON, balls or capsules and their figures",
+    ".urdf": "URDF, balls or capsules as a link of a robot",
+    ".mjcf": "MJCF, balls or capsules as a body of MuJoCo",
 }
 _EXTENSIONS = {suffix[1:].upper(): suffix for suffix in _LABELS}
 
@@ -47,12 +47,13 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
     )
     balls: bpy.props.IntProperty(
         name="Balls",
-        description="At most so many balls instead of the axis, as .ma, .json, .urdf or .mjcf; 0: the axis",
+        description="At most so many balls or capsules instead of the axis, as .ma, .json, .urdf or .mjcf; 0: the axis",
         default=0,
         min=0,
         soft_max=BALL_OPTIONS["count"].soft_maximum,
         max=BALL_OPTIONS["count"].maximum,
     )
+    shapes: prop(BALL_OPTIONS["shapes"])
     mode: prop(BALL_OPTIONS["mode"])
     tolerance: prop(BALL_OPTIONS["tolerance"])
     refine: prop(BALL_OPTIONS["refine"])
@@ -92,7 +93,7 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
         else:
             axis = read_axis(thing)
             return _size(axis), export_axis(axis, path, world_matrix(thing))
-        return f"{len(balls.radii):,} balls", export_balls(balls, path, world)
+        return balls.words, export_balls(balls, path, world)
 
     def _cover(self, context, result):
         """Balls of what an axis was computed of, with its settings, and where they lie in the world."""
@@ -102,7 +103,13 @@ class EXPORT_SCENE_OT_medial_axis(ExportFile, bpy.types.Operator):
                 f"Expected the object that '{result.name}' was computed of, found that it is gone; set Balls to 0"
             )
         shape = read_object(source, context.evaluated_depsgraph_get())
-        wanted = BallSettings(self.balls, CoverMode[self.mode], self.tolerance, self.refine)
+        wanted = BallSettings(
+            count=self.balls,
+            shapes=CoverShapes[self.shapes],
+            mode=CoverMode[self.mode],
+            tolerance=self.tolerance,
+            refine=self.refine,
+        )
         found = cover_by_balls(shape, settings_of(result), wanted, limit=memory_limit())
         return found.balls, shape.frame
 

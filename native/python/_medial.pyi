@@ -547,6 +547,33 @@ class BallCover:
         """Of the lattice."""
 
 @final
+class CapsuleCover:
+    """Few capsules; made by `cover_by_capsules`. A capsule is the union of the balls round the places of a segment,
+    with linear radii; a ball where both ends are equal."""
+
+    @property
+    def ends(self) -> NDArray[np.float64]:
+        """(2n, 3) float64: the ends of capsule k are the rows 2k and 2k + 1, those of the largest volume first."""
+    @property
+    def radii(self) -> NDArray[np.float64]:
+        """(2n,) float64: at the ends."""
+    @property
+    def held(self) -> float:
+        """Share of the places in the solid that all capsules hold."""
+    @property
+    def outside(self) -> float:
+        """No place in a capsule is farther from the solid."""
+    @property
+    def farthest(self) -> float:
+        """No place on the surface is farther from the capsules."""
+    @property
+    def places(self) -> int:
+        """Of the lattice in the solid."""
+    @property
+    def step(self) -> float:
+        """Of the lattice."""
+
+@final
 class ScanMeasure:
     """Properties of points without faces; made by `measure_scan`. Lengths are in the unit of the points."""
 
@@ -1998,4 +2025,51 @@ def cover_by_balls(
     InvalidInputError, Cancelled
     DegenerateInputError
         The faces enclose no place, or none of the balls holds one.
+    """
+
+def cover_by_capsules(
+    ends: NDArray[np.float64],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    *,
+    count: int = 64,
+    mode: CoverMode = ...,
+    tapered: bool = True,
+    places: int = 100_000,
+    tolerance: float = 0.0,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> CapsuleCover:
+    """A solid as few capsules round segments, such as the edges of a small medial mesh.
+
+    INSIDE, each is the largest capsule that was found round its segment and stays in the solid, or a ball round one end
+    if that is larger. AROUND, each then grows or shrinks until it just holds what is nearest to it.
+
+    Parameters
+    ----------
+    ends : (m, 3) float64
+    segments : (s, 2) int32
+        Rows of `ends`; both may be the same.
+    vertices : (v, 3) float64
+    triangles : (f, 3) int32
+        The surface of the solid: outward, rows of `vertices`.
+    count : int
+        The capsules of the largest volume, at most so many.
+    mode : CoverMode
+    tapered : bool
+        Whether radii may differ at both ends of a capsule.
+    places : int
+        Of the lattice in the solid, as for `cover_by_balls`.
+    tolerance : float
+        INSIDE, a capsule may grow to reach out so far, if that is needed to hold what is nearest to it.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    DegenerateInputError
+        The faces enclose no place, or no end lies in the solid.
     """

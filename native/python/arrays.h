@@ -167,6 +167,18 @@ py::array array_of(Rows rows) {
   return view_of<Scalar>(*kept, owner);
 }
 
+// Returns the rows of edges that Python owns.
+inline std::span<const Edge> edges_of(const py::object& edges) {
+  using Rows = py::array_t<int32_t, py::array::c_style>;
+  if (!py::isinstance<Rows>(edges) || py::cast<Rows>(edges).ndim() != 2 ||
+      py::cast<Rows>(edges).shape(1) != 2) {
+    throw InvalidInputError("Expected edges as a contiguous (w, 2) int32 array, found " +
+                            describe(edges) + "; convert it.");
+  }
+  const auto view = py::reinterpret_borrow<Rows>(edges);
+  return {reinterpret_cast<const Edge*>(view.data()), static_cast<size_t>(view.shape(0))};
+}
+
 // Returns the values of an enum, each as an int32.
 template <typename Values>
 py::array numbers_of(const Values& values) {

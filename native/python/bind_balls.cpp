@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// This binds cover_by_balls for Python.
+// This binds cover_by_balls and cover_by_capsules for Python.
 #include <medial/ball_cover.h>
+#include <medial/capsule_cover.h>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -27,6 +28,39 @@ BallCover cover(const py::object& centres, const py::object& radii, const py::ob
   return cover_by_balls(input, options, wanted, progress);
 }
 
+CapsuleCover cover_round(const py::object& ends, const py::object& segments,
+                         const py::object& vertices, const py::object& triangles, int64_t count,
+                         CoverMode mode, bool tapered, int64_t places, double tolerance,
+                         Progress* progress, int threads) {
+  const Points rows(ends, "ends"), corners(vertices, "vertices");
+  const Triangles faces(triangles);
+  const CapsuleCoverInput input{rows.span(), edges_of(segments), corners.span(), faces.span()};
+  const CapsuleCoverOptions options{
+      .count = count, .mode = mode, .tapered = tapered, .places = places, .tolerance = tolerance};
+  const int wanted = thread_argument(threads);
+  const py::gil_scoped_release release;
+  return cover_by_capsules(input, options, wanted, progress);
+}
+
+void bind_capsules(py::module_& m) {
+  py::class_<CapsuleCover>(m, "CapsuleCover", docs::CapsuleCover, py::is_final(),
+                           py::module_local())
+      .def_property_readonly("ends", view_property<double>(&CapsuleCover::ends),
+                             docs::CapsuleCover_ends)
+      .def_property_readonly("radii", view_property<double>(&CapsuleCover::radii),
+                             docs::CapsuleCover_radii)
+      .def_readonly("held", &CapsuleCover::held, docs::CapsuleCover_held)
+      .def_readonly("outside", &CapsuleCover::outside, docs::CapsuleCover_outside)
+      .def_readonly("farthest", &CapsuleCover::farthest, docs::CapsuleCover_farthest)
+      .def_readonly("places", &CapsuleCover::places, docs::CapsuleCover_places)
+      .def_readonly("step", &CapsuleCover::step, docs::CapsuleCover_step);
+  m.def("cover_by_capsules", &cover_round, docs::cover_by_capsules, py::arg("ends"),
+        py::arg("segments"), py::arg("vertices"), py::arg("triangles"), py::kw_only(),
+        py::arg("count") = 64, py::arg("mode") = CoverMode::inside, py::arg("tapered") = true,
+        py::arg("places") = 100'000, py::arg("tolerance") = 0.0, py::arg("progress") = nullptr,
+        py::arg("threads") = 0);
+}
+
 }  // namespace
 
 void bind_balls(py::module_& m) {
@@ -49,6 +83,7 @@ void bind_balls(py::module_& m) {
         py::arg("vertices"), py::arg("triangles"), py::kw_only(), py::arg("count") = 64,
         py::arg("mode") = CoverMode::inside, py::arg("places") = 100'000, py::arg("refine") = true,
         py::arg("tolerance") = 0.0, py::arg("progress") = nullptr, py::arg("threads") = 0);
+  bind_capsules(m);
 }
 
 }  // namespace medial::python

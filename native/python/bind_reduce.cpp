@@ -9,17 +9,6 @@
 namespace medial::python {
 namespace {
 
-std::span<const Edge> edges_of(const py::object& edges) {
-  using Rows = py::array_t<int32_t, py::array::c_style>;
-  if (!py::isinstance<Rows>(edges) || py::cast<Rows>(edges).ndim() != 2 ||
-      py::cast<Rows>(edges).shape(1) != 2) {
-    throw InvalidInputError("Expected edges as a contiguous (w, 2) int32 array, found " +
-                            describe(edges) + "; convert it.");
-  }
-  const auto view = py::reinterpret_borrow<Rows>(edges);
-  return {reinterpret_cast<const Edge*>(view.data()), static_cast<size_t>(view.shape(0))};
-}
-
 SphereMesh sphere_mesh(const py::object& vertices, const py::object& radius,
                        const py::object& triangles, const py::object& edges) {
   const Points rows(vertices, "vertices");

@@ -161,3 +161,60 @@ def test_the_spheres_are_the_balls():
     ]
     assert np.allclose(scales, [3 * [attribute(made.data, "ma_radius")[0]]], rtol=1e-5)
     assert source.data.users == 1
+
+
+def shown_box(thing):
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    places = positions(thing.evaluated_get(depsgraph).data)
+    return places.min(axis=0), places.max(axis=0)
+
+
+def test_capsules_are_edges_shown_as_tubes(capfd):
+    source = torus()
+    reports(capfd)
+    made = cover(count=9, shapes="CAPSULES")
+    count = len(made.data.edges)
+    assert 3 <= count <= 9 and f"{count} capsules" in reports(capfd)[-1][1]
+    radii = attribute(made.data, "ma_radius")
+    ends = np.array([edge.vertices[:] for edge in made.data.edges])
+    assert (radii[ends[:, 0]] == radii[ends[:, 1]]).all()
+    assert made["ma_balls_outside"] == 0.0 < made["ma_balls_covered"]
+    low, high = shown_box(made)
+    middles = positions(made.data)
+    wanted = (middles - radii[:, None]).min(axis=0), (middles + radii[:, None]).max(axis=0)
+    assert np.allclose((low, high), wanted, atol=0.02)  # whole spheres at the ends
+    tube = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    half = positions(tube)[:, None] - middles[ends].mean(axis=1)[None]
+    assert (np.linalg.norm(half, axis=2).min(axis=0) < 1.05 * radii[ends[:, 0]]).all()
+    again = cover(count=6)  # balls instead
+    assert again == made == balls_of(source) and not len(made.data.edges)
+    assert spheres(made) == 6
+    assert cover(count=9, shapes="TAPERED") == made and len(made.data.edges) >= 3
+    assert [m.name.startswith("Medial Axis Capsules") for m in made.modifiers] == [True]
+
+
+def test_capsules_are_written(tmp_path, capfd):
+    source = torus()
+    source.location, source.scale = (1, 2, 3), (2, 2, 2)
+    select(source)
+    made = cover(count=9, shapes="CAPSULES")
+    path = tmp_path / "torus.json"
+    assert bpy.ops.export_scene.medial_axis(filepath=str(path)) == {"FINISHED"}
+    assert reports(capfd)[-1][1] == f"Wrote {len(made.data.edges)} capsules to 'torus.json'"
+    known = json.loads(path.read_text())
+    assert known["covered"] == made["ma_balls_covered"]
+    first = [made.matrix_world @ made.data.vertices[v].co for v in made.data.edges[0].vertices]
+    assert np.allclose(known["capsules"][0]["ends"], first, atol=1e-5)
+    robot = tmp_path / "torus.urdf"
+    assert bpy.ops.export_scene.medial_axis(filepath=str(robot)) == {"FINISHED"}
+    assert robot.read_text().count("<cylinder") == len(made.data.edges)
+    cover(count=9, shapes="TAPERED")
+    with pytest.raises(RuntimeError, match="found tapered capsules; set Shapes to Capsules"):
+        bpy.ops.export_scene.medial_axis(filepath=str(tmp_path / "b.urdf"))
+    compute(side="INNER")
+    select(source)
+    arm = tmp_path / "arm.mjcf"
+    assert bpy.ops.export_scene.medial_axis(filepath=str(arm), balls=9, shapes="CAPSULES") == {
+        "FINISHED"
+    }
+    assert arm.read_text().count('type="capsule"') >= 3

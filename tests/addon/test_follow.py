@@ -197,21 +197,71 @@ def state():
     )
 
 
-def test_other_faces_at_a_frame_are_told_and_leave_nothing():
-    source, _ = actor()
-    make(source)
+def decimated(source, ratios):
+    """A modifier that leaves a share of the faces of a source at each frame."""
     cut = source.modifiers.new("Cut", "DECIMATE")
-    for frame, ratio in ((1, 1.0), (2, 1.0), (3, 0.5)):
+    for frame, ratio in ratios.items():
         cut.ratio = ratio
         cut.keyframe_insert("ratio", frame=frame)
     cut_curves = addon("bridge.follow_mesh")._curves(source.animation_data.action)
     for curve in (c for found in cut_curves for c in found):
         for point in curve.keyframe_points:
             point.interpolation = "CONSTANT"
+
+
+def test_other_faces_at_a_frame_are_followed_by_the_nearest_places(capfd):
+    """Half of the faces at frame 3: tips are within 4 % of the diagonal of where they are with all faces."""
+    source, mover = actor()
+    rng = np.random.default_rng(2)
+    for bone in mover.pose.bones:  # little happens between the last two frames
+        bone.rotation_euler = rng.uniform(-0.4, 0.4, 3)
+        bone.keyframe_insert("rotation_euler", frame=2)
+        bone.rotation_euler = np.array(bone.rotation_euler) + rng.uniform(-0.03, 0.03, 3)
+        bone.keyframe_insert("rotation_euler", frame=3)
+        if bone.parent is None:
+            bone.location = 0.1, -0.2, 0.05
+            bone.keyframe_insert("location", frame=2)
+            bone.keyframe_insert("location", frame=3)
+    at(1)
+    make(source)
+    size = np.linalg.norm(np.ptp(positions(source.data), axis=0))
+    decimated(source, {1: 1.0, 2: 1.0, 3: 0.5})
+    at(1)
+    reports(capfd)
+    thing = follow(source)
+    said = [text for _, text in reports(capfd)]
+    assert any("other vertices or faces in 1 frames, from 3 to 3" in text for text in said)
+    for frame, most in ((2, 0.005), (3, 0.04)):
+        wanted, found = tails(mover, frame), tails(thing, frame)
+        for name, place in wanted.items():
+            assert np.linalg.norm(found[name] - place) < most * size, (frame, name)
+
+
+def test_a_jump_to_other_faces_is_told(capfd):
+    """The nearest places are others where a mesh moves by more than it is thick between two frames."""
+    source, _ = actor()
+    make(source)
+    decimated(source, {1: 1.0, 2: 1.0, 3: 0.5})
+    at(1)
+    reports(capfd)
+    follow(source)
+    said = [text for kind, text in reports(capfd) if kind == "Warning"]
+    assert any("of its size off at frame 3" in text for text in said)
+    assert any("The surface leaves" in text for text in said)
+
+
+def test_a_frame_without_faces_is_told_and_leaves_nothing():
+    source, _ = actor()
+    make(source)
+    gone = source.modifiers.new("Gone", "MASK")  # of a group that has no vertex
+    gone.vertex_group = source.vertex_groups.new(name="none").name
+    for frame in FRAMES:
+        gone.show_viewport = frame == 3
+        gone.keyframe_insert("show_viewport", frame=frame)
     at(2)
     select(source)
     before = state()
-    refuse("found others of 'Actor' at frame 3; choose frames", operator="medial_axis_follow")
+    refuse("found none of 'Actor' at frame 3; choose frames", operator="medial_axis_follow")
     assert state() == before
     assert follow(source, frames="1-2").animation_data.action is not None
 

@@ -224,6 +224,21 @@ def test_no_thin_end_is_left_out(medial):
     assert refined.held > 0.97 * greedy.held
 
 
+def test_a_place_far_from_every_ball_does_not_loosen_the_others(medial):
+    """One of the spines has no balls that could be chosen: the others are served as before."""
+    solid, centres, radii = hedgehog_case()
+    spine = swept.capsule(2.0, 0.1)
+    more = meshes.join(solid, (spine[0] * (1, 1, -1) - (0, 0, 1.05), spine[1][:, ::-1]))
+    alone = cover(medial, (solid, centres, radii), 10)
+    found = cover(medial, (more, centres, radii), 10)
+    assert found.farthest > 1.5  # from the tip of that spine
+    off = [
+        distances(on_surface(solid), (centres[one.chosen], one.radii)).min(axis=1).max()
+        for one in (alone, found)
+    ]
+    assert off[1] < 1.25 * off[0]
+
+
 def test_no_exchange_of_one_ball_holds_more(medial):
     """Every ball beside every other, counted by NumPy: one that holds more leaves some place farther away."""
     case = hedgehog_case()

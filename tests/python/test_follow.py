@@ -6,16 +6,17 @@ import pytest
 from medial_axis.core.skeleton.follow import Follower
 from medial_axis.core.skeleton.followed import Followed
 from medial_axis.core.small_matrices import closest_turns
+from scipy.spatial import cKDTree
 from support.poses import turn
 
 BONES, ROUND, LENGTH = 4, 12, 24
 
 
-def tube(long=4.0, radius=0.3):
+def tube(long=4.0, radius=0.3, around=ROUND, rings=LENGTH):
     """A tube along X with four bones of length 1, and weights that fade over half a radius at the joints."""
-    angle = 2 * np.pi * np.arange(ROUND) / ROUND
-    along = np.repeat(np.linspace(0.0, long, LENGTH), ROUND)
-    circle = np.tile(np.column_stack((np.cos(angle), np.sin(angle))), (LENGTH, 1))
+    angle = 2 * np.pi * np.arange(around) / around
+    along = np.repeat(np.linspace(0.0, long, rings), around)
+    circle = np.tile(np.column_stack((np.cos(angle), np.sin(angle))), (rings, 1))
     points = np.column_stack((along, radius * circle * (1.0, 0.7)))
     head = np.column_stack((np.arange(BONES), np.zeros((BONES, 2)))).astype(float)
     after = np.clip((along[:, None] - head[:, 0] + 0.15) / 0.3, 0.0, 1.0)
@@ -151,6 +152,49 @@ def test_the_pose_is_the_best_one():
                 assert error(tried, shift) > least
     for step in (*np.eye(3), *-np.eye(3)):
         assert error(own, shift + 1e-3 * step) > least
+
+
+def nearest_of(places):
+    tree = cKDTree(places)
+    return lambda at: places[tree.query(at)[1]]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_mesh_with_other_vertices_is_followed_by_the_nearest_ones(seed):
+    """Ten times as many vertices at every frame; six frames turn each joint by up to 50 degrees."""
+    points, head, parent, weight = tube()
+    bones = follower(points, head, parent, weight)
+    dense, _, _, own = tube(around=40, rings=73)
+    rng = np.random.default_rng(seed)
+    goal = [(rng.normal(size=3), rng.uniform(-1, 1) * np.radians(50)) for _ in head]
+    pose = bones.at_rest()
+    np.testing.assert_allclose(bones.skinned(pose), points, atol=1e-12)
+    for part in np.arange(1, 7) / 6:
+        moves = pose_of(
+            head, parent, [turn(axis, part * angle) for axis, angle in goal], 0.3 * part
+        )
+        moved = skinned(dense, own, moves)
+        pose, places = bones.pose_near(pose, nearest_of(moved))
+        assert bones.off(pose, places).max() < 0.06
+    tail = head + np.array((1.0, 0.0, 0.0))
+    ends = np.column_stack((tail, np.ones(BONES)))
+    found = (pose.matrices * ends[:, None]).sum(axis=2)
+    np.testing.assert_allclose(found, (moves * ends[:, None]).sum(axis=2), atol=0.08)
+
+
+def test_a_branch_that_is_born_is_told():
+    """Vertices that no bone owns lie far from the posed mesh."""
+    points, head, parent, weight = tube()
+    bones = follower(points, head, parent, weight)
+    thickness = bones.thickness(head, head + np.array((1.0, 0.0, 0.0)))
+    found = Followed(["a", "b", "c", "d"], thickness)
+    found.add(3, bones, bones.at_rest(), points)
+    owner = np.repeat(bones.main_bone(), 2)
+    found.add_back(3, np.where(owner == 2, 0.5, 0.0), owner, bones.size)
+    others, left = found.warnings
+    assert "other vertices or faces in 1 frames, from 3 to 3" in others
+    assert "'c'" in left and "'a'" not in left and found.worst[1] > 0.01
+    np.testing.assert_array_equal(bones.main_bone(), weight.argmax(axis=1))
 
 
 def test_what_was_not_followed_is_told():

@@ -250,6 +250,7 @@ MAY_INCLUDE = {
     "skeleton": {"base", "delaunay", "inside", "axis", "contact"},
     "structure": {"base"},
     "reduce": {"base"},
+    "capsules": {"base", "inside", "balls", "reduce"},
     "scan": {"base"},
     ".": {
         "base",
@@ -275,6 +276,7 @@ PUBLIC = {
     "sphere_mesh.h": {"reduce"},
     "thickness.h": {"thickness"},
     "ball_cover.h": {"balls"},
+    "capsule_cover.h": {"capsules"},
     "sampling.h": {"sampling"},
     "structure.h": {"structure"},
     "scan.h": {"scan"},

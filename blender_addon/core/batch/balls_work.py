@@ -42,7 +42,7 @@ class BallsWork:
     def figures(self, found: BallCover) -> dict[str, Any]:
         return {
             "points": found.points,
-            "count": len(found.balls.radii),
+            "count": found.balls.count,
             **as_figures(found.balls),
             "sampled": found.chosen.reason,
             "density": str(found.chosen.samples.density),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""This module writes balls as `.ma`, `.json`, `.urdf` and MJCF files (docs/balls.md), each whole or not at all."""
+"""This module writes balls and capsules as `.ma`, `.json`, `.urdf` and MJCF files (docs/balls.md), each whole or not at
+all."""
 
 from __future__ import annotations
 
@@ -74,18 +75,25 @@ def _placed(balls: Balls, transform: NDArray[np.float64]) -> Balls:
 
 
 def _write_ma(balls: Balls, _name: str, stream: BinaryIO) -> None:
-    """Write the balls as vertices of a medial axis without edges and triangles."""
-    stream.write(b"%d 0 0\n" % len(balls.radii))
+    """Write the balls as vertices of a medial axis without triangles, and capsules as its edges."""
+    stream.write(b"%d %d 0\n" % (len(balls.radii), len(balls.edges)))
     write_rows(stream, "v %.17g %.17g %.17g %.17g\n", balls.centres, balls.radii)
+    if len(balls.edges):
+        write_rows(stream, "e %d %d\n", balls.edges)
 
 
 def _write_json(balls: Balls, _name: str, stream: BinaryIO) -> None:
-    """Write the balls and all figures; an unknown figure is null."""
-    rows = zip(balls.centres.tolist(), balls.radii.tolist(), strict=True)
+    """Write the balls, or capsules and the balls among them, and all figures; an unknown figure is null."""
+    alone = balls.single
+    rows = zip(balls.centres[alone].tolist(), balls.radii[alone].tolist(), strict=True)
     found: dict[str, Any] = {
         **as_figures(balls),
         "balls": [{"centre": centre, "radius": radius} for centre, radius in rows],
     }
+    if len(balls.edges):
+        ends, radii = balls.centres[balls.edges].tolist(), balls.radii[balls.edges].tolist()
+        pairs = zip(ends, radii, strict=True)
+        found["capsules"] = [{"ends": places, "radii": sizes} for places, sizes in pairs]
     stream.write(json.dumps(found, separators=(",", ":"), allow_nan=False).encode("ascii"))
     stream.write(b"\n")
 
@@ -105,17 +113,28 @@ def _known(figure: float) -> float | None:
 
 
 def _write_urdf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    _check_radii(balls)
+    _check_robot(balls)
     write_urdf(balls, name, stream)
 
 
 def _write_mjcf(balls: Balls, name: str, stream: BinaryIO) -> None:
-    _check_radii(balls)
+    _check_robot(balls)
     write_mjcf(balls, name, stream)
 
 
-def _check_radii(balls: Balls) -> None:
-    """Refuse balls that parsers of such files refuse, or read as something else."""
+def _check_robot(balls: Balls) -> None:
+    """Refuse what parsers of such files refuse, or read as something else."""
+    if balls.is_tapered:
+        raise ExportError(
+            "Expected balls or capsules of one radius for a file of a robot, found tapered capsules; "
+            "set Shapes to Capsules"
+        )
+    ends = balls.centres[balls.edges]
+    if (ends[:, 0] == ends[:, 1]).all(axis=1).any():
+        raise ExportError(
+            "Expected two places as the ends of each capsule for a file of a robot, found one that has no length; "
+            "delete such capsules"
+        )
     least = float(balls.radii.min())
     if not least > 0.0:
         raise ExportError(

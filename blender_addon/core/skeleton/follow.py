@@ -9,6 +9,9 @@ joints together by damped Gauss-Newton steps (Levenberg and Marquardt).
 A vertex counts only through sums over all vertices, which do not depend on the pose: of the products of weights and
 places at rest for each two bones, once, and of places at rest and moved places, once for each frame. So the steps cost
 the same for every mesh.
+
+Where a frame has other vertices, each vertex at rest, as the pose before puts it, looks for the nearest place of the
+mesh. The pose that fits these places puts it elsewhere, from where it looks again (Besl and McKay).
 """
 
 from __future__ import annotations
@@ -22,11 +25,15 @@ import numpy as np
 from ..small_matrices import closest_turns, dot, length_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
 _MOST_STEPS = 40
 _STILL = 1e-9  # radians: joints that turn less have arrived
 _DAMPING = 1e-9, 1e6  # least and largest share of the diagonal that is added to it
+_MOST_LOOKS = 60
+_ARRIVED = 1e-4  # a share of the size: vertices that move less between two looks have arrived
 _NOWHERE = 1e-12  # a share of the mean diagonal for joints that no vertex tells anything about
 
 
@@ -117,16 +124,54 @@ class Follower:
                 break
         return self._in_space(pose)
 
-    def off(self, pose: Pose, moved: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return how far each vertex is from where the pose puts it, (v,); 0 for vertices without a weight."""
+    def at_rest(self) -> Pose:
+        """Return the pose that moves nothing."""
+        return Pose(np.tile(np.eye(3), (self._count, 1, 1)), np.zeros((self._count, 3)))
+
+    def pose_near(
+        self, start: Pose, nearest: Callable[[NDArray[np.float64]], NDArray[np.float64]]
+    ) -> tuple[Pose, NDArray[np.float64]]:
+        """Return a pose near another one whose vertices lie on a mesh with other vertices, and its places, (v, 3).
+
+        Parameters
+        ----------
+        start : Pose
+        nearest : function of places, (v, 3)
+            The nearest places of the mesh.
+        """
+        pose, at = start, self.skinned(start)
+        for _ in range(_MOST_LOOKS):
+            pose = self.pose(nearest(at))
+            before, at = at, self.skinned(pose)
+            if np.abs(at - before).max() <= _ARRIVED * self._size:
+                break
+        return pose, nearest(at)
+
+    def skinned(self, pose: Pose) -> NDArray[np.float64]:
+        """Return where a pose puts the vertices, (v, 3); those without a weight stay."""
+        places = self._unit * self._places[:, :3] + self._centre
+        places[self._held] = self._unit * self._put(pose)[self._held] + self._centre
+        return places
+
+    def main_bone(self) -> NDArray[np.int64]:
+        """Return the bone that has the largest weight of each vertex, (v,); -1 for vertices without a weight."""
+        bone = np.full(len(self._places), -1)
+        order = np.argsort(self._weight, kind="stable")
+        bone[self._vertex[order]] = self._bone[order]
+        return bone
+
+    def _put(self, pose: Pose) -> NDArray[np.float64]:
+        """Return where a pose puts the vertices, in the frame of the sums; 0 for those without a weight."""
         shift = (_shifted(pose, self._centre) - self._centre) / self._unit
         here = Pose(pose.turn, shift)
         placed = _times_rows(here.matrices[self._bone], self._at_rest)
+        count = len(self._places)
+        return np.column_stack([np.bincount(self._vertex, placed[:, k], count) for k in range(3)])
+
+    def off(self, pose: Pose, moved: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return how far each vertex is from where the pose puts it, (v,); 0 for vertices without a weight."""
         off = np.zeros(len(self._places))
-        found = np.column_stack(
-            [np.bincount(self._vertex, placed[:, k], len(off)) for k in range(3)]
-        )
-        apart = found - (moved - self._centre) / self._unit
+        apart = self._put(pose) - (moved - self._centre) / self._unit
         off[self._held] = self._unit * np.sqrt((apart[self._held] ** 2).sum(axis=1))
         return off
 

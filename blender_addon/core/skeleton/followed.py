@@ -37,12 +37,37 @@ class Followed:
         self._names, self._thickness = names, thickness
         self.off: dict[int, float] = {}
         self._left: dict[int, list[tuple[float, int]]] = {}  # the share and the frame, of each bone
+        self._others: list[int] = []  # frames with other vertices
 
     def add(self, frame: int, follower: Follower, pose: Pose, places: NDArray[np.float64]) -> None:
         """Compare the vertices of a frame, (v, 3), with where the pose of the bones puts them."""
         off = follower.off(pose, places)
         self.off[frame] = float(np.sqrt((off**2).mean())) / follower.size
-        beyond = follower.share_beyond(off, self._thickness)
+        self._tell(frame, follower.share_beyond(off, self._thickness))
+
+    def add_back(
+        self, frame: int, back: NDArray[np.float64], owner: NDArray[np.int64], size: float
+    ) -> None:
+        """Compare a frame with other vertices, after `add`: how far its own vertices are from the posed mesh.
+
+        Parameters
+        ----------
+        frame : int
+        back : (k,) float64
+        owner : (k,) int64
+            The bone of the nearest vertex of the posed mesh; -1 for none.
+        size : float
+            The diagonal of the mesh.
+        """
+        self._others.append(frame)
+        self.off[frame] = max(self.off[frame], float(np.sqrt((back**2).mean())) / size)
+        some, count = owner >= 0, len(self._names)
+        beyond = back[some] > self._thickness[owner[some]]
+        whole = np.maximum(np.bincount(owner[some], minlength=count), 1)
+        self._tell(frame, np.bincount(owner[some], beyond, count) / whole)
+
+    def _tell(self, frame: int, beyond: NDArray[np.float64]) -> None:
+        """Remember the bones that the mesh has left at a frame, by the share that is beyond them."""
         for bone in np.flatnonzero(beyond > _LEFT).tolist():
             self._left.setdefault(bone, []).append((float(beyond[bone]), frame))
 
@@ -53,7 +78,18 @@ class Followed:
 
     @property
     def warnings(self) -> list[str]:
-        """Return a sentence about the bones that the mesh left, if there are any."""
+        """Return sentences about frames with other vertices, and about bones that the mesh left."""
+        return [*self._told_others(), *self._told_left()]
+
+    def _told_others(self) -> list[str]:
+        if not self._others:
+            return []
+        return [
+            f"The mesh has other vertices or faces in {len(self._others)} frames, from {min(self._others)} to "
+            f"{max(self._others)}: the bones follow the nearest places there, which may slide along the surface"
+        ]
+
+    def _told_left(self) -> list[str]:
         if not self._left:
             return []
         frames = sorted({frame for found in self._left.values() for _, frame in found})

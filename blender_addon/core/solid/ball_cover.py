@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A solid as few balls of its medial axis, for collisions, physics and robots (docs/balls.md)."""
+"""A solid as few balls of its medial axis, or as capsules, for collisions, physics and robots (docs/balls.md)."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..axis.levels import hierarchy_of
+from ..axis.levels import extract_level, hierarchy_of
+from ..axis.medial_axis import no_edges
 from ..machine import native
 from ..machine.memory_limit import WHAT_IS_FREE, MemoryLimit
 from ..samples.choose_samples import begin
@@ -19,12 +20,14 @@ from ..settings import (
     MOST_REFINED,
     BallSettings,
     CoverMode,
+    CoverShapes,
     Form,
     Settings,
     Side,
     SidesFrom,
 )
 from ..small_matrices import length_of
+from .capsule_segments import segments_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -32,13 +35,16 @@ if TYPE_CHECKING:
     from ..machine.progress import Progress
     from ..samples.shape import Shape
 
-# The shares of the work that are done before the hierarchy begins, and before the balls are chosen.
-_ANALYSIS, _AXIS = 0.5, 0.8
+# The shares of the work that are done before the hierarchy begins, before the balls are chosen, and before the segments
+# have capsules.
+_ANALYSIS, _AXIS, _SEGMENTS = 0.5, 0.8, 0.95
 
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """Balls, and how well they represent the solid.
+    """Balls, or capsules between two of them, and how well they represent the solid.
+
+    A capsule is the union of the balls round the places of an edge, with linear radii. Each has two ends of its own.
 
     Parameters
     ----------
@@ -52,6 +58,8 @@ class Balls:
         The largest distance of a place in a ball from the solid.
     farthest : float
         The largest distance of a place on the surface from the balls.
+    edges : (m, 2) int32
+        The balls that are the ends of capsules; none for balls alone.
     """
 
     centres: NDArray[np.float64]
@@ -60,6 +68,30 @@ class Balls:
     covered: float
     outside: float
     farthest: float
+    edges: NDArray[np.int32] = field(default_factory=no_edges)
+
+    @property
+    def single(self) -> NDArray[np.int32]:
+        """The rows of balls that are no end of a capsule, ascending."""
+        alone = np.ones(len(self.radii), np.bool_)
+        alone[self.edges.ravel()] = False
+        return np.flatnonzero(alone).astype(np.int32)
+
+    @property
+    def count(self) -> int:
+        """The number of balls and capsules."""
+        return len(self.edges) + len(self.single)
+
+    @property
+    def words(self) -> str:
+        """How many there are, for people."""
+        return f"{self.count:,} capsules" if len(self.edges) else f"{self.count:,} balls"
+
+    @property
+    def is_tapered(self) -> bool:
+        """Whether some capsule has two radii."""
+        ends = self.radii[self.edges]
+        return bool((ends[:, 0] != ends[:, 1]).any())
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,9 +103,10 @@ class BallCover(OfChosenSamples):
     shape : Shape
     balls : Balls
         In the order of the volume that each adds. Without `refine` they are in the order in which they were chosen:
-        for INSIDE the first n are the result for n balls; for AROUND this holds for their centres only.
+        for INSIDE the first n are the result for n balls; for AROUND this holds for their centres only. Capsules are
+        in the order of their volume, before they grow.
     shares : (n,) float64
-        The shares of the volume that the first 1, 2, ... n balls hold, before they grow.
+        The shares of the volume that the first 1, 2, ... n balls hold, before they grow. For capsules there are none.
     places : int
         The number of places of the lattice in the solid on which volumes were counted.
     chosen : ChosenSamples
@@ -99,7 +132,7 @@ def cover_by_balls(
     progress: Progress | None = None,
     limit: MemoryLimit = WHAT_IS_FREE,
 ) -> BallCover:
-    """Choose few balls of the axis of a shape; the axis is computed unless the cache has it.
+    """Choose few balls of the axis of a shape, or make capsules; the axis is computed unless the cache has it.
 
     Parameters
     ----------
@@ -126,29 +159,81 @@ def cover_by_balls(
     begun = begin(shape, settings, progress, limit, _ANALYSIS, levels=True)
     shape, chosen, progress = begun.shape, begun.chosen, begun.progress
     progress.until(_AXIS)
-    hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
-    progress.until(1.0)
-    centres, radii = _balls(hierarchy)
-    surface = _surface(shape, chosen)
     tolerance = wanted.tolerance / 100 * length_of(np.ptp(shape.points, axis=0))
-    found = _closest_cover((centres, radii, *surface), wanted, tolerance, progress)
-    balls = Balls(
-        centres=centres[found.chosen],
-        radii=found.radii,
-        mode=wanted.mode,
-        covered=1.0 if wanted.mode is CoverMode.AROUND else found.held,
-        outside=found.outside,
-        farthest=found.farthest,
-    )
+    make = _balls_of if wanted.shapes is CoverShapes.BALLS else _capsules_of
+    balls, shares, places = make(shape, chosen, settings, wanted, tolerance, progress)
     return BallCover(
         shape=shape,
         balls=balls,
-        shares=found.covered,
-        places=found.places,
+        shares=shares,
+        places=places,
         chosen=chosen,
         warnings=tuple(sampling_warnings(shape, chosen)),
         seconds=begun.seconds,
     )
+
+
+def _balls_of(
+    shape: Shape,
+    chosen: ChosenSamples,
+    settings: Settings,
+    wanted: BallSettings,
+    tolerance: float,
+    progress: Progress,
+) -> tuple[Balls, NDArray[np.float64], int]:
+    """Return balls, the shares that the first ones hold, and the number of places."""
+    hierarchy = hierarchy_of(chosen.samples, settings, progress.part())
+    progress.until(1.0)
+    centres, radii = _balls(hierarchy)
+    surface = _surface(shape, chosen)
+    found = _closest_cover((centres, radii, *surface), wanted, tolerance, progress)
+    balls = Balls(centres[found.chosen], found.radii, wanted.mode, *_figures_of(found, wanted.mode))
+    return balls, found.covered, found.places
+
+
+def _capsules_of(
+    shape: Shape,
+    chosen: ChosenSamples,
+    settings: Settings,
+    wanted: BallSettings,
+    tolerance: float,
+    progress: Progress,
+) -> tuple[Balls, NDArray[np.float64], int]:
+    """Return capsules along the edges of a small medial mesh, no shares, and the number of places."""
+    clean = replace(settings, form=Form.CLEAN)
+    axis = extract_level(chosen.samples, clean, progress)
+    progress.until(_SEGMENTS)
+    ends, segments = segments_of(axis, wanted.count, progress)
+    progress.until(1.0)
+    with native.own_errors() as module:
+        found = module.cover_by_capsules(
+            ends,
+            segments,
+            *_surface(shape, chosen),
+            count=wanted.count,
+            mode=getattr(module.CoverMode, wanted.mode.name),
+            tapered=wanted.shapes is CoverShapes.TAPERED,
+            tolerance=tolerance,
+            progress=progress.part(),
+        )
+    ends = found.ends.reshape(-1, 2, 3)
+    is_ball = (ends[:, 0] == ends[:, 1]).all(axis=1)
+    kept = np.column_stack([np.ones(len(ends), np.bool_), ~is_ball])  # a ball is kept once
+    row = np.cumsum(kept.ravel()).reshape(-1, 2) - 1
+    balls = Balls(
+        ends[kept],
+        found.radii.reshape(-1, 2)[kept],
+        wanted.mode,
+        *_figures_of(found, wanted.mode),
+        edges=np.ascontiguousarray(row[~is_ball], np.int32),
+    )
+    return balls, np.empty(0), found.places
+
+
+def _figures_of(found: Any, mode: CoverMode) -> tuple[float, float, float]:
+    """Return the figures `covered`, `outside` and `farthest`."""
+    held = 1.0 if mode is CoverMode.AROUND else found.held
+    return held, found.outside, found.farthest
 
 
 def _closest_cover(

@@ -122,13 +122,25 @@ def _sheets(axis: MedialAxis, vertices: int, progress: Progress | None) -> Media
 
 def _loose(axis: MedialAxis, vertices: int, progress: Progress | None) -> MedialAxis:
     """Reduce as any sphere mesh."""
-    whole = sphere_mesh(_single(axis))
+    small = few_spheres(sphere_mesh(_single(axis)), vertices, progress)
+    offsets = np.arange(0, 3 * len(small.triangles) + 1, 3, dtype=np.int32)
+    return _as_axis(small.vertices, small.radius, offsets, small.triangles.reshape(-1), small.edges)
+
+
+def small_mesh(axis: MedialAxis, vertices: int, progress: Progress | None = None) -> SphereMesh:
+    """Reduce the inner axis as a whole, without regard to sheets and sharp edges."""
+    balls = _on_samples(axis) if _has_crisp_edges(axis) else axis
+    return few_spheres(sphere_mesh(_single(balls)), vertices, progress)
+
+
+def few_spheres(mesh: SphereMesh, vertices: int, progress: Progress | None = None) -> SphereMesh:
+    """Collapse edges until so many vertices are left, or no edge can collapse."""
     with own_errors() as module:
-        places, radius, triangles, edges = module.reduce_sphere_mesh(
-            *whole.arrays, vertices, progress=progress and progress.part()
+        return SphereMesh(
+            *module.reduce_sphere_mesh(
+                *mesh.arrays, vertices, progress=progress and progress.part()
+            )
         )
-    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int32)
-    return _as_axis(places, radius, offsets, triangles.reshape(-1), edges)
 
 
 def _on_samples(axis: MedialAxis) -> MedialAxis:

@@ -17,14 +17,14 @@ constexpr int64_t kServersOfTask = 16;  // balls in one piece of work
 // This finds balls that serve all places, for any bound.
 class Service {
  public:
-  Service(std::span<const Ball> balls, std::span<const int32_t> ids, std::span<const Vec3> places,
-          const Run& run)
+  Service(std::span<const Ball> balls, std::span<const int32_t> ids,
+          std::span<const BoundedPlace> places, const Run& run)
       : balls_(balls), ids_(ids), places_(places.begin(), places.end()), run_(run) {
     const int32_t largest = *std::max_element(ids.begin(), ids.end(), [&](int32_t a, int32_t b) {
       return balls[a].radius < balls[b].radius;
     });
     std::vector<double> away;
-    for (const Vec3& place : places) away.push_back(distance(place, balls[largest].centre));
+    for (const auto& place : places) away.push_back(distance(place.at, balls[largest].centre));
     std::vector<int32_t> order(places.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
@@ -34,31 +34,35 @@ class Service {
 
   // Returns at most `most` balls that serve all places, or nothing if it finds none.
   std::vector<int32_t> within(double bound, int64_t most) const {
-    std::vector<Vec3> left(places_);
+    std::vector<BoundedPlace> left(places_);
     std::vector<int32_t> chosen;
     while (!left.empty()) {
       throw_if_cancelled(run_.progress);
       const int32_t best = best_server(left, bound);
       if (best < 0 || static_cast<int64_t>(chosen.size()) == most) return {};
       chosen.push_back(best);
-      std::erase_if(left, [&](const Vec3& place) { return gap(balls_[best], place) <= bound; });
+      std::erase_if(left, [&](const auto& place) { return serves(balls_[best], place, bound); });
     }
     return chosen;
   }
 
  private:
+  static bool serves(const Ball& ball, const BoundedPlace& place, double bound) {
+    return gap(ball, place.at) <= place.limit(bound);
+  }
+
   // Returns the ball that serves the first place and most of the others, ties by order, or -1.
-  int32_t best_server(std::span<const Vec3> left, double bound) const {
+  int32_t best_server(std::span<const BoundedPlace> left, double bound) const {
     std::vector<int32_t> servers;
     double reach = 0;
     for (const int32_t id : ids_) {
-      if (gap(balls_[id], left[0]) > bound) continue;
+      if (!serves(balls_[id], left[0], bound)) continue;
       servers.push_back(id);
-      reach = std::max(reach, balls_[id].radius + bound);
+      reach = std::max(reach, 2 * balls_[id].radius + left[0].limit(bound));
     }
-    std::vector<Vec3> near;
-    for (const Vec3& place : left) {
-      if (distance(place, left[0]) <= 2 * reach) near.push_back(place);
+    std::vector<BoundedPlace> near;
+    for (const BoundedPlace& place : left) {
+      if (distance(place.at, left[0].at) <= reach + place.limit(bound)) near.push_back(place);
     }
     std::vector<int64_t> served(servers.size());
     parallel_for(
@@ -66,7 +70,7 @@ class Service {
         [&](int64_t i) {
           const Ball& ball = balls_[servers[i]];
           served[i] = std::count_if(near.begin(), near.end(),
-                                    [&](const Vec3& place) { return gap(ball, place) <= bound; });
+                                    [&](const auto& place) { return serves(ball, place, bound); });
         },
         kServersOfTask);
     if (servers.empty()) return -1;
@@ -75,14 +79,14 @@ class Service {
 
   std::span<const Ball> balls_;
   std::span<const int32_t> ids_;
-  std::vector<Vec3> places_;  // those farthest from the largest ball first
+  std::vector<BoundedPlace> places_;  // those farthest from the largest ball first
   const Run& run_;
 };
 
 }  // namespace
 
 BoundedBalls bounded_balls(std::span<const Ball> balls, std::span<const int32_t> ids,
-                           std::span<const Vec3> places, int64_t most, double fine,
+                           std::span<const BoundedPlace> places, int64_t most, double fine,
                            BoundedBalls first, const Run& run) {
   const Service service(balls, ids, places, run);
   BoundedBalls best(std::move(first));

@@ -6,23 +6,23 @@
 #include <span>
 #include <vector>
 
-#include "base/nearest_ball.h"
+#include "balls/ball_places.h"
 #include "base/run.h"
 
 namespace medial {
 
 struct BoundedBalls {
-  double bound = 0;             // no place is farther from the balls
+  double bound = 0;             // all places are within the limit that it sets them
   std::vector<int32_t> chosen;  // ids, in the order in which they were chosen
 };
 
-// Looks for at most `most` of the balls from which no place is as far as from the `first` ones, and
-// returns the best that it finds, within 1 % of the least bound of this search, or less than
-// `fine`. Always the remaining place that is farthest from the largest ball is served next, so ends
-// come first; of the balls within the bound of it, the one that serves most of the remaining places
-// is taken.
+// Looks for at most `most` of the balls that serve all places within a smaller bound than the
+// `first` ones, and returns the best that it finds, within 1 % of the least bound of this search,
+// or less than `fine`. Always the remaining place that is farthest from the largest ball is served
+// next, so ends come first; of the balls within the bound of it, the one that serves most of the
+// remaining places is taken.
 BoundedBalls bounded_balls(std::span<const Ball> balls, std::span<const int32_t> ids,
-                           std::span<const Vec3> places, int64_t most, double fine,
+                           std::span<const BoundedPlace> places, int64_t most, double fine,
                            BoundedBalls first, const Run& run);
 
 }  // namespace medial

@@ -6,20 +6,15 @@
 #include "balls/ball_choice.h"
 #include "balls/ball_places.h"
 #include "balls/ball_reach.h"
+#include "balls/covered_solid.h"
 #include "balls/refined_choice.h"
-#include "base/frame.h"
 #include "base/parallel.h"
 #include "base/rows.h"
 #include "base/text.h"
-#include "base/triangle_tree.h"
-#include "inside/surface.h"
 
 namespace medial {
 namespace {
 
-// These are the most places of a lattice in the box of the solid. An open surface needs a query for
-// each of them.
-constexpr int64_t kMost = 1 << 24, kMostOpen = 1 << 20;
 constexpr double kPiece = 0.5;         // edges of pieces of the surface, in steps of the lattice
 constexpr int64_t kBallsOfTask = 256;  // balls in one piece of work
 // With more balls than this, a refined choice would cost much and gain next to nothing.
@@ -54,46 +49,19 @@ void check(const BallCoverInput& input, const BallCoverOptions& options) {
   }
 }
 
-// The solid is kept in a frame in which squares of lengths do not overflow.
-struct Solid {
-  Solid(const BallCoverInput& input, const Run& run)
-      : frame(frame_of(input.vertices, input.centres)),
-        vertices(distinct_rows(frame.inward(input.vertices), "vertex", run)),
-        surface(make_surface(input.faces, vertices.point_of_row, vertices.count(), run)),
-        winding(vertices.points, surface.triangles, surface.boundary, run.progress) {
-    if (surface.triangles.empty()) {
-      throw DegenerateInputError(
-          "Expected faces that enclose a volume, found none with three corners; pass a surface.");
-    }
-    for (const Triangle& t : surface.triangles) {
-      for (const int32_t corner : t) box.add(vertices.points[corner]);
-    }
-  }
-
-  Frame frame;
-  DistinctRows vertices;
-  Surface surface;
-  WindingNumber winding;
-  Box box;
-};
-
 // Returns the distance from each centre to the surface, negative outside.
-std::vector<double> depths(std::span<const Vec3> centres, const Solid& solid, const Run& run) {
-  const TriangleTree tree(solid.vertices.points, solid.surface.triangles);
-  std::vector<double> depth(centres.size());
+std::vector<double> depths(std::span<const Vec3> centres, const CoveredSolid& solid,
+                           const Run& run) {
+  const SolidDepth depth(solid);
+  std::vector<double> result(centres.size());
   parallel_for(
       static_cast<int64_t>(centres.size()), run,
-      [&](int64_t i) {
-        const double away = tree.distance(centres[i]);
-        const auto& winding = solid.winding;
-        depth[i] = winding.is_inside(centres[i], winding.closed(centres[i])) ? away : -away;
-      },
-      kBallsOfTask);
-  return depth;
+      [&](int64_t i) { result[i] = depth.at(centres[i]); }, kBallsOfTask);
+  return result;
 }
 
 // Shrinks the balls so that they stay in the solid; those around a centre outside get radius 0.
-std::vector<Ball> inner_balls(const BallCoverInput& input, const Solid& solid,
+std::vector<Ball> inner_balls(const BallCoverInput& input, const CoveredSolid& solid,
                               std::span<const double> depth) {
   std::vector<Ball> balls;
   balls.reserve(depth.size());
@@ -105,20 +73,9 @@ std::vector<Ball> inner_balls(const BallCoverInput& input, const Solid& solid,
   return balls;
 }
 
-SolidLattice lattice_of(const Solid& solid, int64_t places, const Run& run) {
-  const int64_t most = solid.surface.closed() ? kMost : kMostOpen;
-  SolidLattice lattice(solid.winding, solid.box, places, most, run);
-  if (lattice.count() == 0) {
-    throw DegenerateInputError(
-        "Expected faces that enclose a volume, found no place of a lattice inside; close them, or "
-        "turn them outward.");
-  }
-  return lattice;
-}
-
 // Returns the places from which balls are not to be far: on the surface, and if they are to hold
 // the solid, inside it.
-std::vector<Vec3> bounded_places(const Solid& solid, const SolidLattice& whole, bool around,
+std::vector<Vec3> bounded_places(const CoveredSolid& solid, const SolidLattice& whole, bool around,
                                  const Run& run) {
   const double step = whole.step();
   auto places = surface_places(solid.vertices.points, solid.surface.triangles, step, run);
@@ -128,8 +85,8 @@ std::vector<Vec3> bounded_places(const Solid& solid, const SolidLattice& whole, 
   return places;
 }
 
-BallChoice choice(std::span<const Ball> balls, const BallCoverOptions& options, const Solid& solid,
-                  SolidLattice& left, const Run& run) {
+BallChoice choice(std::span<const Ball> balls, const BallCoverOptions& options,
+                  const CoveredSolid& solid, SolidLattice& left, const Run& run) {
   const bool around = options.mode == CoverMode::around;
   if (options.refine && options.count <= kMostRefined) {
     const auto places = bounded_places(solid, left, around, run);
@@ -141,7 +98,7 @@ BallChoice choice(std::span<const Ball> balls, const BallCoverOptions& options, 
 // Sets the radii of the chosen balls, which grow by at most `reach` to hold what is nearest to
 // each, then how far the balls reach out of the solid, and how far the surface is from them.
 void set_reach(BallCover& cover, std::span<const Ball> balls, std::span<const double> depth,
-               double reach, const Solid& solid, SolidLattice& left, const Run& run) {
+               double reach, const CoveredSolid& solid, SolidLattice& left, const Run& run) {
   std::vector<Ball> kept;
   for (const int32_t ball : cover.chosen) kept.push_back(balls[ball]);
   const auto places = reach > 0 ? left.places() : std::vector<Vec3>{};
@@ -166,8 +123,8 @@ void set_reach(BallCover& cover, std::span<const Ball> balls, std::span<const do
 BallCover ball_cover(const BallCoverInput& input, const BallCoverOptions& options, const Run& run) {
   begin_stage(run.progress, "Lattice", 0, 0.3);
   check(input, options);
-  const Solid solid(input, run);
-  SolidLattice left = lattice_of(solid, options.places, run);
+  const CoveredSolid solid(input.vertices, input.faces, input.centres, run);
+  SolidLattice left = solid.lattice(options.places, run);
   begin_stage(run.progress, "Depths of balls", 0.3, 0.5);
   const auto depth = depths(solid.frame.inward(input.centres), solid, run);
   const auto balls = inner_balls(input, solid, depth);

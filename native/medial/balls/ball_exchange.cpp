@@ -11,17 +11,21 @@ namespace {
 
 constexpr int kRounds = 4;             // later rounds gain next to nothing
 constexpr int64_t kCountsOfTask = 32;  // balls in one piece of work
+constexpr double kRounding = 1e-12;    // balls that nearly touch count as touching
 
 bool touch(const Ball& a, const Ball& b) {
-  return distance(a.centre, b.centre) < a.radius + b.radius;
+  return distance(a.centre, b.centre) <= (1 + kRounding) * (a.radius + b.radius);
 }
 
 // This keeps, for each place, the distances to the nearest two of the chosen balls.
 class NearestTwo {
  public:
   NearestTwo(const Exchange& exchange, std::span<const int32_t> chosen, const Run& run)
-      : exchange_(exchange), near_(exchange.places.size()), run_(run) {
+      : exchange_(exchange), near_(exchange.places.size()), limits_(near_.size()), run_(run) {
     update(chosen, -1);
+    for (size_t i = 0; i < near_.size(); ++i) {
+      limits_[i] = std::max(exchange.places[i].limit(exchange.bound), near_[i].away);
+    }
   }
 
   // The ball in a slot is another one now; with slot -1, all are.
@@ -38,16 +42,20 @@ class NearestTwo {
   }
 
   // Returns the places that need the ball in a slot: without it they would be farther from the
-  // others than the bound, and farther than they are.
-  std::vector<Vec3> needing(int32_t slot) const {
-    std::vector<Vec3> places;
+  // others than their limits.
+  std::vector<int32_t> needing(int32_t slot) const {
+    std::vector<int32_t> places;
     for (size_t i = 0; i < near_.size(); ++i) {
-      const Near& near = near_[i];
-      if (near.slot == slot && near.away <= exchange_.bound && near.second > exchange_.bound) {
-        places.push_back(exchange_.places[i]);
+      if (near_[i].slot == slot && near_[i].second > limits_[i]) {
+        places.push_back(static_cast<int32_t>(i));
       }
     }
     return places;
+  }
+
+  bool serves(const Ball& ball, std::span<const int32_t> places) const {
+    return std::all_of(places.begin(), places.end(),
+                       [&](int32_t i) { return gap(ball, exchange_.places[i].at) <= limits_[i]; });
   }
 
  private:
@@ -58,7 +66,7 @@ class NearestTwo {
 
   void add(int64_t i, std::span<const int32_t> chosen, int32_t slot) {
     Near& near = near_[i];
-    const double away = gap(exchange_.balls[chosen[slot]], exchange_.places[i]);
+    const double away = gap(exchange_.balls[chosen[slot]], exchange_.places[i].at);
     if (away < near.away) {
       near = {away, near.away, slot, near.slot};
     } else if (away < near.second) {
@@ -69,6 +77,7 @@ class NearestTwo {
 
   const Exchange& exchange_;
   std::vector<Near> near_;
+  std::vector<double> limits_;  // no place may be farther from the chosen balls
   const Run& run_;
 };
 
@@ -80,9 +89,12 @@ class Exchanger {
       : exchange_(exchange),
         chosen_(chosen),
         whole_(whole),
+        rest_(whole),
         run_(run),
-        near_(exchange, chosen, run),
-        most_(counts(exchange.ids, rest_without(-1))) {}
+        near_(exchange, chosen, run) {
+    for (const int32_t id : chosen) rest_.remove(ball(id).centre, ball(id).radius);
+    most_ = counts(exchange.ids, rest_);
+  }
 
   bool round() {
     bool changed = false;
@@ -96,12 +108,16 @@ class Exchanger {
  private:
   const Ball& ball(int32_t id) const { return exchange_.balls[id]; }
 
-  // Returns the lattice without the places of all chosen balls but one.
+  // Returns the lattice without the places of all chosen balls but one. What only that one holds
+  // comes back.
   SolidLattice rest_without(int32_t slot) const {
-    SolidLattice rest(whole_);
+    const Ball& old = ball(chosen_[slot]);
+    SolidLattice rest(rest_);
+    rest.restore(whole_, old.centre, old.radius);
     for (size_t i = 0; i < chosen_.size(); ++i) {
       const Ball& other = ball(chosen_[i]);
-      if (static_cast<int32_t>(i) != slot) rest.remove(other.centre, other.radius);
+      if (static_cast<int32_t>(i) == slot || !touch(old, other)) continue;
+      rest.remove(other.centre, other.radius);
     }
     return rest;
   }
@@ -125,7 +141,7 @@ class Exchanger {
     for (size_t row = 0; row < most_.size(); ++row) {
       const Ball& other = ball(exchange_.ids[row]);
       const int64_t most = most_[row] + (touch(old, other) ? own : 0);
-      if (most <= own || !serves(other, needing)) continue;
+      if (most <= own || !near_.serves(other, needing)) continue;
       rows.push_back(static_cast<int32_t>(row));
       ids.push_back(exchange_.ids[row]);
     }
@@ -133,6 +149,8 @@ class Exchanger {
     const auto best = std::max_element(gains.begin(), gains.end());
     if (gains.empty() || *best <= own) return false;
     chosen_[slot] = ids[best - gains.begin()];
+    rest_ = rest;
+    rest_.remove(ball(chosen_[slot]).centre, ball(chosen_[slot]).radius);
     near_.update(chosen_, slot);
     for (size_t row = 0; row < most_.size(); ++row) {
       if (touch(old, ball(exchange_.ids[row]))) most_[row] += own;
@@ -141,14 +159,10 @@ class Exchanger {
     return true;
   }
 
-  bool serves(const Ball& other, std::span<const Vec3> places) const {
-    return std::all_of(places.begin(), places.end(),
-                       [&](const Vec3& place) { return gap(other, place) <= exchange_.bound; });
-  }
-
   const Exchange& exchange_;
   std::vector<int32_t>& chosen_;
   const SolidLattice& whole_;
+  SolidLattice rest_;  // without the places of the chosen balls
   const Run& run_;
   NearestTwo near_;
   std::vector<int64_t> most_;  // upper bounds of what each ball adds to the chosen ones

@@ -5,17 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "base/nearest_ball.h"
-#include "base/run.h"
+#include "balls/ball_places.h"
 #include "inside/solid_lattice.h"
 
 namespace medial {
 
 struct Exchange {
   std::span<const Ball> balls;
-  std::span<const int32_t> ids;  // of the balls that may be chosen
-  std::span<const Vec3> places;  // none may be farther from the chosen balls than `bound`,
-  double bound = 0;              // unless it is already
+  std::span<const int32_t> ids;          // of the balls that may be chosen
+  std::span<const BoundedPlace> places;  // none may be farther from the chosen balls than the limit
+  double bound = 0;                      // that `bound` sets it, unless it is already
 };
 
 // Replaces chosen balls, one after the other, by those that hold the most places of the lattice

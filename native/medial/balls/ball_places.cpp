@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "balls/pieces.h"
+#include "base/parallel.h"
 #include "base/vec3.h"
 
 namespace medial {
@@ -34,6 +35,16 @@ std::vector<Vec3> picked(std::span<const Vec3> points, std::span<const int32_t> 
 }
 
 }  // namespace
+
+std::vector<BoundedPlace> bounded(std::span<const Vec3> places, std::span<const Ball> balls,
+                                  const Run& run) {
+  const NearestBall nearest(balls);
+  std::vector<BoundedPlace> result(places.size());
+  parallel_for(static_cast<int64_t>(places.size()), {run.threads}, [&](int64_t i) {
+    result[i] = {places[i], gap(balls[nearest.find(places[i])], places[i])};
+  });
+  return result;
+}
 
 std::vector<int32_t> one_per_cell(std::span<const Vec3> points, std::span<const double> ranks,
                                   double cell) {

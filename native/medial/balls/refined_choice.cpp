@@ -40,21 +40,24 @@ std::vector<Ball> balls_of(std::span<const Ball> balls, std::span<const int32_t>
   return result;
 }
 
-double farthest(std::span<const Vec3> places, std::span<const Ball> balls, const Run& run) {
+// Returns the least bound within which balls serve all places.
+double bound_of(std::span<const BoundedPlace> places, std::span<const Ball> balls, const Run& run) {
   const NearestBall nearest(balls);
-  std::vector<double> away(places.size());
-  parallel_for(static_cast<int64_t>(places.size()), {run.threads},
-               [&](int64_t i) { away[i] = gap(balls[nearest.find(places[i])], places[i]); });
-  return away.empty() ? 0 : *std::max_element(away.begin(), away.end());
+  std::vector<double> bounds(places.size());
+  parallel_for(static_cast<int64_t>(places.size()), {run.threads}, [&](int64_t i) {
+    const Vec3& at = places[i].at;
+    bounds[i] = places[i].bound(gap(balls[nearest.find(at)], at));
+  });
+  return bounds.empty() ? 0 : *std::max_element(bounds.begin(), bounds.end());
 }
 
-// Returns balls that follow the farthest place, and how far the places are from them.
+// Returns balls that follow the farthest place, and the bound within which they serve the places.
 BoundedBalls farthest_first(std::span<const Ball> balls, int64_t count,
-                            std::span<const Vec3> places, const SolidLattice& whole,
+                            std::span<const BoundedPlace> places, const SolidLattice& whole,
                             const Run& run) {
   SolidLattice rest(whole);
   auto chosen = balls_by_distance(balls, count, rest, {run.threads}).chosen;
-  const double bound = farthest(places, balls_of(balls, chosen), run);
+  const double bound = bound_of(places, balls_of(balls, chosen), run);
   return {bound, std::move(chosen)};
 }
 
@@ -96,15 +99,18 @@ BallChoice balls_by_bound(std::span<const Ball> balls, int64_t count, double sha
   const auto ids = distinct_balls(balls, left.step());
   if (ids.empty()) return {};
   const auto most = static_cast<int64_t>(std::ceil(share * static_cast<double>(count)));
-  const auto even = even_places(places, left.step(), std::max(kPlaces, kPlacesOfBall * count));
+  const auto some = balls_of(balls, ids);
+  const auto even = bounded(
+      even_places(places, left.step(), std::max(kPlaces, kPlacesOfBall * count)), some, run);
   auto first = farthest_first(balls, most, even, left, run);
   auto chosen =
       bounded_balls(balls, ids, even, most, kFine * left.step(), std::move(first), run).chosen;
   advance(run.progress, 0.3);
   fill(chosen, balls, ids, count, left, run);
   advance(run.progress, 0.4);
-  const double bound = farthest(places, balls_of(balls, chosen), run);
-  exchange_balls({balls, ids, places, bound}, chosen, left, run);
+  const auto all = bounded(places, some, run);
+  const double bound = bound_of(all, balls_of(balls, chosen), run);
+  exchange_balls({balls, ids, all, bound}, chosen, left, run);
   advance(run.progress, 0.9);
   return ordered(chosen, balls, left, run);
 }

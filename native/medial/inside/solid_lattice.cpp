@@ -140,6 +140,11 @@ void SolidLattice::remove(const Vec3& centre, double radius) {
   visit_words(centre, radius, [&](int64_t word, uint64_t mask) { bits_[word] &= ~mask; });
 }
 
+void SolidLattice::restore(const SolidLattice& whole, const Vec3& centre, double radius) {
+  visit_words(centre, radius,
+              [&](int64_t word, uint64_t mask) { bits_[word] |= whole.bits_[word] & mask; });
+}
+
 std::vector<Vec3> SolidLattice::places() const {
   std::vector<Vec3> result;
   for (int64_t row = 0; row < size_[1] * size_[2]; ++row) {

@@ -26,6 +26,8 @@ class SolidLattice {
   // Returns the number of places that are left in a closed ball.
   int64_t count(const Vec3& centre, double radius) const;
   void remove(const Vec3& centre, double radius);
+  // Brings back the places of the ball that `whole` has, a copy from before places were removed.
+  void restore(const SolidLattice& whole, const Vec3& centre, double radius);
   // Returns all places that are left, row after row.
   std::vector<Vec3> places() const;
 

@@ -36,6 +36,7 @@ SCENES = {  # name -> whether the compiled module is installed
     "cancel_with_escape": True,
     "cancel_with_button": True,
     "reduce_with_escape": True,
+    "follow_with_escape": True,
     "source_deleted": True,
     "undo_while_running": True,
     "undo_storm": True,

@@ -990,6 +990,60 @@ def start_reducing():
     assert started == {"RUNNING_MODAL"}
 
 
+def scene_follow_with_escape():
+    """Follow Mesh goes through frames while Blender draws; Escape leaves no key, and once more it keys them."""
+    source = monkey()
+    source.modifiers.clear()
+    source.shape_key_add(name="Basis")
+    bend = source.shape_key_add(name="Bend")
+    for point_of_key in bend.data:
+        point_of_key.co.z += 0.3 * point_of_key.co.x**2
+    scene = bpy.context.scene
+    scene.frame_start, scene.frame_end = 1, 400
+    for frame, value in ((1, 0.0), (400, 1.0)):
+        bend.value = value
+        bend.keyframe_insert("value", frame=frame)
+    scene.frame_set(1)
+    assert bpy.ops.object.medial_axis_armature(sampling="VERTICES") == {"FINISHED"}
+    select(source)
+    scene.frame_set(7)
+    armature = addon("bridge.armature_object").rig_of(source)
+    before = state_of_keys(source, armature)
+    start_following()
+    frames = set()
+    for _ in range(20):
+        yield 0.1
+        frames.add(bpy.context.scene.frame_current)
+    look("running")
+    assert len(frames) > 2, "Blender stood still"
+    yield from key("Escape")
+    yield lambda: bpy.context.scene.frame_current == 7
+    yield patience(0.5)
+    look("cancelled")
+    assert state_of_keys(source, armature) == before, "something half-made is left"
+    bpy.context.scene.frame_end = 12
+    start_following()
+    yield lambda: armature.animation_data is not None
+    yield patience(0.5)
+    assert bpy.context.scene.frame_current == 7
+    look("followed")
+
+
+def start_following():
+    with in_viewport():
+        assert bpy.ops.object.medial_axis_follow("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+
+
+def state_of_keys(source, armature):
+    return (
+        len(bpy.data.actions),
+        armature.animation_data is None,
+        [(m.name, m.show_viewport, m.show_render) for m in source.modifiers],
+        [tuple(bone.matrix_basis.translation) for bone in armature.pose.bones],
+        bpy.context.scene.frame_current,
+    )
+
+
 def scene_cancel_with_button():
     cloud()
     yield from start_long_run()
