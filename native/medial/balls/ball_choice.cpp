@@ -77,11 +77,19 @@ class Chosen {
 class Distances {
  public:
   explicit Distances(std::vector<Vec3> places)
-      : places_(std::move(places)), away_(places_.size(), HUGE_VAL) {}
+      : places_(std::move(places)), away_(places_.size(), HUGE_VAL) {
+    for (size_t i = 0; i < places_.size(); ++i) queue_.emplace(HUGE_VAL, ~i);
+  }
 
-  // Returns the farthest place, ties by lowest id.
-  size_t farthest() const {
-    return static_cast<size_t>(std::max_element(away_.begin(), away_.end()) - away_.begin());
+  // Returns the farthest place, ties by lowest id. Distances only shrink, so a place that is first
+  // in the queue with the distance that it has now is the farthest.
+  size_t farthest() {
+    while (true) {
+      const auto [away, id] = queue_.top();
+      if (away_[~id] == away) return ~id;
+      queue_.pop();
+      queue_.emplace(away_[~id], id);
+    }
   }
   const Vec3& place(size_t i) const { return places_[i]; }
   double away(size_t i) const { return away_[i]; }
@@ -96,6 +104,7 @@ class Distances {
  private:
   std::vector<Vec3> places_;
   std::vector<double> away_;
+  std::priority_queue<std::pair<double, size_t>> queue_;  // distances and complements of ids
 };
 
 // Returns the balls that come nearest to a place, if they come nearer than `away`.
