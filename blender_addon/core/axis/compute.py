@@ -118,14 +118,16 @@ def compute_axis(
     limit : MemoryLimit
         The memory that the analysis may need, and the reaction when it needs more.
     relaxed : bool
-        Whether rims and curves of the forms CLEAN and CURVE are smoothed.
+        Whether rims and curves of the forms CLEAN and CURVE are smoothed, and noisy faces before them.
 
     Raises
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     settings = settings.with_side()
-    shape, rough = smooth_faces(shape, settings, progress and progress.part(_SMOOTHING))
+    rough = ""
+    if relaxed:
+        shape, rough = smooth_faces(shape, settings, progress and progress.part(_SMOOTHING))
     form, wanted = settings.form_of_side, settings.form
     limit = limit.used(
         faces=len(shape.triangles) > 0,

@@ -23,7 +23,7 @@ constexpr double kSeen = 0.8;    // of the residual that noise shows in the smal
 constexpr size_t kPaired = 2, kUnder = 4;  // among the sizes
 constexpr double kSame = 0.05;             // standard deviations between points of the same height
 constexpr double kOfErrors = 0.0282;       // the share of pairs of errors that are as close
-// Of faces fewer neighbours are compared: those whose normals look the same way, among the nearest.
+// Vertices of faces are compared with fewer neighbours: those whose normals look the same way.
 constexpr size_t kOfFaces = 8;         // of the sizes
 constexpr size_t kLeastOfFaces = 3;    // among the sizes, the one to whose quadric vertices move
 constexpr double kWider = 1.15;        // a smaller growth from there on, and the next one will do
@@ -35,7 +35,7 @@ struct Ladder {
   bool whole = false;  // there were as many points as the largest size wants
 };
 
-// What is measured: points in spatial order, and of faces the unit normals, or else none.
+// Points in spatial order are measured, and if they have faces their unit normals, or else none.
 struct Measured {
   const PointTree& tree;
   std::span<const Vec3> normals;
