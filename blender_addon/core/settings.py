@@ -342,15 +342,16 @@ class Settings(Options):
     )
     prepare: Prepare = choice(
         "Prepare",
-        "What is done to points without faces, as of a scan, before they are analysed",
+        "What is done to noisy points and faces, as of scans and voxels, before they are analysed",
         default=Prepare.AUTOMATIC,
         items={
             Prepare.AUTOMATIC: (
                 "Automatic",
-                "Points that stand alone are left out; where there is noise, points are moved onto smooth "
-                "surfaces and thinned. Clean points stay as they are",
+                "Where there is noise, points and the vertices of faces are moved onto smooth surfaces; of points "
+                "without faces those that stand alone are left out, and noisy ones thinned. Clean ones stay as they "
+                "are",
             ),
-            Prepare.OFF: ("Off", "The points stay as they are"),
+            Prepare.OFF: ("Off", "The points and faces stay as they are"),
             Prepare.ALWAYS: ("Always", "Points are moved also where noise is small"),
         },
     )

@@ -17,7 +17,7 @@ from ..bridge.axis_object import (
     settings_of,
     update_result,
 )
-from ..bridge.output_object import is_gone, is_torn, source_of
+from ..bridge.output_object import WARNINGS, is_gone, is_torn, source_of
 from ..bridge.read_object import SOURCE_TYPES
 from ..bridge.report_object import has_report, report_of
 from ..bridge.surface_object import is_surface, surface_of
@@ -32,6 +32,7 @@ from ..core.settings import (
     OPTIONS,
     SAMPLING_OPTIONS,
     Look,
+    Prepare,
     SamplingMode,
     Settings,
     SidesFrom,
@@ -94,7 +95,7 @@ def draw_sampling(layout, properties, of_faces=()):
     for name in SAMPLING_OPTIONS:
         if name == "wrap_opening" and properties.sides != SidesFrom.WRAP.name:
             continue
-        if name == "prepare" and not _is_of_points():
+        if name == "prepare" and not (_is_of_points() or _is_of_noisy_faces(properties)):
             continue
         row = layout.row()
         row.active = applies(name, chosen, properties.spacing, of_faces)
@@ -102,11 +103,19 @@ def draw_sampling(layout, properties, of_faces=()):
 
 
 def _is_of_points():
-    """Whether the active object, or the source of the active result, has no faces; only its points are prepared."""
+    """Whether the active object, or the source of the active result, has no faces."""
     thing = bpy.context.object
     thing = thing and (source_of(thing) or thing)
     is_mesh = thing is not None and thing.type in ("MESH", "POINTCLOUD")
     return is_mesh and not len(getattr(thing.data, "polygons", ()))
+
+
+def _is_of_noisy_faces(properties):
+    """Whether noise was found in the faces of the active result, or the option was changed; few faces have any."""
+    said = bpy.context.object and bpy.context.object.get(WARNINGS, "")
+    return properties.prepare != Prepare.AUTOMATIC.name or bool(
+        said and "found in the faces" in said
+    )
 
 
 def settings_from(properties, kind=Settings):

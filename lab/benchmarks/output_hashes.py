@@ -225,6 +225,10 @@ def add_scan(digest: Digest, m, points, threads) -> None:
     measure = m.measure_scan(points, threads=threads)
     add_all(digest, measure)
     add_all(digest, m.prepare_scan(points, measure, threads=threads))
+    normals = points - points.mean(axis=0)
+    noise = m.surface_noise(points, normals, threads=threads)
+    add_all(digest, noise)
+    digest.add(m.smooth_vertices(points, normals, noise, threads=threads))
 
 
 def add_polygons(digest: Digest, m) -> None:

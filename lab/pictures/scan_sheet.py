@@ -60,16 +60,27 @@ def read(name: str) -> np.ndarray | None:
 
 def drawn(points: np.ndarray, prepare: Prepare, name: str) -> np.ndarray:
     """(h, w, 3) uint8: the axis, and behind it the points."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    size = float(np.linalg.norm(high - low))
-    focus = (low + high) / 2, 0.4 * size
     found = compute(points, np.zeros((0, 3), np.int32), Settings(prepare=prepare))
     print(
         f"{name}, {prepare.value}: {len(points):,} points, {found.axis.level.betti}",
         *found.warnings,
         sep="\n  ",
+        flush=True,
     )
-    axis = pictured(*soup(found.axis, size), focus)
+    return before(points, found.axis)
+
+
+def drawn_faces(points: np.ndarray, triangles: np.ndarray, prepare: Prepare) -> np.ndarray:
+    """(h, w, 3) uint8: the axis of faces, and behind it their vertices."""
+    return before(points, compute(points, triangles, Settings(prepare=prepare)).axis)
+
+
+def before(points: np.ndarray, shown) -> np.ndarray:
+    """(h, w, 3) uint8: an axis before points."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = float(np.linalg.norm(high - low))
+    focus = (low + high) / 2, 0.4 * size
+    axis = pictured(*soup(shown, size), focus)
     behind = pictured(*dots(points, DOT * size), focus)
     return np.where((axis == 255).all(axis=2, keepdims=True), behind, axis)
 

@@ -587,6 +587,12 @@ class ScanMeasure:
     def kurtosis(self) -> float:
         """How the points spread over the noise: 3 as errors do, 1.8 evenly, 1 in two layers."""
     @property
+    def mates(self) -> float:
+        """How many pairs of close points have the same height over the surface, in units of what errors have.
+
+        1 for errors, 1.5 to 2 where each view of a scan lies off as a whole; 0.0 where no noise is seen.
+        """
+    @property
     def duplicates(self) -> int:
         """The number of rows that repeat an earlier one."""
     @property
@@ -595,6 +601,20 @@ class ScanMeasure:
     @property
     def border(self) -> float:
         """The share of the points at which the surface ends, because a wide sector round them is empty."""
+
+@final
+class SurfaceNoise:
+    """The noise of the vertices of faces; made by `surface_noise`. Lengths are in the unit of the points."""
+
+    @property
+    def spacing(self) -> float:
+        """The distance of neighbours, as if the vertices were evenly spread."""
+    @property
+    def noise(self) -> float:
+        """Their standard deviation from a smooth surface; 0.0 where no noise is seen."""
+    @property
+    def radius(self) -> float:
+        """The radius of the neighbourhoods that show the noise, and not yet the shape; 0.0 where no noise is seen."""
 
 @final
 class PreparedScan:
@@ -1939,6 +1959,63 @@ def measure_scan(
     progress : Progress, optional
     threads : int
         0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
+def surface_noise(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> SurfaceNoise:
+    """Measure the noise of the vertices of faces, as `measure_scan` does of points.
+
+    Only neighbours whose normals look the same way are compared, so the walls of thin parts are no noise.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    normals : (n, 3) float64
+        Outward, of any length; those in one place are added, and vertices without any are left out.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+
+def smooth_vertices(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    measure: SurfaceNoise,
+    *,
+    progress: Progress | None = None,
+    threads: int = 0,
+) -> NDArray[np.float64]:
+    """Move the vertices of faces onto smooth surfaces through their neighbours.
+
+    Each goes onto the quadric of the neighbours that look the same way, within the radius of the measure. Those without
+    a normal or with few neighbours stay, and those that would move by many times the noise.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    normals : (n, 3) float64
+    measure : SurfaceNoise
+        What `surface_noise` says of these points.
+    progress : Progress, optional
+    threads : int
+        0: as many as the machine has. The result does not depend on it.
+
+    Returns
+    -------
+    (n, 3) float64
 
     Raises
     ------

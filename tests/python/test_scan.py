@@ -83,6 +83,23 @@ def test_layers_are_told_from_errors(medial):
     assert 2.5 < medial.measure_scan(noisy(Sphere(), 0.5)[0]).kurtosis < 3.2
 
 
+@pytest.mark.parametrize("apart", [0.5, 1.0, 2.0])
+def test_views_that_do_not_fit_are_told_from_errors(medial, apart):
+    """Each of four views lies off as a whole, so that pairs of one view have the same height."""
+    points, spacing = noisy(SHAPES["torus"], 0.0, 8000)
+    rng = np.random.default_rng(3)
+    away = rng.normal(size=(4, 3))
+    away *= apart * spacing / np.linalg.norm(away, axis=1)[:, None]
+    found = medial.measure_scan(points + away[rng.integers(0, 4, len(points))])
+    assert found.noise > 0.1 * found.spacing and found.mates > 1.45
+
+
+@pytest.mark.parametrize("name", ["torus", "box", "knot"])
+@pytest.mark.parametrize("noise", [0.25, 0.5, 1.0])
+def test_errors_have_few_pairs_at_the_same_height(medial, name, noise):
+    assert 0.8 < medial.measure_scan(noisy(SHAPES[name], noise, 8000)[0]).mates < 1.3
+
+
 # ---- the mover
 
 
@@ -156,7 +173,7 @@ def test_the_report_tells_how_far_points_moved():
     assert not clean.moved.any()
 
 
-CLEAN = Scan(1000, 1000, 0.1, 0.0, 3.0, 0, 0, 0.0)
+CLEAN = Scan(1000, 1000, 0.1, 0.0, 3.0, 1.0, 0, 0, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -170,6 +187,9 @@ CLEAN = Scan(1000, 1000, 0.1, 0.0, 3.0, 0, 0, 0.0)
         ({"noise": 0.5, "moved": np.ones(9)}, "POLES", "inside is a guess of the poles"),
         ({"noise": 0.5, "kurtosis": 1.2}, "TIGHT_COCONE", "the points lie in layers"),
         ({"noise": 1.5, "kurtosis": 1.2}, "POLES", "walls of a thin part"),
+        ({"noise": 1.5, "kurtosis": 1.2, "mates": 2.0}, "POLES", "walls of a thin part"),
+        ({"noise": 1.5, "mates": 1.6}, "TIGHT_COCONE", "the scans do not fit each other"),
+        ({"mates": 1.6}, "TIGHT_COCONE", ""),
         ({"outliers": 20, "kept": 980}, "TIGHT_COCONE", "stood alone and were left out"),
         ({"outliers": 20}, "TIGHT_COCONE", "which Prepare Automatic leaves out"),
         ({"border": 0.05}, "POLES", "bounds no solid"),

@@ -14,6 +14,7 @@ from ..samples.choose_samples import begin
 from ..samples.chosen import ChosenSamples, OfChosenSamples
 from ..samples.mesh_parts import MeshCounts, mesh_counts
 from ..samples.outward_faces import reading_counts
+from ..samples.rough_faces import smooth_faces
 from ..samples.shape import Shape
 from ..samples.solid_faces import triangles_of_places
 from ..settings import Form, Settings, SidesFrom
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 # The share of the work before the hierarchy begins.
 _ANALYSIS = 0.6
+_SMOOTHING = 0.02  # of the whole work, as few faces are noisy
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,13 +118,16 @@ def compute_axis(
     limit : MemoryLimit
         The memory that the analysis may need, and the reaction when it needs more.
     relaxed : bool
-        Whether rims and curves of the forms CLEAN and CURVE are smoothed.
+        Whether rims and curves of the forms CLEAN and CURVE are smoothed, and noisy faces before them.
 
     Raises
     ------
     NativeModuleError, InvalidInputError, DegenerateInputError, OutOfMemoryError, Cancelled
     """
     settings = settings.with_side()
+    rough = ""
+    if relaxed:
+        shape, rough = smooth_faces(shape, settings, progress and progress.part(_SMOOTHING))
     form, wanted = settings.form_of_side, settings.form
     limit = limit.used(
         faces=len(shape.triangles) > 0,
@@ -145,7 +150,7 @@ def compute_axis(
         axis=axis,
         settings=settings,
         chosen=chosen,
-        warnings=tuple(axis_warnings(shape, settings, chosen, axis)),
+        warnings=(*([rough] if rough else []), *axis_warnings(shape, settings, chosen, axis)),
         topology=topology_sentence(axis, wanted, chosen.samples),
         seconds=begun.seconds,
         turned=reading_counts(shape)["turned"],

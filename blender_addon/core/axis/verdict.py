@@ -42,8 +42,11 @@ _IN_SHORT = {
     "the points lie in two layers": "Read as a thin wall",
     "too much for so many points": "Too much noise",
     "the points were moved by": "Noise was smoothed",
+    "their vertices were moved by": "Faces were smoothed",
+    "spacings were found in the faces": "Faces have noise",
     "found and left as it is": "There is noise",
     "the points lie in layers": "Points lie in layers",
+    "the scans do not fit": "Scans do not fit",
 }
 _COUNTED = re.compile(r"(?:Sampled|Used the) ([\d,]+) (points|vertices)")
 

@@ -25,6 +25,9 @@ _TOO_MUCH = 2.5  # noise in spacings beyond which too few points tell the surfac
 _ALONE = (0.001, 0.1)  # the share of lone points that are outliers; fewer are the tips of a shape
 _FEWEST = 4  # of them
 _LAYERED = 2.3  # a smaller kurtosis is that of layers; errors have 2.6 or more
+_MATES = (
+    1.4  # more pairs at the same height are those of views that do not fit; errors have 1.3 at most
+)
 _WALLS = (0.7, 1.7)  # more noise in spacings with a smaller kurtosis is two walls of a thin part
 _ENDS = 0.02  # a larger share of points at which the surface ends is an opening, or a sheet
 _THIN = 5.0  # walls of fewer standard deviations of the noise become one
@@ -44,6 +47,8 @@ class Scan:
         The standard deviation of a point from the surface, in spacings; 0.0 where none is seen.
     kurtosis : float
         How the points spread over the noise: 3 as errors do, 1.8 evenly, 1 in two layers.
+    mates : float
+        How many pairs of close points have the same height, in units of what errors have.
     duplicates, outliers : int
     border : float
         The share of the points at which the surface ends.
@@ -56,6 +61,7 @@ class Scan:
     spacing: float
     noise: float
     kurtosis: float
+    mates: float
     duplicates: int
     outliers: int
     border: float
@@ -67,6 +73,11 @@ class Scan:
         return self.noise > _WALLS[0] and self.kurtosis < _WALLS[1]
 
     @property
+    def does_not_fit(self) -> bool:
+        """Whether the noise seems to be that of views each of which lies off as a whole."""
+        return self.noise > SOME and self.mates > _MATES and not self.has_walls
+
+    @property
     def figures(self) -> dict[str, Any]:
         """The figures for a report."""
         moved = None if self.moved is None else float(np.median(self.moved))
@@ -76,6 +87,7 @@ class Scan:
             "spacing",
             "noise",
             "kurtosis",
+            "mates",
             "duplicates",
             "outliers",
             "border",
@@ -127,6 +139,7 @@ def _scan(shape: Shape, measure: Any) -> Scan:
         spacing=measure.spacing,
         noise=noise,
         kurtosis=measure.kurtosis,
+        mates=measure.mates,
         duplicates=measure.duplicates,
         outliers=outliers,
         border=measure.border,
@@ -178,6 +191,11 @@ def is_noisy(scan: Scan | None) -> bool:
 
 def _noise(scan: Scan) -> Iterator[str]:
     size = f"noise of about {scan.noise:.2g} spacings"
+    if scan.does_not_fit:
+        yield (
+            f"the scans do not fit each other: their points lie in layers, some {2 * scan.noise * scan.spacing:.2g} "
+            "apart, so walls of about that thickness are lost or torn; fit the scans again"
+        )
     if scan.has_walls:
         yield (
             f"the points lie in two layers, about {2 * scan.noise * scan.spacing:.2g} apart, which were taken for the "
@@ -197,7 +215,7 @@ def _noise(scan: Scan) -> Iterator[str]:
         )
     elif scan.noise > SOME:
         yield f"{size} was found and left as it is, so the axis may have flakes; Prepare Automatic moves it away"
-    if scan.noise > SOME and scan.kurtosis < _LAYERED:
+    if scan.noise > SOME and scan.kurtosis < _LAYERED and not scan.does_not_fit:
         yield (
             f"the points lie in layers, about {2 * scan.noise * scan.spacing:.2g} apart, and not as errors do: scans "
             "that do not fit each other, or rounded depths; fit the scans again if the axis looks wrong"

@@ -7,11 +7,16 @@
 
 namespace medial {
 
+constexpr double kSameWay = 0.2;  // the least cosine between normals that look the same way
+
 struct NoiseFigures {
-  double spacing = 0, noise = 0, kurtosis = 3;
+  double spacing = 0, noise = 0, kurtosis = 3, mates = 0;
+  double radius = 0;  // of the widest neighbourhoods on the plateau; it matters for faces only
 };
 
-// Measures points in spatial order, of which the tree was made.
-NoiseFigures noise_of(const PointTree& tree, double diagonal, const Run& run);
+// Measures points in spatial order, of which the tree was made. With unit normals of the points,
+// only those whose normals look the same way are compared.
+NoiseFigures noise_of(const PointTree& tree, double diagonal, const Run& run,
+                      std::span<const Vec3> normals = {});
 
 }  // namespace medial

@@ -106,6 +106,7 @@ ScanMeasure measure_scan(std::span<const Vec3> points, int threads, Progress* pr
   measure.spacing = figures.spacing;
   measure.noise = figures.noise;
   measure.kurtosis = figures.kurtosis;
+  measure.mates = figures.mates;
   measure.border = border_share(tree, std::max(kBorder * figures.spacing, 3 * figures.noise), run);
   return measure;
 }

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces with noise or steps, as of reconstructions and voxels: their vertices are moved onto smooth surfaces first."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..machine import native
+from ..settings import Prepare, Settings, SidesFrom
+from ..small_matrices import dot
+from .scan import SOME
+from .surface_normals import cross
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from .shape import Shape
+
+_TOO_MUCH = (
+    1.0  # spacings: with more noise faces fold over each other, and their normals tell nothing
+)
+
+
+def smooth_faces(
+    shape: Shape, settings: Settings, progress: Any | None = None
+) -> tuple[Shape, str]:
+    """Return a shape whose vertices lie on smooth surfaces, and a sentence; the same shape and "" where no noise is.
+
+    Parameters
+    ----------
+    shape : Shape
+        One without faces, and the samples of curves and texts, are returned as they are.
+    settings : Settings
+        Only `prepare` and `sides` matter; a wrap has its own faces.
+    progress : _medial.Progress, optional
+
+    Raises
+    ------
+    InvalidInputError, Cancelled
+    """
+    if not len(shape.triangles) or not shape.of_samples or settings.sides is SidesFrom.WRAP:
+        return shape, ""
+    normals = _vertex_normals(shape)
+    with native.own_errors() as module:
+        measure = module.surface_noise(shape.points, normals, progress=progress)
+        noise = measure.noise / measure.spacing if measure.noise > 0.0 else 0.0
+        enough = 0.0 if settings.prepare is Prepare.ALWAYS else SOME
+        if noise <= enough:
+            return shape, ""
+        if settings.prepare is Prepare.OFF or noise > _TOO_MUCH:
+            return shape, _left(noise, settings.prepare)
+        points = module.smooth_vertices(shape.points, normals, measure, progress=progress)
+    away = points - shape.points
+    moved = float(np.median(np.sqrt(dot(away, away)))) / measure.spacing
+    return replace(shape, points=points), (
+        f"noise or steps of about {noise:.2g} spacings were found in the faces: their vertices were moved by "
+        f"{moved:.2g} spacings in the median, so edges and details of that size are rounded, and Prepare Off takes the "
+        "faces as they are"
+    )
+
+
+def _left(noise: float, prepare: Prepare) -> str:
+    """The sentence about noise that stays."""
+    size = f"noise or steps of about {noise:.2g} spacings were found in the faces"
+    if prepare is Prepare.OFF:
+        return f"{size} and left as they are, so the axis may have flakes; Prepare Automatic moves the vertices"
+    return f"{size}, too much to move the vertices, so the axis may have flakes; smooth the faces first"
+
+
+def _vertex_normals(shape: Shape) -> NDArray[np.float64]:
+    """(n, 3) sums of the areas of the faces round each vertex, along their normals."""
+    a, b, c = (shape.points[shape.triangles[:, corner]] for corner in range(3))
+    area, corners = cross(b - a, c - a), shape.triangles.ravel()
+    sums = [np.bincount(corners, np.repeat(column, 3), len(shape.points)) for column in area.T]
+    return np.column_stack(sums)

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces with noise or steps: what is measured, and where the vertices go."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from medial_axis.core.axis.compute import compute
+from medial_axis.core.files.read_shape import read_shape
+from medial_axis.core.samples.rough_faces import smooth_faces
+from medial_axis.core.samples.shape import Shape
+from medial_axis.core.settings import Prepare, SamplingMode, Settings, SidesFrom
+from support.data import DATA
+from support.meshes import box, icosphere, torus
+
+RADIUS = 1.0
+
+
+@cache
+def sphere(noise):
+    """10,242 vertices with errors of so many edges along the normals."""
+    points, triangles = icosphere(5, RADIUS)
+    edge = float(np.linalg.norm(points[triangles[0, 0]] - points[triangles[0, 1]]))
+    errors = np.random.default_rng(1).normal(size=(len(points), 1))
+    return points * (1.0 + noise * edge * errors), np.asarray(triangles, np.int32)
+
+
+def voxels(cells):
+    """A ball of cubes: its corners and the triangles of its sides, in steps."""
+    axis = np.arange(-cells, cells + 1)
+    inside = (np.stack(np.meshgrid(axis, axis, axis), -1) ** 2).sum(-1) < (cells - 1) ** 2
+    quads = []
+    for along in range(3):
+        for step in (1, -1):
+            cell = np.argwhere(inside & ~np.roll(inside, -step, axis=along))
+            corner = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])[::step]
+            quad = np.repeat(cell[:, None], 4, axis=1)
+            quad[:, :, (along + 1) % 3] += corner[:, 0]
+            quad[:, :, (along + 2) % 3] += corner[:, 1]
+            quad[:, :, along] += step > 0
+            quads.append(quad)
+    corners = np.concatenate(quads)
+    points, row = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    row = row.reshape(-1, 4)
+    triangles = np.concatenate([row[:, [0, 1, 2]], row[:, [0, 2, 3]]]).astype(np.int32)
+    return (points - cells - 0.5).astype(float), triangles
+
+
+def prepared(mesh, **options):
+    shape = Shape(*mesh)
+    return shape, *smooth_faces(shape, Settings(**options))
+
+
+def off(points, radius=RADIUS):
+    return float(np.std(np.linalg.norm(points, axis=1) / radius))
+
+
+@pytest.mark.parametrize("noise", [0.15, 0.3, 0.5])
+def test_noise_is_measured_and_moved_away(noise):
+    shape, found, said = prepared(sphere(noise))
+    assert off(found.points) < 0.45 * off(shape.points)
+    assert abs(np.linalg.norm(found.points, axis=1).mean() - RADIUS) < 0.002
+    assert found.triangles is shape.triangles and "their vertices were moved" in said
+
+
+def test_steps_of_voxels_are_moved_away():
+    shape, found, said = prepared(voxels(30))
+    assert off(found.points, 29) < 0.35 * off(shape.points, 29) and "steps of about" in said
+
+
+@pytest.mark.parametrize(
+    "mesh", [sphere(0.0), torus(1.0, 0.4, 90, 40), box((24, 20, 16))], ids=["ball", "ring", "box"]
+)
+def test_clean_faces_stay_the_same(mesh):
+    for wanted in (Prepare.AUTOMATIC, Prepare.ALWAYS, Prepare.OFF):
+        shape, found, said = prepared(mesh, prepare=wanted)
+        assert found is shape and said == ""
+
+
+@pytest.mark.skipif(not DATA.is_dir(), reason=f"needs {DATA}")
+@pytest.mark.parametrize("name", ["fandisk_large.off", "engine_parts.ply", "spot_low.obj"])
+def test_edges_and_thin_walls_are_no_noise(name):
+    given = read_shape(DATA / name)[0]
+    assert smooth_faces(given, Settings(prepare=Prepare.ALWAYS)) == (given, "")
+
+
+def test_off_and_a_wrap_leave_the_faces():
+    shape, found, said = prepared(sphere(0.3), prepare=Prepare.OFF)
+    assert found is shape and "left as they are" in said
+    shape, found, said = prepared(sphere(0.3), sides=SidesFrom.WRAP)
+    assert found is shape and said == ""
+
+
+def test_faces_without_common_corners_are_one_surface():
+    """Each triangle has its own corners, as in STL files; those in one place stay in one place."""
+    points, triangles = sphere(0.3)
+    apart = points[triangles].reshape(-1, 3), np.arange(triangles.size, dtype=np.int32)
+    _, found, _ = prepared((apart[0], apart[1].reshape(-1, 3)))
+    assert len(np.unique(found.points, axis=0)) == len(points)
+    assert off(found.points) < 0.45 * off(points)
+
+
+def test_threads_and_scale_change_nothing(medial):
+    points = sphere(0.3)[0]
+    given = points, points / np.linalg.norm(points, axis=1)[:, None]
+    measure = medial.surface_noise(*given, threads=1)
+    one = medial.smooth_vertices(*given, measure, threads=1)
+    assert np.array_equal(one, medial.smooth_vertices(*given, measure, threads=3))
+    large = points * 2.0**40, given[1]
+    assert np.array_equal(
+        medial.smooth_vertices(*large, medial.surface_noise(*large)), one * 2.0**40
+    )
+
+
+def test_normals_have_to_fit(medial):
+    points = sphere(0.0)[0]
+    with pytest.raises(ValueError, match="one normal per point"):
+        medial.surface_noise(points, points[:-1])
+
+
+def test_the_axis_of_a_noisy_ring_is_a_ring():
+    """Errors of a third of an edge: as it is, the axis has flakes; prepared, it lies on the circle."""
+    points, triangles = torus(1.0, 0.4, 90, 40)
+    points = points + np.random.default_rng(1).normal(size=points.shape) * 0.022
+    off, found = (
+        compute(points, triangles, Settings(prepare=prepare, sampling=SamplingMode.VERTICES))
+        for prepare in (Prepare.OFF, Prepare.AUTOMATIC)
+    )
+    assert found.axis.level.betti == (1, 1, 0)
+    assert away_from_circle(found) < 0.02 < 0.05 < away_from_circle(off)
+    assert any("were found in the faces" in said for said in found.warnings)
+
+
+def away_from_circle(found):
+    x, y, z = found.axis.vertices.T
+    return float(np.hypot(np.hypot(x, y) - 1.0, z).mean())
