@@ -5,7 +5,8 @@ library, on one to three threads: all of it must be the same to the last bit.
 
     python3 lab/benchmarks/same_bytes.py build/release/_medial.*.so build/clang/_medial.*.so [--only WORD ...]
 
-Each line of output_hashes.py is one job. Exits with 1 where one differs. A module for Linux on arm64 is run by
+Each line of output_hashes.py is one job. Exits with 1 where one differs, but for wraps, which are named and depend on
+the version of CGAL. A module for Linux on arm64 is run by
 qemu-user, which tests/matrix/arm64.sh prepares; its processor always has fused multiply-add.
 """
 
@@ -62,7 +63,7 @@ def main() -> int:
             first = first or found
             other = [job for job in first.keys() | found.keys() if first.get(job) != found.get(job)]
             threads = [job for job in found if job.endswith("DIFFERS BY THREADS")]
-            bad += len(other) + len(threads)
+            bad += sum(not job.endswith(": wrap") for job in other) + len(threads)
             print(
                 f"{module}, {name}: {len(found)} jobs, {len(other)} differ from the first",
                 flush=True,
