@@ -9,6 +9,7 @@ must not change any result.
 
 The inputs are random, degenerate, meshes and scans (of MEDIAL_AXIS_TEST_DATA, skipped by name where absent); each is
 analysed on one, two and three threads, with every source of sides, and extracted with every side, rule and criterion.
+Jobs that end with ": wrap" depend on the version of CGAL, all others on the sources alone.
 """
 
 import hashlib
@@ -196,7 +197,7 @@ def add_all(digest: Digest, thing) -> None:
 
 
 def add_solid(digest: Digest, m, vertices, triangles, threads) -> None:
-    """Levels of the hierarchy of a solid, few spheres, few balls, thickness, sides of its faces, a wrap."""
+    """Levels of the hierarchy of a solid, few spheres, few balls, thickness, sides of its faces."""
     same = {"threads": threads}
     samples = m.sample_surface(vertices, triangles, count=2000, seed=3, **same)
     points, on = samples.points, samples.triangle
@@ -218,7 +219,12 @@ def add_solid(digest: Digest, m, vertices, triangles, threads) -> None:
     balls = m.BallFaces(*solid, **same)
     digest.add(*balls.inscribed_balls(points, on, everywhere / 50, **same))
     digest.add(m.winding_number(1.01 * points, *solid), *m.outward_faces(*solid, **same))
-    digest.add(*m.wrap(*solid, size / 10, size / 100))
+
+
+def add_wrap(digest: Digest, m, vertices, triangles) -> None:
+    """A wrap, whose vertices are choices of CGAL: versions of it differ."""
+    size = float(np.ptp(vertices, axis=0).max())
+    digest.add(*m.wrap(vertices, triangles, size / 10, size / 100))
 
 
 def add_scan(digest: Digest, m, points, threads) -> None:
@@ -281,6 +287,7 @@ def jobs(m) -> Iterator[tuple[str, Callable]]:
                 f"{name}: solid",
                 lambda d, t, v=vertices, f=triangles: add_solid(d, m, v, f, t),
             )
+            yield f"{name}: wrap", lambda d, t, v=vertices, f=triangles: add_wrap(d, m, v, f)
         for smooth in (False, True):
             yield (
                 f"{name}: samples, {'smooth' if smooth else 'flat'}",

@@ -6,7 +6,7 @@
 
 A module must not need libraries that Blender brings too, must export its entry point alone, must call
 no function of the C library whose last bits differ from machine to machine, and must run on systems
-as old as RHEL 9 and Ubuntu 22.04. --local allows newer ones: it is for this machine. None may name the
+as old as RHEL 8 and Ubuntu 20.04. --local allows newer ones: it is for this machine. None may name the
 folder in which it was built.
 One for Windows must need nothing but Python and what every Windows has. One for Macs must need nothing
 but what every macOS since 11.0 has, take no name that neither Python nor macOS has, be signed, and lie in
@@ -43,8 +43,8 @@ OF_ZIG = re.compile(
     r"__Z(nw|na|dl|da)\w+|__ZT[IS]\w+|_initialise_medial|__mh_dylib_header|___dso_handle"
 )
 ENTRY = "PyInit__medial"
-# The newest symbol versions that those systems have (manylinux_2_34).
-NEWEST = {"GLIBC": "2.34", "GLIBCXX": "3.4.29", "CXXABI": "1.3.13"}
+# The newest symbol versions that those systems have (glibc 2.28 and the C++ library of GCC 8).
+NEWEST = {"GLIBC": "2.28", "GLIBCXX": "3.4.25", "CXXABI": "1.3.11"}
 
 
 def check(module, local=False):

@@ -12,9 +12,10 @@ from .terminal import Failure
 KEYRING = Path("/usr/share/keyrings/debian-archive-keyring.gpg")
 
 
-def download(folder, suite, packages):
-    """The packages of a suite, by an apt that sees nothing but that suite."""
-    fetch(folder, "deb", suite, ["download", *packages])
+def download(folder, suite, packages, processor=""):
+    """The packages of a suite, by an apt that sees nothing but that suite; of another processor, named as Debian does,
+    such as arm64."""
+    fetch(folder, "deb", suite, ["download", *packages], processor)
     return sorted(folder.glob("*.deb"))
 
 
@@ -36,7 +37,7 @@ def labels(files):
     return sorted(" ".join(file.name.split("_")[:2]) for file in files)
 
 
-def fetch(folder, kind, suite, words):
+def fetch(folder, kind, suite, words, processor=""):
     require("apt-get", "dpkg-deb")
     if not KEYRING.exists():
         raise Failure(f"expected {KEYRING}; install debian-archive-keyring")
@@ -57,6 +58,8 @@ def fetch(folder, kind, suite, words):
         "APT::Sandbox::User": "root",
         "APT::Update::Error-Mode": "any",
     }
+    if processor:
+        options["APT::Architecture"] = options["APT::Architectures"] = processor
     apt = ["apt-get", "-qq", *(f"-o{name}={value}" for name, value in options.items())]
     for command in (["update"], words):
         done = subprocess.run([*apt, *command], cwd=folder, capture_output=True, text=True)

@@ -66,10 +66,11 @@ def origin(folder: Path) -> list[str]:
     return (folder / STAMP).read_text(encoding="utf-8").splitlines()
 
 
-def fetch(version, suite, folder):
-    """The headers of Debian's packages."""
+def fetch(version, suite, folder, processor=""):
+    """The headers of Debian's packages, of this processor or of another."""
     with tempfile.TemporaryDirectory() as private:
-        packages = download(Path(private), suite, [f"libpython{version}-dev", "pybind11-dev"])
+        names = [f"libpython{version}-dev", "pybind11-dev"]
+        packages = download(Path(private), suite, names, processor)
         extract(packages, Path(private, "all"))
         include = Path(private, "all/usr/include")
         for path in (include / "pybind11", *include.glob(f"**/python{version}")):

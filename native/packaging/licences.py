@@ -55,6 +55,13 @@ They are compiled into modules for systems other than Linux and Windows on x86-6
 
 {terms}"""
 _OF_ZIG = ("-darwin.so", "-aarch64-linux-gnu.so")
+# By the folder in which headers of Pythons lie: how names of modules compiled with them end, and words for the system.
+_SYSTEM_OF_HEADERS = {
+    "python": ("-x86_64-linux-gnu.so", ""),
+    "linux-arm64": ("-aarch64-linux-gnu.so", " for Linux on arm64"),
+    "macos": ("-darwin.so", " for Macs"),
+    "windows": ("-win_amd64.pyd", " for Windows"),
+}
 _RULE = "=" * 100
 
 
@@ -123,12 +130,9 @@ def _newer_pybind11(modules: list[str]) -> str:
     """The versions of pybind11 that came with the headers of other Pythons, such as 'pybind11-dev 3.1.0-1 (3.14)'."""
     found = []
     for folder in sorted((paths.BUILD / "python").glob("**/3.*")):
-        digits = folder.name.replace(".", "")
-        mark = f".cp{digits}-win" if folder.parent.name == "windows" else f".cpython-{digits}-"
-        for_macs = folder.parent.name == "macos"
-        own = [n for n in modules if mark in n and n.endswith("-darwin.so") == for_macs]
-        if (folder / headers.STAMP).is_file() and own:
+        ending, label = _SYSTEM_OF_HEADERS[folder.parent.name]
+        mark = f"{folder.name.replace('.', '')}{ending}"
+        if (folder / headers.STAMP).is_file() and any(name.endswith(mark) for name in modules):
             versions = [name for name in headers.origin(folder) if name.startswith("pybind11")]
-            label = mark.strip(".-") + " for Macs" * for_macs
-            found += [f"{name} ({label})" for name in versions]
+            found += [f"{name} (Python {folder.name}{label})" for name in versions]
     return ", ".join(found)

@@ -32,8 +32,9 @@ BUILD = {
 }
 WINDOWS = {"compiler for Windows": "g++-mingw-w64-x86-64-posix"}
 ZIG = {"pip, which brings zig": "python3-pip"}
-MACOS = {**ZIG, "Maven, which brings Python's headers": "maven", "strip for Macs": "llvm"}
-OF_SYSTEM = {"windows": WINDOWS, "macos": MACOS}
+LINUX_ARM64 = {**ZIG, "strip for all systems": "llvm"}
+MACOS = {**LINUX_ARM64, "Maven, which brings Python's headers": "maven"}
+OF_SYSTEM = {"windows": WINDOWS, "macos": MACOS, "linux_arm64": LINUX_ARM64}
 DEMO = {
     **BUILD,
     "software OpenGL": "libgl1-mesa-dri",

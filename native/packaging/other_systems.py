@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 import tempfile
 from pathlib import Path
 
@@ -14,6 +15,8 @@ from .terminal import Failure, build_preset, run
 # The Pythons of the Blenders on these systems, and the suite of Debian that the headers come from.
 WINDOWS_PYTHONS = {"3.11": "bookworm", "3.13": "trixie"}
 MAC_PYTHONS = {"3.11": "trixie", "3.13": "trixie"}
+# Debian's Blenders; blender.org has none for Linux on arm64.
+LINUX_ARM_PYTHONS = {"3.11": "bookworm", "3.13": "trixie", "3.14": "sid"}
 # No Blender since 5.0 is made for Macs with Intel's processors.
 INTEL_MAC_PYTHONS = ("3.11",)
 
@@ -46,6 +49,17 @@ def build_for_macs() -> list[Path]:
     ]
 
 
+def build_for_linux_arm() -> list[Path]:
+    zig.bring()
+    bring = functools.partial(headers.fetch, processor="arm64")
+    folders = headers.folders_of(LINUX_ARM_PYTHONS, paths.BUILD / "python" / "linux-arm64", bring)
+    build_preset("zig-linux-arm64", headers.definition_of(folders))
+    names = [
+        f"_medial.cpython-{headers.digits(version)}-aarch64-linux-gnu.so" for version in folders
+    ]
+    return [library.put(paths.BUILD / "zig-linux-arm64" / name, "llvm-strip") for name in names]
+
+
 def stripped(module: Path) -> bytes:
     """A module for Macs without the names and folders of which debuggers alone ask, signed anew: zig's linker does not
     end when it is asked to leave them out."""
@@ -57,4 +71,8 @@ def stripped(module: Path) -> bytes:
         return target.read_bytes()
 
 
-BUILDERS = {"windows": build_for_windows, "macos": build_for_macs}
+BUILDERS = {
+    "windows": build_for_windows,
+    "macos": build_for_macs,
+    "linux_arm64": build_for_linux_arm,
+}

@@ -532,15 +532,18 @@ def test_licences_name_what_is_compiled_in_with_versions_and_terms():
 
 def test_licences_name_the_pybind11_of_other_pythons(tmp_path, monkeypatch):
     monkeypatch.setattr(paths, "BUILD", tmp_path)
-    for name in ("3.14", "windows/3.13", "macos/3.11"):
+    for name in ("3.14", "windows/3.13", "macos/3.11", "linux-arm64/3.13"):
         folder = tmp_path / "python" / name
         folder.mkdir(parents=True)
         (folder / "packages.txt").write_text("libpython-dev 1\npybind11-dev 9.9\n")
-    newer = "another version: pybind11-dev 9.9 (cpython-314)"
+    newer = "another version: pybind11-dev 9.9 (Python 3.14)"
     assert newer in licences.text([LINUX, LINUX.replace("311", "314")])
     assert "9.9" not in licences.text([LINUX])
     mac = "lib/_medial.cpython-311-darwin.so"
-    assert "version: pybind11-dev 9.9 (cpython-311 for Macs)." in licences.text([LINUX, mac])
+    assert "version: pybind11-dev 9.9 (Python 3.11 for Macs)." in licences.text([LINUX, mac])
+    arm = "lib/_medial.cpython-313-aarch64-linux-gnu.so"
+    assert "9.9 (Python 3.13 for Linux on arm64)." in licences.text([LINUX, arm])
+    assert "9.9" not in licences.text([LINUX.replace("311", "313")])
 
 
 def test_licence_that_is_not_at_hand_is_a_failure(tmp_path, monkeypatch):

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Modules for Linux: older systems run them; for arm64, headers and names are those of the other processor."""
+
+import ctypes
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from native.packaging import (  # noqa: E402 - found through the line above
+    check_module,
+    debian,
+    headers,
+    needs,
+    other_systems,
+    paths,
+    zig,
+)
+
+APT = """#!/bin/sh
+case "$*" in
+  *indextargets*) echo http://mirror/debian/ ;;
+  *) echo "$@" >> "$APT_LOG" ;;
+esac
+"""
+
+
+@pytest.fixture
+def asked_of_apt(tmp_path, monkeypatch):
+    """The words that a stand-in for apt-get was given, line by line."""
+    folder = tmp_path / "bin"
+    folder.mkdir()
+    (folder / "apt-get").write_text(APT)
+    (folder / "apt-get").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}:/usr/bin:/bin")
+    monkeypatch.setenv("APT_LOG", str(tmp_path / "log"))
+    monkeypatch.setattr(debian, "KEYRING", folder / "apt-get")
+    return lambda: (tmp_path / "log").read_text().splitlines()
+
+
+def test_packages_of_another_processor_are_asked_for(tmp_path, asked_of_apt):
+    debian.download(tmp_path / "own", "bookworm", ["a"])
+    debian.download(tmp_path / "other", "bookworm", ["a"], "arm64")
+    *own, update, download = asked_of_apt()
+    assert not any("APT::Architecture" in line for line in own)
+    for line, command in ((update, "update"), (download, "download a")):
+        assert "-oAPT::Architecture=arm64 -oAPT::Architectures=arm64" in line
+        assert line.endswith(f" {command}")
+
+
+def test_modules_for_arm64_have_its_headers_and_its_name(tmp_path, monkeypatch):
+    monkeypatch.setattr(paths, "BUILD", tmp_path)
+    monkeypatch.setattr(paths, "LIBRARY", tmp_path / "lib")
+    monkeypatch.setattr(zig, "bring", list)
+    fetched, stripped = [], []
+    monkeypatch.setattr(headers, "download", lambda *words: fetched.append(words[1:]) or [])
+
+    def extract(packages, folder):
+        version = fetched[-1][1][0].removeprefix("libpython").removesuffix("-dev")
+        for name in ("pybind11", f"aarch64-linux-gnu/python{version}", f"python{version}"):
+            (folder / "usr/include" / name).mkdir(parents=True)
+
+    def compile_preset(preset, definition):
+        assert preset == "zig-linux-arm64" and definition.count("/linux-arm64/3.") == 3
+        for digits in ("311", "313", "314"):
+            name = f"_medial.cpython-{digits}-aarch64-linux-gnu.so"
+            (tmp_path / preset).mkdir(exist_ok=True)
+            (tmp_path / preset / name).write_bytes(b"module")
+
+    def strip(command, option, _, target, module):
+        stripped.append((command, option))
+        target.write_bytes(module.read_bytes())
+
+    monkeypatch.setattr(headers, "extract", extract)
+    monkeypatch.setattr(other_systems, "build_preset", compile_preset)
+    monkeypatch.setattr(other_systems.library, "run", strip)
+    made = other_systems.BUILDERS["linux_arm64"]()
+    assert {(words[0], words[2]) for words in fetched} == {
+        (suite, "arm64") for suite in ("bookworm", "trixie", "sid")
+    }
+    assert [path.name for path in made] == [
+        f"_medial.cpython-{digits}-aarch64-linux-gnu.so" for digits in ("311", "313", "314")
+    ]
+    assert stripped == 3 * [("llvm-strip", "--strip-unneeded")]
+    assert all(path.parent == paths.LIBRARY and path.is_file() for path in made)
+    assert "llvm" in needs.of_systems(["linux_arm64"]).values()
+
+
+OLD_GLIBC = """
+#include <stdlib.h>
+#include <sys/single_threaded.h>
+int one(void) { return __libc_single_threaded; }
+"""
+
+
+def test_cgal_compiles_for_an_older_c_library(tmp_path):
+    """CGAL looks for a header that such a library lacks; zig has it, but refuses it."""
+    if zig.origin() is None:
+        pytest.skip("no zig; 'build_addon.py build --linux-arm64' brings it")
+    text = (ROOT / "native" / "zig.cmake").read_text(encoding="utf-8")
+    assert '" -I${CMAKE_CURRENT_LIST_DIR}/old_glibc"' in text
+    source = tmp_path / "a.c"
+    source.write_text(OLD_GLIBC)
+    command = [zig.folder() / zig.TARGETS["zig-linux-arm64"] / "c++", "-x", "c", "-c", source]
+    command += ["-o", tmp_path / "a.o"]
+    subprocess.run([*command, f"-I{ROOT}/native/old_glibc"], check=True)
+    refused = subprocess.run(command, text=True, capture_output=True)
+    assert "did not exist before glibc 2.32" in refused.stderr
+
+
+# Returns 0 where all that older_systems.cpp replaces works, else the number of the line that does not.
+USER = """
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <string>
+static int alive = 0;
+struct Error {
+  Error() { ++alive; }
+  Error(const Error&) { ++alive; }
+  ~Error() { --alive; }
+};
+static int exceptions() {
+  std::exception_ptr one = std::make_exception_ptr(Error{}), two = one, three;
+  three = two;
+  one = two = nullptr;
+  try { std::rethrow_exception(three); } catch (const Error&) { return alive == 1 ? 0 : __LINE__; }
+  return __LINE__;
+}
+static int lengths() {
+  try { (void)std::allocator<double>().allocate(std::size_t(-1) / 4); }
+  catch (const std::bad_array_new_length&) { return 0; }
+  return __LINE__;
+}
+extern "C" __attribute__((visibility("default"))) int PyInit__medial() {
+  if (int line = exceptions()) return line;
+  if (alive != 0) return __LINE__;
+  if (int line = lengths()) return line;
+  std::once_flag flag;
+  int calls = 0;
+  for (int i = 0; i < 3; ++i) std::call_once(flag, [&] { ++calls; });
+  if (calls != 1) return __LINE__;
+  std::shared_ptr<int> shared = std::make_shared<int>(3), copy = shared;
+  if (*copy != 3 || shared.use_count() != 2) return __LINE__;
+  std::ostringstream text;
+  text << 1.5 << "x";
+  volatile double e = 2.718281828459045;
+  return text.str() == "1.5x" && std::log(e) == 1 ? 0 : __LINE__;
+}
+"""
+
+
+def compiled(tmp_path, *more):
+    module = tmp_path / "_medial.cpython-311-x86_64-linux-gnu.so"
+    (tmp_path / "user.cpp").write_text(USER)
+    (tmp_path / "exports.map").write_text("{ global: PyInit__medial; local: *; };")
+    words = ["-std=c++20", "-O2", "-shared", "-fPIC", "-fvisibility=hidden", "-fno-math-errno"]
+    words += ["-Wall", "-Wextra", "-Werror", f"-Wl,--version-script={tmp_path}/exports.map"]
+    subprocess.run(["g++", *words, "-o", module, tmp_path / "user.cpp", *more], check=True)
+    return module
+
+
+def test_what_older_systems_lack_is_in_the_module_and_works(tmp_path, monkeypatch):
+    monkeypatch.setattr(check_module, "OF_CGAL", {"log"})
+    with pytest.raises(SystemExit, match=r"needs (GLIBC|GLIBCXX|CXXABI)_\S+, newer than"):
+        check_module.check(compiled(tmp_path))
+    module = compiled(tmp_path, ROOT / "native" / "python" / "older_systems.cpp")
+    assert "exports PyInit__medial only" in check_module.check(module)[1]
+    assert ctypes.CDLL(module).PyInit__medial() == 0
