@@ -99,7 +99,7 @@ Capsule inner_capsule(const Vec3& a, const Vec3& b, bool tapered, const SolidDep
   if (!(least > 0)) return best;
   take(drawn_in({a, b, {least, least}}, depth));
   if (!tapered) return best;
-  const LinearLength line = highest_below(std::move(depths));
+  const LinearLength line = highest_below(depths);
   if (line.first >= 0 && line.second >= 0) take(drawn_in({a, b, line}, depth));
   return best;
 }

@@ -30,7 +30,7 @@ std::vector<LengthAt> lower_hull(std::vector<LengthAt> points) {
 
 // The line is highest in the middle if it goes along the side of the hull below the middle.
 // Rounding may leave it above a corner by the last bits; it is moved down by what is found.
-LinearLength highest_below(std::vector<LengthAt> points) {
+LinearLength highest_below(const std::vector<LengthAt>& points) {
   const auto hull = lower_hull(points);
   size_t right = 0;
   while (right + 1 < hull.size() && hull[right].share < 0.5) ++right;
@@ -46,7 +46,7 @@ LinearLength highest_below(std::vector<LengthAt> points) {
 
 LinearLength lowest_above(std::vector<LengthAt> points) {
   for (LengthAt& point : points) point.length = -point.length;
-  const LinearLength line = highest_below(std::move(points));
+  const LinearLength line = highest_below(points);
   return {-line.first, -line.second};
 }
 

@@ -21,7 +21,7 @@ struct LinearLength {
 
 // Returns, of the lines that are nowhere above a point, the one that is highest in the middle.
 // There must be points at shares of at most and of at least 1/2.
-LinearLength highest_below(std::vector<LengthAt> points);
+LinearLength highest_below(const std::vector<LengthAt>& points);
 
 // Returns, of the lines that are nowhere below a point, the one that is lowest in the middle.
 LinearLength lowest_above(std::vector<LengthAt> points);
