@@ -47,7 +47,13 @@ MESHES += ["rocker-arm.off", "screwdriver.off", "spot_low.obj"]
 COUNT, COUNT_OF_MESHES = 8000, 20_000
 DRAWN, TILE = 4000, 260
 # Parts of the sentences that name a cause of wrong numbers.
-CAUSES = ("noise of about", "do not fit each other", "points lie in", "alone", "the surface ends at")
+CAUSES = (
+    "noise of about",
+    "do not fit each other",
+    "points lie in",
+    "alone",
+    "the surface ends at",
+)
 CAUSES += ("do not tell one solid",)
 HEADER = ["shape", "seed", "noise", "measured", "Betti, off", "Betti, prepared", "kept"]
 HEADER += ["o->t mean %", "t->o mean %", "seconds", "named"]
