@@ -49,12 +49,22 @@ def test_the_nearest_in_a_ring_may_be_beyond_its_beginning():
 
 def test_a_straight_stretch_never_goes_back():
     along = np.array([0.0, 2.0, 1.0, 4.0, 3.5, 3.0])
-    vertices = np.column_stack((along, 2 * along, np.zeros(6)))
-    found = without_ways_back(vertices, np.arange(6))
-    np.testing.assert_allclose(found[:, 0], [0.0, 2.0, 2.0, 3.0, 3.0, 3.0], rtol=1e-12)
-    np.testing.assert_allclose(found[:, 1], 2 * found[:, 0], rtol=1e-12)
+    places = np.column_stack((along, 2 * along, np.zeros(6)))
+    found = without_ways_back(places, np.tile((1.0, 2.0, 0.0), (5, 1)))
+    np.testing.assert_array_equal(found[:, 0], [0.0, 2.0, 2.0, 3.0, 3.0, 3.0])
+    np.testing.assert_array_equal(found[:, 1], 2 * found[:, 0])
 
 
-def test_a_bent_stretch_stays():
-    vertices = np.array([(0.0, 0, 0), (2, 1, 0), (1, 1, 0), (3, 0, 0)])
-    assert np.array_equal(without_ways_back(vertices, np.arange(4)), vertices)
+def test_a_bent_stretch_never_goes_back():
+    """Round a quarter of a circle, with one place before the one before it; the others stay."""
+    turn = np.radians((0, 20, 45, 40, 70, 90))
+    places = np.column_stack((np.cos(turn), np.sin(turn), np.zeros(6)))
+    between = 0.5 * (turn[1:] + turn[:-1])
+    ways = np.column_stack((-np.sin(between), np.cos(between), np.zeros(5)))
+    found = without_ways_back(places, ways)
+    np.testing.assert_array_equal(found, places[[0, 1, 2, 2, 4, 5]])
+
+
+def test_edges_without_a_wall_have_no_way():
+    places = np.array([(0.0, 0, 0), (2, 0, 0), (1, 0, 0), (3, 0, 0)])
+    assert np.array_equal(without_ways_back(places, np.zeros((3, 3))), places)

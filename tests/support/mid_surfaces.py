@@ -146,6 +146,19 @@ def bent_sheet(t=0.02, radius=0.1, around=48):
     return _known((points, triangles.astype(np.int32)), t, (1, 0, 0), sheets=1)
 
 
+def round_plate(sides=12, t=0.005):
+    """A regular polygon of radius 0.5 as a plate, whose walls all round are one smooth wall."""
+    turn = 2 * np.pi * np.arange(sides) / sides + 0.1
+    rim = 0.5 * np.column_stack((np.cos(turn), np.sin(turn)))
+    points = [np.column_stack((rim, np.full(sides, z))) for z in (0.0, t)]
+    i, end = np.arange(sides), 0 * np.arange(sides) + 2 * sides
+    j = (i + 1) % sides
+    caps = (np.column_stack((j, i, end)), np.column_stack((i + sides, j + sides, end + 1)))
+    walls = (np.column_stack((i, j, j + sides)), np.column_stack((i, j + sides, i + sides)))
+    mesh = np.concatenate((*points, [(0, 0, 0), (0, 0, t)])), np.concatenate((*caps, *walls))
+    return _known((mesh[0], mesh[1].astype(np.int32)), t, (1, 0, 0), sheets=1)
+
+
 def holed_shell(t=0.05, around=96, rings=48):
     """A sphere of radius 1 in the middle of its wall, open at both poles."""
     turn = np.linspace(np.radians(25), np.radians(155), rings)
@@ -193,6 +206,7 @@ ALL = {
         bent_sheet,
         holed_shell,
         leaf,
+        round_plate,
     )
 }
 FLAT = list(ALL)[:8]

@@ -18,6 +18,7 @@ from ..machine.native import own_errors
 from ..small_matrices import dot, shortest_solutions
 from .sheet_rims import rims, single_edges
 from .sheet_walls import TOUCHES, Walls, reflex_distances
+from .unfolded_sheets import unfolded
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -64,6 +65,8 @@ def carried(sheets: ThinSheets, walls: Walls) -> CarriedSheets:
     ends = rims(sheets, straight, normals, radii, walls)
     rows.add(*ends.planes())
     vertices = ends.without_ways_back(rows.solved(straight))
+    stays = planes.shared() | ends.touched(len(vertices))
+    vertices = unfolded(vertices, sheets.triangles, normals, stays)
     return CarriedSheets(
         vertices, sheets.triangles, sheets.part, 2.0 * planes.radii_at_corners(vertices)
     )
@@ -139,7 +142,7 @@ class _Planes:
     """
 
     def __init__(self, sheets: ThinSheets, bent: NDArray[np.bool_]) -> None:
-        count = len(sheets.vertices)
+        self._count = count = len(sheets.vertices)
         key = sheets.part[:, None] * np.int64(count) + sheets.triangles
         pairs, of_corner = np.unique(key, return_inverse=True)
         self._of_corner = of_corner.reshape(key.shape)
@@ -237,6 +240,10 @@ class _Planes:
                     nearest = module.nearest(at, np.ascontiguousarray(vertices[self.vertex[rows]]))
                 site[rows] = sites[nearest]
         return site
+
+    def shared(self) -> NDArray[np.bool_]:
+        """(v,) the vertices of more than one sheet."""
+        return np.asarray(np.bincount(self.vertex, minlength=self._count) > 1)
 
     def normals_at_corners(self) -> NDArray[np.float64]:
         """(t, 3, 3) the normals of the sheets at the corners of the triangles."""

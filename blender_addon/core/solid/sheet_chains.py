@@ -14,8 +14,6 @@ from ..small_matrices import dot
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_STRAIGHT = 1e-6  # of its length: a stretch that departs less from its chord is straight
-
 
 @dataclass(frozen=True, eq=False)
 class Chain:
@@ -90,20 +88,19 @@ def nearest_along(
 
 
 def without_ways_back(
-    vertices: NDArray[np.float64], around: NDArray[np.int64]
+    places: NDArray[np.float64], ways: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """(k, 3) the places of vertices along a stretch, of which those of a straight one never go back."""
-    places = vertices[around]
-    way = places[-1] - places[0]
-    length = float(np.sqrt(dot(way, way)))
-    if length <= 0.0:
+    """(k + 1, 3) places along a stretch of which none lies behind one before it, given the (k, 3) ways of its edges.
+
+    The first and the last stay. A place that is behind waits where the stretch has come to.
+    """
+    if not (dot(places[1:] - places[:-1], ways) < 0.0).any():
         return places
-    way = way / length
-    along = dot(places - places[0], way)
-    off = places - places[0] - along[:, None] * way
-    if np.abs(off).max() > _STRAIGHT * length:
-        return places
-    along = np.clip(np.maximum.accumulate(along), 0.0, length)
-    found = places[0] + along[:, None] * way
-    found[along == length] = places[-1]
+    found = places.copy()
+    for edge in range(len(ways) - 1):
+        if dot(found[edge + 1] - found[edge], ways[edge]) < 0.0:
+            found[edge + 1] = found[edge]
+    for edge in range(len(ways) - 1, 0, -1):
+        if dot(found[edge + 1] - found[edge], ways[edge]) < 0.0:
+            found[edge] = found[edge + 1]
     return found

@@ -91,18 +91,30 @@ class Rims:
         normals = (self.normals[has],) * 2 + (self.edges.along[corner],) * 2
         return vertex, np.concatenate(places), np.concatenate(normals)
 
+    def touched(self, count: int) -> NDArray[np.bool_]:
+        """(v,) the vertices at rims, given the number of all."""
+        found = np.zeros(count, bool)
+        found[self.edges.ends] = True
+        return found
+
     def without_ways_back(self, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
         """The vertices, of which none goes back along a wall."""
         found = vertices.copy()
+        across = dot(self.edges.along, self.normals)[:, None] * self.normals
+        ways = np.where(self.normals.any(axis=1)[:, None], self.edges.along - across, 0.0)
         for chain in self.chains:
             apart = _apart(chain.rows, chain.closed, self.kind, self.normals)
-            if not apart.any():
-                continue
             for run in runs_of(apart):
                 rows = chain.rows[run]
+                if not apart.any():  # a loop along one wall begins where it surely goes on
+                    rows = np.roll(rows, -1 - self._longest(rows, found))
                 around = np.append(self.edges.ends[rows, 0], self.edges.ends[rows[-1], 1])
-                found[around] = without_ways_back(found, around)
+                found[around] = without_ways_back(found[around], ways[rows])
         return found
+
+    def _longest(self, rows: NDArray[np.int64], vertices: NDArray[np.float64]) -> int:
+        ends = vertices[self.edges.ends[rows]]
+        return int(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).argmax())
 
 
 def rims(

@@ -13,6 +13,7 @@ from ..axis.facet_triangles import triangulate_facets
 from ..axis.medial_axis import ON_CREASE, ON_RIM
 from ..axis.turning import with_facets_turned
 from ..machine.native import own_errors
+from ..united import united
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -29,6 +30,7 @@ _TAPER = (
 _NOTHING = 0.02  # of the median radius: a vertex with less is at an edge, too
 _EVEN = 0.15  # the most by which radii of a facet differ, as a share of its size, where it tells how its sheet goes on
 _SLIVER = 0.02  # a facet with less of the area of a disc of its perimeter tells no slope
+_STRIP = 1e-3  # of its radius: a facet that is narrower has no width
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,12 +106,15 @@ def thin_sheets(
         pairs = structure.part_patches[part]
         told = (pairs[:, 0] >= 0) & (pairs[:, 0] != pairs[:, 1])  # the patches tell rims from walls
         between, facing = np.where(told, own, facing & own), facing & own
+    between |= _strips(turned, areas, chosen[part] & facing)
     kept = _without_frayed(turned, chosen[part], between)
+    kept &= _in_wide_pieces(turned, kept, areas, at_edge, least_width)
+    left = np.bincount(part[kept], minlength=structure.parts) > 0
     ends, level = _at_ends_of_junctions(turned, part, kept), cast("LevelValues", axis.level)
     facets = np.repeat(np.arange(len(areas)), np.diff(turned.face_offsets) - 2)
     rows = np.flatnonzero(kept[facets])
     facets = facets[rows]
-    number = np.cumsum(chosen) - 1
+    number = np.cumsum(left) - 1
     return ThinSheets(
         vertices=np.where(ends[:, None], level.exact, turned.vertices),
         radius=np.where(ends, level.exact_radius, turned.radius),
@@ -121,7 +126,7 @@ def thin_sheets(
         part=number[part[facets]].astype(np.int32),
         normals=normals[facets],
         slopes=slopes[facets],
-        parts=int(chosen.sum()),
+        parts=int(left.sum()),
     )
 
 
@@ -205,12 +210,29 @@ def _own_parts(
 
 def _slivers(axis: MedialAxis, areas: NDArray[np.float64]) -> NDArray[np.bool_]:
     """(f,) the facets that are hardly more than a line."""
+    return np.asarray(4.0 * np.pi * areas < _SLIVER * _around(axis) ** 2)
+
+
+def _strips(
+    axis: MedialAxis, areas: NDArray[np.float64], walls: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(f,) the facets without a width between those of walls: four sheets that meet in one line are joined in pairs."""
+    starts, corners = axis.face_offsets[:-1], axis.face_vertices
+    sizes = np.diff(axis.face_offsets)
+    radius = np.add.reduceat(axis.radius[corners], starts) / sizes
+    narrow = 2.0 * areas <= _STRIP * radius * _around(axis)
+    at_wall = np.zeros(len(axis.vertices), bool)
+    at_wall[corners[np.repeat(walls & ~narrow, sizes)]] = True
+    return np.asarray(narrow & np.logical_and.reduceat(at_wall[corners], starts))
+
+
+def _around(axis: MedialAxis) -> NDArray[np.float64]:
+    """(f,) the length of the border of each facet."""
     corner = np.arange(len(axis.face_vertices))
     after = corner + 1
     after[axis.face_offsets[1:] - 1] = axis.face_offsets[:-1]
     ends = axis.vertices[axis.face_vertices[after]] - axis.vertices[axis.face_vertices]
-    around = np.add.reduceat(np.linalg.norm(ends, axis=1), axis.face_offsets[:-1])
-    return np.asarray(4.0 * np.pi * areas < _SLIVER * around**2)
+    return np.asarray(np.add.reduceat(np.linalg.norm(ends, axis=1), axis.face_offsets[:-1]))
 
 
 def _walls(
@@ -228,6 +250,35 @@ def _walls(
     thickness = 2.0 * structure.part_mean_radius
     # The sheet ends half a thickness before the walls at its rims.
     return (between > 0.5 * whole) & (width + thickness >= least_width * thickness)
+
+
+def _in_wide_pieces(
+    axis: MedialAxis,
+    kept: NDArray[np.bool_],
+    areas: NDArray[np.float64],
+    at_edge: NDArray[np.bool_],
+    least_width: float,
+) -> NDArray[np.bool_]:
+    """(f,) the facets of pieces of the kept ones that are as wide as walls are at least.
+
+    Where frayed facets were taken off, crumbs of a sheet may be left beside it, within the wall at its rim.
+    """
+    count = len(kept)
+    _, of_corner = _edges(axis)
+    facet = np.repeat(np.arange(count), np.diff(axis.face_offsets))
+    rows = np.flatnonzero(kept[facet])
+    rows = rows[np.argsort(of_corner[rows], kind="stable")]
+    same = of_corner[rows[1:]] == of_corner[rows[:-1]]
+    piece = united(count, np.column_stack((facet[rows[:-1]], facet[rows[1:]]))[same])
+    radii = np.add.reduceat(axis.radius[axis.face_vertices], axis.face_offsets[:-1])
+    volume = np.bincount(piece, 2.0 * areas * radii / np.diff(axis.face_offsets), count)
+    area = np.bincount(piece, areas, count)
+    thickness = volume / np.where(area > 0.0, area, np.inf)
+    width = 2.0 * area / np.maximum(_borders(axis, piece, count), np.finfo(float).tiny)
+    thick = np.zeros(count, bool)
+    thick[piece[facet[~at_edge[axis.face_vertices]]]] = True
+    wide = thick & (area > 0.0) & (width + thickness >= least_width * thickness)
+    return np.asarray(wide[piece])
 
 
 def _borders(axis: MedialAxis, part: NDArray[np.int32], parts: int) -> NDArray[np.float64]:

@@ -48,6 +48,8 @@ AUTO_UPDATE = (62, 231)  # in the header of the panel Result
 SAMPLING = (150, 440)  # in Settings of a result
 EXTRACT_SKELETON, MAKE_ARMATURE = (102, 357), (102, 383)
 MEASURE_THICKNESS, THICKEN = (102, 405), (102, 521)
+HOLLOW = (102, 520)  # where nothing is thinner than the limit
+DRAIN = (255, 675)  # on the screen, in Adjust Last Operation
 REBUILD_SOLID, OTHERS = (102, 339), (49, 339)
 FORM, SKELETON_END = (200, 95), (30, 345)
 
@@ -865,6 +867,71 @@ def scene_what_comes_after():
         assert bpy.ops.object.medial_axis_nodes("INVOKE_DEFAULT", group="BALLS") == {"FINISHED"}
     yield patience(1.5)
     look("9-nodes")
+
+
+def scene_hollow():
+    """A ring with a wall and a drain hole, by the button of the panel and Adjust Last Operation; undo takes it off."""
+    bpy.data.objects.remove(bpy.data.objects["Cube"])
+    with bpy.context.temp_override(window=window(), area=viewport()):
+        bpy.ops.mesh.primitive_torus_add(major_radius=1.2, minor_radius=0.6)
+    bpy.ops.ed.undo_push(message="Scene is set")
+    frame_selected()
+    yield from measured(limit=0.2)
+    look("1-measured")
+    yield from click(*at(HOLLOW))
+    yield from until(lambda: "Torus Hollow" in bpy.data.objects)
+    show_colours()
+    viewport().spaces.active.shading.show_xray = True
+    yield patience(1.0)
+    look("2-hollow")
+    solid, within = (
+        0.6 * np.cos(np.pi / 12),
+        0.6 * np.cos(np.pi / 12) - 0.2,
+    )  # to the sides of a ring of 12
+    left = volume_of(bpy.data.objects["Torus Hollow"]) / volume_of(bpy.data.objects["Torus"])
+    assert abs(left - (1 - (within / solid) ** 2)) < 0.02, left
+    yield from click(145, 705)  # opens Adjust Last Operation at the lower left
+    yield 1.0
+    look("3-adjust")
+    yield from typed_into(DRAIN, "0.3")
+    yield from until(lambda: "Torus Hollow Drain" in bpy.data.objects)
+    look("4-drained")
+    drained, whole = (bpy.data.objects[name] for name in ("Torus Hollow", "Torus"))
+    assert drained.modifiers[-1].type == "BOOLEAN"
+    assert left - 0.02 < volume_of(drained) / volume_of(whole) < left
+    yield from key("ctrl+z")
+    yield from until(lambda: not any("Hollow" in thing.name for thing in bpy.data.objects))
+    assert "Torus" in bpy.data.objects
+
+
+def measured(limit):
+    """Measure the thickness of the active object by the panel."""
+    source = bpy.context.object
+    bpy.context.scene.medial_axis_thickness.limit = limit
+    yield from open_tab()
+    yield from fold(THICKNESS)
+    yield from click(*at(MEASURE_THICKNESS))
+    yield from until(lambda: addon("bridge.thickness_object").carrier_of(source) is not None)
+    yield patience(1.0)
+
+
+def typed_into(place, text):
+    """Type a value into a field on the screen."""
+    yield from point(*place)
+    xdotool("click", "--repeat", 2, "--delay", 60, 1)
+    yield 0.5
+    xdotool("key", "ctrl+a")
+    xdotool("type", text)
+    xdotool("key", "Return")
+    yield 0.8
+
+
+def volume_of(thing):
+    """The volume that the faces of an object enclose, after its modifiers."""
+    mesh = thing.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    mesh.calc_loop_triangles()
+    corners = np.array([[mesh.vertices[i].co for i in t.vertices] for t in mesh.loop_triangles])
+    return abs(np.linalg.det(corners).sum()) / 6
 
 
 def scene_hide_and_seek():

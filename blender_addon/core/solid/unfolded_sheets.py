@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sheets without folds: beside rims that were carried on to walls, triangles may have turned over."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..small_matrices import dot
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_ROUNDS = 30  # at most; a fold goes in a few, and what is left lies between vertices that stay
+
+
+def unfolded(
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    normals: NDArray[np.float64],
+    stays: NDArray[np.bool_],
+) -> NDArray[np.float64]:
+    """Move vertices of triangles that are turned over to the middle of those around them, along the sheet.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float64
+    triangles : (t, 3) int32
+    normals : (t, 3, 3) float64
+        The unit normals of the sheet at the corners of each triangle.
+    stays : (v,) bool
+        The vertices at rims and where sheets meet.
+    """
+    found = vertices.copy()
+    upward = normals.sum(axis=1)
+    of_vertex = np.zeros_like(found)
+    of_vertex[triangles] = normals
+    near = np.ones(len(triangles), bool)
+    for _ in range(_ROUNDS):
+        rows = np.flatnonzero(near)
+        a, b, c = (found[triangles[rows, corner]] for corner in range(3))
+        folded = rows[dot(np.cross(b - a, c - a), upward[rows]) < 0.0]
+        moves = np.zeros(len(found), bool)
+        moves[triangles[folded]] = True
+        moves &= ~stays
+        if not moves.any():
+            break
+        near = moves[triangles].any(axis=1)  # no other triangle changes
+        away = _to_middle(found, triangles[near], moves)
+        along = away - dot(away, of_vertex)[:, None] * of_vertex
+        found[moves] += along[moves]
+    return found
+
+
+def _to_middle(
+    vertices: NDArray[np.float64], triangles: NDArray[np.int32], moves: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """(v, 3) the way from each vertex that moves to the mean of those around it."""
+    total, sums = np.zeros(len(vertices)), np.zeros_like(vertices)
+    for step in (1, 2):
+        other = np.roll(triangles, step, axis=1)
+        np.add.at(total, triangles, 1.0)
+        np.add.at(sums, triangles, vertices[other])
+    middle = sums / np.maximum(total, 1.0)[:, None]
+    return np.where(moves[:, None], middle - vertices, 0.0)
