@@ -43,6 +43,8 @@ def smooth_faces(
     """
     if not len(shape.triangles) or not shape.of_samples or settings.sides is SidesFrom.WRAP:
         return shape, ""
+    if shape.triangles.min() < 0 or shape.triangles.max() >= len(shape.points):
+        return shape, ""  # the sampling refuses such faces, in a sentence
     normals = _vertex_normals(shape)
     with native.own_errors() as module:
         measure = module.surface_noise(shape.points, normals, progress=progress)
