@@ -100,6 +100,25 @@ def test_faces_without_common_corners_are_one_surface():
     assert off(found.points) < 0.45 * off(points)
 
 
+def test_few_faces_are_no_noise_unless_someone_says_so():
+    """Details of a shape that was modelled coarse are as large as its faces, as those of Blender's monkey."""
+    points, triangles = icosphere(3, RADIUS)
+    edge = float(np.linalg.norm(points[triangles[0, 0]] - points[triangles[0, 1]]))
+    errors = np.random.default_rng(1).normal(size=(len(points), 1))
+    mesh = points * (1.0 + 0.3 * edge * errors), np.asarray(triangles, np.int32)
+    shape, found, said = prepared(mesh)
+    assert found is shape and said == ""
+    _, found, said = prepared(mesh, prepare=Prepare.ALWAYS)
+    assert "their vertices were moved" in said
+
+
+@pytest.mark.parametrize("scale", [2.0**160, 2.0**-160])
+def test_the_largest_and_smallest_coordinates(scale):
+    points, triangles = sphere(0.3)
+    _, found, _ = prepared((scale * points, triangles))
+    assert np.array_equal(found.points, scale * prepared((points, triangles))[1].points)
+
+
 def test_threads_and_scale_change_nothing(medial):
     points = sphere(0.3)[0]
     given = points, points / np.linalg.norm(points, axis=1)[:, None]

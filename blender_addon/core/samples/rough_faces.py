@@ -19,9 +19,10 @@ if TYPE_CHECKING:
 
     from .shape import Shape
 
-_TOO_MUCH = (
-    1.0  # spacings: with more noise faces fold over each other, and their normals tell nothing
-)
+# In spacings: with more noise faces fold over each other, and their normals tell nothing.
+_TOO_MUCH = 1.0
+# With fewer triangles, details of a shape that was modelled coarse look like noise.
+_LEAST = 5_000
 
 
 def smooth_faces(
@@ -42,6 +43,8 @@ def smooth_faces(
     InvalidInputError, Cancelled
     """
     if not len(shape.triangles) or not shape.of_samples or settings.sides is SidesFrom.WRAP:
+        return shape, ""
+    if settings.prepare is not Prepare.ALWAYS and len(shape.triangles) < _LEAST:
         return shape, ""
     if shape.triangles.min() < 0 or shape.triangles.max() >= len(shape.points):
         return shape, ""  # the sampling refuses such faces, in a sentence
@@ -66,15 +69,22 @@ def smooth_faces(
 
 def _left(noise: float, prepare: Prepare) -> str:
     """The sentence about noise that stays."""
-    size = f"noise or steps of about {noise:.2g} spacings were found in the faces"
     if prepare is Prepare.OFF:
-        return f"{size} and left as they are, so the axis may have flakes; Prepare Automatic moves the vertices"
-    return f"{size}, too much to move the vertices, so the axis may have flakes; smooth the faces first"
+        return (
+            f"noise or steps of about {noise:.2g} spacings were found in the faces and left as they are, so the axis "
+            "may have flakes; Prepare Automatic moves the vertices"
+        )
+    return (
+        f"noise or steps of about {noise:.2g} spacings were found in the faces, too much to move the vertices, so the "
+        "axis may have flakes; smooth the faces first"
+    )
 
 
 def _vertex_normals(shape: Shape) -> NDArray[np.float64]:
-    """(n, 3) sums of the areas of the faces round each vertex, along their normals."""
-    a, b, c = (shape.points[shape.triangles[:, corner]] for corner in range(3))
+    """(n, 3) sums of the areas of the faces round each vertex, along their normals, for a shape of size 1."""
+    exponent = int(np.frexp(np.abs(shape.points).max())[1])
+    points = np.ldexp(shape.points, -exponent)
+    a, b, c = (points[shape.triangles[:, corner]] for corner in range(3))
     area, corners = cross(b - a, c - a), shape.triangles.ravel()
     sums = [np.bincount(corners, np.repeat(column, 3), len(shape.points)) for column in area.T]
     return np.column_stack(sums)

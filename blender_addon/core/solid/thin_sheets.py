@@ -281,7 +281,9 @@ def _in_wide_pieces(
     return np.asarray(wide[piece])
 
 
-def _borders(axis: MedialAxis, part: NDArray[np.int32], parts: int) -> NDArray[np.float64]:
+def _borders(
+    axis: MedialAxis, part: NDArray[np.int32] | NDArray[np.int64], parts: int
+) -> NDArray[np.float64]:
     """(p,) the length of the border of each sheet."""
     edges, of_corner = _edges(axis)
     owner = np.repeat(part, np.diff(axis.face_offsets)).astype(np.int64)
