@@ -113,9 +113,7 @@ def _is_of_points():
 def _is_of_noisy_faces(properties):
     """Whether noise was found in the faces of the active result, or the option was changed; few faces have any."""
     said = bpy.context.object and bpy.context.object.get(WARNINGS, "")
-    return properties.prepare != Prepare.AUTOMATIC.name or bool(
-        said and "found in the faces" in said
-    )
+    return properties.prepare != Prepare.AUTOMATIC.name or bool(said and "in the faces" in said)
 
 
 def settings_from(properties, kind=Settings):
