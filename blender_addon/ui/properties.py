@@ -112,8 +112,9 @@ def _is_of_points():
 
 def _is_of_noisy_faces(properties):
     """Whether noise was found in the faces of the active result, or the option was changed; few faces have any."""
-    said = bpy.context.object and bpy.context.object.get(WARNINGS, "")
-    return properties.prepare != Prepare.AUTOMATIC.name or bool(said and "in the faces" in said)
+    said = (bpy.context.object and bpy.context.object.get(WARNINGS, "")) or ""
+    is_told = all(word in said for word in ("noise", "steps", "faces"))
+    return is_told or properties.prepare != Prepare.AUTOMATIC.name
 
 
 def settings_from(properties, kind=Settings):

@@ -112,6 +112,16 @@ def test_few_faces_are_no_noise_unless_someone_says_so():
     assert "their vertices were moved" in said
 
 
+def test_designed_faces_of_uneven_size_are_no_noise():
+    """As of a plate with letters: faces that are small at one end, and errors of a share of their size."""
+    points, triangles = sphere(0.3)
+    points = points * np.exp(3.0 * points[:, 2:] / RADIUS)
+    shape, found, said = prepared((points, triangles))
+    assert found is shape and said == ""
+    _, found, said = prepared((points, triangles), prepare=Prepare.ALWAYS)
+    assert "spacings were found in the faces" in said
+
+
 @pytest.mark.parametrize("scale", [2.0**160, 2.0**-160])
 def test_the_largest_and_smallest_coordinates(scale):
     points, triangles = sphere(0.3)

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 _TOO_MUCH = 1.0
 # With fewer triangles, details of a shape that was modelled coarse look like noise.
 _LEAST = 5_000
+# Sides of triangles that were measured or computed are about equally long: 95 of 100 are no longer than so many times
+# the median, which is at most 2.6 on scans, voxels and noisy meshes. Of designed plates with letters it is 25.
+_UNEVEN = 4.0
 
 
 def smooth_faces(
@@ -48,6 +51,8 @@ def smooth_faces(
         return shape, ""
     if shape.triangles.min() < 0 or shape.triangles.max() >= len(shape.points):
         return shape, ""  # the sampling refuses such faces, in a sentence
+    if settings.prepare is not Prepare.ALWAYS and not _are_even(shape):
+        return shape, ""
     normals = _vertex_normals(shape)
     with native.own_errors() as module:
         measure = module.surface_noise(shape.points, normals, progress=progress)
@@ -65,6 +70,14 @@ def smooth_faces(
         f"{moved:.2g} spacings in the median, so edges and details of that size are rounded, and Prepare Off takes the "
         "faces as they are"
     )
+
+
+def _are_even(shape: Shape) -> bool:
+    """Whether the sides of the triangles are about equally long."""
+    corners = shape.points[shape.triangles]
+    ways = corners - np.roll(corners, 1, axis=1)
+    middle, long = np.quantile(np.sqrt(dot(ways, ways)), (0.5, 0.95))
+    return bool(long <= _UNEVEN * middle)
 
 
 def _left(noise: float, prepare: Prepare) -> str:
